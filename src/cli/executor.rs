@@ -6,6 +6,7 @@ use refsim::machine::{Executor, ExecutorKind};
 use super::Problem;
 #[cfg(feature = "wgpu")]
 use super::ProgressBar;
+use crate::study::caster::CasterOptions;
 
 /// The executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -75,4 +76,18 @@ impl Decider {
         };
         executor.open().map(Some)
     }
+}
+
+/// Executor of the Ray Engine's card, where a command's `--executor` decides hits without a caster, too.
+///
+/// # Errors
+/// For an executor of the host caster, and exact arithmetic of the engine.
+pub(super) fn engine_executor(caster: &CasterOptions, executor: Option<Decider>) -> Result<Executor, Problem> {
+    if caster.is_named() && !caster.is_engine() && executor.is_some() {
+        let help = "add `--caster engine`, or leave it out";
+        return Err(Problem::usage("`--executor` is for the Ray Engine here", help));
+    }
+    let decider = executor.filter(|_| caster.is_engine()).unwrap_or(Decider::Batch);
+    let help = "name `--executor scalar`, `batch` or `wgpu`";
+    decider.open()?.ok_or_else(|| Problem::usage("the Ray Engine does not run in exact arithmetic", help))
 }

@@ -6,7 +6,7 @@ use crate::report::layout::wrapped;
 
 /// Each group's heading and its commands.
 const GROUPS: [(&str, &str); 5] = [
-    ("Start here", "leaky-teapot render reproduce scene"),
+    ("Start here", "leaky-teapot tour render reproduce scene"),
     ("Systems", "intersect radiosity subsurface cpca all-frequency bi-scale atlas materials"),
     ("Cards and shaders", "devices check run compare timeline measure page"),
     ("Numbers", "alu precision matmul units"),

@@ -9,10 +9,9 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use serde_json::json;
 
-use super::caster::{self, CasterArg, CasterChoice};
-use super::executor::Decider;
+use super::executor::{Decider, engine_executor};
 use super::words::counted;
-use super::{Out, Problem, Verdict, model_file, study, view};
+use super::{Out, Problem, Verdict, given, model_file, study, view};
 use crate::case::device_named;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::vector::wide;
@@ -21,10 +20,11 @@ use crate::io::atomic::write_file;
 use crate::io::rays::{load_rays, write_hits};
 use crate::options::sides;
 use crate::ray_engine::Crossbar;
-use crate::ray_engine::engine::EngineCounts;
 use crate::ray_engine::paper::intersect as crossing;
 use crate::report::Findings;
+use crate::study::caster::{CastRecord, CasterChoice, CasterOptions};
 use crate::study::leaky_teapot::FormatLimits;
+use crate::tracer::Caster as _;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,7 +34,7 @@ Examples:
       as a Radeon 8500 computes it; each ray is tested against the triangles near it
   crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster host --time --out hits.csv
       by the host's octree in single precision, with the times of building the octree and casting the rays
-  crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --device r300 --time --out hits.csv
+  crossbar intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --caster-device r300 --time --out hits.csv
       the same by the Ray Engine, host and emulated Radeon 9700 together
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, one line
@@ -62,17 +62,13 @@ pub(super) struct Args {
     #[arg(long, default_value = "front", value_parser = sides())]
     sides: Sides,
 
-    /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
+    /// The card of rays without a `--caster`; `exact` arithmetic needs none [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
     /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
     #[arg(long, value_enum)]
     executor: Option<Decider>,
-
-    /// Ray caster that finds first hits [default: exact arithmetic, or `--device` alone without an octree]
-    #[arg(long, value_enum, value_name = "C")]
-    caster: Option<CasterArg>,
 
     /// Say on standard error how long casting took, how many rays per second that is, and how long building took. Files
     /// are not counted
@@ -82,6 +78,9 @@ pub(super) struct Args {
     /// File for the hits
     #[arg(long, value_name = "H.csv")]
     out: PathBuf,
+
+    #[command(flatten)]
+    caster: CasterOptions,
 }
 
 /// The source of hits.
@@ -94,7 +93,7 @@ enum HitSource {
 /// Triangle and t of each hit, and the seconds that building and casting took.
 struct Answer {
     hits: Vec<Option<(u32, f64)>>,
-    engine: Option<EngineCounts>,
+    engine: Option<CastRecord>,
     /// Warning where the card's number format leaves almost no bits of the answer.
     warning: Option<String>,
     build_s: f64,
@@ -113,12 +112,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 /// The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
 fn choose(args: &Args) -> miette::Result<HitSource> {
     let device = args.device.as_deref();
-    if let Some(caster) = args.caster {
-        if caster == CasterArg::Hybrid {
-            let help = "name `--caster engine`, which casts all rays";
-            return Err(Problem::usage("rays of a file go through no pixels that could be drawn", help).into());
-        }
-        return caster.choose(device, args.executor).map(HitSource::Caster);
+    let caster = args.caster.choose(engine_executor(&args.caster, args.executor)?)?;
+    if args.caster.is_named() {
+        let help = "name the engine's card by `--caster-device`, or leave it out";
+        given::refuse([("--device", device.is_some())], "rays without a `--caster`", help)?;
+        return Ok(HitSource::Caster(caster));
     }
     let profile = Box::new(device_named(device.unwrap_or(view::DEFAULT_DEVICE))?);
     let executor = Decider::choose(args.executor, device).open()?;
@@ -143,10 +141,10 @@ impl HitSource {
                 (rays.iter().zip(hits).map(of_hit).collect(), None, warning, built)
             }
             Self::Caster(choice) => {
-                let mut caster = choice.build(mesh, sides)?;
+                let mut caster = choice.open(mesh, sides)?;
                 let built = Instant::now();
-                let hits = caster.caster().cast(rays).into_diagnostic()?;
-                (rays.iter().zip(hits).map(of_hit).collect(), caster.counts(), None, built)
+                let hits = caster.cast(rays).into_diagnostic()?;
+                (rays.iter().zip(hits).map(of_hit).collect(), caster.record(), None, built)
             }
         };
         let (build_s, cast_s) = ((built - start).as_secs_f64(), built.elapsed().as_secs_f64());
@@ -190,7 +188,7 @@ fn findings(args: &Args, answer: &Answer) -> Findings {
         found.field("warning", json!(warning));
     }
     if let Some(engine) = &answer.engine {
-        caster::report(engine, &mut found);
+        engine.report(&mut found);
     }
     if args.time {
         found.field("time", json!({ "build_s": answer.build_s, "cast_s": answer.cast_s, "rays_per_s": rate }));

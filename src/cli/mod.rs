@@ -9,7 +9,6 @@ mod alu;
 mod atlas;
 mod bi_scale;
 mod card;
-mod caster;
 mod check;
 mod compare;
 mod completions;
@@ -49,6 +48,7 @@ mod study;
 mod subsurface;
 mod switch;
 mod timeline;
+mod tour;
 mod transfer;
 mod uniform;
 mod units;
@@ -151,6 +151,7 @@ enum Command {
     Scene(scene::Args),
     Subsurface(subsurface::Args),
     Timeline(timeline::Args),
+    Tour(tour::Args),
     Units(units::Args),
 }
 
@@ -253,6 +254,7 @@ fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::
         Command::Run(args) => run::run(&args, out),
         Command::Scene(args) => scene::run(&args, out),
         Command::Timeline(args) => timeline::run(&args, out),
+        Command::Tour(args) => study::run(&args, command_line, out),
         Command::Units(args) => units::run(&args, out),
     }
 }

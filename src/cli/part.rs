@@ -8,9 +8,11 @@ use serde_json::json;
 use super::resolved::CommandLine;
 use super::version;
 use super::words::counted;
+use super::{Problem, given};
 use crate::error::InputError;
 use crate::report::Findings;
 use crate::split::{PartNumber, SplitCommand, SplitRun, WrittenPart, not_utf8};
+use crate::study::caster::CasterOptions;
 
 /// The option of commands whose work can be split.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -24,6 +26,13 @@ impl PartArgs {
     /// Returns `true` if the option was given.
     pub(super) const fn is_given(self) -> bool {
         self.part.is_some()
+    }
+
+    /// Refuses parts of work whose rays the Ray Engine casts: in short formats its hits depend on which rays wait
+    /// together.
+    pub(super) fn refuse_engine(self, caster: &CasterOptions) -> Result<(), Problem> {
+        let part = [("--part", self.part.is_some() && caster.is_engine())];
+        given::refuse(part, "rays of the host", "leave it out, or name `--caster host`")
     }
 
     /// Mode of the command's items: all of them, only those of the part whose file is `out`, or none. Errors: for an

@@ -8,7 +8,8 @@ use super::part::PartArgs;
 use super::scene_name::{self, EyeArgs, Viewpoint};
 use super::study::{StudyArgs, StudyFiles};
 use crate::options::Size;
-use crate::study::radiosity::{Parameters, RadiosityOptions, SolveMethod};
+use crate::study::caster::CasterOptions;
+use crate::study::radiosity::{Factors, Parameters, RadiosityOptions, SolveMethod};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,6 +21,8 @@ Examples:
       solve, then change the light and the left wall, and go on from the solution
   crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
       a scene of your own, on the host alone
+  crossbar radiosity cornell-room-blocks --patches 300 --solver direct --caster engine --caster-format s3.12 --caster-format fp16
+      what leaks into the room where the Ray Engine casts the rays of its form factors in short formats
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep-patches 60,240,515,889
       half floats on a card that truncates: the error with more patches, and under every open switch
 
@@ -57,6 +60,9 @@ pub(super) struct Args {
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/radiosity")]
     out: PathBuf,
+
+    #[command(flatten)]
+    caster: CasterOptions,
 }
 
 impl StudyArgs for Args {
@@ -75,7 +81,11 @@ impl StudyArgs for Args {
         if !is_on_card {
             given::refuse(self.card.given(), "methods on a card", "add `--solver card`, or leave it out")?;
         }
+        let unoccluded = self.options.factors == Factors::Unoccluded;
+        given::refuse([("--caster", unoccluded && self.caster.is_named())], "form factors by rays", "leave it out")?;
+        self.part.refuse_engine(&self.caster)?;
         Ok(Parameters {
+            casters: self.caster.choose_each(self.card.executor()?)?,
             scene,
             methods,
             profile: self.card.profile("nv35")?,

@@ -3,8 +3,8 @@
 use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::on_card::{self, CardSolver, Fit, Storage};
-use crossbar::radiosity::packing::{self, Packing};
+use crossbar::radiosity::on_card::{CardSolver, Fit, Storage};
+use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::{FormFactors, System};
 use refsim::machine::{Executor, ExecutorKind};
 
@@ -117,25 +117,4 @@ fn every_pass_in_halves_is_the_scalar_executors() {
             seen
         });
     }
-}
-
-#[test]
-fn block_channel_products_are_the_hosts() {
-    for (size, block) in [(1, 204), (2, 1), (9, 2), (24, 5)] {
-        let [left, right] =
-            [1, 2].map(|seed| packing::block_channel_matrix(&room(size, seed).matrix(0), LIMIT).expect("it fits"));
-        let expected = bits(&packing::block_channel_product(&left, &right));
-        for (name, executor) in executors() {
-            let (found, programs) =
-                on_card::product(nv35(), executor, [&left, &right], block).unwrap_or_else(|e| panic!("{name}: {e}"));
-            assert_eq!(bits(&found), expected, "{name}, {size} rows in blocks of {block}");
-            assert!(programs.len() <= 3);
-        }
-    }
-    let [left, right] =
-        [1, 2].map(|seed| packing::block_channel_matrix(&room(412, seed).matrix(1), LIMIT).expect("it fits"));
-    let block = on_card::product_block(&nv35()).expect("a block");
-    let (found, programs) = on_card::product(nv35(), ExecutorKind::Batch, [&left, &right], block).expect("a product");
-    assert_eq!(bits(&found), bits(&packing::block_channel_product(&left, &right)));
-    assert_eq!((block, programs[0].texels, programs[0].instructions()), (204, 204, 1023));
 }

@@ -5,7 +5,7 @@ use crate::{crossbar, tree};
 /// All commands, by the alphabet.
 pub(crate) const COMMANDS: &str = "all-frequency alu atlas bi-scale check compare completions cpca devices diff \
                         intersect leaky-teapot man materials matmul measure merge page precision radiosity render \
-                        reproduce run scene subsurface timeline units";
+                        reproduce run scene subsurface timeline tour units";
 
 /// The verbs of the commands that have some.
 fn verbs() -> Vec<String> {

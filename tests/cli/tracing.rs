@@ -54,15 +54,55 @@ fn casting_is_timed_apart_from_building() {
     }
 }
 
+/// A Ray Engine in single precision casts the rays of every command with the host's answers.
+#[test]
+fn the_engine_in_single_precision_computes_what_the_host_does() {
+    let (step, court) = (in_project("docs/examples/step.obj"), in_project("docs/examples/court.obj"));
+    for line in [
+        &["cpca", "precompute", &step, "--order", "3", "--degree", "18"][..],
+        &["all-frequency", "precompute", &step],
+        &["bi-scale", "precompute", &court, "--directions", "2"],
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = |more: &[&str]| {
+            let ran = crossbar_in(folder.path(), &[line, &["--out", "a.npz"], more].concat(), "");
+            assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+            (fs::read(folder.path().join("a.npz")).expect("written"), ran.stdout)
+        };
+        let [(host, _), (engine, said)] = [file(&[]), file(&["--caster", "engine", "--pass-rays", "4"])];
+        assert!(host == engine, "{line:?}");
+        assert!(said.contains("rays met the card") && said.contains("engine: 0 of "), "{said}");
+    }
+}
+
+/// Rays in fixed point leak into the form factors of a room, in single precision none does.
+#[test]
+fn short_formats_leak_into_the_room() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "radiosity cornell-room-blocks --patches 60 --size 8x8 --solver direct --caster engine \
+                --caster-format fp32 --caster-format s3.12 --out r --json";
+    let ran = crossbar_in(folder.path(), &line.split_whitespace().collect::<Vec<_>>(), "");
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let cell = |row: usize, name: &str| report["casters"][row][name].as_f64().expect("a number");
+    for name in ["differing", "factors_percent", "largest_relative", "mean_relative"] {
+        assert!(cell(0, name) == 0.0 && cell(1, name) > 0.0, "{name}: {report}");
+    }
+    assert!(cell(0, "rays") == cell(1, "rays") && cell(0, "on_card_percent") > 50.0, "{report}");
+}
+
 #[test]
 fn casters_refuse_what_is_not_for_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
-    let cases: [(&str, &[&str]); 5] = [
+    let cases: [(&str, &[&str]); 9] = [
         ("device_of_the_host", &["--caster", "host", "--device", "r300"]),
         ("executor_of_the_host", &["--caster", "host", "--executor", "batch"]),
         ("engine_in_exact_arithmetic", &["--caster", "engine", "--executor", "exact"]),
-        ("engine_without_programs", &["--caster", "engine", "--device", "nv25"]),
+        ("engine_without_programs", &["--caster", "engine", "--caster-device", "nv25"]),
+        ("passes_of_the_host", &["--caster", "host", "--pass-rays", "8"]),
+        ("two_formats", &["--caster", "engine", "--caster-format", "fp16", "--caster-format", "fp24"]),
+        ("no_triangles", &["--caster", "engine", "--pass-triangles", "9,8"]),
+        ("unknown_mode", &["--caster", "engine", "--readback", "async"]),
         ("unknown_caster", &["--caster", "card"]),
     ];
     let said = listed(cases.map(|(name, more)| {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use crate::all_frequency::Reflectance;
@@ -14,12 +15,13 @@ use crate::cli::transfer::model::{load, note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
 use crate::cli::{CommandLine, Problem, ProgressBar};
-use crate::geom::Mesh;
+use crate::geom::{Mesh, Sides};
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
 use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
 use crate::split::Computed;
+use crate::study::caster::CasterOptions;
 use crate::study::prt::{FoundSight, SightOfModel};
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::{Tangents, Vertices};
@@ -65,10 +67,15 @@ pub(super) struct Args {
     /// The file to write
     #[arg(long, value_name = "X.npz")]
     out: PathBuf,
+
+    #[command(flatten)]
+    caster: CasterOptions,
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let (tangents, path) = (args.tangents.0, args.out.as_path());
+    args.part.refuse_engine(&args.caster)?;
+    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let reflectance =
         args.reflectance.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
     let model = load(&args.model, tangents)?;
@@ -83,7 +90,8 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         ground: ground.as_ref().map(|ground| &ground.vertices),
     };
     let split = args.part.split(command_line, path)?;
-    let found = match sight.run(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
+    let mut caster = caster.open_judged(sight.scene, Sides::Both)?;
+    let found = match sight.run(&mut caster, &split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
         Computed::Whole(found) => found,
         Computed::Part(written) => return Ok(part::findings(&written)),
     };
@@ -97,6 +105,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     drop(bar);
     let mut findings = findings(&found, path);
     note_vertices(&mut findings, &vertices, &[]);
+    caster.record().iter().for_each(|record| record.report(&mut findings));
     let below = below.map(|below| {
         let mut below = self::findings(&below, &ground_path);
         written(&mut below, [("model", Some(ground_mesh.as_path()))]);

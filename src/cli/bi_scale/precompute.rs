@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use super::file::{angle, load_creased};
@@ -18,7 +19,7 @@ use crate::cli::{CommandLine, Problem, ProgressBar};
 use crate::geom::Sides;
 use crate::report::Findings;
 use crate::split::Computed;
-use crate::tracer::HostTracer;
+use crate::study::caster::CasterOptions;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
@@ -61,19 +62,24 @@ pub(super) struct Args {
     /// The file to write
     #[arg(long, value_name = "X.npz")]
     out: PathBuf,
+
+    #[command(flatten)]
+    caster: CasterOptions,
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
+    args.part.refuse_engine(&args.caster)?;
+    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
     let model = load_creased(&args.model, tangents, args.crease)?;
     let vertices = vertices(&model, tangents)?;
     let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon: Horizon::Geometry };
     let bar = ProgressBar::new("visibility", 1).quicker("fewer `--directions`");
+    let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;
     let maps = args.part.split(command_line, path)?.compute("vertices", vertices.len(), |range| {
         let range: Vec<u32> = range.map(|vertex| vertex as u32).collect();
-        let mut caster = HostTracer::new(&model.mesh, Sides::Both);
         let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
         VisibilityMaps::trace_sampled(&vertices, &range, sampling, &mut caster, &mut show).map_err(refused)
     });
@@ -107,6 +113,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         100.0 * nonzeros as f64 / (rows as f64 * LIGHT_TEXELS as f64)
     ));
     note_vertices(&mut found, &vertices, &[]);
+    caster.record().iter().for_each(|record| record.report(&mut found));
     written(&mut found, [("out", Some(path))]);
     Ok(found)
 }

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use super::precompute_values::{KindArg, RowsArg};
@@ -15,10 +16,12 @@ use crate::cli::words::{counted, measured};
 use crate::cli::{CommandLine, Problem, ProgressBar, given};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
 use crate::error::InputError;
+use crate::geom::Sides;
 use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::report::Findings;
 use crate::split::Computed;
+use crate::study::caster::CasterOptions;
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 use crate::subsurface::Dipole;
 use crate::transfer::Vertices;
@@ -103,6 +106,9 @@ pub(super) struct Args {
     /// The file to write
     #[arg(long, value_name = "X.npz")]
     out: PathBuf,
+
+    #[command(flatten)]
+    caster: CasterOptions,
 }
 
 /// The channels of transfer, for `--channels`: red, green and blue are 0, 1 and 2.
@@ -113,6 +119,8 @@ fn channels_of() -> OneOf<&'static [usize]> {
 
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
     let exit = exit(args)?;
+    args.part.refuse_engine(&args.caster)?;
+    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let scatterer = scatterer(args)?;
     let model = load(&args.model, args.tangents.0)?;
     let vertices = vertices(&model, args.tangents.0)?;
@@ -128,13 +136,24 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     };
     let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");
     let split = args.part.split(command_line, &args.out)?;
-    let found = match precomputation.run_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
+    let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;
+    let found = match precomputation
+        .run_split(&mut caster, &split, &mut |what, done, of| bar.show(what.to_owned(), done, of))?
+    {
         Computed::Whole(found) => found,
         Computed::Part(written) => return Ok(part::findings(&written)),
     };
     save_prt(&found.file, &args.out).map_err(Problem::from)?;
-    drop(bar);
-    Ok(findings(args, &vertices, &found))
+    let mut findings = findings(args, &vertices, &found);
+    if let Some(record) = caster.record() {
+        let host = precomputation.run(&mut |what, done, of| bar.show(format!("{what} of the host"), done, of))?;
+        let (differing, off) = found.off(&host);
+        record.report(&mut findings);
+        findings.field("off_host", json!({ "coefficients": differing, "relative_rms": off }));
+        let [differing, off] = [counted(differing as usize), measured(off)];
+        findings.print(format!("engine: {differing} coefficients differ from those by the host's rays, {off} of all in the root mean square"));
+    }
+    Ok(findings)
 }
 
 fn exit(args: &Args) -> Result<ExitRadiance, Problem> {

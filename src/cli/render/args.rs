@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use crate::cli::caster::CasterArg;
 use crate::cli::executor::Decider;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::{Problem, given};
 use crate::options::Size;
 use crate::options::number;
 use crate::renderer::Lens;
+use crate::study::caster::CasterOptions;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -21,7 +21,7 @@ Examples:
       the same on a Radeon 8500
   crossbar render teapot-room --renderer path --samples 64 --size 256x256 --out out/room
       a scene of the project by path tracing: also colour, normals and albedo in layers.exr
-  crossbar render teapot-room --caster engine --device r300 --executor batch
+  crossbar render teapot-room --caster engine --caster-device r300
       after Whitted, with first hits found by the Ray Engine on a Radeon 9700";
 
 /// Render a mesh or a scene: picture.png, and depth and triangle of each pixel
@@ -44,7 +44,8 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// The card; `exact` arithmetic and the host caster need none, environment maps do [default: ideal-fp32]
+    /// The card of a mesh without `--renderer`, and of an environment map; `exact` arithmetic needs none
+    /// [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
@@ -59,6 +60,9 @@ pub(in crate::cli) struct Args {
     // Last, because its heading also covers the options after it.
     #[command(flatten)]
     pub(super) light: LightArgs,
+
+    #[command(flatten)]
+    pub(super) caster: CasterOptions,
 }
 
 /// How light is found.
@@ -99,7 +103,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_enum, value_name = "R")]
     pub(super) renderer: Option<Renderer>,
 
-    /// Samples per pixel [default: 1 for eye, environment and `--caster hybrid`, 4 for whitted, else 16]
+    /// Samples per pixel [default: 1 for eye, environment and `--drawn-eyes`, 4 for whitted, else 16]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
@@ -131,15 +135,15 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
     pub(super) gather: Option<u32>,
 
-    /// Ray caster that finds first hits [default: host]
-    #[arg(long, value_enum, value_name = "C")]
-    pub(super) caster: Option<CasterArg>,
+    /// The engine's card draws what the eye sees, from the front, and the engine casts all other rays
+    #[arg(long)]
+    pub(super) drawn_eyes: bool,
 }
 
 impl LightArgs {
     /// Returns `true` if an option was given that needs a lit scene.
     pub(super) fn asked(&self) -> bool {
-        self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
+        self.renderer.is_some() || self.samples.is_some() || self.view.is_some()
     }
 
     /// Refuses options that a renderer does not use; `None` is a mesh that is shaded without light.
@@ -149,7 +153,7 @@ impl LightArgs {
         let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
         given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
         let is_mapped = renderer == Some(Renderer::Environment);
-        let is_one = is_mapped || self.caster == Some(CasterArg::Hybrid);
+        let is_one = is_mapped || self.drawn_eyes;
         let jittered =
             [("--lens", self.lens.is_some()), ("--samples", self.samples.is_some_and(|samples| samples > 1))];
         let jittered = jittered.map(|(option, given)| (option, given && is_one));
@@ -161,8 +165,12 @@ impl LightArgs {
         let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
         let depth = [("--depth", self.depth.is_some() && (is_eye || is_mapped))];
         given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
-        let of_light =
-            [("--seed", self.seed.is_some()), ("--exposure", self.exposure.is_some()), ("--lens", self.lens.is_some())];
+        let of_light = [
+            ("--seed", self.seed.is_some()),
+            ("--exposure", self.exposure.is_some()),
+            ("--lens", self.lens.is_some()),
+            ("--drawn-eyes", self.drawn_eyes),
+        ];
         let of_light = of_light.map(|(option, given)| (option, given && renderer.is_none()));
         given::refuse(of_light, "scenes with light", "add a `--renderer`, or leave it out")
     }

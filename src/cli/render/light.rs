@@ -12,18 +12,17 @@ use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
 use crate::card::RasterizedEyes;
 use crate::case::device_named;
-use crate::cli::caster::{self, CasterArg};
-use crate::cli::executor::Decider;
-use crate::cli::{CommandLine, Out, Problem, ProgressBar, scene_name, study, view};
+use crate::cli::executor::{Decider, engine_executor};
+use crate::cli::{CommandLine, Out, Problem, ProgressBar, given, scene_name, study, view};
 use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
-use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::environment::{self, EnvironmentCard};
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
 use crate::report::digits::count;
 use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
+use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
 
 /// The random seed where none is given.
@@ -33,28 +32,33 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
     args.light.refuse_others(Some(renderer))?;
     check_lights(renderer, &asked.scene)?;
-    let caster = args.light.caster.unwrap_or(CasterArg::Host);
     let is_mapped = renderer == Renderer::Environment;
-    let card = (is_mapped || caster != CasterArg::Host)
-        .then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE)))
-        .transpose()?;
-    // The device of an environment map is not the caster's.
-    let (device, executor) =
-        if is_mapped && caster == CasterArg::Host { (None, None) } else { (args.device.as_deref(), args.executor) };
-    let caster = caster.choose(device, executor)?;
+    let executor = args.executor.filter(|_| !is_mapped || args.caster.is_engine());
+    let no_card = [
+        ("--device", args.device.is_some() && !is_mapped),
+        ("--executor", executor.is_some() && !args.caster.is_engine()),
+    ];
+    let help = "add `--caster engine` and name its card by `--caster-device`, or leave it out";
+    given::refuse(no_card, "the eye rays of a mesh", help)?;
+    let caster = args.caster.choose(engine_executor(&args.caster, executor)?)?;
+    let drawing = caster.profile().filter(|_| args.light.drawn_eyes);
+    let no_engine = [("--drawn-eyes", args.light.drawn_eyes && drawing.is_none())];
+    given::refuse(no_engine, "the card of the Ray Engine", "add `--caster engine`, or leave it out")?;
+    let mapping =
+        is_mapped.then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))).transpose()?;
     let camera = camera(args, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut open = caster.build(asked.scene.mesh(), Sides::Both)?;
-    let eyes = card.as_ref().filter(|_| args.light.caster == Some(CasterArg::Hybrid));
-    let picture = match eyes {
-        None => trace(renderer, args, &asked.scene, (&camera, card.as_ref()), rounding, open.caster())?,
+    let mut open = caster.open(asked.scene.mesh(), Sides::Both)?;
+    let view = (&camera, mapping.as_ref());
+    let picture = match drawing {
+        None => trace(renderer, args, &asked.scene, view, rounding, &mut open)?,
         Some(profile) => {
-            let mut eyes = RasterizedEyes::new(profile, asked.scene.mesh(), camera, open.caster()).into_diagnostic()?;
-            trace(renderer, args, &asked.scene, (&camera, card.as_ref()), rounding, &mut eyes)?
+            let mut eyes = RasterizedEyes::new(profile, asked.scene.mesh(), camera, &mut open).into_diagnostic()?;
+            trace(renderer, args, &asked.scene, view, rounding, &mut eyes)?
         }
     };
-    let engine = open.counts();
+    let engine = open.record();
     let numbers = layers(&picture, &asked.scene, &camera)?;
     let exposure = args.light.exposure.unwrap_or(1.0);
     let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
@@ -62,7 +66,8 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     findings.table(FoundTable::from(rays(&picture)).unprinted());
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     provenance.seed = Some(args.light.seed.unwrap_or(SEED));
-    provenance.profiles.extend(card.map(|card| card.name));
+    provenance.profiles.extend(caster.profile().map(|_| caster.label().to_owned()));
+    provenance.profiles.extend(mapping.map(|card| card.name));
     report(args, &picture, engine.as_ref(), &mut findings);
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
     study::show(&findings, out)
@@ -119,7 +124,7 @@ fn trace(
     let light = &args.light;
     let usual = match renderer {
         Renderer::Eye | Renderer::Environment => 1,
-        _ if light.caster == Some(CasterArg::Hybrid) => 1,
+        _ if light.drawn_eyes => 1,
         Renderer::Whitted => 4,
         _ => 16,
     };
@@ -160,7 +165,7 @@ fn trace(
     picture.into_diagnostic()
 }
 
-fn report(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, found: &mut Findings) {
+fn report(args: &Args, picture: &RenderedPicture, engine: Option<&CastRecord>, found: &mut Findings) {
     let (pixels, hits) = (picture.first.len(), picture.first.iter().flatten().count());
     let counts = picture.counts;
     let kinds: serde_json::Map<_, _> =
@@ -173,7 +178,7 @@ fn report(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>,
     let [rays, bundles] = [counts.rays(), counts.bundles].map(count);
     found.print(format!("{rays} rays in {bundles} bundles: {}", kinds.join(", ")));
     if let Some(engine) = engine {
-        caster::report(engine, found);
+        engine.report(found);
     }
     if picture.not_finite > 0 {
         found.print(format!("{} samples were not finite and count as black", count(picture.not_finite)));

@@ -6,6 +6,7 @@ mod page;
 mod scene;
 
 use miette::IntoDiagnostic as _;
+use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use super::executor::Decider;
@@ -29,6 +30,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
         return light::run(args, &asked, command_line, out);
     }
     args.light.refuse_others(None)?;
+    args.caster.choose(ExecutorKind::Batch.into())?;
     let profile = device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let mesh = model_file::mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;

@@ -18,7 +18,7 @@ pub(super) fn lit(args: &Args) -> miette::Result<Option<LitScene>> {
         return Ok(Some(LitScene { scene, lit: true }));
     }
     let described = args.scene.extension().is_some_and(|ending| ending == "toml");
-    if !described && !args.light.asked() {
+    if !described && !args.light.asked() && !args.caster.is_named() {
         return Ok(None);
     }
     Ok(Some(LitScene { scene: model_file::scene(&args.scene)?, lit: described }))

@@ -9,10 +9,11 @@ use super::materials::published;
 use super::part::PartArgs;
 use super::scene_name::EyeArgs;
 use super::study::{StudyArgs, StudyFiles};
-use super::{Problem, model_name};
+use super::{Problem, given, model_name};
 use crate::atlas::require_side;
 use crate::options::{Size, number};
-use crate::study::subsurface::{Parameters, SubsurfaceOptions, no_atlas};
+use crate::study::caster::CasterOptions;
+use crate::study::subsurface::{Lighting, Parameters, SubsurfaceOptions, no_atlas};
 use crate::subsurface::{Coefficients, Material};
 use light::{LightArg, coefficient, lighting};
 
@@ -86,6 +87,9 @@ pub(super) struct Args {
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/subsurface")]
     out: PathBuf,
+
+    #[command(flatten)]
+    caster: CasterOptions,
 }
 
 impl StudyArgs for Args {
@@ -109,9 +113,14 @@ impl StudyArgs for Args {
         let profile = self.card.profile("nv35")?;
         let mesh = model_name::mesh(&self.model)?;
         let camera = self.eye.framing(&mesh, self.size)?;
+        let lighting = lighting(&self.light, &camera)?;
+        let idle = self.caster.is_named() && matches!(lighting, Lighting::Lights(_));
+        given::refuse([("--caster", idle)], "shadows of an environment map", "leave it out, or add one by `--light`")?;
+        self.part.refuse_engine(&self.caster)?;
         Ok(Parameters {
             model: self.model.display().to_string(),
-            lighting: lighting(&self.light, &camera)?,
+            caster: self.caster.choose(self.card.executor()?)?,
+            lighting,
             switches: self.card.switches(),
             executor: self.card.executor()?,
             options: self.options.clone(),

@@ -3,10 +3,13 @@
 //! docs/contributing.md describes how to add a study.
 
 pub mod atlas;
+pub mod caster;
 pub mod configuration;
 mod error;
 pub mod framing;
+mod glossy_model;
 pub mod leaky_teapot;
+mod marble_model;
 pub mod matrix_product;
 pub mod measure;
 pub mod page;
@@ -18,6 +21,7 @@ pub mod reproduce;
 pub mod shade;
 pub mod subsurface;
 pub mod timeline_trace;
+pub mod tour;
 
 use crate::report::{Findings, Provenance};
 use crate::split::{Computed, SplitRun};

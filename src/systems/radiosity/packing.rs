@@ -4,7 +4,6 @@
 //! |---|---|---|
 //! | RGB | elements (y, x) of the red, green and blue matrix, 0 | elements x of the three vectors, 0 |
 //! | luminance | elements (y, 4x) to (y, 4x + 3) of one matrix | elements 4x to 4x + 3 |
-//! | block-channel | elements (y, x), (y, x + h), (y + h, x), (y + h, x + h), h half the size | |
 //!
 //! Each value is rounded once, from f64. Elements beyond the matrix are 0; a luminance matrix has rows up to a
 //! multiple of four.
@@ -97,33 +96,7 @@ pub fn luminance_vector(values: &[f64], limit: usize) -> Result<Texels, InputErr
     filled("a vector", [values.len().div_ceil(4), 1], limit, |x, _| [0, 1, 2, 3].map(|c| value(4 * x + c)))
 }
 
-/// The four quarters of a matrix in the four channels: upper left, upper right, lower left, lower right (reference 8
-/// of the paper).
-pub fn block_channel_matrix(matrix: &Matrix, limit: usize) -> Result<Texels, InputError> {
-    let half = matrix.row_count().div_ceil(2);
-    filled("a matrix", [half, half], limit, |x, y| {
-        [(0, 0), (0, half), (half, 0), (half, half)].map(|(down, across)| element(matrix, y + down, x + across))
-    })
-}
-
 /// The inverse of [`rgb_vector`].
 pub fn from_rgb_vector(texels: &Texels) -> Vec<[f32; 3]> {
     texels.texels.iter().map(|&[r, g, b, _]| [r, g, b]).collect()
-}
-
-/// The product of two block-channel matrices in the order of reference 8, in f32: for each step k, `a.xxzz * b.xyxy`,
-/// then `a.yyww * b.zwzw`, each product and each sum rounded. Panics if the two differ in size.
-pub fn block_channel_product(a: &Texels, b: &Texels) -> Texels {
-    let half = a.width;
-    assert_eq!([a.height, b.width, b.height], [half; 3], "two block-channel matrices of one size");
-    let texel = |x: usize, y: usize| {
-        let mut sum = [0.0_f32; 4];
-        for (k, &[ax, ay, az, aw]) in a.row(y).iter().enumerate() {
-            let [bx, by, bz, bw] = b.row(k)[x];
-            let (first, second) = ([ax * bx, ax * by, az * bx, az * by], [ay * bz, ay * bw, aw * bz, aw * bw]);
-            sum = [0, 1, 2, 3].map(|c| (sum[c] + first[c]) + second[c]);
-        }
-        sum
-    };
-    Texels::from_fn([half; 2], texel)
 }

@@ -103,20 +103,6 @@ impl<'a> CountingCaster<'a> {
         rays: &[Ray],
         kind: impl Fn(usize) -> RayKind,
     ) -> Result<Vec<Option<Hit>>, CastError> {
-        self.bundle(rays, kind, |caster| caster.cast(rays))
-    }
-
-    /// Returns per shadow ray of a bundle whether it hits anything before t = 1.
-    pub(super) fn occluded(&mut self, rays: &[Ray]) -> Result<Vec<bool>, CastError> {
-        self.bundle(rays, |_| RayKind::Shadow, |caster| caster.occluded(rays))
-    }
-
-    fn bundle<T>(
-        &mut self,
-        rays: &[Ray],
-        kind: impl Fn(usize) -> RayKind,
-        answer: impl FnOnce(&mut dyn Caster) -> Result<Vec<T>, CastError>,
-    ) -> Result<Vec<T>, CastError> {
         if rays.is_empty() {
             return Ok(Vec::new());
         }
@@ -124,9 +110,9 @@ impl<'a> CountingCaster<'a> {
             self.counts.by_kind[kind(index) as usize] += 1;
         }
         self.counts.bundles += 1;
-        let answers = answer(self.caster)?;
+        let hits = self.caster.cast(rays)?;
         self.progress.rays = self.counts.rays();
         (self.watch)(self.progress);
-        Ok(answers)
+        Ok(hits)
     }
 }

@@ -7,7 +7,6 @@
 //! - [`distributed`]: soft shadows, gloss, depth of field (Cook, Porter and Carpenter 1984);
 //! - [`path`]: path tracing, unbiased (Kajiya 1986; Veach 1997);
 //! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth;
-//! - [`visibility`] and [`form_factor`]: visibility and form factors by rays, without a picture.
 //!
 //! All work breadth first: they generate a bundle of rays, cast it through [`crate::tracer::Caster`], shade, and
 //! generate the next bundle. Random numbers are keyed by pixel, sample and dimension, and all sums run in the order of
@@ -19,7 +18,6 @@ pub mod distributed;
 pub mod environment;
 pub mod eye;
 mod film;
-pub mod form_factor;
 pub mod fresnel;
 mod layers;
 mod lights;
@@ -32,7 +30,6 @@ pub mod sampling;
 mod settings;
 mod surfel;
 mod vector;
-pub mod visibility;
 mod wave;
 pub mod whitted;
 

@@ -38,6 +38,8 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("subsurface", "--links", "4", false),
     ("subsurface", "--tolerance", "0.1", true),
     ("timeline", "--eye-rays", "8x8", false),
+    ("tour", "--size", "8x8", true),
+    ("tour", "--coarser", "8", true),
 ];
 
 /// Commands that do not run here: their beginning, and the reason.

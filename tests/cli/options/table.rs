@@ -31,6 +31,22 @@ macro_rules! card {
     };
 }
 
+/// The options of a ray caster: of the first base, and of the last, which has a Ray Engine with rates.
+macro_rules! caster {
+    ($engine:literal) => {
+        concat!(
+            " --caster=engine@0 --caster-device=r200 --caster-format=fp16 --octree=1,3@",
+            $engine,
+            " --pass-triangles=1,99@",
+            $engine,
+            " --pass-rays=2@",
+            $engine,
+            " --readback=free@",
+            $engine
+        )
+    };
+}
+
 /// Every command.
 pub(super) const TABLE: &[Tried] = &[
     Tried {
@@ -76,9 +92,14 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --device r200 --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
+            "intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --caster-device r300 \
+             --out OUT",
         ],
-        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,3 same:--device=r200@2 --device=ideal-fp16@1 --executor=exact@1,2,3 \
-                  --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
+        options: concat!(
+            "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 \
+                  --caster=engine@1,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
+            caster!("4")
+        ),
     },
     Tried {
         bases: &[
@@ -99,12 +120,17 @@ pub(super) const TABLE: &[Tried] = &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --iterations 3 --out OUT",
             "radiosity odd.obj --emit m=1,1,1 --patches 8 --size 8x8 --iterations 3 --out OUT",
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
+            "radiosity docs/examples/room.toml --patches 60 --size 8x8 --solver direct --caster engine --caster-device r300 \
+             --out OUT",
         ],
-        options: "--patches=12 --factors=unoccluded@0 same:--factors=unoccluded@1 --enforce-closure --solver=gauss-seidel \
+        options: concat!(
+            "--patches=12 --factors=unoccluded@0 same:--factors=unoccluded@1 --enforce-closure --solver=gauss-seidel \
                   --packing=luminance --storage=fp16 --device=nv30 --switch=rounding=rtz same:--executor=scalar \
                   --tolerance=0.5 --iterations=2 --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 \
                   --sweep-patches=12,30 --part=1/2 same:--view=front@0,2 --view=front@1 --out=other --model-up=y \
                   --strict@1 --size=9x7",
+            caster!("3")
+        ),
     },
     Tried {
         bases: &[
@@ -115,12 +141,14 @@ pub(super) const TABLE: &[Tried] = &[
             "render cornell-box --size 8x8 --renderer photon --samples 1 --photons 200 --gather 2 --out OUT",
             "render docs/examples/teapot.obj --size 8x8 --out OUT",
             "render odd.obj --size 8x8 --out OUT",
+            "render cornell-box --size 8x8 --caster engine --caster-device r300 --out OUT",
         ],
         options: concat!(
             "--device=ideal-fp16 --executor=batch --out=other --renderer=eye@1,2,3,4,5,6 --samples=3 \
              --depth=1@0,3,4,5,6 same:--depth=1@2 --seed=2@2,3,4,5,6 same:--seed=2@0,1 \
              --view=front@0,5,6 same:--view=front@1,2,3,4 --exposure=0.3 \
-             --lens=0.1,1 --photons=100 --gather=1 --caster=engine --model-up=y --strict@6",
+             --lens=0.1,1 --photons=100 --gather=1 --caster=engine@1,2,3,4,5,6 --model-up=y --strict@6",
+            caster!("7"),
             eye!()
         ),
     },
@@ -142,12 +170,15 @@ pub(super) const TABLE: &[Tried] = &[
             "subsurface odd.obj --mm-per-unit 10 --sigma-s 1 --sigma-a 0.1 --atlas 8 --links 4 --size 8x8 --out OUT",
             "subsurface square.obj --mm-per-unit 10 --material marble --atlas 8 --links 4 --light disk:1,0,2:20 --size 8x8 \
              --out OUT",
+            "subsurface docs/examples/step.obj --mm-per-unit 10 --material marble --atlas 8 --links 4 --light disk:1,0,2:20 \
+             --size 8x8 --caster engine --caster-device r300 --out OUT",
         ],
         options: concat!(
-            "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
+            "--caster=engine@2 --material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --tolerance=0.5 \
              --light=ambient:1,1,1 --all-pairs=no --device=nv30 --switch=rounding=rtz \
              same:--executor=scalar --part=1/2 --out=other --model-up=y --strict@1",
+            caster!("3"),
             eye!()
         ),
     },
@@ -160,16 +191,21 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--eye-rays=5x4 --mesh=square.obj --device=nv20 --timing=rates --readback=async --double-buffer --cache \
                   --sensitivity --perfetto=trace.json --model-up=y@0,1 --strict@0,1",
     },
+    Tried { bases: &["tour --size 8x8 --coarser 8 --out OUT"], options: "--size=9x7 --coarser=7 --out=other" },
     Tried {
         bases: &[
             "cpca precompute docs/examples/room.obj --order 2 --degree 18 --out OUT.npz",
             "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --brdf phong:0.2,0.3,4 --out OUT.npz",
             "cpca precompute odd.obj --kind glossy --order 2 --rows 4 --degree 18 --bounces 1 --out OUT.npz",
             "cpca precompute square.obj --order 2 --degree 18 --material marble --mm-per-unit 10 --out OUT.npz",
+            "cpca precompute docs/examples/room.obj --order 2 --degree 18 --caster engine --caster-device r300 --out OUT.npz",
         ],
-        options: "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=skin1@3 --mm-per-unit=2@3 --channels=rgb \
+        options: concat!(
+            "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=skin1@3 --mm-per-unit=2@3 --channels=rgb \
                   --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.npz \
                   --model-up=y --strict@2",
+            caster!("4")
+        ),
     },
     Tried {
         bases: &[
@@ -220,8 +256,12 @@ pub(super) const TABLE: &[Tried] = &[
         bases: &[
             "all-frequency precompute docs/examples/room.obj --out OUT.npz",
             "all-frequency precompute odd.obj --out OUT.npz",
+            "all-frequency precompute docs/examples/step.obj --caster engine --caster-device r300 --out OUT.npz",
         ],
-        options: "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y --strict@1",
+        options: concat!(
+            "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y --strict@1",
+            caster!("2")
+        ),
     },
     Tried {
         bases: &[
@@ -268,8 +308,12 @@ pub(super) const TABLE: &[Tried] = &[
         bases: &[
             "bi-scale precompute docs/examples/court.obj --directions 2 --out OUT.npz",
             "bi-scale precompute odd.obj --directions 2 --out OUT.npz",
+            "bi-scale precompute docs/examples/court.obj --directions 2 --caster engine --caster-device r300 --out OUT.npz",
         ],
-        options: "--directions=3 --crease=10@0 --tangents=1,2,3@0 --part=2/3 --out=other.npz --model-up=y --strict@1",
+        options: concat!(
+            "--directions=3 --crease=10@0 --tangents=1,2,3@0 --part=2/3 --out=other.npz --model-up=y --strict@1",
+            caster!("2")
+        ),
     },
     Tried { bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"], options: "--out=other.npz" },
     Tried {

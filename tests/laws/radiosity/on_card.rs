@@ -2,9 +2,9 @@
 
 use crate::support::profile;
 use approx::abs_diff_eq;
-use crossbar::card::{CardError, Texels};
+use crossbar::card::CardError;
 use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::on_card::{self, CardOptions, CardSolver, Storage};
+use crossbar::radiosity::on_card::{CardOptions, CardSolver, Storage};
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::solve::Solver;
 use crossbar::radiosity::{System, kernels, model};
@@ -130,7 +130,6 @@ fn what_a_card_can_not_do_is_said() {
     let mut card = card(&system, rgb, single);
     let three = [zeros(rgb, 4, 8), zeros(rgb, 4, 8)];
     let unlike = [4, 8, 4].map(|size| zeros(Packing::Luminance, size, 8));
-    let square = |side: usize| Texels { width: side, height: side, texels: vec![[0.0; 4]; side * side] };
     let messages = [
         refused(CardSolver::new(profile("r300"), batch, &system, rgb, single)),
         refused(CardSolver::new(small, batch, &system, rgb, single)),
@@ -141,8 +140,6 @@ fn what_a_card_can_not_do_is_said() {
         refused(CardSolver::of(profile("nv35"), batch, &unlike, single)),
         refused(card.set_emittance(&cornell(60))),
         refused(card.load(&[[0.0; 3]; 3])),
-        refused(on_card::product(profile("nv35"), batch, [&square(2), &square(3)], 4)),
-        refused(on_card::product(profile("gt200"), batch, [&square(2), &square(2)], 4)),
     ];
     insta::assert_snapshot!(messages.join("\n"));
 }

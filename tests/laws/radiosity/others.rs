@@ -1,4 +1,4 @@
-//! Radiosity against independent methods: form factors by rays alone, light by path tracing, scenes of other authors.
+//! Radiosity against independent methods: light by path tracing, scenes of other authors.
 
 use std::f64::consts::PI;
 
@@ -9,7 +9,6 @@ use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{Options, Solver};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System, gather};
 use crossbar::renderer::Settings;
-use crossbar::renderer::form_factor::form_factor;
 use crossbar::renderer::path::{self, Direct};
 use crossbar::scene::{Camera, Material, Scene, built};
 use glam::DVec3;
@@ -17,36 +16,6 @@ use glam::DVec3;
 use super::tracer;
 
 const FULL: CornellBox = CornellBox { blocks: true, open: false };
-
-/// Whole faces, so that both have the same patches. Ours is a closed form times visibility by rays, theirs is rays
-/// alone.
-#[test]
-fn form_factors_agree_with_an_estimate_by_rays_alone() {
-    let scene = rooms::cornell(FULL);
-    let patches = Patches::new(&scene, Subdivision::PerSide(1)).expect("patches");
-    let mut tracer = tracer(&scene);
-    let parameters = VisibilityParameters { side: 40, ..VisibilityParameters::default() };
-    let factors = FormFactors::with_visibility(&patches, &mut tracer, parameters, &mut |_, _| ()).expect("factors");
-    let faces: Vec<Vec<u32>> = (0..patches.list().len() as u32)
-        .map(|face| (0..scene.mesh().len() as u32).filter(|&t| patches.face_of(t) == face).collect())
-        .collect();
-    let mut hidden = 0;
-    for (i, j) in [(0, 8), (0, 14), (0, 15), (1, 2), (1, 16), (2, 18), (3, 12), (4, 17), (8, 19), (13, 19), (8, 23)] {
-        let (i, j): (usize, usize) = (i % faces.len(), j % faces.len());
-        // Ours is the mean over the open part of a face, theirs over all of it: light from under a block reaches
-        // nothing.
-        let ours = factors.matrix().row(i)[j] * patches.open_area(i) / patches.list()[i].area();
-        let theirs = form_factor(&scene, &faces[i], &faces[j], 6000, 7, &mut tracer).expect("rays");
-        // Both are estimates; ours has a quarter of the samples, and less to estimate.
-        let sigma = (theirs.variance * 3.0).sqrt();
-        assert!(
-            abs_diff_eq!(ours, theirs.value, epsilon = 4.0 * sigma + 1e-4),
-            "{i} to {j}: {ours} against {theirs:?}"
-        );
-        hidden += u32::from(theirs.value > 0.0);
-    }
-    assert!(hidden > 5, "most of them see each other: {hidden}");
-}
 
 /// Irradiance at points of the walls equals the radiance of a path tracer there, times pi over the reflectance.
 #[test]

@@ -1,6 +1,5 @@
 //! Layouts read back to their input; the card's order of operations against plain loops.
 
-use approx::abs_diff_eq;
 use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
@@ -30,8 +29,6 @@ proptest! {
         let texels = packing::luminance_matrix(&a, LIMIT).expect("it fits");
         prop_assert_eq!((texels.width, texels.height), (size.div_ceil(4), size.div_ceil(4) * 4));
         prop_assert_eq!(from_luminance_matrix(&texels, size), rounded(&a));
-        let texels = packing::block_channel_matrix(&a, LIMIT).expect("it fits");
-        prop_assert_eq!(from_block_channel_matrix(&texels, size), rounded(&a));
         let values: Vec<[f64; 3]> = (0..size).map(|i| [i as f64, 0.1, -1e-3]).collect();
         let texels = packing::rgb_vector(&values, LIMIT).expect("it fits");
         let expected: Vec<[f32; 3]> = values.iter().map(|v| v.map(|x| x as f32)).collect();
@@ -41,21 +38,6 @@ proptest! {
         prop_assert_eq!(texels.width, size.div_ceil(4));
         prop_assert_eq!(texels.texels.as_flattened()[..size].to_vec(), one.iter().map(|&x| x as f32).collect::<Vec<_>>());
     }
-
-    #[test]
-    fn block_channel_products_are_products(size in 1..20_usize, seed in any::<u64>()) {
-        let [a, b] = [0, 1].map(|k| random_system(size, 0.9, seed ^ k).0);
-        let [at, bt] = [&a, &b].map(|m| packing::block_channel_matrix(m, LIMIT).expect("it fits"));
-        let found = from_block_channel_matrix(&packing::block_channel_product(&at, &bt), size);
-        let columns = b.transposed();
-        for (i, row) in found.iter().enumerate() {
-            for (j, &value) in row.iter().enumerate() {
-                let exact: f64 = a.row(i).iter().zip(columns.row(j)).map(|(x, y)| x * y).sum();
-                let size: f64 = a.row(i).iter().zip(columns.row(j)).map(|(x, y)| (x * y).abs()).sum();
-                prop_assert!(abs_diff_eq!(f64::from(value), exact, epsilon = 30.0 * 6e-8 * size), "{} against {}", value, exact);
-            }
-        }
-    }
 }
 
 #[test]
@@ -64,7 +46,6 @@ fn a_texture_that_the_card_does_not_have_is_refused() {
     let refused = packing::rgb_matrix([&matrix; 3], 32).expect_err("40 > 32");
     assert!(refused.to_string().contains("32 x 32 texels, the card's largest, found 40 x 40"), "{refused}");
     assert!(packing::luminance_matrix(&matrix, 32).is_err(), "it has 40 rows");
-    assert!(packing::block_channel_matrix(&matrix, 32).is_ok(), "20 x 20");
     assert!(packing::rgb_vector(&[[0.0; 3]; 33], 32).is_err());
     assert!(packing::luminance_vector(&[0.0; 33], 32).is_ok());
 }
@@ -76,12 +57,6 @@ fn from_rgb_matrix(texels: &Texels, size: usize, channel: usize) -> Vec<Vec<f32>
 
 fn from_luminance_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
     (0..size).map(|y| texels.row(y).as_flattened()[..size].to_vec()).collect()
-}
-
-fn from_block_channel_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
-    let half = texels.width;
-    let at = |y: usize, x: usize| texels.row(y % half)[x % half][2 * (y / half) + x / half];
-    (0..size).map(|y| (0..size).map(|x| at(y, x)).collect()).collect()
 }
 
 fn bits(texels: &Texels) -> Vec<[u32; 4]> {

@@ -4,7 +4,6 @@ mod agreement;
 mod bits;
 mod direct;
 mod drawn;
-mod form_factors;
 mod furnace;
 mod photons;
 mod points;

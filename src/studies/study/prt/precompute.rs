@@ -8,11 +8,12 @@ use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, Trac
 use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
+use crate::picture::metrics::ErrorSums;
 use crate::sphere::{DirectionRule, MAX_ORDER};
 use crate::split::{Computed, SplitRun};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, fresnel_transmittance};
-use crate::tracer::HostTracer;
+use crate::tracer::{Caster, HostTracer};
 use crate::transfer::Vertices;
 use crate::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
@@ -80,6 +81,21 @@ pub struct Precomputed {
     pub bounces: Vec<Vec<f64>>,
 }
 
+impl Precomputed {
+    /// Difference of this transfer from another of the same vertices: the number of coefficients that differ, and the
+    /// root mean square of the differences over that of the other's coefficients.
+    pub fn off(&self, other: &Self) -> (u64, f64) {
+        let values = |of: &Self| of.file.transfer.as_ref().map_or_else(Vec::new, |signal| signal.values().to_vec());
+        let (mut off, mut all, mut differing) = (ErrorSums::default(), ErrorSums::default(), 0);
+        for (found, expected) in values(self).into_iter().zip(values(other)) {
+            differing += u64::from(found != expected);
+            off.add(f64::from(found) - f64::from(expected), 1.0);
+            all.add(f64::from(expected), 1.0);
+        }
+        (differing, if off.rms() > 0.0 { off.rms() / all.rms() } else { 0.0 })
+    }
+}
+
 /// Responses of the materials of a channel.
 struct ChannelResponses {
     of_materials: Vec<Response>,
@@ -91,21 +107,21 @@ impl Precomputation<'_> {
     /// Traces the rays and computes the matrices. Fails if the mesh or a material does not suit the transfer, or its
     /// numbers exceed f32.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
-        let (rule, responses) = self.prepare()?;
-        let found = self.of_range(0..self.vertices.len(), &rule, &responses, progress)?;
-        self.whole(found, rule, &responses)
+        let mut tracer = HostTracer::new(self.mesh, Sides::Both);
+        Ok(self.run_split(&mut tracer, &SplitRun::Whole, progress)?.whole())
     }
 
-    /// As [`Self::run`], for rays and direct light of all vertices, of those of a part, or of parts. Work that
-    /// needs all vertices is not split: bounces, and light that scatters below the surface. Errors: those of
-    /// [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
+    /// As [`Self::run`] by a caster of the mesh that sees both sides, for rays and direct light of all vertices, of those
+    /// of a part, or of parts. Work that needs all vertices is not split: bounces, and light that scatters below the
+    /// surface. Errors: those of [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,
+        caster: &mut dyn Caster,
         split: &SplitRun,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Computed<Precomputed>, StudyError> {
         let (rule, responses) = self.prepare()?;
-        let of_range = |range| self.of_range(range, &rule, &responses, progress);
+        let of_range = |range| self.of_range(range, (&rule, &responses), caster, progress);
         match split.compute("vertices", self.vertices.len(), of_range)? {
             Computed::Whole(found) => Ok(Computed::Whole(self.whole(found, rule, &responses)?)),
             Computed::Part(part) => Ok(Computed::Part(part)),
@@ -125,15 +141,14 @@ impl Precomputation<'_> {
     fn of_range(
         &self,
         range: Range<usize>,
-        rule: &DirectionRule,
-        responses: &[ChannelResponses],
+        (rule, responses): (&DirectionRule, &[ChannelResponses]),
+        caster: &mut dyn Caster,
         progress: &mut ProgressFn<'_>,
     ) -> Result<VertexTransfer, StudyError> {
         let steps = 1 + self.channels.len() as u64;
         progress("rays", 0, steps);
-        let mut tracer = HostTracer::new(self.mesh, Sides::Both);
         let keep_hits = self.bounces != Bounces::Count(0);
-        let rays = TracedRays::trace_range(self.vertices, range, rule.clone(), &mut tracer, keep_hits)?;
+        let rays = TracedRays::trace_range(self.vertices, range, rule.clone(), caster, keep_hits)?;
         let mut channels = Vec::new();
         for (responses, step) in responses.iter().zip(1..) {
             progress("transfer", step, steps);

@@ -7,23 +7,23 @@ use crate::picture::metrics::{ErrorSums, value_error};
 /// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the
 /// direct one is, or the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct SolutionError {
+pub(in crate::study) struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
-    pub(super) largest: f64,
+    pub(in crate::study) largest: f64,
     /// Largest relative difference. Patches without any light are excluded.
-    pub(super) relative: f64,
+    pub(in crate::study) relative: f64,
     /// Largest relative difference over patches that do not emit.
-    pub(super) relative_unlit: f64,
+    pub(in crate::study) relative_unlit: f64,
     /// Mean signed relative difference over patches that do not emit, large and small alike: negative if they are too
     /// dark.
-    pub(super) bias: f64,
+    pub(in crate::study) bias: f64,
     /// Number of radiosities that are not finite where the direct ones are, or the reverse.
-    pub(super) not_finite: u64,
+    pub(in crate::study) not_finite: u64,
 }
 
 impl SolutionError {
     /// Compares two solutions, one radiosity per patch.
-    pub(super) fn between(found: &[[f64; 3]], reference: &[[f64; 3]], emittance: &[[f64; 3]]) -> Self {
+    pub(in crate::study) fn between(found: &[[f64; 3]], reference: &[[f64; 3]], emittance: &[[f64; 3]]) -> Self {
         let brightest = reference.as_flattened().iter().copied().filter(|b| b.is_finite()).fold(0.0, f64::max);
         let [mut absolute, mut relative, mut unlit] = [ErrorSums::default(); 3];
         for ((found, reference), emittance) in found.iter().zip(reference).zip(emittance) {

@@ -8,6 +8,7 @@ mod change;
 mod conclusion;
 mod difference;
 mod error;
+mod leaks;
 mod method;
 mod options;
 mod outcome;
@@ -36,10 +37,11 @@ pub use method::{CardMethod, SolveMethod};
 pub use options::{Factors, RadiosityOptions};
 pub use parameters::Parameters;
 
-use difference::SolutionError;
+pub(in crate::study) use difference::SolutionError;
 use method::StopReason;
 use outcome::{MethodRow, RadiosityOutcome};
 use pictures::PictureRenderer;
+pub(in crate::study) use pictures::exposure;
 use sweep::{Sweep, SweepRow};
 
 library_errors! {
@@ -63,6 +65,8 @@ impl Study for Parameters {
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
         provenance.profiles.push(self.profile.name.clone());
         provenance.switches.clone_from(&self.switches);
+        let engines = self.casters.iter().filter(|caster| caster.profile().is_some());
+        provenance.profiles.extend(engines.map(|caster| caster.label().to_owned()));
         if let Factors::Rays(VisibilityParameters { seed, .. }) = self.options.factors {
             provenance.seed = Some(seed);
         }
@@ -95,9 +99,12 @@ fn run(
         Computed::Part(written) => return Ok(Computed::Part(written)),
     };
     let room = match &known {
-        Some(known) => room::complete(known.form_factor_rows(&patches, parameters, progress)?, &patches, parameters)?,
-        None => room::find(&patches, parameters, progress)?,
+        Some(known) => {
+            room::complete((known.form_factor_rows(&patches, parameters, progress)?, None), &patches, parameters)?
+        }
+        None => room::find(&patches, parameters, parameters.caster(), progress)?,
     };
+    let leaks = leaks::rows(parameters, &patches, &room, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let changed = change::apply(&parameters.options.changes(), &parameters.scene, &patches, &system)?;
     let mut solved = Vec::new();
@@ -111,7 +118,7 @@ fn run(
     }
     let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
     let reference = direct.map(|s| s.radiosity.clone());
-    let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
+    let brightness = |s: &solve::Solved| exposure(&patches, system.emittance(), &s.radiosity);
     let exposure = direct.or(solved.first()).map_or(1.0, brightness);
     let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
     let frames = studio.frames(&solved)?;
@@ -129,7 +136,7 @@ fn run(
         None => sweep.runs(0..sweep.count(), progress)?,
     };
     let sweep = sweep.rows(&runs);
-    Ok(Computed::Whole(RadiosityOutcome { found_sums: room.found_sums, exposure, rows, frames, sweep, patches }))
+    Ok(Computed::Whole(RadiosityOutcome { found_sums: room.found_sums, leaks, exposure, rows, frames, sweep, patches }))
 }
 
 /// Builds a method's row with its error and pictures.

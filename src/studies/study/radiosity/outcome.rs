@@ -2,6 +2,7 @@
 
 use super::change::Relit;
 use super::difference::SolutionError;
+use super::leaks::LeakRow;
 use super::method::{SolveMethod, StopReason};
 use super::pictures::{IterationPicture, Pictures};
 use super::sweep::SweepRow;
@@ -41,6 +42,8 @@ pub(super) struct RadiosityOutcome {
     pub(super) patches: Patches,
     /// Row sums before closure was enforced.
     pub(super) found_sums: RowSums,
+    /// Rooms by rays of the Ray Engine.
+    pub(super) leaks: Vec<LeakRow>,
     /// Exposure of the pictures: pixel value per radiance.
     pub(super) exposure: f64,
     /// One row per method.

@@ -6,6 +6,7 @@ use refsim::machine::Executor;
 use super::method::SolveMethod;
 use super::options::RadiosityOptions;
 use crate::scene::{Camera, Scene};
+use crate::study::caster::CasterChoice;
 
 /// Parameters of the study: scene, methods and output.
 #[derive(Debug)]
@@ -22,6 +23,15 @@ pub struct Parameters {
     pub executor: Executor,
     /// Camera of the pictures.
     pub camera: Camera,
+    /// What casts the rays of form factors, at least one; several engines are compared, and the first one's room is
+    /// solved. Parts of a run take the host's rays.
+    pub casters: Vec<CasterChoice>,
     /// Options.
     pub options: RadiosityOptions,
+}
+
+impl Parameters {
+    pub(super) fn caster(&self) -> &CasterChoice {
+        self.casters.first().unwrap_or(&CasterChoice::Host)
+    }
 }

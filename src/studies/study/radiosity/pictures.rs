@@ -44,7 +44,7 @@ pub(super) struct IterationPicture {
 }
 
 /// Computes the auto-exposure: surfaces that do not emit at 18 % grey on average over their area.
-pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[f64; 3]]) -> f64 {
+pub(in crate::study) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[f64; 3]]) -> f64 {
     let (mut light, mut area) = (0.0, 0.0);
     for (i, (e, b)) in emittance.iter().zip(radiosity).enumerate() {
         if e.iter().all(|&e| e == 0.0) {

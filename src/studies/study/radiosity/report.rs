@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::conclusion::{conclude, least_accurate};
+use super::leaks;
 use super::pictures::IterationPicture;
 use super::tables::{Tables, tables};
 use super::{MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow};
@@ -55,6 +56,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     found.heading("The room");
     found.table(FoundTable::from(room).field("room"));
     found.pictures(pictures);
+    leaks::report(&outcome.leaks, &mut found);
     if !errors.is_empty() {
         found.heading("Darker and brighter than the direct solution");
         found.pictures(errors);

@@ -11,6 +11,7 @@ use crate::radiosity::Patches;
 use crate::radiosity::form_factor::FormFactorRows;
 use crate::split::{Computed, Concatenate, SplitRun};
 use crate::study::StudyError;
+use crate::study::caster::CasterChoice;
 
 /// Results of consecutive items. An item is a share of the rows of form factors and of the settings of the sweep.
 ///
@@ -70,7 +71,7 @@ fn rows_of_pairs(
 ) -> Result<Vec<Vec<f64>>, StudyError> {
     let count = patches.list().len();
     let is_wanted = |patch: usize| pairs.contains(&patch.min(count - 1 - patch));
-    let rows = room::rows(patches, parameters, &is_wanted, progress)?;
+    let (rows, _) = room::rows(patches, parameters, &CasterChoice::Host, &is_wanted, progress)?;
     Ok(patches_of(pairs.clone(), count).map(|patch| rows.row(patch).to_vec()).collect())
 }
 
@@ -82,7 +83,7 @@ impl RadiosityItems {
         parameters: &Parameters,
         progress: &mut ProgressFn<'_>,
     ) -> Result<FormFactorRows, StudyError> {
-        let mut rows = room::rows(patches, parameters, &|_| false, progress)?;
+        let (mut rows, _) = room::rows(patches, parameters, &CasterChoice::Host, &|_| false, progress)?;
         let count = patches.list().len();
         for (patch, values) in patches_of(0..count.div_ceil(2), count).zip(&self.rows) {
             rows.set_row(patch, values)?;

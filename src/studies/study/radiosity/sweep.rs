@@ -102,7 +102,7 @@ impl<'a> Sweep<'a> {
             let require = |fit: Fit| fit.require(&self.parameters.profile, how.packing, patches.list().len());
             Fit::of(&self.parameters.profile, how.packing).and_then(require).map_err(no_card)?;
         }
-        let factors = room::find(&patches, self.parameters, progress)?.factors;
+        let factors = room::find(&patches, self.parameters, self.parameters.caster(), progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
         let reference = system.solve(Solver::Direct, &self.parameters.options.stopping(), None)?.radiosity();
         Ok((system, reference))

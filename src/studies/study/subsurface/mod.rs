@@ -5,7 +5,7 @@ mod all_pairs;
 mod angles;
 mod bands;
 mod conclusion;
-mod environment;
+pub(in crate::study) mod environment;
 mod error;
 mod gather_way;
 mod model;
@@ -76,8 +76,8 @@ fn run(
     let atlas = Atlas::new(&parameters.mesh, parameters.options.side).map_err(no_atlas)?;
     let surface = SurfaceMoments::new(&atlas, parameters.options.mm_per_unit)?;
     let lengths = ModelLengths::of(&atlas, parameters, &dipoles);
-    let irradiance = match &parameters.lighting {
-        Lighting::Lights(lights) => irradiance(&atlas, lights, eta),
+    let (irradiance, cast) = match &parameters.lighting {
+        Lighting::Lights(lights) => (irradiance(&atlas, lights, eta), None),
         Lighting::Environment(light) => {
             progress("light of the environment", 0, 1);
             environment::irradiance(&atlas, parameters, light)?
@@ -127,5 +127,5 @@ fn run(
         rows.push(way::run(&scene, way, (&links, at == 0), progress)?);
         last = Some((way, links));
     }
-    Ok(Computed::Whole(SubsurfaceOutcome { lengths, truth, rows, atlas, dipoles, irradiance }))
+    Ok(Computed::Whole(SubsurfaceOutcome { lengths, truth, rows, atlas, dipoles, irradiance, cast }))
 }

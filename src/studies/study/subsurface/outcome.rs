@@ -3,6 +3,7 @@
 use super::model::ModelLengths;
 use super::way::WayRow;
 use crate::atlas::Atlas;
+use crate::study::caster::CastRecord;
 use crate::subsurface::Dipole;
 
 /// Results of a study.
@@ -16,6 +17,8 @@ pub(super) struct SubsurfaceOutcome {
     pub(super) dipoles: [Dipole; 3],
     /// E of equation 8 per texel, by the host.
     pub(super) irradiance: Vec<[f64; 3]>,
+    /// What the Ray Engine did, if it cast shadow rays.
+    pub(super) cast: Option<CastRecord>,
     /// Radiosities over all pairs, in f64, per texel, row by row, if requested.
     pub(super) truth: Option<Vec<[f64; 3]>>,
     /// A row per way.

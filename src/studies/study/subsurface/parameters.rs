@@ -6,6 +6,7 @@ use refsim::machine::Executor;
 use super::{GatherWay, SubsurfaceOptions};
 use crate::geom::Mesh;
 use crate::scene::Camera;
+use crate::study::caster::CasterChoice;
 use crate::subsurface::Material;
 use crate::subsurface::on_card::Light;
 use crate::transfer::light::CubeLight;
@@ -29,6 +30,8 @@ pub struct Parameters {
     pub switches: Vec<(String, String)>,
     /// The executor of the card.
     pub executor: Executor,
+    /// What casts the shadow rays of an environment map.
+    pub caster: CasterChoice,
     /// The camera of the pictures.
     pub camera: Camera,
     /// The options.

@@ -18,6 +18,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
         found.keep_layers("whole", row.picture.clone());
     }
     conclude(&mut found, parameters, outcome);
+    outcome.cast.iter().for_each(|cast| cast.report(&mut found));
     let exposure = pictures::exposure(outcome)?;
     if let Some(row) = outcome.rows.first() {
         found.pictures(pictures::lead(row, exposure)?);

@@ -3,6 +3,7 @@
 use clap::Parser;
 use crossbar_ground::scene::{Camera, Scene};
 use crossbar_studies::study::Study as _;
+use crossbar_studies::study::caster::CasterChoice;
 use crossbar_studies::study::radiosity::{Parameters, RadiosityOptions};
 use crossbar_systems::radiosity::{Patches, rooms};
 use refsim::device::Profile;
@@ -29,6 +30,7 @@ fn study(brightness: f32, options: &str) -> Parameters {
         profile: Profile::named("nv35").expect("a card"),
         switches: Vec::new(),
         executor: ExecutorKind::Batch.into(),
+        casters: vec![CasterChoice::Host],
         scene,
         options,
     }

@@ -6,6 +6,7 @@ use clap::Parser;
 use crossbar_base::geom::Mesh;
 use crossbar_ground::atlas::Atlas;
 use crossbar_ground::scene::Camera;
+use crossbar_studies::study::caster::CasterChoice;
 use crossbar_studies::study::subsurface::{Lighting, Parameters, SubsurfaceOptions};
 use crossbar_systems::subsurface::on_card::Light;
 use crossbar_systems::subsurface::{irradiance, materials};
@@ -36,6 +37,7 @@ fn study(mesh: &Mesh, lighting: Lighting, options: &str) -> Parameters {
         profile: Profile::named("nv35").expect("a card"),
         switches: Vec::new(),
         executor: ExecutorKind::Batch.into(),
+        caster: CasterChoice::Host,
         camera: Camera::new([0.5, -4.0, 0.5], [0.5; 3], [0.0, 0.0, 1.0], 0.3, 16, 16).expect("a camera"),
         options,
     }

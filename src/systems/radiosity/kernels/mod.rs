@@ -15,8 +15,6 @@ kernels! {
     RGB_NEXT_HALF "rgb_next_half.fp"
     LUMINANCE_FIRST_HALF "luminance_first_half.fp"
     LUMINANCE_NEXT_HALF "luminance_next_half.fp"
-    PRODUCT_FIRST "product_first.fp"
-    PRODUCT_NEXT "product_next.fp"
 }
 
 kernels! {

@@ -8,7 +8,6 @@
 mod cycle;
 mod fit;
 mod layer;
-mod product;
 mod programs;
 mod solve;
 
@@ -20,7 +19,6 @@ use refsim::machine::{Executor, Machine, TextureId};
 
 pub use cycle::Cycle;
 pub use fit::{Fit, Storage};
-pub use product::{product, product_block};
 pub use programs::PassProgram;
 pub use solve::{CardOptions, CardSolution, Iteration, to_f64};
 

@@ -6,32 +6,29 @@ use refsim::texture::TexelFormat;
 
 use super::run::{SystemInput, SystemRun, bunny, cameras};
 use crate::card::MeshView;
-use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
-use crate::cpca::transfer::{Bounces, Incident};
+use crate::cpca::on_card::PrtCardOptions;
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
 use crate::study::StudyError;
-use crate::study::prt::{ExitRadiance, Precomputation, no_cpca_card};
-use crate::transfer::brdf::{Brdf, ExitBasis};
+use crate::study::caster::CasterChoice;
+use crate::study::glossy_model::{GlossyModel, GlossyTransfer};
+use crate::transfer::brdf::Brdf;
 use crate::transfer::{Tangents, Vertices};
 
-/// Order of the light: 9 coefficients.
-const ORDER: usize = 3;
-/// Exit functions: harmonics up to this order.
-const EXIT_ORDER: usize = 4;
-/// Clusters, and their vectors besides the mean.
-const CLUSTERS: usize = 6;
-const VECTORS: usize = 6;
-/// Exponent of the Phong lobe.
-const EXPONENT: f64 = 8.0;
+/// Light of 9 coefficients, exit radiance of 16, a broad lobe.
+const TRANSFER: GlossyTransfer = GlossyTransfer {
+    brdf: Brdf::Phong { albedo: 0.4, specular: 0.4, exponent: 8.0 },
+    order: 3,
+    exit_order: 4,
+    clusters: 6,
+    vectors: 6,
+    iterations: 4,
+};
 
 /// Glossy bunny that shadows itself.
 #[derive(Debug)]
 pub(super) struct GlossyBunny {
-    vertices: Vertices,
-    clustering: Clustering,
-    basis: ExitBasis,
+    model: GlossyModel,
     light: HarmonicLight,
     cameras: [Camera; 2],
 }
@@ -40,32 +37,9 @@ impl GlossyBunny {
     pub(super) fn new() -> Result<Self, StudyError> {
         let mesh = bunny();
         let vertices = Vertices::new(&mesh, Tangents::Any)?;
-        let basis = ExitBasis::of_order(EXIT_ORDER);
-        let brdf = Brdf::Phong { albedo: 0.4, specular: 0.4, exponent: EXPONENT };
-        let exit = ExitRadiance::Glossy { basis: basis.clone(), least_squares: true, incident: Incident::Directions };
-        let transfer = Precomputation {
-            mesh: &mesh,
-            vertices: &vertices,
-            channels: vec![(0, vec![brdf])],
-            exit,
-            order: ORDER,
-            degree: 24,
-            bounces: Bounces::Count(0),
-            scatterer: None,
-        };
-        let file = transfer.run(&mut |_, _, _| ())?.file;
-        let signal = file.transfer.expect("transfer that was computed");
-        let options = CpcaOptions {
-            clusters: CLUSTERS,
-            vectors: VECTORS,
-            vq_iterations: 4,
-            iterations: 4,
-            method: CpcaMethod::Iterative,
-            form: CpcaForm::Affine,
-            start: StartPoints::Seed(1),
-        };
-        let clustering = compress(&signal, &options, |_| ()).expect("fewer clusters than vertices").clustering;
-        Ok(Self { vertices, clustering, basis, light: HarmonicLight::red_and_blue(ORDER), cameras: cameras(&mesh) })
+        let (transfer, _) = TRANSFER.precompute((&mesh, &vertices), &CasterChoice::Host, &mut |_, _, _| ())?;
+        let (model, light) = (TRANSFER.model(vertices, transfer), HarmonicLight::red_and_blue(TRANSFER.order));
+        Ok(Self { model, light, cameras: cameras(&mesh) })
     }
 }
 
@@ -75,15 +49,10 @@ impl SystemRun for GlossyBunny {
     }
 
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
-        let Self { vertices, clustering, basis, .. } = self;
-        let transfer =
-            CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: VECTORS, superclusters: None };
-        let options = PrtCardOptions::default();
-        let card = PrtCard::new(profile.clone(), executor.clone(), transfer, &options);
         // The paper's card adds clusters up by blending, which it cannot do with floats.
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Bgra8 };
-        let texels = card.and_then(|mut card| card.view_texels(&self.light, &view)).map_err(no_cpca_card)?;
+        let colors = self.model.draw(&self.light, (profile, executor), &view, &PrtCardOptions::default())?;
         // Codes of 8 bits, which were read in single precision.
-        Ok(texels.colors().into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
+        Ok(colors.into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
     }
 }

@@ -7,10 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
-use crate::geom::exact::Sides;
 use crate::split::{Computed, Concatenate, SplitRun};
 use crate::study::{ProgressFn, StudyError};
-use crate::tracer::HostTracer;
+use crate::tracer::Caster;
 use crate::transfer::Vertices;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
@@ -67,10 +66,12 @@ fn parted(range: &Range<usize>, at: usize) -> [Range<usize>; 2] {
 }
 
 impl SightOfModel<'_> {
-    /// Casts the rays: the model's, then the ground's; or those of a part. Fails with
+    /// Casts the rays by a caster of the scene that sees both sides: the model's, then the ground's; or those of a part.
+    /// Fails with
     /// [`InputError`](crate::error::InputError), in a study's.
     pub fn run(
         self,
+        caster: &mut dyn Caster,
         split: &SplitRun,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Computed<(FoundSight, Option<FoundSight>)>, StudyError> {
@@ -78,11 +79,10 @@ impl SightOfModel<'_> {
         let joined = self.ground.map(|ground| self.vertices.joined(ground));
         let vertices = joined.as_ref().unwrap_or(self.vertices);
         let found = split.compute("vertices", vertices.len(), |range| {
-            let mut tracer = HostTracer::new(self.scene, Sides::Both);
             let mut maps = |of: Range<usize>| {
                 let of: Vec<u32> = of.map(|vertex| vertex as u32).collect();
                 let mut done = |done: usize, of: usize| progress("visibility", done as u64, of as u64);
-                VisibilityMaps::trace(vertices, &of, &mut tracer, &mut done)
+                VisibilityMaps::trace(vertices, &of, caster, &mut done)
             };
             let [model, ground] = parted(&range, count);
             Ok::<_, StudyError>(SightRange { of_model: count, model: maps(model)?, ground: maps(ground)? })

@@ -1,0 +1,360 @@
+//! `--caster`: the ray caster of a command, the host's octree or the Ray Engine on a card.
+
+use std::str::FromStr;
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::num::Format;
+use refsim::timing::replay::{Options, replay};
+use refsim::timing::{Level, Model, Picoseconds};
+use serde_json::json;
+
+use crate::geom::exact::{NearestHit, Sides, Tracer};
+use crate::geom::{Hit, Mesh, Ray};
+use crate::options::one_of::{OneOf, one_of};
+use crate::ray_engine::EngineError;
+use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine, Readback};
+use crate::report::Findings;
+use crate::report::digits::{Quantity, count, shown};
+use crate::study::StudyError;
+use crate::study::configuration::Configuration;
+use crate::tracer::octree::OctreeParameters;
+use crate::tracer::{CastError, Caster, HostTracer, is_occluder};
+
+/// Rays whose exact hits are in memory at once.
+const JUDGED_AT_ONCE: usize = 1 << 16;
+
+/// Options of a command's ray caster; all but `--caster` are for the Ray Engine (its sections 5.2, 6.2 and 6.3).
+#[derive(Clone, Debug, Default, clap::Args)]
+#[command(next_help_heading = "Ray caster")]
+pub struct CasterOptions {
+    /// What finds hits of rays [default: host; of `intersect`, exact arithmetic or the card of --device]
+    #[arg(long, value_name = "C", value_parser = casters())]
+    caster: Option<bool>,
+
+    /// Card of the Ray Engine [default: ideal-fp32]
+    #[arg(long, value_name = "D")]
+    caster_device: Option<String>,
+
+    /// Number format of that card's programs, in place of its own; `radiosity` compares several
+    #[arg(long, value_name = "F")]
+    caster_format: Vec<String>,
+
+    /// Octree of the engine: cells of more triangles are divided, up to a depth of 20 [default: 8,10]
+    #[arg(long, value_name = "TRIANGLES,DEPTH")]
+    octree: Option<CountPair>,
+
+    /// Least and most triangles of a cell that the card tests [default: 5,15]
+    #[arg(long, value_name = "LEAST,MOST")]
+    pass_triangles: Option<CountPair>,
+
+    /// Rays of a pass on the card; the host tests rays of cells that fewer meet [default: 64]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pass_rays: Option<u32>,
+
+    /// When results of a pass are taken: sync (the host waits), async:N (N passes in flight), free (passes take no
+    /// time) [default: sync]
+    #[arg(long, value_name = "MODE", value_parser = readback)]
+    readback: Option<Readback>,
+}
+
+/// The casters, for `--caster`: true for the engine.
+fn casters() -> OneOf<bool> {
+    let host = ("host", "The host's octree, in single precision", false);
+    one_of([host, ("engine", "The Ray Engine, host and card together", true)])
+}
+
+fn readback(text: &str) -> Result<Readback, String> {
+    let flying = text.strip_prefix("async:").and_then(|passes| passes.parse().ok()).filter(|passes| *passes > 0);
+    match (text, flying) {
+        ("sync", _) => Ok(Readback::Synchronous),
+        ("free", _) => Ok(Readback::InfinitelyFast),
+        (_, Some(passes)) => Ok(Readback::Asynchronous { passes }),
+        _ => Err(format!("expected sync, async:N with N of at least 1, or free; found `{text}`")),
+    }
+}
+
+/// Two numbers, the first at least 1.
+#[derive(Clone, Copy, Debug)]
+struct CountPair([u32; 2]);
+
+impl FromStr for CountPair {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let pair = text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
+        pair.filter(|pair| pair[0] > 0)
+            .map(Self)
+            .ok_or_else(|| format!("expected two numbers as in 8,10; found `{text}`"))
+    }
+}
+
+impl CasterOptions {
+    /// Returns `true` if a caster is named.
+    pub fn is_named(&self) -> bool {
+        self.caster.is_some()
+    }
+
+    /// Returns `true` for `--caster engine`.
+    pub fn is_engine(&self) -> bool {
+        self.caster == Some(true)
+    }
+
+    /// The caster; the engine's programs are run by `executor`.
+    ///
+    /// # Errors
+    /// For options of the engine without it, several formats, an unknown device or format, and numbers out of range.
+    pub fn choose(&self, executor: Executor) -> Result<CasterChoice, StudyError> {
+        match &mut self.choose_each(executor)?[..] {
+            [one] => Ok(std::mem::take(one)),
+            _ => Err(StudyError::usage("expected one `--caster-format` here, found several", "name one")),
+        }
+    }
+
+    /// A caster for each `--caster-format`.
+    ///
+    /// # Errors
+    /// As [`Self::choose`], except for several formats.
+    pub fn choose_each(&self, executor: Executor) -> Result<Vec<CasterChoice>, StudyError> {
+        let Self { caster_device, caster_format, octree, pass_triangles, pass_rays, readback, .. } = self;
+        if !self.is_engine() {
+            let given = [
+                ("--caster-device", caster_device.is_some()),
+                ("--caster-format", !caster_format.is_empty()),
+                ("--octree", octree.is_some()),
+                ("--pass-triangles", pass_triangles.is_some()),
+                ("--pass-rays", pass_rays.is_some()),
+                ("--readback", readback.is_some()),
+            ];
+            return match given.into_iter().find(|(_, given)| *given) {
+                Some((option, _)) => {
+                    let help = "add `--caster engine`, or leave it out";
+                    Err(StudyError::usage(format!("`{option}` is for the Ray Engine"), help))
+                }
+                None => Ok(vec![CasterChoice::Host]),
+            };
+        }
+        let mut parameters = EngineParameters::default();
+        if let &Some(CountPair([most_triangles, most_depth])) = octree {
+            parameters.octree = OctreeParameters { most_triangles: most_triangles as usize, most_depth };
+        }
+        if let &Some(CountPair([least, most])) = pass_triangles {
+            parameters.triangles = least as usize..=most as usize;
+        }
+        if parameters.octree.most_depth > 20 || parameters.triangles.is_empty() {
+            let what = "expected a depth of `--octree` of at most 20, and LEAST of `--pass-triangles` not above MOST";
+            return Err(StudyError::usage(what, "as in `--octree 8,10 --pass-triangles 5,15`"));
+        }
+        parameters.rays = pass_rays.map_or(parameters.rays, |rays| rays as usize);
+        parameters.readback = readback.unwrap_or_default();
+        let engine = |card: Configuration| {
+            let (executor, parameters) = (executor.clone(), parameters.clone());
+            CasterChoice::Engine(Box::new(EngineChoice { card, executor, parameters }))
+        };
+        let device = caster_device.as_deref();
+        if caster_format.is_empty() {
+            return Ok(vec![engine(Configuration::device(device.unwrap_or("ideal-fp32"))?)]);
+        }
+        let of_format = |format: &String| match device {
+            Some(device) => Ok(engine(Configuration::device_in_format(device, format)?)),
+            None => Ok(engine(Configuration::format(format)?)),
+        };
+        caster_format.iter().map(of_format).collect()
+    }
+}
+
+/// A ray caster, to be built over a mesh.
+#[derive(Clone, Debug, Default)]
+pub enum CasterChoice {
+    /// The host's octree, in single precision.
+    #[default]
+    Host,
+    /// The Ray Engine.
+    Engine(Box<EngineChoice>),
+}
+
+/// A Ray Engine, to be built over a mesh.
+#[derive(Clone, Debug)]
+pub struct EngineChoice {
+    /// Its card.
+    pub card: Configuration,
+    /// Executor of the card's programs.
+    pub executor: Executor,
+    /// Scheduling; faces are those of [`CasterChoice::open`].
+    pub parameters: EngineParameters,
+}
+
+impl CasterChoice {
+    /// The Ray Engine with default scheduling on a card.
+    pub fn engine(card: Configuration, executor: Executor) -> Self {
+        Self::Engine(Box::new(EngineChoice { card, executor, parameters: EngineParameters::default() }))
+    }
+
+    /// Profile of the engine's card; `None` for the host.
+    pub fn profile(&self) -> Option<&Profile> {
+        match self {
+            Self::Host => None,
+            Self::Engine(choice) => Some(&choice.card.profile),
+        }
+    }
+
+    /// Name: `host`, or that of the engine's card and format.
+    pub fn label(&self) -> &str {
+        match self {
+            Self::Host => "host",
+            Self::Engine(choice) => &choice.card.label,
+        }
+    }
+
+    /// Number format in which hits are computed.
+    pub fn format(&self) -> Format {
+        self.profile().map_or(Format::FP32, |profile| profile.rules.format)
+    }
+
+    /// Builds the structures over a mesh: the octree, and for the engine its GPU cells and the card.
+    ///
+    /// # Errors
+    /// If the card runs no intersection program.
+    pub fn open<'a>(&self, mesh: &'a Mesh, sides: Sides) -> Result<OpenCaster<'a>, EngineError> {
+        Ok(OpenCaster(match self {
+            Self::Host => OpenKind::Host(Box::new(HostTracer::new(mesh, sides))),
+            Self::Engine(choice) => {
+                let EngineChoice { card, executor, parameters } = &**choice;
+                let (rates, label) = (Model::new(Level::Pipeline, &card.profile).ok(), card.label.clone());
+                let parameters = EngineParameters { sides, record: rates.is_some(), ..parameters.clone() };
+                let engine = RayEngine::new(mesh, card.profile.clone(), executor.clone(), parameters)?;
+                let card = rates.is_some().then_some(Picoseconds::ZERO);
+                let record = CastRecord { label, counts: EngineCounts::default(), card, differing: None };
+                OpenKind::Engine(Box::new(OpenEngine { engine, rates, sides, exact: None, record }))
+            }
+        }))
+    }
+
+    /// The same; answers of the engine are compared with exact arithmetic: see [`CastRecord::differing`].
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn open_judged<'a>(&self, mesh: &'a Mesh, sides: Sides) -> Result<OpenCaster<'a>, EngineError> {
+        let mut open = self.open(mesh, sides)?;
+        if let OpenKind::Engine(engine) = &mut open.0 {
+            engine.exact = Some(Tracer::new(mesh));
+            engine.record.differing = Some(0);
+        }
+        Ok(open)
+    }
+}
+
+/// A caster with its structures.
+pub struct OpenCaster<'a>(OpenKind<'a>);
+
+enum OpenKind<'a> {
+    Host(Box<HostTracer>),
+    Engine(Box<OpenEngine<'a>>),
+}
+
+struct OpenEngine<'a> {
+    engine: RayEngine<'a>,
+    rates: Option<Model>,
+    sides: Sides,
+    exact: Option<Tracer<'a>>,
+    record: CastRecord,
+}
+
+/// What the Ray Engine did.
+#[derive(Clone, Debug)]
+pub struct CastRecord {
+    /// Name of the card and its format.
+    pub label: String,
+    /// Rays, passes and tests.
+    pub counts: EngineCounts,
+    /// Modelled time of the passes without the host's tests; `None` for cards without rates.
+    pub card: Option<Picoseconds>,
+    /// Answers other than those of exact arithmetic: another triangle or none; of shadow rays, lit or not. `None` if
+    /// nobody compared.
+    pub differing: Option<u64>,
+}
+
+impl OpenCaster<'_> {
+    /// What the engine did so far; `None` for the host.
+    pub fn record(&self) -> Option<CastRecord> {
+        match &self.0 {
+            OpenKind::Host(_) => None,
+            OpenKind::Engine(open) => Some(CastRecord { counts: open.engine.counts(), ..open.record.clone() }),
+        }
+    }
+}
+
+impl OpenEngine<'_> {
+    fn cast(
+        &mut self,
+        rays: &[Ray],
+        differs: impl Fn(Option<Hit>, Option<NearestHit>) -> bool,
+    ) -> Result<Vec<Option<Hit>>, CastError> {
+        let failed = |error: Box<dyn std::error::Error + Send + Sync>| CastError(error);
+        let hits = self.engine.trace(rays).map_err(|error| failed(error.into()))?;
+        let log = self.engine.take_log();
+        if let (Some(rates), Some(card)) = (&self.rates, &mut self.record.card) {
+            let replayed = replay(&log, rates, &Options::of(Level::Pipeline)).map_err(|error| failed(error.into()))?;
+            *card += replayed.timeline.makespan();
+        }
+        if let (Some(exact), Some(differing)) = (&self.exact, &mut self.record.differing) {
+            for (rays, hits) in rays.chunks(JUDGED_AT_ONCE).zip(hits.chunks(JUDGED_AT_ONCE)) {
+                let truth = exact.nearest_all(rays, self.sides);
+                *differing +=
+                    hits.iter().zip(truth).filter(|(hit, truth)| differs(**hit, truth.clone())).count() as u64;
+            }
+        }
+        Ok(hits)
+    }
+}
+
+impl Caster for OpenCaster<'_> {
+    fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
+        match &mut self.0 {
+            OpenKind::Host(host) => host.cast(rays),
+            OpenKind::Engine(open) => open.cast(rays, |hit, truth| match (hit, truth) {
+                (Some(hit), Some(truth)) => !truth.ties.contains(&hit.triangle),
+                (hit, truth) => hit.is_some() != truth.is_some(),
+            }),
+        }
+    }
+
+    fn occluded(&mut self, rays: &[Ray]) -> Result<Vec<bool>, CastError> {
+        match &mut self.0 {
+            OpenKind::Host(host) => host.occluded(rays),
+            OpenKind::Engine(open) => {
+                let blocked = |truth: Option<NearestHit>| truth.is_some_and(|truth| truth.t.to_f64() < 1.0);
+                let hits = open.cast(rays, |hit, truth| is_occluder(hit) != blocked(truth))?;
+                Ok(hits.into_iter().map(is_occluder).collect())
+            }
+        }
+    }
+}
+
+impl CastRecord {
+    /// Adds the record to findings.
+    pub fn report(&self, found: &mut Findings) {
+        let Self { counts, card, differing, .. } = self;
+        let card = card.map(Picoseconds::seconds);
+        found.field(
+            "engine",
+            json!({ "rays": counts.rays, "rays_on_card": counts.rays_on_card, "passes": counts.passes,
+                    "pass_rays": counts.pass_rays, "pass_tests": counts.pass_tests, "host_tests": counts.host_tests,
+                    "rays_differing": differing, "card_s": card }),
+        );
+        found.print(format!(
+            "engine: {} % of rays met the card, in {} passes with {} tests; {} tests on the host",
+            shown(100.0 * counts.share_on_card(), Quantity::Percent),
+            count(counts.passes),
+            count(counts.pass_tests),
+            count(counts.host_tests)
+        ));
+        if let Some(differing) = differing {
+            let [differing, rays] = [*differing, counts.rays].map(count);
+            found.print(format!("engine: {differing} of {rays} rays differ from exact arithmetic"));
+        }
+        if let Some(card) = card {
+            found.print(format!("engine: the passes take {} s, modelled", shown(card, Quantity::Measured)));
+        }
+    }
+}

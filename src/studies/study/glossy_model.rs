@@ -1,0 +1,128 @@
+//! A glossy model by clustered principal components, drawn by a card: small inputs of studies.
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::timing::Picoseconds;
+
+use crate::card::MeshView;
+use crate::card::frame_time::{FrameTimeError, frame_time};
+use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crate::cpca::on_card::time::host_of_section_7;
+use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
+use crate::cpca::transfer::{Bounces, Incident};
+use crate::geom::Mesh;
+use crate::geom::exact::Sides;
+use crate::sphere::HarmonicLight;
+use crate::split::SplitRun;
+use crate::study::caster::{CastRecord, CasterChoice};
+use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, no_cpca_card};
+use crate::study::{ProgressFn, StudyError};
+use crate::transfer::Vertices;
+use crate::transfer::brdf::{Brdf, ExitBasis};
+
+/// Colors of pixels, with the modelled time of the frame; `None` for cards without rates.
+pub(super) type Drawn = (Vec<[f64; 3]>, Option<Picoseconds>);
+
+/// How a model's transfer is computed and compressed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GlossyTransfer {
+    pub(super) brdf: Brdf,
+    /// Orders of light and of exit radiance.
+    pub(super) order: usize,
+    pub(super) exit_order: usize,
+    /// Clusters, and their vectors besides the mean.
+    pub(super) clusters: usize,
+    pub(super) vectors: usize,
+    /// Iterations of the clustering, for each number of vectors.
+    pub(super) iterations: usize,
+}
+
+impl GlossyTransfer {
+    /// The transfer by rays of a caster, without compression.
+    pub(super) fn precompute(
+        &self,
+        (mesh, vertices): (&Mesh, &Vertices),
+        caster: &CasterChoice,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<(Precomputed, Option<CastRecord>), StudyError> {
+        let (basis, incident) = (ExitBasis::of_order(self.exit_order), Incident::Directions);
+        let precomputation = Precomputation {
+            mesh,
+            vertices,
+            channels: vec![(0, vec![self.brdf])],
+            exit: ExitRadiance::Glossy { basis, least_squares: true, incident },
+            order: self.order,
+            degree: 24,
+            bounces: Bounces::Count(0),
+            scatterer: None,
+        };
+        let mut open = caster.open_judged(mesh, Sides::Both)?;
+        let found = precomputation.run_split(&mut open, &SplitRun::Whole, progress)?.whole();
+        Ok((found, open.record()))
+    }
+
+    /// The model with its transfer compressed.
+    pub(super) fn model(&self, vertices: Vertices, transfer: Precomputed) -> GlossyModel {
+        let signal = transfer.file.transfer.expect("transfer that was computed");
+        let options = CpcaOptions {
+            clusters: self.clusters.min(vertices.len() / 4),
+            vectors: self.vectors,
+            vq_iterations: self.iterations,
+            iterations: self.iterations,
+            method: CpcaMethod::Iterative,
+            form: CpcaForm::Affine,
+            start: StartPoints::Seed(1),
+        };
+        let clustering = compress(&signal, &options, |_| ()).expect("fewer clusters than vertices").clustering;
+        GlossyModel { vertices, clustering, basis: ExitBasis::of_order(self.exit_order), vectors: self.vectors }
+    }
+}
+
+/// A glossy model, ready to be drawn.
+#[derive(Debug)]
+pub(super) struct GlossyModel {
+    vertices: Vertices,
+    clustering: Clustering,
+    basis: ExitBasis,
+    vectors: usize,
+}
+
+impl GlossyModel {
+    fn card<'a>(
+        &'a self,
+        profile: &Profile,
+        executor: &Executor,
+        options: &PrtCardOptions,
+    ) -> Result<PrtCard<'a>, StudyError> {
+        let Self { vertices, clustering, basis, vectors } = self;
+        let (channels, vectors, superclusters) = (1, *vectors, None);
+        let transfer = CompressedTransfer { vertices, clustering, basis, channels, vectors, superclusters };
+        PrtCard::new(profile.clone(), executor.clone(), transfer, options).map_err(no_cpca_card)
+    }
+
+    /// Colors of pixels.
+    pub(super) fn draw(
+        &self,
+        light: &HarmonicLight,
+        (profile, executor): (&Profile, &Executor),
+        view: &MeshView,
+        options: &PrtCardOptions,
+    ) -> Result<Vec<[f64; 3]>, StudyError> {
+        let mut card = self.card(profile, executor, options)?;
+        Ok(card.view_texels(light, view).map_err(no_cpca_card)?.colors())
+    }
+
+    /// The same with the time of a frame.
+    pub(super) fn timed(
+        &self,
+        light: &HarmonicLight,
+        (profile, executor): (&Profile, &Executor),
+        view: &MeshView,
+        options: &PrtCardOptions,
+    ) -> Result<Drawn, StudyError> {
+        let mut card = self.card(profile, executor, options)?;
+        let (texels, log) = card.logged_view(light, view).map_err(no_cpca_card)?;
+        let host = host_of_section_7().map_err(FrameTimeError::from)?;
+        Ok((texels.colors(), frame_time(profile, &log, &host).ok().map(|time| time.frame)))
+    }
+}

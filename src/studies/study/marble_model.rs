@@ -1,0 +1,76 @@
+//! A model of marble by subsurface scattering, drawn by a card: small inputs of studies.
+
+use std::fmt;
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
+
+use super::glossy_model::Drawn;
+use crate::atlas::Atlas;
+use crate::card::{CardError, MeshView};
+use crate::study::StudyError;
+use crate::study::subsurface::{no_atlas, no_card};
+use crate::subsurface::links::{LinkChoice, Links, MeanWeighting, SCALAR_CHANNEL};
+use crate::subsurface::multipole::SurfaceMoments;
+use crate::subsurface::on_card::{
+    CardModel, FloatTexels, LinkTextures, MapFormat, SubsurfaceCard, SubsurfaceCardOptions, View, pass_times,
+};
+use crate::subsurface::{Dipole, materials};
+
+/// Largest relative error of factors.
+const TOLERANCE: f64 = 0.05;
+
+/// A model of marble, ready to be lit and drawn.
+pub(super) struct MarbleModel {
+    model: CardModel,
+    textures: LinkTextures,
+    /// Index of refraction.
+    pub(super) eta: f64,
+}
+
+impl fmt::Debug for MarbleModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("MarbleModel").field("model", &self.model).finish_non_exhaustive()
+    }
+}
+
+impl MarbleModel {
+    /// Over an atlas, of so many mm per unit; a factor per color channel and link, or green's for all.
+    pub(super) fn new(atlas: &Atlas, mm_per_unit: f64, choice: LinkChoice, rgb: bool) -> Result<Self, StudyError> {
+        let material = materials::named("marble").expect("a published medium").material();
+        let [red, green, blue] = material.channels;
+        let dipole = |channel| Dipole::new(channel, material.eta);
+        let dipoles = [dipole(red)?, dipole(green)?, dipole(blue)?];
+        let surface = SurfaceMoments::new(atlas, mm_per_unit)?;
+        let of_links = if rgb { &dipoles[..] } else { &dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] };
+        let links = Links::new(&surface, of_links, choice, TOLERANCE, &|_, _| {})?;
+        let textures = LinkTextures::new(&links, &surface, MeanWeighting::Area);
+        Ok(Self { model: CardModel::new(atlas), textures, eta: material.eta })
+    }
+
+    /// The atlas of a mesh.
+    pub(super) fn atlas(mesh: &crate::geom::Mesh, side: u32) -> Result<Atlas, StudyError> {
+        Atlas::new(mesh, side).map_err(no_atlas)
+    }
+
+    /// Colors of pixels under light, with textures of these floats.
+    pub(super) fn draw(
+        &self,
+        light: impl FnOnce(&mut SubsurfaceCard) -> Result<(), CardError>,
+        (profile, executor): (&Profile, &Executor),
+        view: MeshView,
+        texels: FloatTexels,
+    ) -> Result<Drawn, StudyError> {
+        let map = if texels == FloatTexels::Fp32 { MapFormat::Fp32 } else { MapFormat::Fp16 };
+        let options =
+            SubsurfaceCardOptions { map, links: texels, scattered: texels, ..SubsurfaceCardOptions::default() };
+        let (model, executor) = (self.model.clone(), executor.clone());
+        let card = SubsurfaceCard::new(profile.clone(), executor, model, &self.textures, self.eta, options);
+        let mut card = card.map_err(no_card)?;
+        card.record(true);
+        light(&mut card).map_err(no_card)?;
+        let colors = card.view_texels(&View::scattered(view)).map_err(no_card)?.colors();
+        let times = pass_times(profile, &card.take_log()).ok();
+        Ok((colors, times.map(|times| times.iter().map(|pass| pass.time).sum())))
+    }
+}

@@ -1,0 +1,90 @@
+//! Rays of the Ray Engine in place of the host's: what leaks into form factors, and into the room.
+
+use super::room::{self, Room};
+use super::{Parameters, ProgressFn, SolutionError};
+use crate::picture::metrics::ErrorSums;
+use crate::radiosity::solve::Solver;
+use crate::radiosity::{FormFactors, Patches, System};
+use crate::report::words::{counted, percent};
+use crate::report::{Cell, Findings, FoundTable, Table};
+use crate::study::StudyError;
+use crate::study::caster::{CastRecord, CasterChoice};
+
+/// A room whose rays the engine cast, against the same room by the host's rays.
+#[derive(Clone, Debug)]
+pub(super) struct LeakRow {
+    pub(super) cast: CastRecord,
+    /// Sums of absolute differences of a patch's form factors: the share of its light that goes elsewhere.
+    pub(super) factors: ErrorSums,
+    /// Error of the direct solution.
+    pub(super) error: SolutionError,
+}
+
+/// A row per engine; `first` is the room of the first caster.
+pub(super) fn rows(
+    parameters: &Parameters,
+    patches: &Patches,
+    first: &Room,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Vec<LeakRow>, StudyError> {
+    let Some(cast) = &first.cast else { return Ok(Vec::new()) };
+    let solve = |factors: &FormFactors| -> Result<Vec<[f64; 3]>, StudyError> {
+        let system = System::new(factors.clone(), patches.reflectances(), patches.emittances())?;
+        Ok(system.solve(Solver::Direct, &parameters.options.stopping(), None)?.radiosity())
+    };
+    let host = room::find(patches, parameters, &CasterChoice::Host, progress)?.factors;
+    let (reference, emittance) = (solve(&host)?, patches.emittances());
+    let row = |factors: &FormFactors, cast: CastRecord| -> Result<LeakRow, StudyError> {
+        let mut off = ErrorSums::default();
+        for (found, expected) in factors.matrix().rows().zip(host.matrix().rows()) {
+            off.add(found.iter().zip(expected).map(|(found, expected)| (found - expected).abs()).sum(), 1.0);
+        }
+        let error = SolutionError::between(&solve(factors)?, &reference, &emittance);
+        Ok(LeakRow { cast, factors: off, error })
+    };
+    let mut rows = vec![row(&first.factors, cast.clone())?];
+    for caster in parameters.casters.iter().skip(1) {
+        let Room { factors, cast, .. } = room::find(patches, parameters, caster, progress)?;
+        rows.extend(cast.map(|cast| row(&factors, cast)).transpose()?);
+    }
+    Ok(rows)
+}
+
+const EXPLAINED: &str = "Each row computes the form factors anew with rays of the Ray Engine on that card or in that \
+    format. differing: rays that hit another triangle than in exact arithmetic, or none. factors: the share of a \
+    patch's light that goes elsewhere than with the host's rays, the mean and the largest over the patches. The errors \
+    are those of the direct solution, against the room of the host's rays: the largest relative to the brightest \
+    patch, the largest of a patch that does not emit, and the signed mean over these.";
+
+/// Adds the table, and a sentence on the worst row.
+pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
+    let columns = "rays_by rays on_card_% differing differing_% factors_% factors_largest_% largest_error \
+         largest_relative mean_relative";
+    let mut table = Table::of("Rays of the Ray Engine: what leaks into the room", columns);
+    for LeakRow { cast, factors, error } in rows {
+        let differing = cast.differing.unwrap_or(0);
+        table.push([
+            cast.label.as_str().into(),
+            cast.counts.rays.into(),
+            Cell::percent(100.0 * cast.counts.share_on_card()),
+            differing.into(),
+            Cell::percent(100.0 * differing as f64 / cast.counts.rays.max(1) as f64),
+            Cell::percent(100.0 * factors.mean()),
+            Cell::percent(100.0 * factors.largest),
+            Cell::error(error.largest),
+            Cell::error(error.relative_unlit),
+            Cell::error(error.bias),
+        ]);
+    }
+    let Some(worst) = rows.iter().max_by(|a, b| a.error.relative_unlit.total_cmp(&b.error.relative_unlit)) else {
+        return;
+    };
+    found.conclusion(format!(
+        "Of the rays that {} casts for form factors {} from exact arithmetic; a patch is off by up to {}.",
+        worst.cast.label,
+        counted(worst.cast.differing.unwrap_or(0), "differs", "differ"),
+        percent(worst.error.relative_unlit),
+    ));
+    found.heading("Form factors by the Ray Engine");
+    found.explained_table(FoundTable::from(table).csv("casters").field("casters"), EXPLAINED);
+}

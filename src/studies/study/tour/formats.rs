@@ -1,0 +1,148 @@
+//! What each number format costs each system of the room.
+
+use refsim::machine::Executor;
+
+use super::scene::TourScene;
+use super::{BUNNY, light};
+use crate::card::{MeshView, seen_pixels};
+use crate::cpca::on_card::PrtCardOptions;
+use crate::geom::Mesh;
+use crate::picture::metrics::{ErrorSums, value_error};
+use crate::radiosity::solve::{Options, Solver};
+use crate::radiosity::{FormFactors, Patches, System};
+use crate::report::words::percent;
+use crate::report::{Cell, Findings, FoundTable, Table};
+use crate::sphere::HarmonicLight;
+use crate::study::caster::CasterChoice;
+use crate::study::configuration::Configuration;
+use crate::study::glossy_model::GlossyModel;
+use crate::study::marble_model::MarbleModel;
+use crate::study::radiosity::SolutionError;
+use crate::study::{ProgressFn, StudyError};
+use crate::subsurface::on_card::FloatTexels;
+use crate::transfer::{Tangents, Vertices};
+use refsim::texture::TexelFormat;
+
+/// The formats, the reference of pictures first.
+const FORMATS: [&str; 4] = ["fp32", "fp24", "fp16", "s3.12"];
+
+/// What all formats share.
+pub(super) struct FormatSubject<'a> {
+    pub(super) scene: &'a TourScene,
+    pub(super) patches: &'a Patches,
+    pub(super) bunny: (&'a GlossyModel, &'a HarmonicLight),
+    /// With what enters each texel of its atlas.
+    pub(super) statue: (&'a MarbleModel, &'a [[f64; 3]]),
+    pub(super) view: MeshView,
+}
+
+/// Costs of a format.
+pub(super) struct FormatRow {
+    format: &'static str,
+    /// Share of the rays of form factors that differ from exact arithmetic.
+    differing: f64,
+    /// Radiosity from form factors by these rays, against those by the host's.
+    by_rays: SolutionError,
+    /// Radiosity by sums in the format, against the direct solution; `None` where the programs do not run.
+    by_sums: Option<SolutionError>,
+    /// The bunny's coefficients by these rays: root mean square of the differences, relative.
+    transfer: f64,
+    /// Root mean square errors of pixels that show the bunny and the statue, in 255ths, against fp32.
+    pictures: [Option<f64>; 2],
+}
+
+impl FormatSubject<'_> {
+    /// The costs of each format, on cards without limits.
+    pub(super) fn rows(
+        &self,
+        executor: &Executor,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Vec<FormatRow>, StudyError> {
+        let Self { scene, patches, bunny, statue, view } = *self;
+        let system = |factors: FormFactors| System::new(factors, patches.reflectances(), patches.emittances());
+        let direct = |system: &System| -> Result<Vec<[f64; 3]>, StudyError> {
+            Ok(system.solve(Solver::Direct, &Options::default(), None)?.radiosity())
+        };
+        let host = system(light::factors(patches, &CasterChoice::Host, progress)?.0)?;
+        let reference = direct(&host)?;
+        let error = |found: &[[f64; 3]]| SolutionError::between(found, &reference, host.emittance());
+        let vertices = Vertices::new(&scene.bunny, Tangents::Any)?;
+        let by_host = BUNNY.precompute((&scene.bunny, &vertices), &CasterChoice::Host, progress)?.0;
+        let maps = PrtCardOptions { map_format: TexelFormat::Rgba32f, ..PrtCardOptions::default() };
+        let (mut rows, mut first) = (Vec::new(), None);
+        for format in FORMATS {
+            let card = Configuration::format(format)?;
+            let engine = CasterChoice::engine(card.clone(), executor.clone());
+            let (factors, cast) = light::factors(patches, &engine, progress)?;
+            let differing =
+                cast.map_or(0.0, |cast| cast.differing.unwrap_or(0) as f64 / cast.counts.rays.max(1) as f64);
+            let computed = BUNNY.precompute((&scene.bunny, &vertices), &engine, progress)?.0;
+            progress(&format!("pictures in {format}"), 0, 1);
+            let on = (&card.profile, executor);
+            let marble = statue.0.draw(|card| card.irradiate(statue.1), on, view, FloatTexels::Fp32);
+            let drawn = [bunny.0.draw(bunny.1, on, &view, &maps).ok(), marble.ok().map(|drawn| drawn.0)];
+            let first = &*first.get_or_insert_with(|| drawn.clone());
+            let off = |at: usize, mesh: &Mesh| -> Result<Option<f64>, StudyError> {
+                let Some((found, expected)) = drawn[at].as_ref().zip(first[at].as_ref()) else { return Ok(None) };
+                self.off(mesh, found, expected).map(Some)
+            };
+            rows.push(FormatRow {
+                format,
+                differing,
+                by_rays: error(&direct(&system(factors)?)?),
+                by_sums: light::radiosity(&host, on.0, executor).ok().map(|(found, ..)| error(&found)),
+                transfer: computed.off(&by_host).1,
+                pictures: [off(0, &scene.bunny)?, off(1, &scene.statue)?],
+            });
+        }
+        Ok(rows)
+    }
+
+    /// Root mean square error of the pixels that show a model, in 255ths.
+    fn off(&self, mesh: &Mesh, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Result<f64, StudyError> {
+        let ideal = Configuration::format(FORMATS[0])?.profile;
+        let seen = seen_pixels(&ideal, (mesh.positions(), mesh.triangles()), &self.view.camera)?;
+        let mut sums = ErrorSums::default();
+        for ((found, expected), _) in found.iter().zip(expected).zip(&seen).filter(|(_, seen)| seen.is_some()) {
+            found.iter().zip(expected).for_each(|(&a, &b)| sums.add(255.0 * value_error(a, b), 1.0));
+        }
+        Ok(sums.rms())
+    }
+}
+
+/// Adds a sentence on the shortest format that runs everywhere.
+pub(super) fn conclude(rows: &[FormatRow], found: &mut Findings) {
+    for FormatRow { format, differing, by_rays, .. } in rows.iter().filter(|row| row.format == "s3.12") {
+        found.conclusion(format!(
+            "In {format} {} of the rays differ from exact arithmetic, and the room is {} brighter than by the host's rays.",
+            percent(*differing),
+            percent(by_rays.bias),
+        ));
+    }
+}
+
+/// Adds the table.
+pub(super) fn report(rows: &[FormatRow], found: &mut Findings) {
+    let columns = "format rays_differing_% room_by_rays_% room_by_sums_% transfer_% bunny_255ths statue_255ths";
+    let mut table = Table::of("Errors by format", columns);
+    let ran = |cell: Option<Cell>| cell.unwrap_or_else(|| "cannot run".into());
+    for row in rows {
+        table.push([
+            row.format.into(),
+            Cell::percent(100.0 * row.differing),
+            Cell::percent(100.0 * row.by_rays.bias),
+            ran(row.by_sums.map(|error| Cell::percent(100.0 * error.bias))),
+            Cell::percent(100.0 * row.transfer),
+            ran(row.pictures[0].map(Cell::measured)),
+            ran(row.pictures[1].map(Cell::measured)),
+        ]);
+    }
+    found.heading("What each number format costs");
+    found.explained_table(FoundTable::from(table).csv("formats").field("formats"), EXPLAINED);
+}
+
+const EXPLAINED: &str = "Each system on a card without limits that computes in the format. rays_differing: rays of the \
+    form factors that hit another triangle than in exact arithmetic, or none. room_by_rays: the mean error of patches \
+    that do not emit, from the form factors of these rays; room_by_sums: the same from the host's form factors and \
+    iterations in the format. transfer: coefficients of the bunny by these rays, root mean square, relative. The last two \
+    columns are root mean squares of the models' pixels in 255ths of white, against fp32.";

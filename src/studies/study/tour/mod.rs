@@ -1,0 +1,161 @@
+//! One room through four systems: rays of the Ray Engine give form factors, matrix radiosity lights the room, and
+//! probes in it light a glossy bunny by clustered principal components and a suit of armor of marble by subsurface scattering.
+
+mod clock;
+mod formats;
+mod light;
+mod scene;
+
+use refsim::device::Profile;
+use refsim::machine::{Executor, ExecutorKind};
+use refsim::texture::TexelFormat;
+
+use crate::card::{MeshView, seen_pixels};
+use crate::cpca::on_card::PrtCardOptions;
+use crate::error::InputError;
+use crate::geom::Sides;
+use crate::options::Size;
+use crate::radiosity::{Patches, Subdivision, System};
+use crate::report::{Findings, NamedPicture, Provenance};
+use crate::study::caster::CasterChoice;
+use crate::study::configuration::Configuration;
+use crate::study::glossy_model::GlossyTransfer;
+use crate::study::marble_model::MarbleModel;
+use crate::study::prt::{light_picture, linear_picture, of_texels};
+use crate::study::subsurface::environment;
+use crate::study::{ProgressFn, Study, StudyError, radiosity};
+use crate::subsurface::distant_irradiance;
+use crate::subsurface::links::LinkChoice;
+use crate::subsurface::on_card::FloatTexels;
+use crate::transfer::brdf::Brdf;
+use crate::transfer::light::CubeLight;
+use crate::transfer::{Tangents, Vertices};
+use clock::Clock;
+use formats::FormatSubject;
+use scene::{TourScene, middle};
+
+/// Patches of the room, at most.
+const PATCHES: usize = 800;
+/// Faces of the room and of the bodies in it.
+const LEAST_PATCHES: usize = 200;
+/// The card that draws the bunny, and that of rays, radiosity and marble. Rays start so near to a surface that only
+/// single precision sees them leave it.
+const RADEON: &str = "r300";
+const GEFORCE: &str = "nv35";
+
+/// The bunny's transfer.
+const BUNNY: GlossyTransfer = GlossyTransfer {
+    brdf: Brdf::Phong { albedo: 0.25, specular: 0.7, exponent: 20.0 },
+    order: 5,
+    exit_order: 5,
+    clusters: 32,
+    vectors: 6,
+    iterations: 5,
+};
+/// Texels along a side of the statue's atlas, with 16 links each, and millimeters per unit of the room.
+const SIDE: u32 = 128;
+const MM_PER_UNIT: f64 = 40.0;
+/// Texels of the light along a side of the square that a shadow ray on the statue represents.
+const SHADOW_GROUP: usize = 8;
+
+/// Parameters of the tour.
+#[derive(Debug)]
+pub struct Parameters {
+    /// Pixels of the picture.
+    pub size: Size,
+    /// Edges of patches and models are about so many times as long as by default, 1 to 8.
+    pub coarser: u32,
+}
+
+impl Study for Parameters {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let executor = Executor::from(ExecutorKind::Batch);
+        let [radeon, geforce] = [Profile::named(RADEON)?, Profile::named(GEFORCE)?];
+        let engine = CasterChoice::engine(Configuration::of(&geforce), executor.clone());
+        let scene = TourScene::new(self.size, self.coarser)?;
+        let (camera, mut clock) = (scene.camera, Clock::default());
+
+        let patches =
+            Patches::new(&scene.room, Subdivision::AtMost((PATCHES / self.coarser as usize).max(LEAST_PATCHES)))?;
+        let (factors, cast) = light::factors(&patches, &engine, progress)?;
+        clock.rays("rays of form factors", &geforce, cast);
+        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
+        progress("radiosity", 0, 1);
+        let (radiosity, iterations, time) = light::radiosity(&system, &geforce, &executor)?;
+        clock.step("radiosity", &geforce, format!("{iterations} iterations"), time);
+        let exposure = radiosity::exposure(&patches, system.emittance(), &radiosity);
+        let probe = |model| light::probe(&patches, &radiosity, &scene.walls, middle(model), &engine);
+        let (by_bunny, cast) = probe(&scene.bunny)?;
+        clock.rays("rays of the bunny's probe", &geforce, cast);
+        let (by_statue, cast) = probe(&scene.statue)?;
+        clock.rays("rays of the statue's probe", &geforce, cast);
+        let vertices = Vertices::new(&scene.bunny, Tangents::Any)?;
+        let (computed, cast) = BUNNY.precompute((&scene.bunny, &vertices), &engine, progress)?;
+        clock.rays("rays of the bunny's transfer", &geforce, cast);
+        progress("clusters of the bunny", 0, 1);
+        let (bunny, bunny_light) = (BUNNY.model(vertices, computed), light::harmonic(&by_bunny, BUNNY.order)?);
+        progress("links of the statue", 0, 1);
+        let atlas = MarbleModel::atlas(&scene.statue, SIDE)?;
+        let links = LinkChoice::Fixed { level: SIDE.ilog2() - 2 };
+        let statue = MarbleModel::new(&atlas, MM_PER_UNIT, links, true)?;
+        progress("shadows of the statue", 0, 1);
+        let mut caster = engine.open_judged(&scene.statue, Sides::Both)?;
+        let beams = environment::sources(&by_statue, SHADOW_GROUP);
+        let irradiance = distant_irradiance(&atlas, &beams, statue.eta, &mut caster).map_err(InputError::from)?;
+        clock.rays("shadow rays of the statue", &geforce, caster.record());
+
+        progress("pictures", 0, 1);
+        let view = MeshView { camera, exposure, format: TexelFormat::Bgra8 };
+        let maps = PrtCardOptions { map_format: TexelFormat::Rgba16Snorm, ..PrtCardOptions::default() };
+        let (glossy, time) = bunny.timed(&bunny_light, (&radeon, &executor), &view, &maps)?;
+        clock.step("the bunny", &radeon, "a frame".to_owned(), time);
+        let floats = MeshView { format: TexelFormat::Rgba32f, ..view };
+        let (marble, time) =
+            statue.draw(|card| card.irradiate(&irradiance), (&geforce, &executor), floats, FloatTexels::Fp16)?;
+        clock.step("the statue", &geforce, "light and a frame".to_owned(), time);
+        let mut colors = light::picture(&patches, &radiosity, (&geforce, &executor), &camera, exposure)?;
+        for (mesh, drawn) in [(&scene.bunny, glossy), (&scene.statue, marble)] {
+            let seen = seen_pixels(&geforce, (mesh.positions(), mesh.triangles()), &camera)?;
+            let shown = colors.iter_mut().zip(drawn).zip(&seen).filter(|(_, seen)| seen.is_some());
+            shown.for_each(|((color, drawn), _)| *color = drawn);
+        }
+
+        let subject = FormatSubject {
+            scene: &scene,
+            patches: &patches,
+            bunny: (&bunny, &bunny_light),
+            statue: (&statue, &irradiance),
+            view: floats,
+        };
+        let rows = subject.rows(&executor, progress)?;
+        let mut found = Findings::new("One room through four systems");
+        clock.conclude(&mut found);
+        formats::conclude(&rows, &mut found);
+        let room = linear_picture(&camera, &colors).display(1.0)?;
+        found.pictures(vec![NamedPicture::new("room", room, ROOM)]);
+        found.paragraph(ABOUT);
+        found.heading("The light that the models see");
+        let probe = |name: &str, what: &str, light: &CubeLight| light_picture(name, what, of_texels(light.texels()));
+        found.pictures(vec![
+            probe("bunny-light", "at the bunny", &by_bunny)?,
+            probe("statue-light", "at the statue", &by_statue)?,
+        ]);
+        clock.report(&mut found)?;
+        formats::report(&rows, &mut found);
+        Ok(found)
+    }
+
+    fn provenance(&self, mut provenance: Provenance) -> Provenance {
+        provenance.profiles.extend([RADEON, GEFORCE].map(str::to_owned));
+        provenance
+    }
+}
+
+const ROOM: &str = "The room by matrix radiosity, the bunny by clustered principal components, the statue by subsurface \
+    scattering: each drawn by its card.";
+
+const ABOUT: &str = "1. The Ray Engine on a GeForce FX 5900 Ultra casts the rays between the patches of the room, and the card \
+    solves for radiosity. Coarse bodies stand in the room for the models: they reflect light and cast shadows. 2. A probe at \
+    each model asks by rays which patch it sees in each direction. 3. The bunny's transfer, by rays again, turns its probe's \
+    light into the picture of a glossy surface on a Radeon 9700. 4. The statue, a suit of armor of marble, scatters its \
+    probe's light below the surface.";
