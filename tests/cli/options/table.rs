@@ -142,9 +142,11 @@ pub(super) const TABLE: &[Tried] = &[
             "render docs/examples/teapot.obj --size 8x8 --out OUT",
             "render odd.obj --size 8x8 --out OUT",
             "render cornell-box --size 8x8 --caster engine --caster-device r300 --out OUT",
+            "render harbour --size 8x8 --renderer environment --out OUT",
         ],
         options: concat!(
-            "--device=ideal-fp16 --executor=batch --out=other --renderer=eye@1,2,3,4,5,6 --samples=3 \
+            "--device=ideal-fp16 --executor=batch@0,1,2,3,4,5,6,7 same:--executor=scalar@8 --out=other \
+             --renderer=eye@1,2,3,4,5,6 --samples=3 --drawn-eyes \
              --depth=1@0,3,4,5,6 same:--depth=1@2 --seed=2@2,3,4,5,6 same:--seed=2@0,1 \
              --view=front@0,5,6 same:--view=front@1,2,3,4 --exposure=0.3 \
              --lens=0.1,1 --photons=100 --gather=1 --caster=engine@1,2,3,4,5,6 --model-up=y --strict@6",
