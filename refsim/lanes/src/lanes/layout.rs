@@ -24,7 +24,7 @@ pub(crate) struct FloatLayout {
     one_zero: bool,
     /// Smallest normal number.
     pub(crate) min_normal: f64,
-    /// `2^-man_bits`: a binade's power of two times this is its unit in the last place.
+    /// `2^-man_bits`: the unit in the last place, relative to the binade's power of two.
     pub(crate) unit: f64,
     /// `true` if subnormal patterns are read as zero.
     flushes: bool,
