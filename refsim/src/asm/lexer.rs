@@ -6,7 +6,7 @@ use crate::isa::Span;
 /// Language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// A statement per line; comments start with `;` or `//`, or stand between `/*` and `*/`.
+    /// One statement per line; comments start with `;` or `//`, or are enclosed in `/*` and `*/`.
     Direct3d,
     /// Statements end with `;`; comments start with `#`.
     OpenGl,
@@ -188,7 +188,7 @@ impl Lexer<'_> {
     }
 
     /// Consumes the longest number of OpenGL's grammar: digits, a point, digits, an exponent. `0..3` is three tokens,
-    /// `3.14.x` a number and its component; `1.x` is `1.` and a letter, a malformed number like `1.5x` and `1.5.5`.
+    /// `3.14.x` is a number and its component; `1.x` is malformed, like `1.5x` and `1.5.5`.
     fn opengl_number(&mut self) {
         let rest = self.rest();
         let at = |i: usize| rest.get(i).copied().unwrap_or(0);

@@ -14,12 +14,12 @@ pub(super) struct Mnemonic {
     pub(super) partial_precision: bool,
 }
 
-/// The opcode table's rows with a mnemonic (two for `if` and `break`).
+/// Rows of the opcode table for a mnemonic (two for `if` and `break`).
 fn rows(base: &str) -> impl Iterator<Item = &'static OpInfo> {
     Opcode::ALL.iter().map(|opcode| opcode.info()).filter(move |info| info.mnemonic.eq_ignore_ascii_case(base))
 }
 
-/// The first row for a word without its suffixes.
+/// The first row for a word, ignoring its suffixes.
 pub(super) fn row(word: &str) -> Option<&'static OpInfo> {
     rows(base(word)).next()
 }

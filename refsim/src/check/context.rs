@@ -33,7 +33,7 @@ pub(super) struct Context<'a> {
     pub(super) warnings: Vec<Warning>,
     /// `true` for instruction `i` if the version has it and its operands are present; later passes rely on it.
     pub(super) sound: Vec<bool>,
-    /// For each instruction the index of the one that ends or continues its block, loop or subroutine.
+    /// For each instruction, the index of the instruction that ends or continues its block, loop or subroutine.
     pub(super) jump: Vec<Option<usize>>,
     phase_marker: Option<usize>,
 }
