@@ -55,7 +55,7 @@ impl Translator<'_> {
         self.loaded(source, negate).map(|x| self.make.convert(from, to, x))
     }
 
-    /// Interprets a value that may be arbitrary bits as the number that they encode.
+    /// Interprets a value that may be arbitrary bits as the encoded number.
     pub(crate) fn number(&mut self, node: NodeId) -> NodeId {
         if !self.words.contains(&node) {
             return node;
@@ -226,7 +226,7 @@ impl Translator<'_> {
         })
     }
 
-    /// An operand in single precision: `f[TEX#]` as it was interpolated, any other register converted.
+    /// An operand in single precision: `f[TEX#]` as interpolated, other registers converted.
     fn place(&mut self, source: &Source) -> NodeVector {
         if source.register.file == RegisterFile::Texture {
             return source.swizzle.0.map(|c| {

@@ -66,7 +66,7 @@ impl<'a> Prepared<'a> {
         if self.is_pixel() { Alu::new(self.rules, format) } else { Alu::vertex(self.rules, format) }
     }
 
-    /// Format of the values that instructions write to a register file, if not the register format.
+    /// Format of the values that instructions write to a register file, if different from the register format.
     pub(crate) fn written(&self, file: RegisterFile) -> Option<Format> {
         self.rules.storage.written(file).filter(|_| self.is_pixel())
     }

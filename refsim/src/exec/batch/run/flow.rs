@@ -111,7 +111,7 @@ impl<'p> FlowRun<'p> {
     fn charge(&mut self, at: usize, slots: &mut Slots) {
         let (Some(steps), Some(budget)) = (&mut self.steps, self.plan.budget) else { return };
         let mut cut = [0; LANES];
-        // The mask of an active lane is all ones, i.e. -1: subtracting it adds one.
+        // The mask of an active lane is all ones, or -1: subtracting it adds one.
         for ((count, &active), cut) in steps.iter_mut().zip(slots.row(ACTIVE)).zip(&mut cut) {
             *cut = if *count == budget { active } else { 0 };
             *count = count.wrapping_sub(active & !*cut);
