@@ -90,7 +90,7 @@ impl Memory {
         Ok(())
     }
 
-    /// Discards the GPU's draws into targets since [`Self::download_newer`].
+    /// Discards draws of the GPU into targets since [`Self::download_newer`].
     #[cfg(feature = "wgpu")]
     pub(super) fn discard_gpu_contents(
         &mut self,

@@ -21,9 +21,9 @@ pub(super) struct Plan {
     pub(super) vertex_count: usize,
     /// Number of instances.
     pub(super) instance_count: usize,
-    /// Triangles of an instance, as vertex indices within it.
+    /// Triangles of an instance, as indices of its vertices.
     pub(super) triangles: Vec<[usize; 3]>,
-    /// For flat shading the provoking vertex of each triangle.
+    /// The provoking vertex of each triangle, for flat shading.
     pub(super) provoking: Option<Vec<usize>>,
 }
 
@@ -37,7 +37,7 @@ impl Plan {
         (0..count).step_by(step).map(move |first| first..count.min(first + step))
     }
 
-    /// Corners of triangle `i` of an instance whose vertices start at `base`, for set-up; in flat shading all with the
+    /// Corners of triangle `i` of an instance whose vertices start at `base`, for set-up. In flat shading all have the
     /// colours of the provoking vertex.
     pub(super) fn corners(&self, vertices: &[Vertex], base: usize, i: usize) -> Option<[Vertex; 3]> {
         let [a, b, c] = self.triangles[i].map(|v| vertices.get(base + v).copied());

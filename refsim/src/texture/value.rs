@@ -1,6 +1,6 @@
 //! Exact values of bit patterns, and the FP32 operations shared by the fixed-function stages.
 //!
-//! FP32 arithmetic of texture, raster and output, and their only use of [`crate::num`].
+//! The modules texture, raster and output use [`crate::num`] only through these FP32 operations.
 
 use crate::num::{self, Format};
 
@@ -83,7 +83,6 @@ pub(crate) fn from_integer(value: i64) -> u32 {
 pub(crate) enum Exact {
     /// Not a number.
     Nan,
-    /// An infinity.
     Infinite {
         /// Below zero.
         negative: bool,
@@ -163,7 +162,7 @@ pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, denominator: u32
     if shift > 100 {
         return 0;
     }
-    // In halves of a step, so that the last bit decides the rounding.
+    // Counts halves of a step, so that the last bit determines the rounding.
     let halves = if denominator == 1 {
         (product << (1 + exponent.clamp(0, 40))) >> shift
     } else {
