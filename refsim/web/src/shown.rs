@@ -39,7 +39,7 @@ pub(crate) struct ShownTrace {
 #[derive(Debug, Serialize)]
 pub(crate) struct ShownDifference {
     stage: String,
-    /// Line of the text, from 1; 0 if it is about no instruction.
+    /// Line of the text, from 1; 0 if the difference has no instruction.
     line: usize,
     values: Vec<Compared>,
 }
