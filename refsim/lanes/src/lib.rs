@@ -1,8 +1,8 @@
 //! Number formats and the arithmetic in them: exact by definition ([`num`]), and in vector code of the host.
 //!
 //! The lower part of the emulator `refsim`, which re-exports its public items as `refsim::num` and
-//! `refsim::exec::batch`. It is a separate package because it contains most of the emulator's machine code, which
-//! changes in the assembler, the checker or the machine then don't recompile. Use `refsim` instead.
+//! `refsim::exec::batch`. It contains most of the emulator's machine code. As a separate package, it is not recompiled
+//! when the assembler, the checker or the machine changes. Use `refsim` instead.
 //!
 //! - [`num`]: the definition, by integer operations alone.
 //! - `lanes`: the same arithmetic on single lanes, written independently of `num`, with the fastest method for each

@@ -239,7 +239,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         self.fused_sum_of(1.0 / (1u64 << self.frac) as f32, a, b)
     }
 
-    /// The double rounds to nearest even as the quotient does ([`Self::quotient`]); there is nothing to correct.
+    /// To nearest even, the double rounds like the exact quotient ([`Self::quotient`]), without a correction.
     #[inline(always)]
     fn fused_div(&self, a: i32, b: i32) -> i32 {
         let exact = f64::from(a.wrapping_shl(self.frac)) / f64::from(b);

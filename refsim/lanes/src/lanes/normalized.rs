@@ -83,8 +83,8 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
         self.codes.encode(x)
     }
 
-    /// The nearest double. It rounds into every other format as the number does: a number that isn't an integer lies at
-    /// least one part in `2^42` from every number of another format, and from the middle between two.
+    /// The nearest double. It rounds into every other format like the exact number: a number that isn't an integer
+    /// differs by at least one part in `2^42` from every number of another format, and from every midpoint.
     #[inline(always)]
     fn to_f64(&self, x: i32) -> f64 {
         f64::from(x) / self.denominator

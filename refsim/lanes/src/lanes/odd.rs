@@ -81,8 +81,7 @@ pub(crate) fn rsq_odd(a: f64) -> f64 {
     odd(y, e)
 }
 
-/// The sum of exact doubles, rounded to odd. NaN and infinities are those of adding in order; a sum that is exactly
-/// zero is `+0`.
+/// The sum of exact doubles, rounded to odd. NaN and infinities are as in an addition in order; an exact zero is `+0`.
 ///
 /// The sum is kept as an expansion, doubles whose bits don't overlap (Shewchuk 1997, "Adaptive precision
 /// floating-point arithmetic", GROW-EXPANSION), then read from the top: the first nonzero error decides the side.

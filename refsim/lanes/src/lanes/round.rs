@@ -88,8 +88,8 @@ macro_rules! rounder {
                 }
             }
 
-            /// Rounds a number of any size; infinities and NaN are unchanged. The pivot must be finite: the host has to
-            /// have exponents above that of `x`, as many as its mantissa has bits more than the format's.
+            /// Rounds a number of any size; infinities and NaN are unchanged. The pivot, whose exponent exceeds that of
+            /// `x` by the difference of the two mantissa lengths, must be finite.
             #[inline(always)]
             pub(crate) fn round(&self, rounding: u8, x: $float) -> $float {
                 let exponent = (x.to_bits() & Self::EXPONENT).max(self.lowest);

@@ -74,7 +74,7 @@ pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
 /// `1 / x` truncated or, for [`DOWN`], rounded down; zero gives an infinity of its sign.
 ///
 /// The host's reciprocal times `x`, less 1, is a number of single precision: its sign shows on which side of the exact
-/// value the reciprocal lies. No reciprocal lies half way between two singles, so the host's result is also that of
+/// value the reciprocal lies. No reciprocal lies half way between two singles, so the host's result also rounds to
 /// nearest away.
 #[inline(always)]
 pub(crate) fn reciprocal<const R: u8>(x: f32) -> f32 {

@@ -259,7 +259,7 @@ impl Format {
         }
     }
 
-    /// Returns `true` if the largest number of this float is at least that of another with the same largest exponent.
+    /// Returns `true` if this float's largest number is at least the other's; both have the same largest exponent.
     fn reaches(self, other: Self) -> bool {
         let digits = |format: Self| match format.kind {
             FormatKind::Float { man_bits, .. } => (format.max_finite() & ((1 << man_bits) - 1)) << (23 - man_bits),

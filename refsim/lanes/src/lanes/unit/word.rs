@@ -130,7 +130,7 @@ impl Met {
     }
 }
 
-/// The single of `magnitude * 2^-bits`, its top 24 bits cut; `magnitude` above 0, the result normal.
+/// Truncates `magnitude * 2^-bits` to a single of 24 bits; `magnitude` is above 0, and the result normal.
 pub(super) fn cut(negative: bool, magnitude: u64, bits: i32) -> u32 {
     let zeros = magnitude.leading_zeros();
     let place = 63 - zeros.cast_signed();

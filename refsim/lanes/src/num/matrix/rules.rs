@@ -112,7 +112,7 @@ pub(super) fn fused(a: u64, b: u64, c: u64, element: Element) -> u64 {
     if sum.is_nan() { 0x7ff8 << 48 } else { sum.to_bits() }
 }
 
-/// Bits below the largest exponent that CDNA3 keeps of products, and of `c` beside them.
+/// Bits below the largest exponent that CDNA3 keeps of products and of `c`.
 const KEPT: u32 = 24;
 /// Bits that CDNA3 keeps of the sum of products, below the larger exponent of this sum and `c`.
 const SUM_KEPT: i32 = 32;
