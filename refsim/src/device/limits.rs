@@ -111,7 +111,7 @@ figures! {
     extra {
         /// The shader versions that the device runs.
         versions: Vec<Version>,
-        /// `true` if the limits of the shader version apply in addition to those of the device; `false` for `ideal-`
+        /// `true` if the limits of the shader version apply in addition to the device's limits; `false` for `ideal-`
         /// devices.
         version_limits: bool,
         /// The supported texture formats.

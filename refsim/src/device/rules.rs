@@ -37,7 +37,7 @@ macro_rules! rules {
                 })
             }
 
-            /// Sets one rule from its text; `None` if there is no such rule, or the text is not a value of it.
+            /// Sets one rule from its text; `None` if there is no such rule, or the text is not a value of the rule.
             pub(super) fn set(&mut self, name: &str, text: &str) -> Option<()> {
                 match name {
                     $($text => self.$field = RuleValue::from_text(text)?,)*

@@ -56,7 +56,7 @@ impl Storage {
         }
     }
 
-    /// The storage that an instruction of a pixel program writes to; `None` for register files that are no storage.
+    /// The storage that an instruction of a pixel program writes to; `None` for register files without a storage.
     pub(crate) const fn written(file: RegisterFile) -> Option<Self> {
         match file {
             RegisterFile::Temp | RegisterFile::Half | RegisterFile::Texture => Some(Self::Temporaries),

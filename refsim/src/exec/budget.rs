@@ -44,14 +44,14 @@ pub(crate) fn straight_exceeds(program: &Program, budget: u32) -> bool {
     count > budget as usize && (0..count).filter(|&at| is_step(at)).count() > budget as usize
 }
 
-/// Returns `true` if an instruction is co-issued with the one before it.
+/// Returns `true` if an instruction is co-issued with the previous instruction.
 fn is_partner(program: &Program, at: usize) -> bool {
     let before = at.checked_sub(1).and_then(|before| program.instructions.get(before));
     program.instructions[at].coissue && before.is_some_and(|i| i.opcode.info().class == OpcodeClass::Arithmetic)
 }
 
 /// Upper bound on the steps of a program: it takes the longer branch, and never leaves a loop early. Exact for programs
-/// without flow control. One pass over the text.
+/// without flow control. Takes one pass over the text.
 pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &ResolvedConstants) -> u64 {
     let code = &program.instructions;
     // Calls lead forward, so processing labels backward finds every callee first.
@@ -75,7 +75,7 @@ struct Open {
     taken: u64,
 }
 
-/// Upper bound on the steps of `section`, given those of later subroutines by label.
+/// Upper bound on the steps of `section`, given the bounds of later subroutines by label.
 fn of_section(
     program: &Program,
     section: std::ops::Range<usize>,

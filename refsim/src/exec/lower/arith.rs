@@ -271,7 +271,7 @@ impl<'a> GraphBuilder<'a> {
     }
 
     /// Dot product with sums in an accumulator. If the accumulator cannot represent all operands, products are first
-    /// rounded to odd ([`PRODUCTS`]), so that the second rounding equals that of the exact product.
+    /// rounded to odd ([`PRODUCTS`]), so that the second rounding equals a rounding of the exact product.
     fn accumulated(&mut self, k: Arith, accumulator: Format, terms: usize, (a, b): (&[NodeId], &[NodeId])) -> NodeId {
         let to = self.formats.arith_of(accumulator);
         let rounded_in = self.products(to);

@@ -13,9 +13,9 @@ use crate::num::NumberOperation as Op;
 pub(crate) struct Fused {
     pub(crate) arith: Arith,
     pub(crate) code: LaneCode,
-    /// Operands, as many as the code's arity.
+    /// The operands; their number is the code's arity.
     pub(crate) args: [NodeId; OPERANDS],
-    /// `true` if a product with a zero factor is zero, for any other factor.
+    /// `true` if a product with a zero factor is always zero.
     pub(crate) zero_wins: bool,
 }
 

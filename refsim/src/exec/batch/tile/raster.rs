@@ -155,7 +155,7 @@ impl TileWeights {
         Self { simd, linear: [[0.0; LANES]; 2], perspective: [[0.0; LANES]; 2], made_from: None }
     }
 
-    /// Computes the weights of a triangle, unless they equal those of the previous one.
+    /// Computes the weights of a triangle, unless they equal the previous triangle's.
     pub(crate) fn make(&mut self, setup: &TriangleSetup, frame: TileFrame) {
         let edges = [1, 2].map(|i: usize| [setup.edges[i].a, setup.edges[i].b, setup.edges[i].c]);
         let w = (!setup.affine).then_some(setup.reciprocal_w);

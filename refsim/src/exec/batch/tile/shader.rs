@@ -3,7 +3,8 @@
 //!
 //! A *part* is a sequence of triangles with equal constant components that cover disjoint pixels of the tile: the two
 //! halves of a quad, or neighbours in a mesh. Lanes are independent, so one pass of the program processes all of them,
-//! each lane with the components of its triangle. Bits and counts equal those of processing the triangles one by one.
+//! each lane with the components of its triangle. Bits and counts are the same as for processing the triangles one by
+//! one.
 
 use refsim_lanes::{LANES, LaneRow, SimdLevel, Slots};
 
