@@ -117,7 +117,7 @@ impl Words {
         if shape >> 20 & 15 == 0 { w & 1 << 31 } else { w & 1 << 31 | field << 23 | mantissa }
     }
 
-    /// A row of a kind: ordinary numbers first, then rarer ones.
+    /// A row of a kind; low kinds are ordinary numbers, high kinds rarer numbers.
     fn row(&mut self, kind: usize, other: &LaneRow) -> LaneRow {
         let mut row = [0; LANES];
         for (i, word) in row.iter_mut().enumerate() {

@@ -116,7 +116,6 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if negative { self.low } else { self.high }
     }
 
-    /// Returns `a / 0`.
     #[inline(always)]
     pub(super) fn by_zero(&self, a: i32) -> i32 {
         let extreme = self.extreme(a < 0);

@@ -119,7 +119,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         if x.is_nan() { self.nan } else { x }
     }
 
-    /// [`Self::pole`] with a sign.
+    /// The value of a pole, with a sign.
     #[inline(always)]
     fn pole(&self, sign: u32) -> f32 {
         f32::from_bits(self.pole.to_bits() | sign)

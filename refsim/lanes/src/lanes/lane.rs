@@ -99,14 +99,11 @@ pub(crate) trait Lane: Copy + Send + Sync {
         None
     }
 
-    /// `a + b`
     fn add(&self, a: Self::T, b: Self::T) -> Self::T;
-    /// `a - b`
     #[inline(always)]
     fn sub(&self, a: Self::T, b: Self::T) -> Self::T {
         self.add(a, self.neg(b))
     }
-    /// `a b`
     fn mul(&self, a: Self::T, b: Self::T) -> Self::T;
     /// Products added in order, each product and each sum rounded; `N` at least 1.
     #[inline(always)]
@@ -139,11 +136,8 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn fused_mad(&self, a: Self::T, b: Self::T, c: Self::T) -> Self::T;
     /// The sum of `N` products, rounded once.
     fn exact_dot<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T;
-    /// `a / b`
     fn div(&self, a: Self::T, b: Self::T) -> Self::T;
-    /// Square root.
     fn sqrt(&self, a: Self::T) -> Self::T;
-    /// `1 / a`
     fn rcp(&self, a: Self::T) -> Self::T;
     /// `1 / sqrt(a)`
     fn rsq(&self, a: Self::T) -> Self::T;
@@ -152,9 +146,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// The logarithm of `a` to base 2.
     fn log2(&self, a: Self::T) -> Self::T;
 
-    /// The smaller number.
     fn min(&self, a: Self::T, b: Self::T) -> Self::T;
-    /// The larger number.
     fn max(&self, a: Self::T, b: Self::T) -> Self::T;
     /// The largest integer not above `a`.
     #[inline(always)]
@@ -163,9 +155,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     }
     /// `a - floor(a)`
     fn frc(&self, a: Self::T) -> Self::T;
-    /// `-a`
     fn neg(&self, a: Self::T) -> Self::T;
-    /// `|a|`
     fn abs(&self, a: Self::T) -> Self::T;
     /// `a 2^shift`, `shift` within -3 to 3.
     #[inline(always)]

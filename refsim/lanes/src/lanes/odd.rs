@@ -7,7 +7,6 @@
 //! leaves the exponent range of a double. So every arithmetic operation below is done in doubles and its error, known
 //! exactly, moves the last bit.
 
-/// The sign bit of a double.
 pub(crate) const SIGN: u64 = 1 << 63;
 
 /// Rounds `s + e` to odd, where `s` is a double and `e` an exact remainder of less than one unit in the last place

@@ -4,7 +4,7 @@
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
-/// A set of vector instructions; each level includes the previous ones.
+/// A set of vector instructions; each level includes the previous levels.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SimdLevel {

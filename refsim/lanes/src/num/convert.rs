@@ -58,7 +58,7 @@ pub fn from_f64(to: impl Into<Env>, x: f64) -> Outcome {
 const FRACTION: u64 = (1 << 52) - 1;
 
 /// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits, except
-/// for normalized ones, which are rounded to nearest; NaN and infinities are preserved.
+/// for normalized formats, whose numbers are rounded to nearest; NaN and infinities are preserved.
 pub fn to_f64(format: &Format, bits: u32) -> f64 {
     // Subnormals keep their value even in flushing formats: the stored number is shown, not the operand.
     match unpack(&format.with_denormals(Denormals::Keep), bits) {

@@ -10,7 +10,6 @@ use super::slots::Slots;
 use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, Met, SimdLevel, TRUE, without_small};
 use crate::num::NumberOperation as Op;
 
-/// The sign bit.
 const SIGN: u32 = 1 << 31;
 
 /// Executes operations in the arithmetic of a unit, except fused codes.
@@ -168,7 +167,6 @@ fn quick<U: CardUnit, const FUSED: bool>(lane: &CardLane<U>, op: &LaneOp, slots:
     true
 }
 
-/// Computes an operation lane by lane.
 fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &mut Slots) {
     let Slots { rows, scratch, wide, .. } = slots;
     let out: &mut LaneRow = scratch;

@@ -6,7 +6,6 @@ use super::slots::Slots;
 use crate::lanes::{AnyLane, LANES, LaneRow, SimdLevel, add_odd};
 use crate::num::{Format, FormatKind, Rounding};
 
-/// The sign bit of a double.
 const SIGN: u64 = 1 << 63;
 
 /// Kind of sum.

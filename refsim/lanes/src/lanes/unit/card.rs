@@ -17,11 +17,9 @@ pub(crate) trait CardFunctions {
     type Entry: Copy;
     /// Table entry for RCP of `x`.
     fn rcp_entry(&self, x: u32) -> Self::Entry;
-    /// RCP.
     fn rcp(&self, x: u32, entry: Self::Entry) -> u32;
     /// Table entry for RSQ of `x`.
     fn rsq_entry(&self, x: u32) -> Self::Entry;
-    /// RSQ.
     fn rsq(&self, x: u32, entry: Self::Entry) -> u32;
     /// Any other operation; `None` if the unit does not have it.
     fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
@@ -40,7 +38,6 @@ pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// The sum of `N` products, 1 to 4, by the unit's rules.
     fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32;
     fn add(&self, a: u32, b: u32) -> u32;
-    /// `a b + c`
     fn mad(&self, a: u32, b: u32, c: u32) -> u32;
 
     /// [`Self::add`] in vector code.
@@ -58,9 +55,7 @@ pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     fn below(&self, a: u32, b: u32) -> bool;
     /// `a == b` of ordered words.
     fn same(&self, a: u32, b: u32) -> bool;
-    /// The lesser word.
     fn min(&self, a: u32, b: u32) -> u32;
-    /// The greater word.
     fn max(&self, a: u32, b: u32) -> u32;
     /// The largest integer not above `x`.
     fn floor(&self, x: u32) -> u32;

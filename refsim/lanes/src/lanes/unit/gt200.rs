@@ -70,7 +70,6 @@ impl Gt200 {
         if is_nan(a) & is_nan(b) { NAN } else { chosen }
     }
 
-    /// `x 2^shift`
     pub(super) fn scale(self, x: u32, shift: i32) -> u32 {
         self.rounded(number(x) * crate::lanes::layout::pow2(shift))
     }

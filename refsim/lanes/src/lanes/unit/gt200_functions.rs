@@ -86,7 +86,6 @@ fn scaled(sign: u32, field: i32, significand: u32) -> u32 {
     assembled(sign, field + (significand >> 24).cast_signed(), significand)
 }
 
-/// LG2.
 fn log2(x: u32) -> u32 {
     if is_nan(x) {
         return NAN;

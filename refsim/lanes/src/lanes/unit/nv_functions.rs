@@ -220,7 +220,6 @@ impl Nv {
         }
     }
 
-    /// LG2 of NV3x.
     fn log2(x: u32) -> u32 {
         match field(x) {
             0 => FIELD | SIGN,
@@ -234,7 +233,6 @@ impl Nv {
         }
     }
 
-    /// EX2 of NV3x.
     fn exp2(x: u32) -> u32 {
         let (e, negative) = (field(x), x & SIGN != 0);
         match e {

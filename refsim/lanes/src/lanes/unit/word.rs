@@ -12,7 +12,6 @@ pub(super) const ONE: u32 = 0x3f80_0000;
 /// The NaN that units make.
 pub(super) const NAN: u32 = 0x7fff_ffff;
 
-/// The exponent field.
 #[inline(always)]
 pub(super) fn field(w: u32) -> i32 {
     (w >> 23 & 0xff).cast_signed()
@@ -46,7 +45,6 @@ pub(super) fn assembled(sign: u32, field: i32, significand: u32) -> u32 {
 /// Mask of the bits by which a double exceeds a float of 24 bits.
 pub(super) const SURPLUS: u64 = (1 << 29) - 1;
 
-/// Returns `true` for zeros and subnormals.
 #[inline(always)]
 pub(super) fn is_zero(w: u32) -> bool {
     w & FIELD == 0

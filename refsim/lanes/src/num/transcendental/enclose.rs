@@ -1,4 +1,4 @@
-//! Enclosures of `2^f` and `log2 m`: fast ones in machine words, and ones of arbitrary precision.
+//! Enclosures of `2^f` and `log2 m`: fast in machine words, and with arbitrary precision.
 //!
 //! Every step truncates, so the lower end is a lower bound; the upper end adds the bound on the truncation error that
 //! each function states.

@@ -43,7 +43,6 @@ impl Exact {
         (sum != 0).then_some(Self { negative: sum < 0, magnitude: sum.unsigned_abs(), exponent })
     }
 
-    /// The number cut to 24 bits.
     fn cut24(self) -> Self {
         let drop = self.magnitude.ilog2().saturating_sub(23);
         Self { magnitude: self.magnitude >> drop, exponent: self.exponent + drop.cast_signed(), ..self }

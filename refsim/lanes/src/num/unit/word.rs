@@ -3,13 +3,10 @@
 /// The NaN that the units make.
 pub const NAN: u32 = 0x7fff_ffff;
 
-/// 1.0.
 pub(super) const ONE: u32 = 0x3f80_0000;
-/// Positive infinity.
 pub(super) const INFINITY: u32 = 0x7f80_0000;
 /// The largest finite number.
 pub(super) const LARGEST: u32 = 0x7f7f_ffff;
-/// The sign bit.
 pub(super) const SIGN: u32 = 0x8000_0000;
 
 /// The fields of a word.
@@ -36,7 +33,6 @@ impl Word {
         self.field == 255 && self.mantissa == 0
     }
 
-    /// Returns `true` for zeros and subnormals.
     pub(super) const fn is_zero(self) -> bool {
         self.field == 0
     }
