@@ -3,7 +3,6 @@
 use super::error::{ErrorKind, SyntaxError, quote};
 use crate::isa::Span;
 
-/// Language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
     /// One statement per line; comments start with `;` or `//`, or are enclosed in `/*` and `*/`.
@@ -12,7 +11,6 @@ pub(super) enum Dialect {
     OpenGl,
 }
 
-/// Kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TokenKind {
     /// Letters, digits and underscores (in OpenGL also `$`), not starting with a digit; a version token with its dots.
@@ -37,7 +35,6 @@ pub(super) enum TokenKind {
     End,
 }
 
-/// A token and its location.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Token<'a> {
     pub(super) kind: TokenKind,

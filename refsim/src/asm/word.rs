@@ -1,10 +1,9 @@
-//! Mnemonics with their suffixes, and suggestions for unknown ones.
+//! Mnemonics with their suffixes, and suggestions for unknown mnemonics.
 
 use super::error::{ErrorKind, SyntaxError, quote};
 use super::lexer::Token;
 use crate::isa::{Comparison, DestinationRule, OpInfo, Opcode, Span};
 
-/// A parsed mnemonic with its suffixes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mnemonic {
     pub(super) opcode: Opcode,
@@ -75,7 +74,6 @@ pub(super) fn shift_suffix(shift: i8) -> &'static str {
     }
 }
 
-/// Parses a mnemonic with its suffixes.
 pub(super) fn mnemonic(token: &Token<'_>) -> Result<Mnemonic, SyntaxError> {
     let base = base(token.text);
     let Some(first) = rows(base).next() else {

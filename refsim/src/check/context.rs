@@ -122,7 +122,6 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// The declared type of a sampler.
     pub(super) fn sampler_usage(&self, number: u16) -> Option<Usage> {
         let mut samplers =
             self.program.declarations.iter().filter(|d| {

@@ -44,7 +44,7 @@ pub(super) fn check(context: &mut Context<'_>) {
         }
         match instruction.opcode {
             Opcode::Phase if context.phase_marker() == Some(index) => clear_alpha(&mut written),
-            // Once for the outermost loop, which contains the inner ones.
+            // Only for an outermost loop, which contains the inner loops.
             Opcode::Rep | Opcode::Loop if index >= loop_end => {
                 loop_end = context.jump[index].unwrap_or(index);
                 for (_, i) in all.iter().filter(|(i, _)| (index..loop_end).contains(i)) {

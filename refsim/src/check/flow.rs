@@ -7,7 +7,6 @@ use super::allowed::Limit;
 use super::context::Context;
 use crate::isa::{Instruction, Modifier, Opcode, OpcodeClass, RegisterFile, Relative, Source, Span, Swizzle, Version};
 
-/// An open block.
 struct OpenBlock {
     opcode: Opcode,
     start: usize,

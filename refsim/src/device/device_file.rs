@@ -12,7 +12,6 @@ use super::{DeviceError, Profile, Rules, Storage};
 use crate::isa::Program;
 use crate::num::Format;
 
-/// A device file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DeviceFile {

@@ -156,7 +156,7 @@ named_choice! {
 named_choice! {
     /// Values of a sampled texel's channels. Channels of 9 to 15 bits are fractions on every device.
     TexelValues {
-        /// The fractions of Direct3D: `k / (2^n - 1)`, signed ones `k / (2^(n-1) - 1)`.
+        /// The fractions of Direct3D: `k / (2^n - 1)`, or `k / (2^(n-1) - 1)` if signed.
         Fractions = "fractions",
         /// The bits are repeated until they fill a byte; of 16 bits only the upper byte is used. An unsigned byte k is
         /// `k / 255`, a signed byte k is `2k / 255`.

@@ -98,6 +98,6 @@ impl StorageFormats {
     }
 }
 
-/// Largest number of formats of a program besides those of every program: formats of instructions, storages, sums and
-/// products.
+/// Largest number of formats that a program can add to the formats of every program: formats of instructions, storages,
+/// sums and products.
 pub(crate) const MAX_PROGRAM_FORMATS: usize = MAX_INSTRUCTION_FORMATS + Storage::ALL.len() + 2;

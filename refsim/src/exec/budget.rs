@@ -65,9 +65,7 @@ pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &Resolved
     of_section(program, 0..end, flow, constants, &after)
 }
 
-/// An open block.
 struct Open {
-    /// Steps before the block.
     before: u64,
     /// Number of iterations, for loops.
     passes: u64,

@@ -7,15 +7,13 @@ use super::FixedFunctionState;
 use crate::isa::{ConstantValue, FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Program, RegisterFile};
 use crate::num::{self, Format};
 
-/// Number of integer constant registers, and of boolean ones.
+/// Number of integer constant registers, and of boolean constant registers.
 const FLOW_CONSTANTS: usize = 16;
 /// Number of float constants of Direct3D programs (vs_2_0).
 const FLOAT_CONSTANTS: usize = 256;
 /// Number of float constants of an OpenGL fragment program, including literals.
 const FRAGMENT_CONSTANTS: usize = FIRST_LITERAL as usize + 4096;
-/// 1.0 in single precision.
 const FP32_ONE: u32 = 0x3f80_0000;
-/// 255.0 in single precision.
 const FP32_255: u32 = 0x437f_0000;
 
 /// Constants of one stage, set by the host. Unset constants are zero; definitions in the program (`def`, `defi`,
@@ -144,7 +142,6 @@ fn clamped_to_one(bits: u32) -> u32 {
     if magnitude > FP32_ONE && magnitude <= 0x7f80_0000 { (bits & 0x8000_0000) | FP32_ONE } else { bits }
 }
 
-/// The pattern without its sign.
 fn magnitude(bits: u32) -> u32 {
     bits & 0x7fff_ffff
 }

@@ -46,8 +46,8 @@ use crate::isa::Program;
 
 /// A program that passed the checker. Executors accept only checked programs.
 ///
-/// It may run on another device than the one it was checked for: only the checker enforces limits, and executors
-/// support every register that a version can name.
+/// It may run on a device for which it was not checked: only the checker enforces limits, and executors support every
+/// register that a version can name.
 pub type CheckedProgram = Checked<Program>;
 
 /// Returns the program.

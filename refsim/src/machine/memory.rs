@@ -5,7 +5,6 @@ use crate::device::Profile;
 use crate::output::{DepthSurface, TargetTile};
 use crate::texture::{Image, TexelFormat};
 
-/// The card's memory.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     pub(super) textures: Vec<Option<Image>>,

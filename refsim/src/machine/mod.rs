@@ -162,7 +162,6 @@ impl Machine {
         seen
     }
 
-    /// Executes a checked call.
     fn shade(&mut self, call: &DrawCall<'_>, plan: &Plan) -> Result<DrawEvents, MachineError> {
         #[cfg(feature = "wgpu")]
         if self.executor == ExecutorKind::Wgpu {

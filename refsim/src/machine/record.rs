@@ -23,7 +23,6 @@ use std::sync::{Arc, PoisonError};
 /// Maximum number of cached coverages within a draw: the Ray Engine draws the same outline many times.
 const MAX_OUTLINES: usize = 1024;
 
-/// The log.
 impl Machine {
     /// Starts or stops recording. The events recorded so far are kept.
     pub fn record(&mut self, on: bool) {
@@ -77,13 +76,11 @@ impl Machine {
         FenceId(number.unwrap_or_default())
     }
 
-    /// Records a synchronous read-back.
     pub(super) fn note_read_back(&self, resource: ResourceId, bytes: u64) {
         let mode = ReadBackMode::Synchronous;
         self.recorder.push(|| Event::ReadBack { resource, bytes, mode, fence: None });
     }
 
-    /// Records a draw.
     pub(super) fn note_draw(
         &self,
         call: &DrawCall<'_>,

@@ -34,7 +34,6 @@ impl Recorder {
         self.with(|log| log.events.push(event()));
     }
 
-    /// Returns `true` if recording is on.
     pub(super) fn is_on(&self) -> bool {
         self.on
     }

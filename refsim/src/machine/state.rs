@@ -11,7 +11,6 @@ use crate::texture::Region;
 /// Number of state groups: the samplers, three for the vertex stage, and ten others.
 const PIECES: u32 = SAMPLERS as u32 + 3 + 10;
 
-/// The state of a draw.
 #[derive(Clone, Debug)]
 pub(super) struct DrawState {
     samplers: [Option<BoundTexture>; SAMPLERS],

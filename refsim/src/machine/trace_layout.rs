@@ -95,7 +95,6 @@ impl EncodedProgram {
     }
 }
 
-/// Layout of a trace's data.
 pub(super) struct TraceLayout {
     pub(super) words: DrawWords,
     /// Copies of the targets with one row: one column per traced pixel, plus one column for re-execution.

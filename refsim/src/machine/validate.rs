@@ -13,13 +13,9 @@ use std::ops::Range;
 /// Maximum number of vertices per instance, and of instances, per draw.
 const MAX_VERTICES: usize = 1 << 24;
 
-/// A validated call.
 pub(super) struct Plan {
-    /// State of the rasteriser.
     pub(super) raster: RasterState,
-    /// Number of vertices per instance.
     pub(super) vertex_count: usize,
-    /// Number of instances.
     pub(super) instance_count: usize,
     /// Triangles of an instance, as indices of its vertices.
     pub(super) triangles: Vec<[usize; 3]>,
@@ -50,7 +46,6 @@ impl Plan {
     }
 }
 
-/// Validates a call.
 pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Plan, MachineError> {
     check_stage(crate::exec::program(call.pixel_program), Stage::Pixel)?;
     let target = check_targets(profile, memory, call)?;

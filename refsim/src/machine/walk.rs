@@ -16,7 +16,6 @@ use crate::texture::Region;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-/// The result of a draw.
 pub(super) struct DrawResult {
     /// Tiles touched by triangles, to be copied into memory.
     pub(super) tiles: Vec<TargetTile>,
@@ -30,7 +29,6 @@ struct TileWork {
     counts: FragmentCounts,
 }
 
-/// Executes a checked call.
 pub(super) fn draw(
     memory: &Memory,
     profile: &Profile,

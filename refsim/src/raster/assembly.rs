@@ -37,7 +37,6 @@ pub fn assemble(primitive: Primitive, count: usize) -> Result<impl Iterator<Item
     Ok((0..triangles).map(move |i| triangle(primitive, i)))
 }
 
-/// Triangle `i`.
 fn triangle(primitive: Primitive, i: usize) -> [usize; 3] {
     // A quad is split along the diagonal from its first corner.
     let half = |[a, b, c, d]: [usize; 4]| if i.is_multiple_of(2) { [a, b, c] } else { [a, c, d] };

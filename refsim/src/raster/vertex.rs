@@ -51,7 +51,6 @@ impl Vertex {
         }
     }
 
-    /// All interpolated components in order.
     pub(crate) fn components(&self) -> [u32; COMPONENTS] {
         std::array::from_fn(|i| self.component(i))
     }

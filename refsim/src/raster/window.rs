@@ -8,7 +8,6 @@ use crate::texture::value;
 /// below 2^56.
 pub(crate) const FARTHEST: i64 = 1 << 17;
 
-/// Sign bit of an FP32 pattern.
 const SIGN: u32 = 1 << 31;
 
 /// A corner in window space.

@@ -22,7 +22,6 @@ pub enum Layout {
     Tiles,
 }
 
-/// Layout of one level.
 #[derive(Clone, Copy, Debug)]
 struct LevelMap {
     start: u64,

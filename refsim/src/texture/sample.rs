@@ -165,7 +165,6 @@ impl<'a> SamplePlace<'a> {
         Self { image, state, coordinates, face }
     }
 
-    /// Number of texture axes.
     fn axes(&self) -> usize {
         match self.image.kind() {
             TextureKind::D1 => 1,

@@ -91,7 +91,6 @@ pub(crate) enum SampledComponent {
     Byte {
         /// -128 to 127 if signed, else 0 to 255.
         byte: i32,
-        /// The channel is signed.
         signed: bool,
     },
     /// A channel that is not a byte.

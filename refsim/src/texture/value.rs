@@ -4,13 +4,9 @@
 
 use crate::num::{self, Format};
 
-/// FP32 zero.
 pub(crate) const ZERO: u32 = 0;
-/// FP32 one.
 pub(crate) const ONE: u32 = 0x3f80_0000;
-/// FP32 one half.
 pub(crate) const HALF: u32 = 0x3f00_0000;
-/// The canonical FP32 NaN.
 pub(crate) const NAN: u32 = 0x7fc0_0000;
 
 pub(crate) fn add(a: u32, b: u32) -> u32 {
@@ -111,7 +107,6 @@ pub(crate) fn exact(format: Format, bits: u32) -> Exact {
     }
 }
 
-/// Decodes an FP32 pattern exactly.
 pub(crate) fn exact32(bits: u32) -> Exact {
     let negative = bits >> 31 == 1;
     let field = (bits >> 23 & 0xff).cast_signed();

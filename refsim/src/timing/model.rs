@@ -42,7 +42,6 @@ const PIPELINE_FIGURES: [&str; 15] = [
     "texture_cache_line_bytes",
 ];
 
-/// Bytes per constant register.
 const CONSTANT_BYTES: u64 = 16;
 
 /// Bus figures required by both levels.
@@ -213,7 +212,6 @@ impl Model {
         Ok(scaled)
     }
 
-    /// Current value of a figure.
     fn figure(&self, key: &str) -> Option<u64> {
         match key.split_once('.')? {
             ("rates", name) => self.rates.figure(name),

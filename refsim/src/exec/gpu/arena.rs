@@ -26,7 +26,6 @@ impl Arena {
         base
     }
 
-    /// Frees a range.
     pub(super) fn give(&mut self, base: usize, words: usize) {
         let i = self.holes.partition_point(|hole| hole.0 < base);
         self.holes.insert(i, (base, words));

@@ -18,7 +18,6 @@ pub(crate) fn of_file(file: RegisterFile) -> Arith {
 }
 
 impl Translator<'_> {
-    /// Translates an instruction.
     pub(crate) fn fragment(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let value = match (instruction.opcode, instruction.opcode.info().class, instruction.destination) {
             (Opcode::Kil, ..) => return self.kil(instruction, effects),

@@ -100,7 +100,6 @@ pub(crate) fn translate_instruction(t: &mut Translator<'_>, instruction: &Instru
     }
 }
 
-/// Final values of the colours.
 fn final_colors(t: &mut Translator<'_>, program: &Program) -> [Option<[NodeId; 4]>; 4] {
     let zero = t.make.zero();
     let mut colors = [None; 4];

@@ -82,7 +82,6 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) active: u8,
     /// Lanes covered by the primitive.
     pub(super) covered: u8,
-    /// Lanes killed.
     pub(super) killed: u8,
     /// Depth written by the program, per lane.
     pub(super) depth: [Option<(Format, u32)>; LANES],

@@ -23,7 +23,6 @@ impl<'a> PixelProgram<'a> {
         Self { prepared: Prepared::pixel(program, rules, bindings) }
     }
 
-    /// Sets a step budget.
     pub(super) fn within(mut self, budget: u32) -> Self {
         self.prepared.set_budget(budget);
         self

@@ -56,7 +56,6 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Enforces a step budget.
     pub(crate) fn set_budget(&mut self, budget: u32) {
         self.budget = enforced(self.program, &self.flow, &self.constants, budget);
     }

@@ -11,7 +11,6 @@ use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile,
 use crate::num::{Format, Overflow, ops};
 use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
 
-/// Single precision 1.0.
 const ONE: u32 = 0x3f80_0000;
 
 /// One vector per lane.

@@ -28,7 +28,6 @@ impl<'a> VertexProgram<'a> {
         Self { prepared: Prepared::vertex(program, rules, constants) }
     }
 
-    /// Sets a step budget.
     pub(crate) fn within(mut self, budget: u32) -> Self {
         self.prepared.set_budget(budget);
         self

@@ -238,7 +238,7 @@ impl DrawWords {
         &self.interpolation
     }
 
-    /// Parts of the kernel that the draw uses, including those of its program.
+    /// Parts of the kernel that the draw and its program use.
     pub fn parts_with(&mut self, code: &Microcode) -> Parts {
         self.program_cost = code.passes;
         let mut parts = code.parts.clone();

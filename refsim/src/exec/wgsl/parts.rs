@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws other than operations. In the text, each feature guards blocks with an `if`.
 const FEATURES: [&str; 25] = [
-    // Numbers: fixed-point registers; normalized ones; floats without infinity; formats other than single precision
-    // with default rules.
+    // Numbers: fixed-point registers; normalized registers; floats without infinity; formats other than single
+    // precision with default rules.
     "HAS_FIXED",
     "HAS_NORMALIZED",
     "HAS_FINITE",

@@ -236,7 +236,6 @@ pub(super) fn passes(gpu: &Gpu) -> u32 {
     }
 }
 
-/// Decodes the 64-bit counts.
 fn counts(words: &[u32]) -> FragmentCounts {
     let of = |k: usize| match words.get(2 * k..2 * k + 2) {
         Some(&[low, high]) => u64::from(high) << 32 | u64::from(low),

@@ -29,7 +29,6 @@ impl FragmentClocks {
 /// Arithmetic work of a phase, in clocks at one slot per clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct FragmentWork {
-    /// Clocks of the float unit.
     float: u64,
     /// Fixed-point multiplications, two per clock and unit; `operations` are the other fixed-point operations, one per
     /// clock.

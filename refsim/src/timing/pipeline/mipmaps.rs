@@ -7,7 +7,6 @@ use crate::device::Rates;
 use crate::event::{MipmapLevel, MipmapRecord};
 use crate::timing::Clocks;
 
-/// Triangles per quad.
 const TRIANGLES: u64 = 2;
 /// Texels per bilinear read.
 const BILINEAR: u64 = 4;

@@ -9,7 +9,6 @@ use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::exec::lower::{ACTIVE, COUNTER, DECIDED, KILLED, TRUE};
 use crate::isa::{Opcode, OpcodeClass};
 
-/// State of an open block.
 enum OpenBlock {
     If { restore: Box<LaneRow>, otherwise: Box<LaneRow> },
     Loop { live: Box<LaneRow>, restore: Box<LaneRow>, left: i32, step: i32, outer: i32 },

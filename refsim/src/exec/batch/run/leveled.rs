@@ -1,7 +1,7 @@
 //! Filtered reads in rows that depend on the level of detail: each level that some lane needs is read for all lanes,
 //! and each lane selects its level.
 //!
-//! Most tiles need one level, or two adjacent ones. Values stay unrounded until levels are combined: exact sums for
+//! Most tiles need one level or two adjacent levels. Values stay unrounded until levels are combined: exact sums for
 //! fixed point, bytes where the device interpolates them, singles for floats.
 
 use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel, Slots};

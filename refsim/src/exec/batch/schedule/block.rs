@@ -39,37 +39,29 @@ pub(crate) enum BatchStep {
     },
     /// A sum computed by one adder.
     Sum {
-        /// Format.
         arith: Arith,
         /// Kind of sum.
         sum: RowSum,
-        /// The operands; surplus ones are ignored.
+        /// The operands; surplus operands are ignored.
         from: [Slot; 4],
-        /// Results.
         to: Slot,
     },
     /// A texture read.
     Fetch(FetchStep),
     /// Cosines or sines.
     Circle {
-        /// Format.
         arith: Arith,
         /// `true` for sines.
         sine: bool,
-        /// Angles.
         from: Slot,
-        /// Results.
         to: Slot,
     },
     /// Relatively addressed constants.
     Relative {
         /// Index without the address register.
         base: i32,
-        /// Component.
         component: usize,
-        /// Addresses.
         address: Slot,
-        /// Results.
         to: Slot,
     },
 }
@@ -361,7 +353,6 @@ impl Scheduler<'_> {
 /// Slots of a program's results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ResultSlots {
-    /// Colour components.
     pub(crate) colors: [Option<[Slot; 4]>; 4],
     /// Mask of killed lanes.
     pub(crate) killed: Option<Slot>,

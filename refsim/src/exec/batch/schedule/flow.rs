@@ -47,7 +47,6 @@ pub(crate) struct FlowPlan {
 }
 
 impl FlowPlan {
-    /// Decodes a pixel program.
     pub(crate) fn pixel(
         program: &Program,
         rules: &Rules,
@@ -60,7 +59,6 @@ impl FlowPlan {
         Self::new(program, constants, translator, budget)
     }
 
-    /// Decodes a vertex program.
     pub(crate) fn vertex(
         program: &Program,
         rules: &Rules,

@@ -41,7 +41,7 @@ pub(crate) struct StraightPlan {
     /// Evaluated per tile: depends on varying components only. Its roots keep their slots while `varying` runs; its
     /// `given` slots are in the order of `fixed.roots`.
     pub(crate) invariant: StepBlock,
-    /// Evaluated per triangle and tile, in slots above those of `invariant`; its `given` slots are in the order of
+    /// Evaluated per triangle and tile, in slots above the slots of `invariant`; its `given` slots are in the order of
     /// `uniform.roots`.
     pub(crate) varying: StepBlock,
     pub(crate) results: ResultSlots,

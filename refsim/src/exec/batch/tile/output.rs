@@ -22,7 +22,6 @@ pub(crate) struct Shaded<'a> {
     pub(crate) formats: &'a LaneFormats,
     pub(crate) slots: &'a Slots,
     pub(crate) covered: &'a LaneRow,
-    /// Interpolated depth.
     pub(crate) depth: &'a LaneRow,
     /// Pixels of the lanes, if they are packed.
     pub(crate) packed: Option<&'a PackedLanes>,
@@ -36,7 +35,6 @@ pub(crate) struct Fragment {
     lane: u8,
     /// Depth, as stored in the depth buffer.
     depth: u32,
-    /// Raw colours.
     colors: [[u32; 4]; MAX_TARGETS],
 }
 

@@ -91,7 +91,6 @@ impl PackedLanes {
         }
     }
 
-    /// Empties the batch.
     pub(crate) fn clear(&mut self, quads: bool) {
         self.quads = quads;
         self.tested = 0;

@@ -44,7 +44,6 @@ pub(crate) struct TileShader {
     pub(crate) covered: LaneRow,
     pub(crate) covered_count: u64,
     pub(crate) run: LaneRow,
-    /// Interpolated depth, if needed.
     pub(crate) depth: LaneRow,
     /// `true` if the rows of varying components are valid for the part.
     inputs_hold: bool,
@@ -91,12 +90,10 @@ impl TileShader {
         }
     }
 
-    /// The SIMD level in use.
     pub(crate) fn simd(&self) -> SimdLevel {
         self.simd
     }
 
-    /// Position of the lanes.
     pub(crate) fn frame(&self) -> TileFrame {
         self.frame
     }

@@ -42,7 +42,7 @@ impl Instances<'_> {
         self.triangles[triangle].map(|vertex| vertex * self.count + instance)
     }
 
-    /// For each instance, `true` if all its positions equal those of the previous instance.
+    /// For each instance, `true` if the previous instance has the same positions.
     fn repeats(&self) -> Vec<bool> {
         let mut repeats = vec![true; self.count];
         if let Some(first) = repeats.first_mut() {
@@ -141,7 +141,7 @@ impl Surfaces {
     }
 
     /// Computes the planes of all triangles, grouped by triangle of the list, then instance. Returns, per triangle,
-    /// `true` if its constant components equal those of the previous triangle of the same instance.
+    /// `true` if the previous triangle of the same instance has the same constant components.
     fn planes(&mut self, instances: &Instances<'_>, simd: SimdLevel) -> Vec<bool> {
         let (count, total) = (instances.count, instances.count * instances.triangles.len());
         let format = self.iterator_format;

@@ -56,7 +56,6 @@ pub struct Microcode {
     pub passes: u32,
 }
 
-/// Encodes a program.
 pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>) -> Result<Microcode, ProgramError> {
     let formats = program.formats.own().len();
     if formats > MAX_PROGRAM_FORMATS {
