@@ -17,17 +17,14 @@ struct Written {
     bits: String,
 }
 
-/// An executed instruction.
 #[derive(Debug, Serialize)]
 struct ShownStep {
     /// Line of the text, from 1.
     line: usize,
     written: Vec<Written>,
-    /// Exceptions.
     flags: Vec<String>,
 }
 
-/// The trace of a pixel.
 #[derive(Debug, Serialize)]
 pub(crate) struct ShownTrace {
     inputs: Vec<Written>,
@@ -35,7 +32,6 @@ pub(crate) struct ShownTrace {
     outcome: &'static str,
 }
 
-/// The first difference of two traces.
 #[derive(Debug, Serialize)]
 pub(crate) struct ShownDifference {
     stage: String,
