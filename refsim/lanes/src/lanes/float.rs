@@ -1,4 +1,4 @@
-//! Lane arithmetic of the binary floats `eXmY`: all of them live in a host `f32`, which holds each of their values.
+//! Lane arithmetic of the binary floats `eXmY`: a host `f32` represents each of their values.
 
 use super::lane::Lane;
 use super::layout::FloatLayout;

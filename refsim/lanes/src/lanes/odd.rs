@@ -1,4 +1,4 @@
-//! Rounding to odd: a double that a later rounding treats as it would treat the exact real result.
+//! Rounding to odd: a double that a later rounding turns into the same number as the exact real result.
 //!
 //! A real number is rounded to odd by truncating it and setting the last bit if anything was cut off. Rounding that
 //! once more into a format of `p` bits, in any direction, equals rounding the real number itself, if the intermediate
@@ -41,8 +41,8 @@ pub(crate) fn head(x: f64) -> f64 {
     c - (c - x)
 }
 
-/// `a / b` rounded to odd in all 53 bits, for fixed-point formats of more than 24 bits. `a` is any double and `b` not 0
-/// and of at most 26 significant bits, both far from the ends of the range.
+/// `a / b` rounded to odd in all 53 bits, for fixed-point formats of more than 24 bits. `a` is any double, `b` is not 0
+/// and has at most 26 significant bits; both are far from the ends of the range.
 ///
 /// The quotient q, in [1, 2) units of 2^e, is split into 26 and 27 bits, whose products with `b` have 53 bits at most:
 /// they are exact. Let `b` be an integer of n bits, so that `a` is a multiple of 2^(e+n-54). `a` minus the larger

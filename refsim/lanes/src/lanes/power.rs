@@ -1,9 +1,9 @@
 //! `2^x` and `log2 x`, rounded to odd into a double: the batch executor's implementation, in 128-bit fixed point.
 //!
 //! Both are irrational unless obviously exact (an integer exponent, a power of two), so the true value is never on a
-//! rounding boundary. The evaluations below are accurate to 2^-95. Operands have at most 32 bits, so a result nearer
-//! than 2^-75 to a boundary has a probability of about one in a million. The tests in full form compare every operand
-//! of every format of 16 bits.
+//! rounding boundary. The evaluations below are accurate to 2^-95. Operands have at most 32 bits, so the probability
+//! that any result is nearer than 2^-75 to a boundary is about one in a million. The tests in full form compare every
+//! operand of every format of 16 bits.
 
 use super::layout::pow2;
 

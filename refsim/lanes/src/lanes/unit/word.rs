@@ -97,7 +97,7 @@ pub(crate) struct Met {
 impl Met {
     pub(crate) const NONE: Self = Self { largest: 0, addend: u32::MAX, product: u32::MAX };
 
-    /// The range of a product, or of any result that may be wrong near zero.
+    /// The magnitude range of a product, or of another result that may be wrong near zero.
     #[inline(always)]
     pub(super) fn product(word: u32) -> Self {
         let largest = word & !SIGN;

@@ -150,7 +150,7 @@ pub fn floor(x: u32) -> u32 {
     }
 }
 
-/// FRC: `x - floor(x)` by the adder, so that it can be 1.0, and NaN for infinities.
+/// FRC: `x - floor(x)`, rounded by the adder: the result can be 1.0, and is NaN for infinities.
 pub fn frc(unit: Unit, x: u32) -> u32 {
     add(unit, x, floor(x) ^ SIGN)
 }
