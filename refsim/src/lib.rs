@@ -20,7 +20,7 @@
 //! applications such as ray casting and radiosity.
 //!
 //! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. Each
-//! executor computes them by other means: the scalar executor in integers, one value at a time, following the
+//! executor has its own arithmetic: the scalar executor computes in integers, one value at a time, following the
 //! specifications; the batch executor with the host's SIMD instructions; the wgpu executor (feature `wgpu`) in WGSL.
 //! Tests compare them.
 //!

@@ -10,7 +10,7 @@ use crate::event::{DrawRecord, MipmapRecord, ProgramWork};
 pub enum Level {
     /// Equation 11 of the Ray Engine paper: a fill rate (measured if available) and the rates of the bus.
     Rates,
-    /// Bottom-up: clocks of the units, memory traffic, latencies.
+    /// A simulated pipeline: clocks of the units, memory traffic, latencies.
     Pipeline,
 }
 
