@@ -1,7 +1,7 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
 //!
-//! Program text goes in, with textures, constants and triangles; pictures come out, with the bits of the card's
-//! arithmetic and with counts from which a model derives the card's time:
+//! The input is a program text, textures, constants and triangles. The output is pictures with the bits of the card's
+//! arithmetic, and counts from which a model derives the card's time:
 //!
 //! ```text
 //!   program text                        vertices
@@ -16,13 +16,13 @@
 //!   durations, a timeline
 //! ```
 //!
-//! [`num`] defines number formats and their arithmetic; everything above computes with it. The crate is independent of
-//! the application: ray casting, radiosity and transfer are implemented in the crate above.
+//! [`num`] defines number formats and their arithmetic, which all other modules use. The crate is independent of
+//! applications such as ray casting and radiosity.
 //!
-//! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. The
-//! executors compute them by different means: the scalar one in integers, one value at a time, following the
-//! specifications; the batch one with the host's SIMD instructions; a third, with the feature `wgpu`, in WGSL. Tests
-//! compare them.
+//! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. Each
+//! executor has its own arithmetic: the scalar executor computes in integers, one value at a time, following the
+//! specifications; the batch executor with the host's SIMD instructions; the wgpu executor (feature `wgpu`) in WGSL.
+//! Tests compare them.
 //!
 //! # A draw
 //!
@@ -88,9 +88,10 @@
 //! # Where next
 //!
 //! - [`machine`]: textures, targets, draws, read-back, traces of single pixels
-//! - [`device`]: the cards, their figures with sources, switches where no source decides
+//! - [`device`]: the cards, their figures with sources, and switches where sources leave several values
 //! - [`num`]: formats as strings, operations, flags
-//! - [`timing`]: from a machine's log to clocks and a timeline; the crate `refsim-criterion` benchmarks in them
+//! - [`timing`]: from a machine's log to clocks and a timeline; the crate `refsim-criterion` benchmarks in modelled
+//!   time
 
 pub mod asm;
 pub mod check;

@@ -14,8 +14,8 @@ pub enum ChannelClass {
     /// Two's complement `k / (2^(n-1) - 1)`; [`crate::device::SignedTexelMinimum`] determines the value of the
     /// smallest `k`.
     Snorm,
-    /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` for k < 0, so that -15 is not -1.0 (all
-    /// sixteen probes of Wine's test on real cards agree; docs/numbers.md).
+    /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` for k < 0, so that -15 is not -1.0 (as in all
+    /// sixteen probes of Wine's test on real cards; docs/numbers.md).
     SplitSnorm,
     /// A floating-point pattern of the given format.
     Float(Format),
@@ -24,7 +24,7 @@ pub enum ChannelClass {
 /// One stored channel of a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Channel {
-    /// Position of its lowest bit in the texel read as a little-endian integer.
+    /// Position of the lowest bit in the texel, which is read as a little-endian integer.
     pub shift: u8,
     /// Width in bits, 1 to 32.
     pub bits: u8,
@@ -34,10 +34,10 @@ pub struct Channel {
     pub stored_from: u8,
 }
 
-/// Source of a colour component delivered by a sampler.
+/// Source of a colour component that a sampler returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComponentSource {
-    /// The stored channel of this index.
+    /// The stored channel with this index.
     Channel(u8),
     /// Always 0.
     Zero,
@@ -58,7 +58,7 @@ pub struct FormatRecord {
     pub channel_count: u8,
     /// The stored channels; entries from `channel_count` on are unused.
     pub channels: [Channel; 4],
-    /// Sources of red, green, blue and alpha delivered by a sampler that follows Direct3D.
+    /// Sources of the red, green, blue and alpha that a sampler returns in Direct3D.
     pub components: [ComponentSource; 4],
 }
 
@@ -104,8 +104,8 @@ const C3: ComponentSource = ComponentSource::Channel(3);
 const ZERO: ComponentSource = ComponentSource::Zero;
 const ONE: ComponentSource = ComponentSource::One;
 
-// Defaults of components that are not stored: alpha 1 for colour, blue and alpha 1 for two channels, all but red 1 for
-// one channel, black for alpha alone, replicated luminance (Direct3D 9 sampler page, "default values").
+// Components that are not stored (Direct3D 9 sampler page, "default values"): alpha is 1 for colour; blue and alpha are
+// 1 for two channels; all but red are 1 for one channel; colour is black for alpha alone; luminance is replicated.
 const RGBA: [ComponentSource; 4] = [C0, C1, C2, C3];
 const RGB: [ComponentSource; 4] = [C0, C1, C2, ONE];
 const RG: [ComponentSource; 4] = [C0, C1, ONE, ONE];
@@ -248,7 +248,7 @@ impl TexelFormat {
         usize::from(self.record().bytes)
     }
 
-    /// The format with our name or the Direct3D one (`D3DFMT_` allowed), in any case.
+    /// The format with this project's name or Direct3D's (`D3DFMT_` allowed), in any case.
     pub fn named(text: &str) -> Option<Self> {
         let lower = text.trim().to_ascii_lowercase();
         let key = lower.strip_prefix("d3dfmt_").unwrap_or(&lower);
@@ -256,7 +256,7 @@ impl TexelFormat {
         Self::ALL.iter().copied().find(is_named)
     }
 
-    /// Sources of red, green, blue and alpha delivered by a sampler of an Xbox.
+    /// Sources of the red, green, blue and alpha that a sampler of an Xbox returns.
     pub(crate) fn xbox_components(self) -> [ComponentSource; 4] {
         let record = self.record();
         match record.components {
@@ -291,7 +291,7 @@ pub enum DepthFormat {
     #[strum(serialize = "d32f")]
     Float32,
     /// 24 bits without a sign: 4 exponent, 20 mantissa bits (`D24FS8`, "20e4"). guess: the bias, which no source
-    /// states, is 15, so that 1.0 has the largest exponent; exponent 0 is subnormal; rounding is to nearest even.
+    /// states, is 15, so 1.0 has the largest exponent; exponent 0 is subnormal; rounding is to nearest even.
     #[strum(serialize = "d24f")]
     Float24,
 }

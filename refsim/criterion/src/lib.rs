@@ -1,7 +1,7 @@
 //! Criterion benchmarks in modelled time.
 //!
 //! [`ModelledTime::on_card`] records a run on a [`Machine`] and returns its duration on the card's timeline, and
-//! [`ModelledTime::bench`] reports it to criterion. So the benchmark measures the emulated card, not the emulator.
+//! [`ModelledTime::bench`] reports it to criterion. The benchmark thus measures the emulated card, not the emulator.
 //!
 //! ```no_run
 //! use refsim::{device::Profile, texture::TexelFormat};
@@ -46,7 +46,7 @@ pub enum RunError {
     Replay(#[from] ReplayError),
 }
 
-/// Measurement of criterion in picoseconds of a timeline. There is no clock to start: benchmarks report their result
+/// A criterion measurement in picoseconds of a timeline. It has no clock to start: benchmarks report their result
 /// through `Bencher::iter_custom`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ModelledTime;
@@ -72,7 +72,7 @@ impl ModelledTime {
         settings().configure_from_args()
     }
 
-    /// Duration of `run` on `card`, by the pipeline model; drawn with the batch executor.
+    /// Duration of `run` on `card` by the pipeline model, drawn with the batch executor.
     ///
     /// # Errors
     /// [`RunError`].
@@ -217,12 +217,12 @@ mod tests {
 
     #[test]
     fn criterion_estimates_the_time_of_the_run_without_variance() {
-        // The GeForce3's full-screen quad, a run below a nanosecond, and one of a minute.
+        // The GeForce3's full-screen quad, a run below a nanosecond, and a run of a minute.
         for time in [85_710_000, 7, 60_000_000_000_000] {
             let folder = tempfile::tempdir().expect("a folder");
             let mut criterion = settings().output_directory(folder.path());
             let mut group = criterion.benchmark_group("card");
-            // A host that is busy while it warms up makes criterion choose samples without a slope.
+            // If the host is busy during warm-up, criterion chooses samples without a slope.
             group.sampling_mode(criterion::SamplingMode::Linear);
             ModelledTime::measure(&mut group, BenchmarkId::from_parameter("run"), 65_536, Picoseconds(time));
             group.finish();

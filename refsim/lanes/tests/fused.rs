@@ -1,10 +1,10 @@
-//! Sums of products and quotients in fused multiply-adds, which the wider level of vector instructions takes for short
-//! formats that round to nearest, against those in integers of the narrowest level; and formats that may not be fused.
+//! Sums of products and quotients by fused multiply-adds (short formats that round to nearest, at the wider SIMD
+//! level), compared with integer arithmetic at the narrowest level; and formats that must not be fused.
 
 use refsim_lanes::num::{Format, NumberOperation};
 use refsim_lanes::{AnyLane, LANES, LaneCode, LaneOp, LaneRow, OPERANDS, SimdLevel, Slots, run};
 
-/// Formats, and the step of the operands between both ends.
+/// Formats, and the step between operands.
 const FORMATS: [(&str, usize); 23] = [
     ("s3.12", 397),
     ("s0.15", 397),

@@ -6,7 +6,7 @@ use refsim_lanes::{MatrixColumns, MatrixRows};
 use std::fs;
 use std::path::Path;
 
-/// Numbers of `digits` hexadecimal digits each, without separators.
+/// Parses numbers of `digits` hexadecimal digits each, without separators.
 fn codes(text: &str, digits: usize) -> Vec<u64> {
     text.as_bytes()
         .chunks(digits)
@@ -191,7 +191,7 @@ fn padding_and_bad_operands() {
     assert!(MatrixUnit::find("pascal").is_err() && unit.with_bits(61).is_none());
 }
 
-/// Random patterns: any, ordinary ones, or few that are not zero, by the seed.
+/// Random patterns, by the seed: arbitrary, ordinary, or mostly zero.
 fn drawn(element: Element, count: usize, seed: u64) -> Vec<u64> {
     let any = |k: usize| {
         let [high, low] = [0, 1].map(|half| u64::from(random_word(seed, (2 * k + half) as u64)));
@@ -242,12 +242,12 @@ fn columns_at_once_give_what_the_definition_gives() {
     }
 }
 
-/// A sum that flushes to -0 stays so to the end of the instruction; as the c of the next one it is +0.
+/// A sum that flushes to -0 stays -0 to the end of the instruction; as c of the next instruction it is +0.
 #[test]
 fn flushed_zeros_keep_their_sign_within_an_instruction_of_cdna2() {
     let unit = MatrixUnit::find("cdna2_bf16").expect("a unit");
     let code = |x: f64| Element::BF16.code(x).expect("a number");
-    // Three halves of the smallest normal number, less that, and products that flush.
+    // 1.5 times the smallest normal number, minus that number, and products that flush.
     let (least, small) = (power_of_two(-126), power_of_two(-100));
     let a = [-1.5 * least, 0.0, least, 0.0].into_iter().chain([-small; 12]).map(code).collect::<Vec<_>>();
     let b = [1.0; 4].into_iter().chain([small; 12]).map(code).collect::<Vec<_>>();

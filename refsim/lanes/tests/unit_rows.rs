@@ -1,5 +1,5 @@
-//! Rows of the units of cards against the definition, bit for bit, in each level of vector instructions: numbers,
-//! awkward words, and the operands of the vectors that real chips' models gave.
+//! Rows of the units of cards against the definition, bit for bit, at each level of vector instructions: numbers,
+//! special words, and the operands of the test vectors.
 
 use refsim_lanes::num::{DotOrder, Format, NumberOperation as Op, ops};
 use refsim_lanes::{
@@ -17,7 +17,7 @@ const FORMATS: [&str; 8] = [
     "e8m23:ftz",
 ];
 
-/// Operations of numbers that lanes have. Sines are computed by the definition.
+/// Operations on numbers that lanes have. Sines are computed by the definition.
 const OPERATIONS: [Op; 36] = [
     Op::Add,
     Op::Sub,
@@ -103,7 +103,7 @@ impl Words {
         (z >> 32) as u32
     }
 
-    /// A number of one of `span` exponents around `center`, often of few bits, sometimes zero.
+    /// A number with one of `span` exponents around `center`, often with few bits, sometimes zero.
     fn number(&mut self, center: u32, span: u32) -> u32 {
         let (w, shape) = (self.word(), self.word());
         let field = center - span / 2 + w % span;
@@ -117,7 +117,7 @@ impl Words {
         if shape >> 20 & 15 == 0 { w & 1 << 31 } else { w & 1 << 31 | field << 23 | mantissa }
     }
 
-    /// A row of a kind: ordinary numbers first, then rarer ones.
+    /// A row of a kind; low kinds are ordinary numbers, high kinds rarer numbers.
     fn row(&mut self, kind: usize, other: &LaneRow) -> LaneRow {
         let mut row = [0; LANES];
         for (i, word) in row.iter_mut().enumerate() {
@@ -243,7 +243,7 @@ fn sums_that_cancel_are_as_defined() {
     }
 }
 
-/// Operands of the vectors, in rows; the tests of the definition have the results.
+/// Operands of the test vectors, in rows; other tests compare the definition with the vectors' results.
 #[test]
 fn rows_of_the_vectors_are_as_defined() {
     use Op::{Abs, Add, Equal, Exp2, Floor, Frc, Less, LessEqual, Log2, Mad, Max, Min, Mul, Rcp, Rsq, Sub};
@@ -274,7 +274,7 @@ fn rows_of_the_vectors_are_as_defined() {
         let dots = [LaneCode::Dot(3), LaneCode::Dot(4)];
         let codes: Vec<LaneCode> = plain.chain(dots.into_iter().filter(|_| columns == 8)).collect();
         for block in operands.chunks(LANES) {
-            // Operands of dot products are those of one vector, then those of the other.
+            // Operands of dot products are listed vector by vector.
             let place = |k: usize| if columns == 8 { k / 2 + 4 * (k % 2) } else { k % columns };
             let rows = std::array::from_fn(|k| {
                 let mut row = [0; LANES];
@@ -312,7 +312,7 @@ fn single_operations_are_as_defined() {
     }
 }
 
-/// Conversions to half floats near and below the least one, in rows and one by one.
+/// Conversions to half floats near and below the smallest half float, in rows and one by one.
 #[test]
 fn half_floats_are_as_defined() {
     let mut words = Words(4);

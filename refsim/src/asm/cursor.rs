@@ -23,7 +23,7 @@ impl<'a> Cursor<'a> {
         self.peek_at(0)
     }
 
-    /// The token `ahead` positions after the next; past the end the end token.
+    /// The token `ahead` positions after the next; past the end, the end token.
     pub(super) fn peek_at(&self, ahead: usize) -> Token<'a> {
         self.tokens[(self.at + ahead).min(self.tokens.len() - 1)]
     }
@@ -47,7 +47,7 @@ impl<'a> Cursor<'a> {
         found
     }
 
-    /// Consumes the next token, which must be this mark.
+    /// Consumes the next token, which must be `mark`; anything else is an error.
     pub(super) fn expect(&mut self, mark: &str, help: &str) -> Parsed<()> {
         if self.accept_mark(mark) {
             return Ok(());
@@ -81,15 +81,14 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Skips to the next statement, for recovery after an error in an OpenGL program.
+    /// Skips to the next statement, to recover from an error in an OpenGL program.
     pub(super) fn skip_statement(&mut self) {
         while self.peek().kind != TokenKind::End && !self.accept_mark(";") {
             self.next();
         }
     }
 
-    /// Returns `true` if another statement is to be parsed. Exceeding the limit of errors or statements is an error
-    /// itself.
+    /// Returns `true` if another statement can be parsed; records an error at the limit of errors or statements.
     pub(super) fn goes_on(&mut self) -> bool {
         let token = self.peek();
         let (kind, limit, what) = if self.errors.len() >= MAX_ERRORS {

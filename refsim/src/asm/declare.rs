@@ -237,7 +237,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Skips surplus text after a complete list in the same line; reports it if `report`.
+    /// Skips surplus text in the line after a complete list; reports it if `report`.
     fn end_list(&mut self, report: bool, name: &str, help: &str) {
         if self.at_list_end() {
             return;

@@ -32,10 +32,10 @@ pub enum ErrorKind {
     /// A token that cannot start or continue a statement.
     #[error("misplaced text")]
     UnexpectedToken,
-    /// An instruction that no version has.
+    /// An instruction that exists in no version.
     #[error("unknown instruction")]
     UnknownOpcode,
-    /// A modifier or comparison that the instruction does not have.
+    /// A modifier or comparison that the instruction lacks.
     #[error("unknown instruction modifier")]
     UnknownInstructionModifier,
     /// A repeated modifier, or two modifiers of one kind.
@@ -53,7 +53,7 @@ pub enum ErrorKind {
     /// A token that is not an operand.
     #[error("malformed operand")]
     MalformedOperand,
-    /// A register that no version has.
+    /// A register that exists in no version.
     #[error("unknown register")]
     UnknownRegister,
     /// A register without its number.
@@ -164,20 +164,19 @@ impl Diagnostic for SyntaxError {
 
 /// All syntax errors of a text; never empty.
 ///
-/// Displayed, and returned from `main`, it quotes the line of each error and gives advice. For colours and labels,
-/// render the single errors with the text
-/// (`miette::Report::new(error).with_source_code(NamedSource::new(name, text))`).
+/// When displayed or returned from `main`, it quotes the line of each error with advice. For colours and labels, render
+/// each error with the text (`miette::Report::new(error).with_source_code(NamedSource::new(name, text))`).
 #[derive(Clone, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[diagnostic(code("asm::syntax"))]
 pub struct AssembleErrors {
     /// The errors in the order of the text.
     pub errors: Vec<SyntaxError>,
-    /// The text; empty if it is too long to be one of a program.
+    /// The text; empty if it exceeds [`super::MAX_TEXT`].
     pub text: ProgramText,
 }
 
 impl AssembleErrors {
-    /// Errors of a text that is still to be added.
+    /// Creates the list without its text, which the caller adds.
     pub(super) fn new(errors: Vec<SyntaxError>) -> Self {
         Self { errors, text: ProgramText::default() }
     }
@@ -194,7 +193,7 @@ impl fmt::Display for AssembleErrors {
     }
 }
 
-/// As displayed: this is what the program prints whose `main` returns the errors.
+/// Same as `Display`, because a `main` that returns the errors prints this.
 impl fmt::Debug for AssembleErrors {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

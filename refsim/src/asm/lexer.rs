@@ -3,16 +3,14 @@
 use super::error::{ErrorKind, SyntaxError, quote};
 use crate::isa::Span;
 
-/// Language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// A statement per line; comments start with `;` or `//`, or stand between `/*` and `*/`.
+    /// One statement per line; comments start with `;` or `//`, or are enclosed in `/*` and `*/`.
     Direct3d,
     /// Statements end with `;`; comments start with `#`.
     OpenGl,
 }
 
-/// Kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TokenKind {
     /// Letters, digits and underscores (in OpenGL also `$`), not starting with a digit; a version token with its dots.
@@ -37,7 +35,6 @@ pub(super) enum TokenKind {
     End,
 }
 
-/// A token and its location.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Token<'a> {
     pub(super) kind: TokenKind,
@@ -188,7 +185,7 @@ impl Lexer<'_> {
     }
 
     /// Consumes the longest number of OpenGL's grammar: digits, a point, digits, an exponent. `0..3` is three tokens,
-    /// `3.14.x` a number and its component; `1.x` is `1.` and a letter, a malformed number like `1.5x` and `1.5.5`.
+    /// `3.14.x` is a number and its component; `1.x` is malformed, like `1.5x` and `1.5.5`.
     fn opengl_number(&mut self) {
         let rest = self.rest();
         let at = |i: usize| rest.get(i).copied().unwrap_or(0);

@@ -8,7 +8,7 @@ pub const MAX_STATEMENTS: usize = 1 << 16;
 pub const MAX_ERRORS: usize = 1000;
 /// Highest register number accepted; the checker enforces the version's limits.
 pub const MAX_REGISTER: u16 = u16::MAX;
-/// Maximum number of operands of an instruction that its version lacks.
+/// Maximum number of operands parsed for an instruction that its version lacks.
 pub const MAX_OPERANDS: usize = 8;
 /// Maximum length of a number, in characters.
 pub const MAX_NUMBER: usize = 128;

@@ -17,7 +17,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Consumes an optional comma between two items, and line ends after it if the list continues in the next line.
+    /// Consumes an optional comma between two items, and following line ends if the list continues on the next line.
     pub(super) fn comma(&mut self, first: bool) -> Parsed<()> {
         let Some(comma) = self.accept(TokenKind::Comma) else {
             return Ok(());
@@ -49,8 +49,8 @@ impl Parser<'_> {
         ))
     }
 
-    /// Parses a destination, if `has_destination`, and sources to the end of the list. `None` after an error, which is
-    /// recorded.
+    /// Parses a destination, if `has_destination`, and sources to the end of the list. Returns `None` after recording
+    /// an error.
     pub(super) fn operands(&mut self, has_destination: bool) -> Option<(Option<Destination>, Vec<Source>)> {
         let mut destination = None;
         let mut sources = Vec::new();

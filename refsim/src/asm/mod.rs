@@ -7,7 +7,7 @@
 //!
 //! [`print()`] writes a canonical form of any program, such that `assemble(&print(&p)) == Ok(p)`.
 //!
-//! OpenGL's fragment programs (`!!FP1.0`, `!!ARBfp1.0`) have their own parsers (`gl`) and result in the same type.
+//! OpenGL's fragment programs (`!!FP1.0`, `!!ARBfp1.0`) have their own parsers (`gl`), which also return a [`Program`].
 //!
 //! There are two extensions of the period's syntax: `def` accepts `0x` and eight hexadecimal digits as the bits of a
 //! float (so that infinities and NaNs can be printed), and a constant's value may end in `f`. Source: Direct3D 9
@@ -63,7 +63,7 @@ pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
     }
 }
 
-/// Prints a program in canonical form, which [`assemble`] parses back to an equal one: in lower case for Direct3D's
+/// Prints a program in canonical form, which [`assemble`] parses back to an equal program: in lower case for Direct3D's
 /// versions, in the extensions' case for OpenGL's.
 pub fn print(program: &Program) -> String {
     if program.version.is_fragment_program() { gl::print(program) } else { print::print(program) }

@@ -13,8 +13,8 @@ const LETTERS: [char; 4] = ['x', 'y', 'z', 'w'];
 /// the instructions, lower case (except for registers whose names Direct3D writes otherwise), `xyzw`, modifiers in the
 /// order shift, `_sat`, `_pp`, shortest decimals.
 ///
-/// [`super::assemble`] parses the result back to an equal program, if the program is printable: definitions and
-/// declarations in ascending order of position, masks not empty, shifts from -3 to 3.
+/// [`super::assemble`] parses the result back to an equal program, if definitions and declarations are in ascending
+/// order of position, no mask is empty, and shifts are from -3 to 3.
 pub(super) fn print(program: &Program) -> String {
     let mut out = format!("{}\n", program.version);
     let mut constants = program.constants.iter().peekable();
@@ -137,7 +137,7 @@ fn source(out: &mut String, s: &Source) {
     swizzle(out, s.swizzle);
 }
 
-/// Prints as few letters as possible: none for the identity, and no repetition of the last.
+/// Prints as few letters as possible: none for the identity, and repeated last letters once.
 fn swizzle(out: &mut String, s: Swizzle) {
     if s == Swizzle::IDENTITY {
         return;

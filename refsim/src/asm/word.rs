@@ -1,10 +1,9 @@
-//! Mnemonics with their suffixes, and suggestions for unknown ones.
+//! Mnemonics with their suffixes, and suggestions for unknown mnemonics.
 
 use super::error::{ErrorKind, SyntaxError, quote};
 use super::lexer::Token;
 use crate::isa::{Comparison, DestinationRule, OpInfo, Opcode, Span};
 
-/// A parsed mnemonic with its suffixes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mnemonic {
     pub(super) opcode: Opcode,
@@ -14,12 +13,12 @@ pub(super) struct Mnemonic {
     pub(super) partial_precision: bool,
 }
 
-/// The opcode table's rows with a mnemonic (two for `if` and `break`).
+/// Rows of the opcode table for a mnemonic (two for `if` and `break`).
 fn rows(base: &str) -> impl Iterator<Item = &'static OpInfo> {
     Opcode::ALL.iter().map(|opcode| opcode.info()).filter(move |info| info.mnemonic.eq_ignore_ascii_case(base))
 }
 
-/// The first row for a word without its suffixes.
+/// The first row for a word, ignoring its suffixes.
 pub(super) fn row(word: &str) -> Option<&'static OpInfo> {
     rows(base(word)).next()
 }
@@ -75,7 +74,6 @@ pub(super) fn shift_suffix(shift: i8) -> &'static str {
     }
 }
 
-/// Parses a mnemonic with its suffixes.
 pub(super) fn mnemonic(token: &Token<'_>) -> Result<Mnemonic, SyntaxError> {
     let base = base(token.text);
     let Some(first) = rows(base).next() else {

@@ -50,7 +50,7 @@ impl Allowed {
 }
 
 impl Limit {
-    /// Key in a profile, and the device's figure. Figures of the pixel pipeline don't apply to vertex programs.
+    /// The key in a profile, and the device's value. Limits of the pixel pipeline don't apply to vertex programs.
     fn of_device(self, profile: &Profile, stage: Stage) -> (&'static str, Option<u32>) {
         macro_rules! figure {
             ($name:ident) => {
@@ -138,7 +138,7 @@ impl Limit {
         }
     }
 
-    /// The limit of an OpenGL program: the device's own if it states one, else the extension's minimum.
+    /// The limit of an OpenGL program: the device's limit if stated, else the extension's minimum.
     fn of_fragment(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let l = &profile.limits;
         let arb = version == Version::ArbFp1_0;
@@ -164,8 +164,8 @@ impl Limit {
 
     /// The effective limit for programs of `version` on the device; `None`: no limit.
     ///
-    /// The smaller of the device's and the version's limit, except that what `ps_2_x` leaves to the device (slots,
-    /// temporaries, nesting) is the device's alone.
+    /// The smaller of the device's and the version's limit. The limits that `ps_2_x` leaves to the device (slots,
+    /// temporaries, nesting) are the device's.
     pub(super) fn allowed(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let stage = version.stage();
         if version.is_fragment_program() {
@@ -188,8 +188,8 @@ impl Limit {
                     | Self::LoopDepth
                     | Self::CallDepth
             );
-        // A device's figure applies only where the version has a limit: four levels of dependent reads don't concern
-        // ps_1_4, which has phases.
+        // A device's limit applies only if the version has one too: ps_1_4 has phases instead of a limit of dependent
+        // reads.
         match (device, of_version) {
             (Some(d), Some(v)) if d <= v || left_to_device => Some(by(d, &profile.name, true)),
             (_, Some(v)) => Some(by(v, version.token(), false)),

@@ -33,7 +33,7 @@ pub(super) struct Context<'a> {
     pub(super) warnings: Vec<Warning>,
     /// `true` for instruction `i` if the version has it and its operands are present; later passes rely on it.
     pub(super) sound: Vec<bool>,
-    /// For each instruction the index of the one that ends or continues its block, loop or subroutine.
+    /// For each instruction, the index of the instruction that ends or continues its block, loop or subroutine.
     pub(super) jump: Vec<Option<usize>>,
     phase_marker: Option<usize>,
 }
@@ -86,7 +86,7 @@ impl<'a> Context<'a> {
         limit.allowed(self.profile, self.version)
     }
 
-    /// Returns `true` if limits that come from the version alone (ports, tokens) apply: not on ideal devices.
+    /// Returns `true` if limits that only the version has (ports, tokens) apply; they don't on ideal devices.
     pub(super) fn version_limits(&self) -> bool {
         self.profile.limits.version_limits
     }
@@ -122,7 +122,6 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// The declared type of a sampler.
     pub(super) fn sampler_usage(&self, number: u16) -> Option<Usage> {
         let mut samplers =
             self.program.declarations.iter().filter(|d| {

@@ -1,7 +1,7 @@
 //! V11, V12, V48, V49, V57: reads of unwritten registers.
 //!
-//! Straight-line code is analysed exactly. Where paths join, a component counts as written if one of them writes it. On
-//! entry to a loop everything that the loop writes counts as written, on entry to a subroutine everything that the
+//! Straight-line code is analysed exactly. Where paths join, a component counts as written if any path writes it. On
+//! entry to a loop, all components that the loop writes count as written; on entry to a subroutine, all that the
 //! program writes. So no legal program is rejected.
 
 use std::collections::BTreeMap;
@@ -30,7 +30,7 @@ impl Written {
 pub(super) fn check(context: &mut Context<'_>) {
     let mut written = Written::default();
     let sound: Vec<bool> = context.sound.to_vec();
-    // V03 reports instructions that the version lacks; here they still write their destination.
+    // V03 reports instructions that the version lacks; here they still count as writing their destination.
     let all: Vec<(usize, &Instruction)> = context.program.instructions.iter().enumerate().collect();
     let mut at = 0;
     let mut loop_end = 0;
@@ -44,7 +44,7 @@ pub(super) fn check(context: &mut Context<'_>) {
         }
         match instruction.opcode {
             Opcode::Phase if context.phase_marker() == Some(index) => clear_alpha(&mut written),
-            // Once for the outermost loop, which contains the inner ones.
+            // Only for an outermost loop, which contains the inner loops.
             Opcode::Rep | Opcode::Loop if index >= loop_end => {
                 loop_end = context.jump[index].unwrap_or(index);
                 for (_, i) in all.iter().filter(|(i, _)| (index..loop_end).contains(i)) {
@@ -125,7 +125,7 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
         if !needs_write(version, file) {
             continue;
         }
-        // V22 covers the address of texld in ps_1_4; texcrd copies what is written, but something must be.
+        // V22 covers the address of texld in ps_1_4; texcrd copies the written components, at least one.
         let passes = instruction.opcode == Opcode::TexCrd && written.get(file, first) & Mask::RGB.0 != 0;
         if version == Version::Ps1_4 && (instruction.opcode == Opcode::TexLd || passes) {
             continue;

@@ -23,7 +23,7 @@ pub struct Facts {
     pub has_flow: bool,
     /// One more than the highest `r#`, matrix rows included.
     pub temporaries: u16,
-    /// One more than the highest `c#` named or defined, matrix rows included; relative addressing may exceed it.
+    /// One more than the highest `c#` named or defined, matrix rows included; relative addresses may be higher.
     pub constants: u16,
     /// `true` if constants are addressed relatively.
     pub relative_constants: bool,
@@ -51,7 +51,7 @@ pub struct Facts {
     pub slots: [SlotCount; 2],
 }
 
-/// A program that is legal for a device. Only [`super::check`] creates one, so code that takes one may rely on all
+/// A program that is legal for a device. Only [`super::check`] creates this type, so code that takes it may rely on all
 /// rules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checked<T> {

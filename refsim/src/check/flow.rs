@@ -7,11 +7,10 @@ use super::allowed::Limit;
 use super::context::Context;
 use crate::isa::{Instruction, Modifier, Opcode, OpcodeClass, RegisterFile, Relative, Source, Span, Swizzle, Version};
 
-/// An open block.
 struct OpenBlock {
     opcode: Opcode,
     start: usize,
-    /// Instruction whose jump target is pending: the opening one, or `else`.
+    /// Instruction whose jump target is still unknown: the opening instruction, or `else`.
     patch: usize,
     breaks: Vec<usize>,
     /// `true` if a computed value decides which fragments execute the block.
@@ -40,9 +39,9 @@ struct Walk {
     calls: Vec<Call>,
     /// Label of the current subroutine.
     section: Option<u16>,
-    /// `true` once the section's `ret` was found.
+    /// `true` after the section's `ret`.
     ended: bool,
-    /// Gradients: instruction, subroutine, and `true` if fragments may have diverged within the section.
+    /// Gradient instructions: index, subroutine, and `true` if fragments may have diverged within the section.
     gradients: Vec<(usize, Option<u16>, bool)>,
 }
 
@@ -190,7 +189,7 @@ fn dynamic_depth(context: &mut Context<'_>, walk: &Walk, instruction: &Instructi
 /// V53, [`RuleId::NestingDepth`].
 fn depth(context: &mut Context<'_>, limit: Limit, found: u32, what: &str, span: Span) {
     let Some(allowed) = context.limit(limit) else { return };
-    // Reported at the first level that is too deep only.
+    // Reported only at the first level that is too deep.
     if found == allowed.value + 1 {
         let message = format!("{what} nested {found} deep, {} allows {}", allowed.owner, allowed.value);
         let advice = "unroll, or select with cmp";

@@ -11,7 +11,7 @@ use crate::isa::{
     Register, RegisterFile, Source, Span, Spelling, Version,
 };
 
-/// Numbers of full- and half-precision temporaries that have names.
+/// Numbers of named full- and half-precision temporaries.
 const FULL: u16 = 32;
 const HALF: u16 = 64;
 /// Maximum total weight of a program's registers; a half-precision register weighs 1.
@@ -168,8 +168,8 @@ fn packing(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// Returns `true` if literals and names of literals, of at most four different numbers, become one constant: section
-/// 3.11.2 of GL_NV_fragment_program. The sign of a single number is part of it.
+/// Returns `true` if literals, and names of literals, merge into one constant: they have at most four different numbers
+/// (section 3.11.2 of GL_NV_fragment_program). The sign of a single number is part of the number.
 fn merge_into_one<'a>(program: &Program, mut constants: impl Iterator<Item = &'a Source>) -> bool {
     let mut numbers = BTreeSet::new();
     constants.all(|source| {
@@ -212,7 +212,7 @@ fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// V63: colour is written in one precision and depth through z, and a `!!FP1.0` program writes something. `!!ARBfp1.0`
+/// V63: colour is written in one precision, depth through z, and a `!!FP1.0` program writes an output. `!!ARBfp1.0`
 /// leaves unwritten outputs undefined; here the target keeps its contents.
 fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     let find = |file| all.iter().filter_map(|i| i.destination).find(move |d| d.register.file == file);
@@ -278,8 +278,8 @@ fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
     violation.figure(MAX_WEIGHT, weight).help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)");
 }
 
-/// V66: texture indirections of ARB programs. A read begins a new one if, since the last began, its coordinates were
-/// computed or its destination was used.
+/// V66: texture indirections of ARB programs. A texture read begins a new indirection if its coordinates were computed,
+/// or its destination used, since the last one began.
 fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
     let Some(allowed) = context.limit(Limit::DependentReads) else { return };
     let mut touched: BTreeSet<Register> = BTreeSet::new();

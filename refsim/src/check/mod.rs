@@ -42,8 +42,8 @@ use context::Context;
 
 /// Checks a program for a device.
 ///
-/// The [`Checked`] program carries [`Warning`]s for legal code without the effect that its text suggests. OpenGL fog
-/// options are expanded into instructions first, so that limits apply to them and executors need no support for them.
+/// The [`Checked`] program carries [`Warning`]s for legal code that does not do what its text suggests. OpenGL fog
+/// options are first expanded into instructions, so limits apply to them and executors need no support for them.
 ///
 /// # Errors
 /// All violations, in the order of the text.

@@ -68,7 +68,7 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
     false
 }
 
-/// V45, and the form of relative addresses in versions that have them.
+/// V45, and the syntax of relative addresses in versions that have them.
 fn relative(context: &mut Context<'_>, source: &Source) {
     let Some(relative) = source.register.relative else { return };
     let (version, span) = (context.version, source.span);
@@ -286,8 +286,8 @@ fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source
     }
 }
 
-/// V16, V35, V40: source modifiers. V24 checks `_dz` and `_dw` on texture reads of ps_1_4, V33 checks `_bx2` on those
-/// of ps_1_1 to 1_3.
+/// V16, V35, V40: source modifiers. On texture reads V24 checks `_dz` and `_dw` (ps_1_4), and V33 checks `_bx2` (ps_1_1
+/// to 1_3).
 fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source: &Source) {
     use Modifier as M;
     let (version, modifier) = (context.version, source.modifier);

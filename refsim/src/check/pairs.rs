@@ -15,7 +15,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             pair(context, index, instruction);
         }
     }
-    // Operand checks have reported a malformed co-issued instruction; its `+` is checked anyway.
+    // Operand checks report malformed co-issued instructions; the `+` is checked anyway.
     for (index, instruction) in context.program.instructions.iter().enumerate() {
         if instruction.coissue && !context.is_sound(index) && !context.version.is_ps_1_x() {
             context.breach(RuleId::MalformedPair, instruction.span, format!("{} has no co-issue", context.version));

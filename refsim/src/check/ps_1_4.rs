@@ -177,7 +177,7 @@ fn address(context: &mut Context<'_>, instruction: &Instruction, late: bool) {
         .help("compute the address in phase 1 and read it in phase 2");
 }
 
-/// A load samples the stage with its destination's number, which must exist.
+/// A load samples the stage with the number of its destination; the stage must exist.
 fn stages(context: &mut Context<'_>) {
     let Some(allowed) = context.limit(super::allowed::Limit::Samplers) else { return };
     for (_, instruction) in context.instructions() {

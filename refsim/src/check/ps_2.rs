@@ -92,7 +92,7 @@ fn matrix(context: &mut Context<'_>, instruction: &Instruction) {
     let last = u32::from(register.index) + u32::from(rows) - 1;
     let count = context.count(register.file).map_or(0, |c| c.value());
     let prefix = register.file.prefix();
-    // A nonexistent first row is reported as a register already.
+    // A nonexistent first row is reported elsewhere, as a register.
     if u32::from(register.index) < count && last >= count {
         let message =
             format!("`{name}` reads `{prefix}{last}` for its last row, the last one is `{prefix}{}`", count - 1);

@@ -1,4 +1,4 @@
-//! Components that an instruction reads: the opcode table's answer, refined for texture reads.
+//! Components that an instruction reads: from the opcode table, refined for texture reads.
 
 use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Usage, Version};
 

@@ -82,7 +82,7 @@ impl Diagnostic for Violation {
     }
 }
 
-/// Legal code without the effect that its text suggests. The program runs as the card would run it.
+/// A warning about legal code that does not do what its text suggests. The program runs as the card would run it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// Kind of warning.
@@ -97,8 +97,8 @@ pub struct Warning {
 
 /// All violations of a program for a device; never empty.
 ///
-/// Displayed, and returned from `main`, it quotes the line of each violation and gives advice. For colours and labels,
-/// render the single violations with the text ([`miette::Report::with_source_code`]).
+/// When displayed or returned from `main`, it quotes the line of each violation with advice. For colours and labels,
+/// render each violation with the text ([`miette::Report::with_source_code`]).
 #[derive(Clone, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[diagnostic(code("check"))]
 pub struct CheckReport {
@@ -123,7 +123,7 @@ impl fmt::Display for CheckReport {
     }
 }
 
-/// As displayed: this is what the program prints whose `main` returns the report.
+/// Same as `Display`, because a `main` that returns the report prints this.
 impl fmt::Debug for CheckReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

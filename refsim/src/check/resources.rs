@@ -1,4 +1,4 @@
-//! V67: the resources of an `!!ARBfp1.0` program, counted as section 3.11.3.6 of GL_ARB_fragment_program counts them.
+//! V67: the resources of an `!!ARBfp1.0` program, counted by section 3.11.3.6 of GL_ARB_fragment_program.
 
 use super::RuleId;
 use super::allowed::Limit;

@@ -15,7 +15,7 @@ macro_rules! rules {
         }
 
         impl $Id {
-            /// All of them, in the order of the codes.
+            /// All variants, in the order of the codes.
             pub const ALL: &'static [Self] = Self::VARIANTS;
 
             /// The code in messages and documents.
@@ -23,7 +23,7 @@ macro_rules! rules {
                 match self { $(Self::$name => stringify!($code)),* }
             }
 
-            /// The sentence that states it.
+            /// The sentence in messages and documents.
             pub const fn text(self) -> &'static str {
                 match self { $(Self::$name => $text),* }
             }
@@ -39,7 +39,7 @@ macro_rules! rules {
 
 rules! {
     /// A rule of the checker, named after its violation or its subject. V01 to V46 are rules of Direct3D and the cards,
-    /// V47 to V59 are further requirements of the executors, and V60 on are OpenGL's.
+    /// V47 to V59 are further requirements of the executors, and rules from V60 on are OpenGL's.
     RuleId:
     UnsupportedVersion V01 "the device runs the program's version";
     MisplacedDefinition V02 "constants are defined before the first instruction, once each";
@@ -111,7 +111,7 @@ rules! {
 }
 
 rules! {
-    /// A warning: something legal without the effect that its text suggests.
+    /// A warning about legal code that does not do what its text suggests.
     WarningId:
     ClampedConstant W01 "constants of ps_1_x are clamped to -1 to 1";
     FogIsNotBlended W02 "oFog blends no fog: fixed-function fog is not emulated";

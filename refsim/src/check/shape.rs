@@ -110,7 +110,7 @@ fn phases(context: &mut Context<'_>) {
     }
 }
 
-/// V05, for the phases of ps_1_4 and the single one of ps_1_1 to 1_3.
+/// V05, for the two phases of ps_1_4 and the single phase of ps_1_1 to 1_3.
 fn order(context: &mut Context<'_>) {
     let program = context.program;
     let mut arithmetic_in = 0;

@@ -61,8 +61,8 @@ fn budget(context: &mut Context<'_>, phase: u8, limit: Limit, what: &str, slots:
     context.breach(RuleId::TooManyInstructions, span, message).label(label).exceeds(used, &allowed, advice);
 }
 
-/// Slots of an instruction in context: the second of a pair adds only its cost beyond the first, and in ps_2_x
-/// predicates and cube maps cost extra.
+/// Slots of an instruction in context: the second instruction of a pair adds only its cost beyond the first's; in
+/// ps_2_x predicates and cube maps cost extra.
 fn cost(context: &Context<'_>, index: usize, instruction: &Instruction) -> SlotCost {
     let version = context.version;
     let mut cost = instruction.opcode.info().slot_cost(version);

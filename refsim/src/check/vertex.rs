@@ -36,7 +36,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     }
 }
 
-/// Warns of the first place alone.
+/// Records a warning once per program, at the first place.
 fn warn(context: &mut Context<'_>, (id, span): (WarningId, Span), message: &str, help: &'static str) {
     if context.warnings.iter().all(|warning| warning.id != id) {
         context.warnings.push(Warning { id, span, message: message.to_owned(), help });

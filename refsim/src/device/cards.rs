@@ -1,4 +1,4 @@
-//! The files of the cards, and how a user names one.
+//! The files of the cards, and the lookup of cards by name.
 
 /// The cards, by release date.
 pub(super) const CARDS: [(&str, &str); 8] = [
@@ -11,11 +11,12 @@ pub(super) const CARDS: [(&str, &str); 8] = [
     ("nv35", include_str!("profiles/nv35.toml")),
     ("gt200", include_str!("profiles/gt200.toml")),
 ];
-/// Cards that differ from another card in clocks only, by release date: their files override figures of their `base`.
+/// Cards that differ from another card only in clocks, by release date: their files override figures of their `base`.
 pub(super) const VARIANTS: [(&str, &str); 2] =
     [("fx5800", include_str!("profiles/fx5800.toml")), ("fx5900", include_str!("profiles/fx5900.toml"))];
 
-/// Returns the name and file of a card by its name or by words of its title; all words of a title win over a part.
+/// Finds a card by its name or by words of its title, and returns its name and file. A match of all words of a title
+/// takes precedence over a part.
 pub(super) fn card_named(name: &str) -> Option<(&'static str, &'static str)> {
     let plain = |text: &str| text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
     let wanted = plain(name);

@@ -1,4 +1,4 @@
-//! Device files: devices with switches and with formats of registers, storages, sums and single instructions.
+//! Device files: devices with other switches, and other formats of registers, storages, sums and single instructions.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,12 +12,11 @@ use super::{DeviceError, Profile, Rules, Storage};
 use crate::isa::Program;
 use crate::num::Format;
 
-/// A device file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DeviceFile {
     device: String,
-    /// Format of pixel registers and pixel arithmetic, in place of the device's.
+    /// Format of pixel registers and pixel arithmetic, replacing the device's.
     format: Option<Format>,
     /// Format of the sums of dot products.
     accumulator: Option<Format>,
@@ -83,7 +82,7 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// [`DeviceError::File`] with the reason; those of [`Profile::named`] and [`Profile::set_switch`].
+    /// [`DeviceError::File`] with the reason, and the errors of [`Profile::named`] and [`Profile::set_switch`].
     pub fn from_device_file(text: &str) -> Result<Self, DeviceError> {
         let problem = |problem: String| DeviceError::File { problem };
         let file: DeviceFile = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
@@ -118,8 +117,8 @@ impl Profile {
     }
 
     /// Writes the device as a text that [`Profile::from_device_file`] reads: its name, register format, the switches
-    /// that differ from their defaults, and the formats of instructions. A comment behind each shows the instruction,
-    /// if its program is among `programs`.
+    /// that differ from their defaults, and the formats of instructions. A comment after each format shows the
+    /// instruction, if its program is among `programs`.
     pub fn to_device_file(&self, programs: &[&Program]) -> String {
         let mut text = format!("device = \"{}\"\n", self.name);
         let mut switched: Vec<_> =
@@ -162,11 +161,11 @@ impl Profile {
         text
     }
 
-    /// Gives a storage of pixel programs a number format of its own, or takes it away.
+    /// Sets or removes the number format of a storage of pixel programs.
     ///
     /// # Errors
-    /// [`DeviceError::StorageFormat`] if registers cannot have the format ([`Format::for_registers`]) or lack a number
-    /// of it ([`Format::holds`]); the profile is unchanged.
+    /// [`DeviceError::StorageFormat`] if registers cannot have the format ([`Format::for_registers`]) or cannot
+    /// represent all its numbers ([`Format::holds`]); the profile is unchanged.
     pub fn set_storage_format(&mut self, storage: Storage, format: Option<Format>) -> Result<(), DeviceError> {
         if let Some(found) = format {
             // Coordinates are single precision.
@@ -180,9 +179,9 @@ impl Profile {
         Ok(())
     }
 
-    /// Gives the sums of dot products in pixel programs a number format of their own, or takes it away: products of
-    /// operands are rounded once into it and added up in it, and the sum is converted to the format of the operation.
-    /// An instruction whose own format does not fit the accumulator adds up in its own.
+    /// Sets or removes the accumulator of dot products in pixel programs: products of operands are rounded once into
+    /// this format and summed in it, and the sum is converted to the format of the operation. An instruction whose own
+    /// format does not fit the accumulator sums in its own format.
     ///
     /// # Errors
     /// [`DeviceError::StorageFormat`] if registers cannot have the format, or executors cannot round products of the
@@ -206,22 +205,22 @@ impl Profile {
         &self.instruction_formats
     }
 
-    /// Gives instruction `index` of a program a number format of its own
-    /// ([`Instruction::format`](crate::isa::Instruction::format)), or takes it away. Returns `false`, without effect,
-    /// if there is no such instruction, if it takes none ([`super::takes_format`]) or not this one
-    /// ([`Format::for_registers`]), or if its program would have more than [`MAX_INSTRUCTION_FORMATS`] different ones.
+    /// Sets or removes the number format of instruction `index` of a program
+    /// ([`Instruction::format`](crate::isa::Instruction::format)). Returns `false`, without effect, if there is no such
+    /// instruction, if it cannot have a format ([`super::takes_format`]), if registers cannot have this format
+    /// ([`Format::for_registers`]), or if the program would have more than [`MAX_INSTRUCTION_FORMATS`] formats.
     pub fn set_instruction_format(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
         self.instruction_formats.set(program, index, format)
     }
 
-    /// Replaces the formats of all instructions of a program: those by index, all others have none. Returns `false`,
-    /// without effect, where [`Self::set_instruction_format`] would for one of them.
+    /// Replaces the formats of all instructions of a program; instructions that are not listed have none. Returns
+    /// `false`, without effect, if [`Self::set_instruction_format`] would for any listed instruction.
     pub fn set_instruction_formats(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
         self.instruction_formats.set_all(program, formats)
     }
 }
 
-/// The beginning of a text from outside.
+/// Shortens a text from outside for a message.
 fn cut(text: &str) -> String {
     text.chars().take(40).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::num::{Format, FormatError};
 
-/// A device, switch or value does not exist. Lists are separated by spaces.
+/// Error for a device, switch or value that does not exist. Lists are separated by spaces.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -29,14 +29,14 @@ pub enum DeviceError {
     #[error("switch `{switch}` of device `{device}`: expected one of {allowed}, found `{value}`")]
     #[diagnostic(code(device::switch_value), help("`crossbar devices {device}` lists the switches"))]
     SwitchValue { device: String, switch: String, value: String, allowed: String },
-    /// The switch sets a rule that the registers' format does not have.
+    /// The switch sets a rule that the registers' format lacks.
     #[error("switch `{switch}` of device `{device}` is `{value}`, which its format `{format}` cannot have")]
     #[diagnostic(
         code(device::format_rule),
         help("leave the switch out, or give the format a rule of its own, `:sat` for example")
     )]
     FormatRule { device: String, switch: String, value: String, format: Format },
-    /// The switch sets a rule of exponents or significands, which fixed point has not.
+    /// The switch sets a rule of exponents or significands, which fixed point lacks.
     #[error(
         "switch `{switch}` of device `{device}`: expected registers of floats for `{value}`, whose rule goes by exponents \
          or significands, found `{format}`"

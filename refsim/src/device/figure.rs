@@ -6,21 +6,21 @@ use serde::Deserialize;
 
 use super::DeviceError;
 
-/// Confidence in a figure, from the surest on.
+/// Confidence in a figure, highest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Confidence {
-    /// From a manufacturer's document, a specification or a driver's register header.
+    /// Stated by a manufacturer's document, a specification or a driver's register header.
     Documented,
-    /// Measured, on this chip.
+    /// Measured on this chip.
     Measured,
-    /// Measured, on a chip with the same unit, which the source names.
+    /// Measured on a chip with the same unit, which the source names.
     Sibling,
-    /// Calculated from figures of the three above; the source says how.
+    /// Calculated from documented, measured or sibling figures; the source says how.
     Derived,
-    /// Measured, on a chip of an older or newer family, which the source names.
+    /// Measured on a chip of an older or newer family, which the source names.
     Kin,
-    /// The driver chooses, and several values are right; the source says which driver chose what.
+    /// Chosen by the driver, so that several values are right; the source names the driver and its choice.
     State,
     /// One developer's observation.
     Report,
@@ -29,7 +29,7 @@ pub enum Confidence {
 }
 
 impl Confidence {
-    /// Every word, from the surest on.
+    /// Every confidence, highest first.
     pub const ALL: [Self; 8] = [
         Self::Documented,
         Self::Measured,
@@ -55,8 +55,8 @@ impl Confidence {
         }
     }
 
-    /// `true` if a drawing of the card would still settle the figure: no document states it, and nothing was measured
-    /// on the chip or one with the same unit.
+    /// `true` if measuring the card would settle the figure: no document states it, and it was measured neither on the
+    /// chip nor on one with the same unit.
     pub fn is_open(self) -> bool {
         self >= Self::Kin
     }
@@ -68,7 +68,7 @@ impl fmt::Display for Confidence {
     }
 }
 
-/// A row of the table that `crossbar devices NAME` prints.
+/// A row of the table printed by `crossbar devices NAME`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FigureRow {
     /// Path in the profile, as error messages name it: `limits.temporaries`.
@@ -81,18 +81,18 @@ pub struct FigureRow {
     pub source: String,
     /// Confidence in the value.
     pub confidence: Confidence,
-    /// Counts, if the value was chosen among hypotheses.
+    /// Counts of a measurement, if it chose the value among hypotheses.
     pub counts: Option<MeasuredCounts>,
 }
 
-/// Counts of a measurement: how many of the values that a chip produced each hypothesis predicts.
+/// Counts of a measurement: how many measured values each hypothesis predicts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeasuredCounts {
     /// The chip that was measured.
     pub of: String,
     /// Number of values.
     pub all: u64,
-    /// Hypotheses with the number of values that each predicts, best first. For a switch these are its values.
+    /// Hypotheses and the number of values that each predicts, best first. The hypotheses of a switch are its values.
     pub right: Vec<(String, u64)>,
 }
 
@@ -117,7 +117,7 @@ pub(super) struct RawFigure {
     pub(super) values: Vec<String>,
     #[serde(default)]
     pub(super) meaning: String,
-    /// These three together are [`MeasuredCounts`].
+    /// `of`, `all` and `right` form [`MeasuredCounts`].
     #[serde(default)]
     of: Option<String>,
     #[serde(default)]
@@ -142,8 +142,8 @@ impl RawFigure {
     /// The counts, if the figure states any.
     ///
     /// # Errors
-    /// If they are incomplete or do not support the value: it must predict more than every other hypothesis, and the
-    /// hypotheses of a switch must be its values.
+    /// If the counts are incomplete, if another hypothesis predicts as much as the value, or if the hypotheses of a
+    /// switch are not its values.
     fn counts(&self) -> Result<Option<MeasuredCounts>, &'static str> {
         if self.of.is_none() && self.all.is_none() && self.right.is_empty() {
             return Ok(None);
@@ -215,7 +215,7 @@ impl Section<'_> {
         words.ok_or_else(|| self.problem(key, "expected a list of names"))
     }
 
-    /// Removes and returns a list of names; empty if the section lacks it.
+    /// Removes and returns a list of values by name; empty if the section lacks it.
     pub(super) fn named<T: Copy>(
         &mut self,
         key: &str,

@@ -10,28 +10,25 @@ pub const MAX_INSTRUCTION_FORMATS: usize = 32;
 
 /// Number formats of instructions, by [`Program::digest`] and the instruction's index in the program.
 ///
-/// [`crate::check`] gives them to the instructions of a program, after the expansion of fog options; executors find
-/// them there.
+/// [`crate::check`] copies them to the instructions of a program, after the expansion of fog options; executors read
+/// them from the instructions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct InstructionFormats(BTreeMap<u64, BTreeMap<usize, Format>>);
 
-/// Returns `true` if an instruction can have a format of its own: if it writes numbers to a register. Kills, flow
-/// control, matrix rows for a later texture read, depth from texture coordinates, packing, and writes of addresses do
-/// not.
+/// Returns `true` if an instruction can have its own format: if it writes numbers to a register. Kills, flow control,
+/// matrix rows for a later texture read, depth from texture coordinates, packing, and writes of addresses cannot.
 pub fn takes_format(instruction: &Instruction) -> bool {
     matches!(instruction.opcode.info().result, ResultKind::Numbers | ResultKind::Texel)
         && instruction.destination.is_some_and(|destination| destination.register.file != RegisterFile::Address)
 }
 
-/// Returns `true` if a program has this instruction and it can have a format of its own.
+/// Returns `true` if a program has this instruction and it can have its own format.
 fn takes(program: &Program, index: usize) -> bool {
     program.instructions.get(index).is_some_and(takes_format)
 }
 
 impl InstructionFormats {
-    /// Gives an instruction a format, or takes it away. `false`, without effect, if there is no such instruction, if it
-    /// takes none ([`takes_format`]) or not this one ([`Format::for_registers`]), or if its program would have more
-    /// than [`MAX_INSTRUCTION_FORMATS`].
+    /// Sets or removes the format of an instruction, as [`super::Profile::set_instruction_format`] describes.
     pub(super) fn set(&mut self, program: &Program, index: usize, format: Option<Format>) -> bool {
         if !takes(program, index) || format.is_some_and(|f| f.for_registers().is_err()) {
             return false;
@@ -45,14 +42,14 @@ impl InstructionFormats {
         self.insert(digest, formats)
     }
 
-    /// Replaces the formats of a program's instructions. `false`, without effect, where [`Self::set`] would refuse one
-    /// of them.
+    /// Replaces the formats of a program's instructions. Returns `false`, without effect, if [`Self::set`] would refuse
+    /// one.
     pub(super) fn set_all(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
         formats.iter().all(|(&index, format)| takes(program, index) && format.for_registers().is_ok())
             && self.insert(program.digest(), formats)
     }
 
-    /// Replaces the formats of the program with this digest. `false`, without effect, if they are too many.
+    /// Replaces the formats of the program with this digest. Returns `false`, without effect, if they are too many.
     pub(super) fn insert(&mut self, digest: u64, formats: BTreeMap<usize, Format>) -> bool {
         let mut different: Vec<Format> = Vec::new();
         for &format in formats.values() {
@@ -75,8 +72,8 @@ impl InstructionFormats {
         self.0.iter().map(|(digest, formats)| (*digest, formats))
     }
 
-    /// Formats that change nothing in these programs: those of a program that is not among them, by its digest, and
-    /// those of an instruction that one of them does not have or that takes no format, by digest and index.
+    /// Formats that have no effect in these programs: for other programs, the digest; for instructions that a program
+    /// lacks, or that cannot have a format, the digest and the index.
     pub fn unused(&self, programs: &[&Program]) -> Vec<(u64, Option<usize>)> {
         let mut found = Vec::new();
         for (digest, formats) in self.iter() {

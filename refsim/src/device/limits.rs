@@ -7,11 +7,11 @@ use super::figure::Section;
 use crate::isa::{Stage, Version};
 use crate::texel::{DepthFormat, TexelFormat};
 
-/// Step budget of devices that state none: that of GL_NV_vertex_program2, and the minimum of Direct3D 9 for `ps_3_0`
+/// Step budget of devices that state none: the budget of GL_NV_vertex_program2, and Direct3D 9's minimum for `ps_3_0`
 /// and `vs_3_0` (`MaxPShaderInstructionsExecuted`, `MaxVShaderInstructionsExecuted`).
 pub const DEFAULT_STEP_BUDGET: u32 = 1 << 16;
 
-/// Defines a structure of optional integer figures, read from the profile section with the same field names.
+/// Defines a structure of optional integer figures, which a profile section states under the field names.
 macro_rules! figures {
     ($(#[$meta:meta])* $name:ident : $number:ty { $($(#[$doc:meta])* $field:ident),* $(,)? }
      $(extra { $($(#[$extra_doc:meta])* $extra:ident : $extra_type:ty),* $(,)? })?) => {
@@ -61,7 +61,7 @@ figures! {
         fragment_instructions,
         /// Host-set parameters of an OpenGL fragment program, per kind; in `!!ARBfp1.0` all bound parameters together.
         fragment_parameters,
-        /// Temporaries of an `!!ARBfp1.0` program, if others than `temporaries`.
+        /// Temporaries of an `!!ARBfp1.0` program, if different from `temporaries`.
         fragment_temporaries,
         /// Attributes that an `!!ARBfp1.0` program binds.
         fragment_attributes,
@@ -111,7 +111,7 @@ figures! {
     extra {
         /// The shader versions that the device runs.
         versions: Vec<Version>,
-        /// `true` if the limits of the shader version apply in addition to those of the device; `false` for `ideal-`
+        /// `true` if the limits of the shader version apply in addition to the device's limits; `false` for `ideal-`
         /// devices.
         version_limits: bool,
         /// The supported texture formats.
@@ -191,8 +191,8 @@ figures! {
         trilinear_clocks,
         /// 1 if a pipeline cannot do arithmetic in the clock of a texture read, 0 if both run in parallel.
         texture_blocks_arithmetic,
-        /// Fixed-point units (X of `!!FP1.0`) behind the float unit of a pipeline: each does one operation, or two
-        /// multiplications, per clock.
+        /// Fixed-point units (suffix X of `!!FP1.0`) behind the float unit of a pipeline: each performs one operation,
+        /// or two multiplications, per clock.
         fixed_units,
         /// 1 if adjacent ps_2_x instructions that write colour and alpha separately are issued as pairs, 0 if not.
         automatic_pairs,

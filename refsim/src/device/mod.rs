@@ -3,11 +3,11 @@
 //! A profile is a TOML file in `profiles/`, embedded in the library. It holds a card's arithmetic ([`Rules`], for the
 //! executors), limits ([`Limits`], for [`crate::check`]) and speeds ([`Rates`], [`Bus`], for the timing model). Every
 //! figure has a source and a [`Confidence`]. A property that is open, or that a driver chooses, is a *switch*: a figure
-//! with several allowed values, so that a study can compare all of them. One that was measured, on the card or on a
-//! sibling of it, keeps its refuted values as a switch and can state how many measured values each of them predicts
-//! ([`MeasuredCounts`]). See docs/devices.md.
+//! with several allowed values, so that a study can compare all of them. A switch that was measured, on the card or a
+//! sibling, keeps its refuted values and can state how many measurements each value predicts ([`MeasuredCounts`]). See
+//! docs/devices.md.
 //!
-//! In addition there is `ideal-<format>` for any number format: without limits or timing, and with the rules of r300.
+//! The device `ideal-<format>`, for any number format, has the rules of r300, and neither limits nor timing.
 
 mod accumulator;
 mod cards;

@@ -4,12 +4,11 @@ use super::rule_values::{AddMode, MadMode};
 use super::rules::Rules;
 use crate::num::{DotOrder, Env, Format, Outcome, ops};
 
-/// The rules of products and sums as they hold for one format, and the arithmetic that follows from them.
-///
-/// Units of cards have rules of their own, which hold instead.
+/// The rules of products and sums for one format, and the arithmetic that follows from them. Units of cards ignore
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SumRules {
-    /// Where products are rounded: the format with the rounding of products.
+    /// The format, with the rounding of products.
     pub(crate) products: Format,
     /// Sums of two numbers.
     pub(crate) add: AddMode,
@@ -22,15 +21,14 @@ pub struct SumRules {
 }
 
 impl SumRules {
-    /// Rules of vertices and addresses, and of a format without a device: every product and every sum is rounded by the
-    /// format.
+    /// Rules of vertices and addresses, and of a format without a device: the format rounds every product and every
+    /// sum.
     pub const fn plain(format: Format) -> Self {
         let (add, mad, dot) = (AddMode::Rounded, MadMode::TwoRoundings, DotOrder::Sequential);
         Self { products: format, add, mad, dot, zero_wins: false }
     }
 
-    /// Operands of a product. Where a zero wins, a zero together with an infinity or NaN replaces both by +0, so that
-    /// the product is +0.
+    /// Operands of a product. If zero wins and one operand is zero, the other infinite or NaN, both become +0.
     fn factors(&self, f: &Format, a: u32, b: u32) -> (u32, u32) {
         let wins = self.zero_wins && !f.unit.is_card() && (f.is_zero(a) || f.is_zero(b));
         if wins && !(f.is_finite(a) && f.is_finite(b)) { (0, 0) } else { (a, b) }
@@ -51,8 +49,8 @@ impl SumRules {
         ops::mul(self.products.tininess(env.tininess), a, b)
     }
 
-    /// `a * b + c`: product and sum rounded separately, the exact result rounded once, or with the product cut; by a
-    /// card's unit as the unit does it.
+    /// `a * b + c`: product and sum rounded separately, the exact result rounded once, or the product truncated first.
+    /// A card's unit has its own rule.
     pub fn mad(&self, env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
         let env = env.into();
         if env.format.unit.is_card() {
@@ -69,8 +67,8 @@ impl SumRules {
         }
     }
 
-    /// The dot product of terms, its sums in the format of the accumulator, for which the rules are then those of that
-    /// format; by a card's unit as the unit does it.
+    /// The dot product of terms, summed in the accumulator's format, whose rules these are. A card's unit has its own
+    /// rule.
     pub fn dot(&self, env: impl Into<Env>, accumulator: Format, terms: &[(u32, u32)]) -> Outcome {
         let env = env.into();
         let format = env.format;
@@ -91,8 +89,9 @@ impl SumRules {
 }
 
 impl Rules {
-    /// The rules of products and sums in a format of pixel arithmetic; units of cards have their own. Fixed point has
-    /// neither exponents nor significands: there sums are rounded, and truncated products are rounded instead.
+    /// The rules of products and sums in a format of pixel arithmetic. Fixed point has neither exponents nor
+    /// significands: its sums are rounded, and so are products that the rules truncate. Units of cards ignore the
+    /// rules.
     pub fn sums_in(&self, format: Format) -> SumRules {
         if format.unit.is_card() {
             return SumRules::plain(format);
@@ -118,7 +117,7 @@ impl Rules {
         SumRules { zero_wins: self.vertex_zero_times_anything, ..SumRules::plain(self.vertex_format) }
     }
 
-    /// Returns `true` if a rule of sums with this name has, by its value, no meaning for registers in fixed point.
+    /// Returns `true` if a rule of sums has a value that needs floats.
     pub(super) fn needs_floats(&self, name: &str) -> bool {
         match name {
             "add" => matches!(self.add, AddMode::Aligned(_)),

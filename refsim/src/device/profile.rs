@@ -18,8 +18,8 @@ use crate::texel::{DepthFormat, TexelFormat};
 
 const IDEAL: &str = include_str!("profiles/ideal.toml");
 
-/// Rules that [`Profile::set_switch`] set after the format: rules of the format, and rules that need floats. Does not
-/// count in equality.
+/// Names of the rules that [`Profile::set_switch`] set after the format: rules of the format, and rules that need
+/// floats. Ignored by equality.
 #[derive(Clone, Debug, Default, Eq)]
 pub(super) struct StatedRules(pub(super) BTreeSet<String>);
 
@@ -46,7 +46,7 @@ pub struct Profile {
     pub bus: Bus,
     switches: Vec<Switch>,
     pub(super) stated: StatedRules,
-    /// Values of switches that registers in fixed point take away.
+    /// Switch values that are not offered while registers are in fixed point.
     withheld: Vec<(String, String)>,
     figures: Vec<FigureRow>,
     pub(super) instruction_formats: InstructionFormats,
@@ -54,7 +54,7 @@ pub struct Profile {
 
 impl Profile {
     /// Returns the profile of a card, or of `ideal-<format>` for any number format string. A card is named by its chip,
-    /// or by words of its title that no other card has, in any case: `Radeon 8500`, `geforce3`.
+    /// or by words that identify its title, in any case: `Radeon 8500`, `geforce3`.
     ///
     /// ```
     /// use refsim::device::Profile;
@@ -82,22 +82,22 @@ impl Profile {
         Err(DeviceError::UnknownDevice { name: name.chars().take(60).collect(), known: Self::all_names().join(" ") })
     }
 
-    /// Names of the cards and their variants, by release date, and `ideal-<format>` as placeholder for the rest.
+    /// Names of the cards and their variants, by release date, then the placeholder `ideal-<format>`.
     pub fn all_names() -> Vec<&'static str> {
         Self::card_names().into_iter().chain(Self::variant_names()).chain(["ideal-<format>"]).collect()
     }
 
-    /// Names of the cards that equal another one except for their clocks: `fx5900` is an `nv35`.
+    /// Names of the cards that equal another card except for clocks: `fx5900` is an `nv35`.
     pub fn variant_names() -> Vec<&'static str> {
         VARIANTS.iter().map(|(name, _)| *name).collect()
     }
 
-    /// Names of the cards, by release date, without [`Profile::variant_names`]: no two of them are alike.
+    /// Names of the cards, by release date, without [`Profile::variant_names`]: all have different rules or limits.
     pub fn card_names() -> Vec<&'static str> {
         CARDS.iter().map(|(name, _)| *name).collect()
     }
 
-    /// All figures of the profile, switches with their current value.
+    /// All figures of the profile; switches have their current value.
     pub fn figures(&self) -> Vec<FigureRow> {
         let mut rows = self.figures.clone();
         for row in &mut rows {
@@ -171,8 +171,8 @@ impl Profile {
     }
 
     /// Replaces the format of pixel registers and pixel arithmetic with all its rules, for parameter sweeps. Also
-    /// disables `_pp`, clamps results to the format's own range only, and drops the formats of storages and of sums,
-    /// which were chosen for the other registers.
+    /// disables `_pp`, clamps results only to the format's range, and removes the formats of storages and sums, which
+    /// were chosen for the previous registers.
     ///
     /// # Errors
     /// If registers cannot have the format ([`Format::for_registers`]); the profile is unchanged.
@@ -186,9 +186,9 @@ impl Profile {
         Ok(())
     }
 
-    /// Replaces the format as `--format` and a case's `format` do: as [`Self::set_format`], but what was set for this
-    /// device stays. That is its switches of rounding, overflow and subnormal numbers, unless the text has a suffix for
-    /// the rule, and the formats of storages and sums.
+    /// Replaces the format as `--format` and a case's `format` do: [`Self::set_format`], but settings of this device
+    /// stay. These are the formats of storages and sums, and the switches of rounding, overflow and subnormal numbers
+    /// unless the text has a suffix for the rule.
     ///
     /// ```
     /// use refsim::device::Profile;
@@ -203,7 +203,7 @@ impl Profile {
     ///
     /// # Errors
     /// [`DeviceError::Format`] unless registers can have the format; [`DeviceError::FormatRule`] and
-    /// [`DeviceError::StorageFormat`] if what was set does not fit it. The profile is unchanged.
+    /// [`DeviceError::StorageFormat`] if a setting does not fit it. The profile is unchanged.
     pub fn replace_format(&mut self, text: &str) -> Result<(), DeviceError> {
         let format: Format = text.parse()?;
         let mut new = self.clone();
@@ -223,7 +223,7 @@ impl Profile {
         Ok(())
     }
 
-    /// Updates the switches that depend on the format to show the new one, and to offer the values that it can have.
+    /// Updates the switches that depend on the format: their current value, and the values that they offer.
     fn refresh_format_switches(&mut self) {
         self.stated.0.clear();
         self.offer_values();
@@ -241,8 +241,8 @@ impl Profile {
         }
     }
 
-    /// Removes the values that need floats if registers are in fixed point, except defaults, which act there as the
-    /// plain rule; restores them for floats. A switch with such a value is reset to its default.
+    /// If registers are in fixed point, removes switch values that need floats, except defaults, which then act as
+    /// plain rounding; restores them for floats. A switch with a removed value is reset to its default.
     fn offer_values(&mut self) {
         let mut rules = self.rules.clone();
         for switch in &mut self.switches {

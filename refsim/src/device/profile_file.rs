@@ -1,4 +1,4 @@
-//! A profile's file, as it is written.
+//! The TOML structure of a profile's file.
 
 use std::collections::BTreeMap;
 
@@ -78,7 +78,7 @@ impl RawProfile {
         Ok(rows)
     }
 
-    /// The rules with several possible values.
+    /// The switches: rules with several possible values.
     pub(super) fn switches(&self) -> Vec<Switch> {
         let open = self.rules.iter().filter(|(_, figure)| !figure.values.is_empty());
         open.map(|(name, figure)| Switch {
@@ -93,7 +93,7 @@ impl RawProfile {
         .collect()
     }
 
-    /// Reads the rules. Every rule must be stated, because a default would have no source.
+    /// Reads the rules. Every rule must be stated: a default would have no source.
     pub(super) fn rules(&self) -> Result<Rules, String> {
         let figures = &self.rules;
         let rules = Rules::read(|name| figures.get(name).map(RawFigure::text))?;

@@ -39,7 +39,7 @@ impl RuleValue for DotOrder {
     }
 }
 
-/// Rounding of products, if not that of sums.
+/// Rounding of products, if different from the rounding of sums.
 impl RuleValue for Option<Rounding> {
     fn from_text(text: &str) -> Option<Self> {
         if text == "as-sums" {
@@ -54,7 +54,8 @@ impl RuleValue for Option<Rounding> {
 pub enum AddMode {
     /// The exact sum is rounded once.
     Rounded,
-    /// The sum of an adder that keeps so many bits below the largest exponent is rounded once ([`ops::sum_aligned`]).
+    /// An adder sums addends with this many bits below the largest exponent; the sum is rounded once
+    /// ([`ops::sum_aligned`]).
     Aligned(u8),
 }
 
@@ -113,7 +114,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// Treatment of coordinates beyond the register range in `texcrd`.
+    /// Treatment of coordinates outside the register range in `texcrd`.
     TexcrdOverflow {
         /// Saturates.
         Clamp = "clamp",
@@ -145,9 +146,9 @@ named_choice! {
 named_choice! {
     /// Value of the most negative code of a signed texel.
     SignedTexelMinimum {
-        /// -1, as its neighbour.
+        /// -1, like the next code.
         Clamp = "clamp",
-        /// Its own value, slightly below -1: -128/127 for 8 bits.
+        /// Slightly below -1: -128/127 for 8 bits.
         BelowMinusOne = "below-minus-one",
     }
 }
@@ -155,16 +156,16 @@ named_choice! {
 named_choice! {
     /// Values of a sampled texel's channels. Channels of 9 to 15 bits are fractions on every device.
     TexelValues {
-        /// The fractions of Direct3D: `k / (2^n - 1)`, signed ones `k / (2^(n-1) - 1)`.
+        /// The fractions of Direct3D: `k / (2^n - 1)`, or `k / (2^(n-1) - 1)` if signed.
         Fractions = "fractions",
-        /// The bits are repeated until they fill a byte; of 16 bits the upper byte counts. An unsigned byte k is
-        /// `k / 255`, a signed one `2k / 255`.
+        /// The bits are repeated until they fill a byte; of 16 bits only the upper byte is used. An unsigned byte k is
+        /// `k / 255`, a signed byte k is `2k / 255`.
         Bytes = "bytes",
     }
 }
 
 named_choice! {
-    /// Arithmetic of a filter on bytes: 8-bit channels, and narrower ones under [`TexelValues::Bytes`].
+    /// Arithmetic of a filter on bytes: on 8-bit channels, and on narrower channels under [`TexelValues::Bytes`].
     FilterArithmetic {
         /// The exact weighted sum, rounded once into the register format.
         Exact = "exact",
@@ -174,7 +175,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// Rounding of the position that gives a linear filter its weights.
+    /// Rounding of the texel position from which a linear filter derives its weights.
     WeightRounding {
         /// To the nearest step, halves up.
         Nearest = "nearest",
@@ -188,18 +189,18 @@ named_choice! {
     BorderStorage {
         /// A texel of the image's format.
         Texel = "texel",
-        /// Four bytes, red to alpha, for all components of unsigned formats that are bytes or not stored.
+        /// Four bytes, red to alpha, for components of unsigned formats that are stored as bytes or not stored.
         Bytes = "bytes",
     }
 }
 
 named_choice! {
-    /// Components delivered by a sampler that the format does not store.
+    /// Components that a sampler returns for channels that the format does not store.
     MissingChannels {
         /// The defaults of Direct3D 9: black for alpha alone, 1 elsewhere.
         Direct3d = "direct3d",
-        /// As an Xbox reads its formats: white for alpha alone; of two 8-bit channels (r, g, r, g), of two 16-bit
-        /// ones (r, g, g, r).
+        /// As on the Xbox: white for alpha alone; (r, g, r, g) for two 8-bit channels, (r, g, g, r) for two 16-bit
+        /// channels.
         Xbox = "xbox",
     }
 }
@@ -228,9 +229,10 @@ named_choice! {
 named_choice! {
     /// The stage that first clamps vertex colours to [0, 1]. Interpolated colours are clamped in any case.
     ColorClamp {
-        /// At every vertex, before interpolation. +NaN gives 1, and -NaN 0.
+        /// At every vertex, before interpolation. +NaN gives 1, -NaN gives 0.
         Vertex = "vertex",
-        /// At the vertex if a vertex program wrote them, where NaN gives 0; those of transformed vertices at the pixel.
+        /// Colours that a vertex program wrote are clamped at the vertex, colours of transformed vertices at the pixel.
+        /// NaN gives 0.
         Program = "program",
         /// At the pixel, where NaN gives 0.
         Pixel = "pixel",
@@ -242,12 +244,14 @@ named_choice! {
     ConstantStorage {
         /// Converted to the register format directly.
         Register = "register",
-        /// As sign and 8-bit magnitude `k / 255` (nearest, halves away from zero), clamped to [-1, 1], then converted.
+        /// Stored as sign and 8-bit magnitude `k / 255` (nearest, halves away from zero), clamped to [-1, 1], then
+        /// converted.
         Snorm8 = "snorm8",
-        /// As [`Self::Snorm8`], but k is the single-precision product of the magnitude and 255, cut: 0.5 is 127/255.
+        /// As [`Self::Snorm8`], but k is the truncated single-precision product of the magnitude and 255: 0.5 is
+        /// 127/255.
         Snorm8Cut = "snorm8-cut",
-        /// As 8 bits without a sign, expanded by `2x - 1` where they are read: clamped to [-1, 1], `(2k - 255) / 255`
-        /// with k the whole part of `127.5 (c + 1)`. It has no zero: 0 is -1/255, and 0.5 is 127/255.
+        /// Stored as 8 unsigned bits, expanded by `2x - 1` when read: c, clamped to [-1, 1], becomes `(2k - 255) / 255`
+        /// with k the integer part of `127.5 (c + 1)`. Zero does not exist: 0 becomes -1/255, and 0.5 becomes 127/255.
         Unorm8Expanded = "unorm8-expanded",
     }
 }
@@ -265,14 +269,14 @@ named_choice! {
 /// Grid of window positions at set-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SubpixelGrid {
-    /// `2^bits` lines a pixel. 0 to 8 bits; more count as 8.
+    /// `2^bits` lines per pixel; 0 to 8 bits, more count as 8.
     Bits(u8),
-    /// 12 lines a pixel.
+    /// 12 lines per pixel.
     Twelfths,
 }
 
 impl SubpixelGrid {
-    /// Lines a pixel, 1 to 256.
+    /// Lines per pixel, 1 to 256.
     pub fn lines(self) -> u32 {
         match self {
             Self::Bits(bits) => 1 << bits.min(8),

@@ -37,7 +37,7 @@ macro_rules! rules {
                 })
             }
 
-            /// Sets one rule from its text; `None` if there is no such rule, or the text is not a value of it.
+            /// Sets one rule from its text; `None` if there is no such rule, or the text is not a value of the rule.
             pub(super) fn set(&mut self, name: &str, text: &str) -> Option<()> {
                 match name {
                     $($text => self.$field = RuleValue::from_text(text)?,)*
@@ -53,9 +53,9 @@ rules! {
     /// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal
     /// bits.
     ///
-    /// Every field is a figure or a switch of the profile, under `rules.*` (docs/devices.md, "The switches"). Switches
-    /// are added as cards are measured: outside this crate, take the rules of a [`Profile`](super::Profile) and change
-    /// single fields.
+    /// Every field is a figure or a switch of the profile, under `rules.*` (docs/devices.md, "The switches"). Rules are
+    /// added as cards are measured, so code outside this crate takes the rules of a [`Profile`](super::Profile) and
+    /// changes single fields.
     Rules {
         /// Pixel registers and pixel arithmetic.
         format: Format = "format",
@@ -72,18 +72,18 @@ rules! {
         color_iterator: ColorIterator = "color-iterator",
         /// Storage of constants `c#` of pixel programs.
         constant_storage: ConstantStorage = "constants",
-        /// Rounding of products of pixel arithmetic, if not that of sums: of `mul`, of `mad` with two roundings, and of
-        /// dot products but exact ones.
+        /// Rounding of products of pixel arithmetic, if different from the rounding of sums. It applies to `mul`, to
+        /// `mad` with two roundings, and to dot products except exact ones.
         product_rounding: Option<Rounding> = "product-rounding",
         /// Sums of two numbers of pixel arithmetic.
         add: AddMode = "add",
         /// Rounding within `mad` of pixel arithmetic; vertices and addresses have two roundings.
         mad: MadMode = "mad",
-        /// Rounding within dot products of pixel arithmetic; those of vertices and addresses are sequential.
+        /// Rounding within dot products of pixel arithmetic; dot products of vertices and addresses are sequential.
         dot: DotOrder = "dot",
         /// Rounding within `lrp`.
         lrp: LrpMode = "lrp",
-        /// Coordinates beyond the register range in `texcrd`.
+        /// Treatment of coordinates outside the register range in `texcrd`.
         texcrd_overflow: TexcrdOverflow = "texcrd-overflow",
         /// The denominator of `texdepth`.
         texdepth_denominator: TexdepthDenominator = "texdepth-denominator",
@@ -123,30 +123,30 @@ rules! {
         border_storage: BorderStorage = "border-storage",
     }
     beside {
-        /// Formats of storages of pixel programs; no card has any ([`super::Profile::set_storage_format`]).
+        /// Formats of storages of pixel programs; cards have none ([`super::Profile::set_storage_format`]).
         storage: StorageFormats,
-        /// Format of the sums of dot products in pixel programs, if not that of the operation; no card has one
+        /// Format of the sums of dot products in pixel programs, if different from the operation's; cards have none
         /// ([`super::Profile::set_accumulator`]).
         accumulator: Option<Format>,
     }
 }
 
 impl Rules {
-    /// Computation of `lrp` by language: OpenGL's state `t0 * t1 + (1 - t0) * t2` (GL_NV_fragment_program and
+    /// Computation of `lrp` by language: OpenGL specifies `t0 * t1 + (1 - t0) * t2` (GL_NV_fragment_program and
     /// GL_ARB_fragment_program, sections on LRP); Direct3D leaves it to the card.
     pub fn lrp_in(&self, version: Version) -> LrpMode {
         if version.is_fragment_program() { LrpMode::TwoProducts } else { self.lrp }
     }
 
-    /// `true` if MIN and MAX of a language are `a > b ? b : a` and `a > b ? a : b` in a format, where NaN is never the
-    /// greater one (GL_ARB_fragment_program 3.11.5.16 and .17). NVIDIA's unit has a rule of its own in either language.
+    /// `true` if MIN and MAX are `a > b ? b : a` and `a > b ? a : b`, where no comparison with NaN holds
+    /// (GL_ARB_fragment_program 3.11.5.16 and .17). NVIDIA's unit has its own rule in either language.
     pub fn compares_in(version: Version, format: &Format) -> bool {
         version == Version::ArbFp1_0 && format.specials == Specials::Ieee
     }
 
-    /// The number that FRC of a language gives where `x - floor(x)` rounds to 1, if another: OpenGL's result is below 1
+    /// The result of FRC where `x - floor(x)` rounds to 1; `None` if that is 1. OpenGL's result is below 1
     /// (GL_NV_fragment_program 3.11.5.10, GL_ARB_fragment_program 3.11.5.11), Direct3D's ranges "from 0.0 through 1.0".
-    /// Fixed point has every fraction, and never rounds one.
+    /// Fixed point represents every fraction exactly.
     pub fn frc_instead_of_one(version: Version, format: &Format) -> Option<u32> {
         (version.is_fragment_program() && !format.is_fixed()).then(|| format.one() - 1)
     }

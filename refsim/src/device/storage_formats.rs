@@ -4,8 +4,8 @@ use super::instruction_formats::MAX_INSTRUCTION_FORMATS;
 use crate::isa::{Instruction, Program, RegisterFile, ResultKind};
 use crate::num::Format;
 
-/// A storage of numbers that can have its own format. Numbers stay in the register format; what enters the storage is
-/// rounded to its format. docs/devices.md has the table.
+/// A storage of numbers that can have its own format. Numbers stay in the register format, but are rounded to the
+/// storage's format when written. docs/devices.md has the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Storage {
     /// Temporaries `r#`, `R#`, `H#`, and `t#` where instructions write it (ps_1_1 to 1_3). Packed words are not
@@ -17,9 +17,10 @@ pub enum Storage {
     Texels,
     /// Interpolated colors, after their clamp and the iterator's precision.
     Colors,
-    /// Interpolated texture coordinates, for arithmetic and for addresses: single precision is rounded to the format.
+    /// Interpolated texture coordinates, for arithmetic and for addresses: single-precision values rounded to the
+    /// format.
     Coordinates,
-    /// Colors on their way to the targets, before tests and blending. Depth has none.
+    /// Output colors, before tests and blending. Depth has no format.
     Outputs,
 }
 
@@ -40,7 +41,7 @@ impl Storage {
         }
     }
 
-    /// Returns `true` if an instruction of a pixel program reads the storage or writes to it. All have outputs.
+    /// Returns `true` if an instruction of a pixel program reads or writes the storage. Every program has outputs.
     fn is_used_by(self, instruction: &Instruction) -> bool {
         let reads = |file| instruction.sources.iter().any(|source| source.register.file == file);
         let file = instruction.destination.map(|destination| destination.register.file);
@@ -55,7 +56,7 @@ impl Storage {
         }
     }
 
-    /// The storage that an instruction of a pixel program writes to; `None` for files without one.
+    /// The storage that an instruction of a pixel program writes to; `None` for register files without a storage.
     pub(crate) const fn written(file: RegisterFile) -> Option<Self> {
         match file {
             RegisterFile::Temp | RegisterFile::Half | RegisterFile::Texture => Some(Self::Temporaries),
@@ -65,7 +66,7 @@ impl Storage {
     }
 }
 
-/// Number formats of storages of pixel programs; without one a storage holds every number of the register format.
+/// Number formats of storages of pixel programs; a storage without a format holds every number of the register format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StorageFormats([Option<Format>; Storage::ALL.len()]);
 
@@ -97,6 +98,6 @@ impl StorageFormats {
     }
 }
 
-/// Largest number of different formats that a program computes with beside those that every program has: those of its
-/// instructions, of storages, of sums and of products.
+/// Largest number of formats that a program can add to the formats of every program: formats of instructions, storages,
+/// sums and products.
 pub(crate) const MAX_PROGRAM_FORMATS: usize = MAX_INSTRUCTION_FORMATS + Storage::ALL.len() + 2;

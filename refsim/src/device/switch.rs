@@ -7,7 +7,7 @@ use crate::num::{Denormals, Format, FormatKind, Overflow, Rounding};
 /// A switch: an unpublished property of the hardware, with several allowed values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Switch {
-    /// Name, as [`super::Profile::set_switch`] takes it.
+    /// Name, for [`super::Profile::set_switch`].
     pub name: String,
     /// The allowed values.
     pub values: Vec<String>,
@@ -26,12 +26,12 @@ pub struct Switch {
 /// Names of optional rules: they modify `format` (and `partial`).
 pub(super) const FORMAT_RULES: [&str; 4] = ["registers", "rounding", "overflow", "denormals"];
 
-/// The unit of fixed-point registers: a power of two, or one less.
+/// The unit of fixed-point registers, by its denominator: a power of two, or one less.
 pub(super) fn registers_name(format: Format) -> &'static str {
     if format.denominator() == 1 { "256ths" } else { "255ths" }
 }
 
-/// The format with 8 fraction bits in the other unit, or in the same; `None` for other formats.
+/// The format with 8 fraction bits in the unit that `value` names; `None` for other formats.
 fn counted_in(format: Format, value: &str) -> Option<Format> {
     let (FormatKind::Fixed { int_bits, frac_bits: 8 } | FormatKind::Normalized { int_bits, frac_bits: 8 }) =
         format.kind
@@ -93,7 +93,7 @@ pub(super) fn sets_rule(mut format: Format, name: &str, value: &str) -> bool {
     set_format_rule(&mut format, name, value).is_some()
 }
 
-/// Sets one rule, or one of the format, from its text; `None` if the text is not a value of the rule.
+/// Sets one rule, or a rule of the format, from its text; `None` if the text is not a value of the rule.
 pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
     if !FORMAT_RULES.contains(&name) {
         return rules.set(name, value);

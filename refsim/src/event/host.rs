@@ -21,7 +21,7 @@ macro_rules! operations {
                 }
             }
 
-            /// Cost relative to the others; a guess of the host model.
+            /// Relative cost; a guess of the host model.
             pub(crate) const fn weight(self) -> u64 {
                 match self {
                     $(Self::$variant => $weight,)*

@@ -3,7 +3,7 @@
 use super::{DrawEvents, HostOperation, ProgramWork, SAMPLERS, SamplerTraffic};
 use std::sync::Arc;
 
-/// Identifies a resource in the card's memory; numbered as in its handle.
+/// Identifies a resource in the card's memory by the number in its handle.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ResourceId {
@@ -46,7 +46,7 @@ pub enum Event {
         /// Size in bytes.
         bytes: u64,
     },
-    /// The next draw uses other state than the last.
+    /// The next draw uses a different state from the last.
     StateChange {
         /// Number of state groups that differ: each program, each program's constants, each sampler, targets, depth
         /// buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
@@ -108,7 +108,7 @@ pub struct TargetRecord {
     pub pixel_bytes: u32,
     /// `true` if passing fragments write it.
     pub written: bool,
-    /// `true` if they read it first, for blending or a partial write mask.
+    /// `true` if passing fragments also read the target, for blending or a partial write mask.
     pub read: bool,
 }
 
@@ -171,9 +171,9 @@ impl MipmapRecord {
 pub struct DrawRecord {
     /// Event counts.
     pub counts: DrawEvents,
-    /// Vertices processed by the card, given post-transform caches of half the size that the profile states, that size,
-    /// and twice that size: an indexed vertex is processed again each time it has left the cache. Equal to the number
-    /// of vertices without indices, or if the profile states no cache.
+    /// Vertices processed by the card, with a post-transform cache of half the profile's size, the profile's size, and
+    /// twice that: an indexed vertex is processed again if it has left the cache. Equal to the number of vertices
+    /// without indices, or if the profile states no cache.
     pub vertices_run: [u64; 3],
     /// Number of 2x2 quads that ran the pixel program, per triangle that covers at least one of their pixels. Cards
     /// shade whole quads, so lanes outside the triangle cost as much as those inside.

@@ -1,4 +1,4 @@
-//! Instruction mix of a program, in terms of a card's issue units.
+//! Instruction mix of a program, in a card's issue units.
 
 use std::collections::BTreeMap;
 
@@ -15,15 +15,15 @@ const MAX_PASSES: u64 = 255;
 pub struct ArithmeticSlot {
     /// The instruction (the first of the pair).
     pub opcode: Opcode,
-    /// The second instruction of the pair: co-issued by the program (ps_1_x), or a candidate for pairing by a card with
+    /// The second instruction of the pair: co-issued by the program (ps_1_x), or a candidate for pairing on a card with
     /// a vector and a scalar unit ([`Self::independent`]).
     pub partner: Option<Opcode>,
-    /// `true` if the program does not co-issue the pair itself: two adjacent independent instructions, one writing only
-    /// colour, the other only alpha.
+    /// `true` for two adjacent independent instructions that the program does not co-issue: one writes only colour, the
+    /// other only alpha.
     pub independent: bool,
-    /// `true` for fixed-point arithmetic (X of `!!FP1.0`).
+    /// `true` for fixed-point arithmetic (suffix X of `!!FP1.0`).
     pub fixed: bool,
-    /// Slots by the opcode table; of a pair, the larger number.
+    /// Slots by the opcode table; for a pair, the larger number.
     pub slots: u16,
     /// Executions per fragment or vertex, with loops unrolled.
     pub times: u64,
@@ -118,7 +118,7 @@ impl ProgramWork {
     }
 }
 
-/// The arithmetic slot that begins at `at`, and its number of instructions.
+/// The arithmetic slot at `at`, and its number of instructions.
 fn arithmetic(program: &Program, at: usize, times: u64) -> (ArithmeticSlot, usize) {
     let code = &program.instructions;
     let instruction = &code[at];
@@ -175,14 +175,15 @@ fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
     TextureSlot { opcode, sampler, dependent: dependent && reads, times }
 }
 
-/// Number of executions of each instruction; one pass over the text, however deep loops and calls are nested.
+/// Number of executions of each instruction; one pass over the text, for any nesting of loops and calls.
 fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
     let code = &program.instructions;
     let label = |i: &Instruction| i.sources.first().map(|s| s.register.index);
     let labels = code.iter().enumerate().rev().filter(|(_, i)| i.opcode == Opcode::Label);
     let labels: BTreeMap<_, _> = labels.map(|(at, i)| (label(i), at)).collect();
     let mut times = vec![0u64; code.len()];
-    // Number of calls of each subroutine, by label. Calls lead forward, so it is final when the walk reaches the label.
+    // Number of calls of each subroutine, by label. Calls lead forward, so the number is final when the walk reaches
+    // the label.
     let mut called = vec![0u64; code.len()];
     let (mut now, mut open) = (1u64, Vec::<OpenBranch>::new());
     for (at, instruction) in code.iter().enumerate() {
@@ -224,7 +225,7 @@ fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
     times
 }
 
-/// An open block: the number of executions of its surroundings and, for `if` on a constant, the branch taken.
+/// An open block: the number of executions of the enclosing block and, for `if` on a constant, the branch taken.
 struct OpenBranch {
     outside: u64,
     taken: Option<bool>,
@@ -258,7 +259,7 @@ fn boolean_value(program: &Program, constants: FlowConstants<'_>, source: Option
 const TEMPORARIES: usize = 2 * FULL;
 const FULL: usize = 64;
 
-/// Index of a temporary in that order; `None` for other registers.
+/// Index of a temporary, below [`TEMPORARIES`]; `None` for other registers.
 fn temporary(register: Register) -> Option<usize> {
     let number = usize::from(register.index);
     match register.file {
@@ -268,8 +269,8 @@ fn temporary(register: Register) -> Option<usize> {
     }
 }
 
-/// Maximum number of live temporaries, in halves; treats the program as straight-line code, i.e. ignores that loops
-/// extend live ranges.
+/// Maximum number of live temporaries, in halves; treats the program as straight-line code, ignoring that loops extend
+/// live ranges.
 fn live_halves(program: &Program) -> u32 {
     let mut full = [false; TEMPORARIES];
     if program.version.is_fragment_program() {

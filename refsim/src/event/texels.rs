@@ -9,13 +9,13 @@ pub struct TexelTouch {
     pub sampler: u8,
     /// Byte address in the card's memory.
     pub address: u64,
-    /// Texel size in bytes, 1 to 16. A texel never crosses a boundary of its size rounded up to a power of two.
+    /// Texel size in bytes, 1 to 16. A texel never crosses a multiple of its size, rounded up to a power of two.
     pub bytes: u32,
 }
 
 /// Cache traffic of one sampler in one draw.
 ///
-/// An access is one texel of one fragment, which lies in one cache line; a bilinear read makes four.
+/// An access reads one texel for one fragment, from one cache line; a bilinear read makes four accesses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SamplerTraffic {
     /// Texels read.

@@ -1,9 +1,9 @@
 //! Post-transform vertex cache: number of vertex program executions of an indexed draw.
 
-/// Number of misses of the indices, each below `vertices`, in a first-in, first-out cache of `entries` transformed
-/// vertices. A hit does not change the order of eviction.
+/// Number of misses in a first-in, first-out cache of `entries` transformed vertices, for indices below `vertices`. A
+/// hit does not change the order of eviction.
 pub fn vertex_cache_misses(indices: &[u32], vertices: usize, entries: u64) -> u64 {
-    // Per vertex, the miss count when it last entered, including itself; 0 if it never did.
+    // Per vertex, the number of misses when it last entered the cache, including its own; 0 if it never entered.
     let mut came = vec![0_u64; vertices];
     let mut misses = 0;
     for &index in indices {

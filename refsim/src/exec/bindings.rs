@@ -1,4 +1,4 @@
-//! Inputs of a pixel program apart from its fragment: constants, textures, stage state.
+//! Inputs of a pixel program other than its fragment: constants, textures, stage state.
 
 use super::Constants;
 use crate::event::SAMPLERS;
@@ -44,8 +44,8 @@ pub struct BumpStage {
     pub luminance_offset: u32,
 }
 
-/// Texture projection of a stage (`D3DTTFF_PROJECTED`): the divisor of the coordinates in `tex`, `texbem` and
-/// `texbeml`, applied first and in single precision. ps_1_4 uses `_dz` and `_dw` instead, ps_2_0 `texldp`.
+/// Texture projection of a stage (`D3DTTFF_PROJECTED`): `tex`, `texbem` and `texbeml` first divide the coordinates, in
+/// single precision. ps_1_4 uses `_dz` and `_dw` instead, and ps_2_0 uses `texldp`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Projection {
@@ -53,13 +53,13 @@ pub enum Projection {
     #[default]
     #[serde(skip)]
     None,
-    /// By the third component (`D3DTTFF_COUNT3`): the first two are divided.
+    /// The first two components are divided by the third (`D3DTTFF_COUNT3`).
     Z,
-    /// By the fourth component (`D3DTTFF_COUNT4`): the first three are divided.
+    /// The first three components are divided by the fourth (`D3DTTFF_COUNT4`).
     W,
 }
 
-/// All inputs of a pixel program apart from its fragment.
+/// All inputs of a pixel program other than its fragment.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelBindings<'a> {
     /// Constants set by the host.

@@ -2,8 +2,7 @@
 //!
 //! A step is one instruction executed by a lane, flow control included. A co-issued pair is one step; `phase` counts 0.
 //! A lane that has used up its budget is stopped before its next instruction and executes nothing more. Its results are
-//! incomplete, so a fragment or vertex that is stopped is an error ([`Overrun`]). A stopped helper lane is not an
-//! error.
+//! incomplete, so a stopped fragment or vertex is an error ([`Overrun`]); a stopped helper lane is not.
 //!
 //! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which terminate a program after a number of instructions
 //! "to prevent hangs"; docs/decisions/0011.
@@ -11,13 +10,13 @@
 use super::{FlowMap, ResolvedConstants};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program};
 
-/// Maximum number of loop iterations: the range of a card's loop counter. Larger counts are clamped, negative ones are
-/// 0.
+/// Maximum number of loop iterations: the range of a card's loop counter. Larger counts are clamped; negative counts
+/// become 0.
 pub(crate) const MAX_LOOP_PASSES: i32 = 255;
 
 /// A fragment that exceeded its step budget.
 ///
-/// Ordered by triangle, then row, then column; the first one is reported.
+/// Ordered by triangle, then row, then column; a draw reports the first overrun.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Overrun {
     /// Index of the triangle, as passed to the executor.
@@ -45,14 +44,14 @@ pub(crate) fn straight_exceeds(program: &Program, budget: u32) -> bool {
     count > budget as usize && (0..count).filter(|&at| is_step(at)).count() > budget as usize
 }
 
-/// Returns `true` if an instruction is co-issued with the one before it.
+/// Returns `true` if an instruction is co-issued with the previous instruction.
 fn is_partner(program: &Program, at: usize) -> bool {
     let before = at.checked_sub(1).and_then(|before| program.instructions.get(before));
     program.instructions[at].coissue && before.is_some_and(|i| i.opcode.info().class == OpcodeClass::Arithmetic)
 }
 
-/// Upper bound on the steps of a program: branches on booleans may go either way, and loops are never left early. Exact
-/// for programs without flow control. One pass over the text.
+/// Upper bound on the steps of a program: it takes the longer branch, and never leaves a loop early. Exact for programs
+/// without flow control. Takes one pass over the text.
 pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &ResolvedConstants) -> u64 {
     let code = &program.instructions;
     // Calls lead forward, so processing labels backward finds every callee first.
@@ -66,9 +65,7 @@ pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &Resolved
     of_section(program, 0..end, flow, constants, &after)
 }
 
-/// An open block.
 struct Open {
-    /// Steps before the block.
     before: u64,
     /// Number of iterations, for loops.
     passes: u64,
@@ -76,7 +73,7 @@ struct Open {
     taken: u64,
 }
 
-/// Upper bound on the steps of `section`, given those of later subroutines by label.
+/// Upper bound on the steps of `section`, given the bounds of later subroutines by label.
 fn of_section(
     program: &Program,
     section: std::ops::Range<usize>,
@@ -104,7 +101,7 @@ fn of_section(
             }
             Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => {
                 if let Some(block) = open.pop() {
-                    // `else` is a step of the lanes in the `if` branch, `endif` of those that arrive at it.
+                    // `else` is a step of the lanes in the `if` branch, `endif` a step of the lanes that reach it.
                     let inside = steps.max(block.taken).saturating_mul(block.passes);
                     steps = block.before.saturating_add(inside);
                 }

@@ -7,23 +7,21 @@ use super::FixedFunctionState;
 use crate::isa::{ConstantValue, FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Program, RegisterFile};
 use crate::num::{self, Format};
 
-/// Number of integer constant registers, and of boolean ones.
+/// Number of integer constant registers, and of boolean constant registers.
 const FLOW_CONSTANTS: usize = 16;
 /// Number of float constants of Direct3D programs (vs_2_0).
 const FLOAT_CONSTANTS: usize = 256;
 /// Number of float constants of an OpenGL fragment program, including literals.
 const FRAGMENT_CONSTANTS: usize = FIRST_LITERAL as usize + 4096;
-/// 1.0 in single precision.
 const FP32_ONE: u32 = 0x3f80_0000;
-/// 255.0 in single precision.
 const FP32_255: u32 = 0x437f_0000;
 
-/// Constants of one stage, set by the host. Unset ones are zero; definitions in the program (`def`, `defi`, `defb`)
-/// take precedence.
+/// Constants of one stage, set by the host. Unset constants are zero; definitions in the program (`def`, `defi`,
+/// `defb`) take precedence.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Constants {
-    /// Values of `c0` and up, as single-precision patterns. Those beyond c255 (c511 in OpenGL fragment programs) are
-    /// ignored.
+    /// Values of `c0` and up, as single-precision patterns. Constants beyond c255 (c511 in OpenGL fragment programs)
+    /// are ignored.
     pub float: Vec<[u32; 4]>,
     /// Values of `i0` to `i15`.
     pub int: Vec<[i32; 4]>,
@@ -50,7 +48,7 @@ impl Constants {
 /// Constants in the form that instructions read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ResolvedConstants {
-    /// `c#` in the register format, up to the last one set or defined; the rest are zero.
+    /// `c#` in the register format, up to the last constant set or defined; higher constants are zero.
     pub float: Vec<[u32; 4]>,
     /// `i#`
     pub int: [[i32; 4]; FLOW_CONSTANTS],
@@ -59,8 +57,8 @@ pub struct ResolvedConstants {
 }
 
 impl ResolvedConstants {
-    /// Constants of a pixel program: clamped to [-1, 1] in ps_1_x, then brought to the device's [`ConstantStorage`],
-    /// then converted to the register format, and rounded to that of [`Storage::Constants`].
+    /// Constants of a pixel program: clamped to [-1, 1] in ps_1_x, stored as the device's [`ConstantStorage`],
+    /// converted to the register format, and rounded to the format of [`Storage::Constants`].
     pub fn pixel(program: &Program, rules: &Rules, host: &Constants) -> Self {
         let clamp = program.version.is_ps_1_x();
         Self::resolve(program, host, |bits| {
@@ -144,7 +142,6 @@ fn clamped_to_one(bits: u32) -> u32 {
     if magnitude > FP32_ONE && magnitude <= 0x7f80_0000 { (bits & 0x8000_0000) | FP32_ONE } else { bits }
 }
 
-/// The pattern without its sign.
 fn magnitude(bits: u32) -> u32 {
     bits & 0x7fff_ffff
 }
@@ -154,15 +151,16 @@ fn snorm8(format: Format, bits: u32, k: u32) -> u32 {
     num::from_ratio(format, bits >> 31 == 1 && k != 0, u128::from(k), 255).bits
 }
 
-/// `(2k - 255) / 255`, k the whole part of the exact `127.5 (c + 1)` of the clamped number c, rounded into `format`.
-/// NaN is stored like 0.
+/// `(2k - 255) / 255`, rounded into `format`, where k is the integer part of the exact `127.5 (c + 1)` and c the
+/// clamped number. NaN is stored like 0.
 fn unorm8_expanded(format: Format, bits: u32) -> u32 {
     let magnitude = if magnitude(bits) > 0x7f80_0000 { 0 } else { magnitude(bits).min(FP32_ONE) };
     let (significand, exponent) = match magnitude >> 23 {
         0 => (magnitude, 1),
         field => ((magnitude & 0x007f_ffff) | 0x0080_0000, field),
     };
-    // The magnitude is significand / 2^down, with down at least 23; beyond 64 it moves 127.5 past no whole number.
+    // The magnitude is significand / 2^down, with down at least 23. For down above 64 it does not move 127.5 past an
+    // integer.
     let down = 150 - exponent;
     let term = if down > 64 { 0 } else { 255 * i128::from(significand) };
     let down = down.min(64);
@@ -171,16 +169,17 @@ fn unorm8_expanded(format: Format, bits: u32) -> u32 {
     num::from_ratio(format, expanded < 0, expanded.unsigned_abs(), 255).bits
 }
 
-/// The single-precision product of a magnitude and 255, clamped to 255 and cut to a whole number. NaN gives 0.
+/// The single-precision product of a magnitude and 255, clamped to 255 and truncated to an integer. NaN gives 0.
 ///
-/// The product is rounded before it is cut, as a driver in C rounds it: `k / 255` in single precision gives k again.
+/// The product is rounded before truncation, as in a driver written in C, so `k / 255` in single precision gives k
+/// again.
 fn cut_255ths(magnitude: u32) -> u32 {
     if magnitude >= FP32_ONE {
         return if magnitude > 0x7f80_0000 { 0 } else { 255 };
     }
     let product = num::ops::mul(Format::FP32, magnitude, FP32_255).bits;
     let (exponent, significand) = (product >> 23, (product & 0x007f_ffff) | 0x0080_0000);
-    // The product is at most 255, so that its exponent field is at most 134; below 127 it is less than 1.
+    // The product is at most 255, so its exponent field is at most 134; a field below 127 means a product below 1.
     if exponent < 127 { 0 } else { significand >> (150 - exponent) }
 }
 

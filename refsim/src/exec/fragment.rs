@@ -9,8 +9,9 @@ use crate::texture::TexelFormat;
 
 /// Formats of the precision suffixes R, H and X.
 ///
-/// Source: GL_NV_fragment_program. R is the device's register format, fp32 on its cards. H is the format of `_pp`; on
-/// devices without one, fp16 with the extension's overflow rule. X is fx12. All use the device's rounding.
+/// Source: GL_NV_fragment_program. R is the device's register format, which is fp32 on cards with the extension. H is
+/// the format of `_pp`, or fp16 with the extension's overflow rule on devices without `_pp`. X is fx12. All use the
+/// device's rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FragmentFormats {
     /// `R#`, `o[COLR]`, `o[DEPR]`, and interpolated values.
@@ -49,11 +50,11 @@ impl FragmentFormats {
     }
 }
 
-/// The components of a texel that a program of `version` reads as 0, independently of the sampler: in `!!FP1.0` green
-/// and blue that a float format does not store, and all of an unbound sampler.
+/// The components of a texel that a program of `version` reads as 0, independently of the sampler: in `!!FP1.0`, green
+/// and blue if a float format does not store them, and all components of an unbound sampler.
 ///
-/// Source: GL_NV_fragment_program, table X.5 and section 3.11.5.38. Other formats have no certain counterpart there and
-/// keep Direct3D's defaults.
+/// Source: GL_NV_fragment_program, table X.5 and section 3.11.5.38. The table does not clearly cover other formats,
+/// which keep Direct3D's defaults.
 pub(crate) fn zero_components(version: Version, format: Option<TexelFormat>) -> Range<usize> {
     match format.map(TexelFormat::record) {
         _ if version != Version::Fp1_0 => 0..0,

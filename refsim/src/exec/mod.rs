@@ -5,7 +5,7 @@
 //! - [`batch`] processes tiles with the host's SIMD instructions.
 //! - [`wgsl`] generates shaders, which `gpu` runs on a GPU of the host.
 //!
-//! The latter start from `lower`, which translates a program to a graph of values.
+//! `batch` and `wgsl` start from `lower`, which translates a program to a graph of values.
 //!
 //! `tests/agree` compares the executors. They share no arithmetic, only the jump targets ([`FlowMap`]), register
 //! contents of constants ([`ResolvedConstants`]), bindings, parameters of a draw ([`TileDraw`]), and result types
@@ -44,10 +44,10 @@ pub use usage::{colors_written, inputs_read};
 use crate::check::Checked;
 use crate::isa::Program;
 
-/// A program that passed the checker. Executors accept no other.
+/// A program that passed the checker. Executors accept only checked programs.
 ///
-/// It may run on another device than the one it was checked for: limits concern the checker only, and executors support
-/// every register that a version can name.
+/// It may run on a device for which it was not checked: only the checker enforces limits, and executors support every
+/// register that a version can name.
 pub type CheckedProgram = Checked<Program>;
 
 /// Returns the program.

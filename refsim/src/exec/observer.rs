@@ -15,7 +15,8 @@ pub struct Step {
     pub mask: Mask,
     /// Values written, as patterns of the register format; components outside the mask are undefined.
     pub value: [u32; 4],
-    /// Exceptions raised by the instruction; for a co-issued pair both instructions' exceptions are in the first step.
+    /// Exceptions raised by the instruction; for a co-issued pair, the first step has the exceptions of both
+    /// instructions.
     pub flags: Flags,
 }
 

@@ -16,7 +16,7 @@ pub struct DepthValue {
 pub struct FragmentResult {
     /// `true` if `texkill` removed the fragment. The other fields are valid regardless.
     pub killed: bool,
-    /// `oC0` to `oC3` in the register format. In ps_1_x the first is r0 clamped to [0, 1]. Unwritten outputs are zero.
+    /// `oC0` to `oC3` in the register format. In ps_1_x, output 0 is r0 clamped to [0, 1]. Unwritten outputs are zero.
     pub colors: [[u32; 4]; 4],
     /// Depth, if the program writes it.
     pub depth: Option<DepthValue>,

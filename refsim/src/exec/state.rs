@@ -1,8 +1,8 @@
 //! Fixed-function OpenGL state that `!!ARBfp1.0` reads as constants.
 //!
-//! Derived values (inverses, products, 1 / (end - start)) are computed by [`FixedFunctionState::value`], as by the
-//! driver: in double precision, in a fixed order, rounded once. Defaults: the OpenGL 1.4 specification, tables of state
-//! variables.
+//! Derived values (inverses, products, 1 / (end - start)) are computed by [`FixedFunctionState::value`], where cards
+//! leave them to the driver: in double precision, in a fixed order, rounded once. Defaults: the OpenGL 1.4
+//! specification, tables of state variables.
 
 use crate::isa::{LightingColor, MAX_LIGHTS, MAX_PROGRAM_MATRICES, MAX_TEXTURE_UNITS, MaterialFace, StateBinding};
 use crate::isa::{MatrixForm, StateMatrix};
@@ -122,7 +122,7 @@ impl Default for FixedFunctionState {
 }
 
 impl FixedFunctionState {
-    /// The value of `binding`, as single-precision patterns. Indices beyond the state are clamped to the last one.
+    /// The value of `binding`, as single-precision patterns. Indices beyond the state are clamped to the last index.
     ///
     /// Cases that OpenGL leaves undefined follow IEEE arithmetic: the inverse of a singular matrix, 1 / (end - start)
     /// with equal ends, and the half vector of a light without direction contain infinities or NaN.
@@ -181,7 +181,7 @@ impl FixedFunctionState {
         double(self.fog.end) - double(self.fog.start)
     }
 
-    /// e^-x is 2^(-x / ln 2), and e^-(x^2) is 2^-((x / sqrt(ln 2))^2).
+    /// Uses e^-x = 2^(-x / ln 2) and e^-(x^2) = 2^-((x / sqrt(ln 2))^2).
     fn fog_factors(&self) -> [u32; 4] {
         let (density, end) = (double(self.fog.density), double(self.fog.end));
         let ln_2 = std::f64::consts::LN_2;
@@ -223,7 +223,7 @@ fn double(bits: u32) -> f64 {
     num::to_f64(&Format::FP32, bits)
 }
 
-/// Rounds to nearest even; NaN becomes the positive quiet one, with either sign on the host.
+/// Rounds to nearest even; any NaN becomes the positive quiet NaN.
 fn single(value: f64) -> u32 {
     if value.is_nan() { 0x7fc0_0000 } else { (value as f32).to_bits() }
 }
@@ -234,7 +234,7 @@ fn cosine(degrees: u32) -> u32 {
     num::ops::cos(Format::FP32, radians).bits
 }
 
-/// Half vector between the direction to a light and that to a viewer at infinity, (0, 0, 1).
+/// Half vector between the direction to a light and (0, 0, 1), the direction to a viewer at infinity.
 fn half_vector(position: [u32; 4]) -> [u32; 4] {
     let normalized = |[x, y, z]: [f64; 3]| {
         let length = (x * x + y * y + z * z).sqrt();

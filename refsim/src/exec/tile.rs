@@ -7,8 +7,8 @@ use super::{CheckedProgram, PixelBindings};
 use crate::device::Rules;
 use crate::output::OutputState;
 
-/// Side length of a tile in pixels. Tile positions are multiples of it; tiles at the far edges of the targets are
-/// smaller.
+/// Side length of a tile in pixels. Tile positions are multiples of this length; tiles at the far edges of the targets
+/// are smaller.
 pub const TILE: u32 = 16;
 
 /// Parameters of a draw from which an executor is created.

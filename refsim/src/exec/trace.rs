@@ -1,8 +1,8 @@
 //! Per-pixel execution traces.
 //!
-//! Traces are made independently of draws, so that drawing pays nothing: the machine finds the triangles that cover the
+//! Traces are made independently of draws, at no cost for drawing: the machine finds the triangles that cover the
 //! pixel, and the scalar executor or a GPU shades each into the pixel's targets. The batch executor has no tracer: its
-//! values are those of the scalar one.
+//! values equal the scalar executor's.
 
 use super::{FragmentResult, Step};
 use crate::isa::{Instruction, Mask, OpcodeClass, Program, Register, RegisterFile};
@@ -18,7 +18,7 @@ pub struct Shading {
     /// Input registers with interpolated values as read by instructions, in the register format.
     pub delivered: Vec<(Register, [u32; 4])>,
     /// The executed instructions that write registers, read texels, kill or write depth, in order. Components outside a
-    /// step's mask are zero; `oDepth` has one component, the lowest of its mask. A GPU knows no flags.
+    /// step's mask are zero; `oDepth` has only the lowest component of its mask. Steps from a GPU have no flags.
     pub steps: Vec<Step>,
     /// Output of the program.
     pub output: FragmentResult,
@@ -32,7 +32,7 @@ pub(crate) fn makes_step(instruction: &Instruction) -> bool {
     instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
 }
 
-/// Mask of a step whose instruction writes these components; for `oDepth` the lowest of its destination.
+/// Mask of a step whose instruction writes these components; for `oDepth`, the lowest component of its destination.
 pub(crate) fn written_mask(instruction: &Instruction, components: impl Iterator<Item = u8>) -> Mask {
     match instruction.destination {
         Some(d) if d.register.file == RegisterFile::DepthOut => Mask(d.mask.0 & d.mask.0.wrapping_neg()),

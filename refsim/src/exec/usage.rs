@@ -3,7 +3,7 @@
 use crate::isa::{Opcode, Program, Register, RegisterFile};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
-/// Components that a pixel program can read, including the window position. Others need not be interpolated.
+/// Components that a pixel program can read, including the window position. Other components need not be interpolated.
 pub fn inputs_read(program: &Program) -> ComponentMask {
     let mut mask = ComponentMask::NONE;
     let mut set = |number: u16| {
@@ -29,7 +29,7 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
                 _ => {}
             }
         }
-        // The eye ray is in the fourth components of the two previous stages.
+        // The eye ray is in the fourth components of this stage and the two previous stages.
         if let (Opcode::TexM3x3VSpec, Some(destination)) = (instruction.opcode, instruction.destination) {
             set(destination.register.index.saturating_sub(1));
             set(destination.register.index.saturating_sub(2));

@@ -1,8 +1,8 @@
 //! Syntax that only OpenGL fragment programs have: precision suffixes, condition codes, texture targets, mnemonics.
 //!
 //! Sources: the extension specifications GL_NV_fragment_program (`!!FP1.0`) and GL_ARB_fragment_program (`!!ARBfp1.0`).
-//! Their operations are those of the opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]`
-//! is `t#`, `o[COLR]` is `oC0`, `o[DEPR]` is `oDepth`, and every constant is a `c#`.
+//! Their operations are in the opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]` is
+//! `t#`, `o[COLR]` is `oC0`, `o[DEPR]` is `oDepth`, and every constant is a `c#`.
 
 use strum::{EnumString, IntoStaticStr};
 
@@ -10,7 +10,7 @@ use super::{Opcode, Span, Swizzle};
 
 /// The first `c#` of ARB's `program.env`; `p[0]` and `program.local[0]` are `c0`.
 pub const FIRST_ENVIRONMENT: u16 = 256;
-/// The first `c#` of constants with a name that the host can set.
+/// The first `c#` of constants that the host sets by name.
 pub const FIRST_NAMED: u16 = 512;
 /// The first `c#` of literals.
 pub const FIRST_LITERAL: u16 = 1024;
@@ -52,7 +52,7 @@ pub enum ConditionTest {
     /// Less or equal.
     Le,
     Lt,
-    /// Anything but equal: unordered too.
+    /// Not equal; also unordered.
     Ne,
     /// Always.
     Tr,
@@ -69,7 +69,7 @@ impl ConditionTest {
         self.into()
     }
 
-    /// The test of this name.
+    /// The test with this name.
     pub fn from_name(text: &str) -> Option<Self> {
         text.parse().ok()
     }
@@ -80,7 +80,7 @@ impl ConditionTest {
 pub struct Condition {
     /// The test that must hold.
     pub test: ConditionTest,
-    /// The condition code component that each lane tests.
+    /// The condition code that each component tests.
     pub swizzle: Swizzle,
     /// Location in the program text.
     pub span: Span,
@@ -111,7 +111,7 @@ impl TextureTarget {
         self.into()
     }
 
-    /// The target of this name.
+    /// The target with this name.
     pub fn from_name(text: &str) -> Option<Self> {
         text.parse().ok()
     }
@@ -128,7 +128,7 @@ pub struct FragmentPart {
     pub condition: Option<Condition>,
     /// Texture target of a fetch.
     pub target: Option<TextureTarget>,
-    /// `SWZ`: bit `i` negates component `i`; there the swizzle's 4 means 0 and 5 means 1.
+    /// `SWZ`: bit `i` negates component `i`; swizzle entries 4 and 5 mean the constants 0 and 1.
     pub negate: u8,
 }
 
@@ -147,7 +147,7 @@ pub struct Spelling {
     pub result: bool,
 }
 
-/// The instruction tables of the two extensions. Columns as there: R and H; X; C and `_SAT`.
+/// The instruction tables of the two extensions, with their columns: R and H; X; C and `_SAT`.
 macro_rules! spellings {
     ($($opcode:ident $name:literal $floats:literal $fixed:literal $result:literal)*) => {
         &[$(Spelling {

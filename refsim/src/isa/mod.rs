@@ -1,7 +1,7 @@
 //! Representation of shader programs: versions, registers, modifiers, instructions, and the opcode table.
 //!
-//! A [`Program`] is what assembler front ends produce, the checker validates and the executors run. This module
-//! evaluates nothing; see [`crate::exec`]. Terms are Direct3D's (`ps_1_4`, `texcrd`, `phase`, `oDepth`).
+//! Assembler front ends produce a [`Program`], the checker validates it, and executors run it. This module only
+//! contains data; for execution see [`crate::exec`]. Terms are Direct3D's (`ps_1_4`, `texcrd`, `phase`, `oDepth`).
 
 mod fragment;
 mod opcode;

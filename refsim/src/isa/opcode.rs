@@ -1,9 +1,9 @@
-//! The opcode table: for each operation its mnemonic, its operands, the versions that have it and its cost in
+//! The opcode table: for each operation its mnemonic, its operands, the versions that have it, and its cost in
 //! instruction slots.
 //!
 //! The assembler, the printer, the checker, the executors and the timing model all read this one table. Sources: the
 //! Direct3D 9 shader assembly reference, pages "Instructions ps_1_X", "ps_2_0", "ps_2_x", "vs_1_1" and "vs_2_0";
-//! GL_NV_fragment_program and GL_ARB_fragment_program, whose own spellings are in `fragment`.
+//! GL_NV_fragment_program and GL_ARB_fragment_program, whose spellings are in `fragment`.
 
 use super::Version;
 
@@ -27,16 +27,16 @@ pub enum DestinationRule {
     None,
     /// The first operand is written.
     Write,
-    /// The first operand is written like a destination in the text but is read (`texkill`).
+    /// The first operand has the syntax of a destination, but is only read (`texkill`).
     Read,
 }
 
-/// Components that an operation writes to a register at once.
+/// Kind of values that an operation writes to a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ResultKind {
     /// Nothing: flow control, kills, depth, and matrix rows for a later texture read.
     None,
-    /// Numbers of the register format, or what is found from such numbers: an address, or masks of a comparison.
+    /// Numbers of the register format, or an address or comparison masks derived from such numbers.
     Numbers,
     /// A texel.
     Texel,
@@ -44,7 +44,7 @@ pub enum ResultKind {
     Packed,
 }
 
-/// Instruction slots that one instruction takes.
+/// Cost of an instruction in slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub struct SlotCost {
     /// Texture instruction slots.
@@ -71,7 +71,7 @@ pub struct OpInfo {
     pub class: OpcodeClass,
     /// The role of its first operand.
     pub destination: DestinationRule,
-    /// The written components.
+    /// The kind of its results.
     pub result: ResultKind,
     /// `true` if the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
     pub comparison: bool,
@@ -94,7 +94,7 @@ impl OpInfo {
         self.sources[version as usize]
     }
 
-    /// Slots that the operation takes in `version`, before adjustments for co-issue, predication and texture type.
+    /// Slots of the operation in `version`, before adjustments for co-issue, predication and texture type.
     pub const fn slot_cost(&self, version: Version) -> SlotCost {
         let n = self.slots[version as usize];
         match self.class {
@@ -131,7 +131,7 @@ const fn split(cells: [(Option<u8>, u16); VERSIONS]) -> ([Option<u8>; VERSIONS],
 
 macro_rules! opcodes {
     ($($variant:ident $mnemonic:literal $class:ident $dest:ident $result:ident $comparison:literal [$($cell:expr),* $(,)?])*) => {
-        /// An operation. The table in this file has everything else about it.
+        /// An operation; the table in this file describes it.
         #[non_exhaustive]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[expect(missing_docs, reason = "the variants are the mnemonics")]
@@ -275,8 +275,8 @@ opcodes! {
 }
 
 impl Opcode {
-    /// For matrix products: the number of rows, i.e. of consecutive constants read from the named one on, and the
-    /// number of terms of each row's dot product.
+    /// For matrix products: the number of rows (consecutive constants, starting at the named constant), and the number
+    /// of terms of each row's dot product.
     pub const fn matrix(self) -> Option<(u16, usize)> {
         match self {
             Self::M3x2 => Some((2, 3)),

@@ -20,8 +20,8 @@ impl Opcode {
         }
     }
 
-    /// The lanes of source `index` that an arithmetic operation reads to write the components `written`, before
-    /// swizzling.
+    /// The lanes of source `index`, before swizzling, that an arithmetic operation reads to write the components
+    /// `written`.
     pub fn lanes_read(self, index: usize, written: Mask) -> Mask {
         let lanes = match (self, index) {
             (Self::Dp3 | Self::Crs | Self::Rfl | Self::M3x2 | Self::M3x3 | Self::M3x4, _) | (Self::Dph, 0) => 0b0111,

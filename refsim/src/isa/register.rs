@@ -4,8 +4,8 @@ use std::fmt;
 
 use strum::VariantArray;
 
-/// A register file; Direct3D's come before those that only OpenGL has. Each variant's comment gives the spelling in
-/// programs.
+/// A register file; Direct3D's files come first, then files of OpenGL only. Each variant's comment starts with the
+/// spelling in programs.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray)]
 pub enum RegisterFile {

@@ -2,7 +2,7 @@
 
 /// A byte range of the program text.
 ///
-/// All spans compare equal, so that two programs are equal if they differ in layout only.
+/// All spans compare equal, so that programs that differ only in layout are equal.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Span {
     /// First byte.
@@ -34,7 +34,7 @@ impl Span {
         Self { start, end }
     }
 
-    /// The smallest span that holds both.
+    /// The smallest span that contains both.
     pub fn join(self, other: Self) -> Self {
         Self { start: self.start.min(other.start), end: self.end.max(other.end) }
     }

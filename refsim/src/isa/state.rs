@@ -86,7 +86,7 @@ pub enum StateBinding {
     LightHalf(u8),
     /// `state.lightmodel.ambient`
     LightModelAmbient,
-    /// `state.lightmodel.scenecolor`: emission plus ambient term; alpha is that of the diffuse material
+    /// `state.lightmodel.scenecolor`: emission plus ambient term; alpha is the diffuse material's
     SceneColor(MaterialFace),
     /// `state.lightprod[#].diffuse`: color of the light times color of the material; alpha is the material's
     LightProduct(u8, MaterialFace, LightingColor),

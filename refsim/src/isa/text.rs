@@ -1,4 +1,4 @@
-//! The text that a program was assembled from, for messages that quote it.
+//! The source text of a program, for messages that quote it.
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,9 +10,9 @@ const MAX_QUOTED: usize = 100;
 /// Largest number of problems that are quoted in one message.
 const MAX_PROBLEMS: usize = 20;
 
-/// The text that a program was assembled from; empty if it was built otherwise.
+/// The source text of a program; empty if the program was not assembled from text.
 ///
-/// All texts compare equal, as all [`Span`]s do, so that two programs are equal if they differ in layout only.
+/// All texts compare equal, as [`Span`]s do, so that programs that differ only in layout are equal.
 #[derive(Clone, Default)]
 pub struct ProgramText(Arc<str>);
 
@@ -44,8 +44,8 @@ impl ProgramText {
         Some((line, before[start..].trim_start_matches('\u{feff}').chars().count() + 1))
     }
 
-    /// Writes messages: for each its place, the line with the place marked, and the help. The rest after
-    /// [`MAX_PROBLEMS`] is counted.
+    /// Writes messages, each with its place, the line with the place marked, and the help. Messages beyond
+    /// [`MAX_PROBLEMS`] are only counted.
     pub(crate) fn write_messages(
         &self,
         f: &mut fmt::Formatter<'_>,
@@ -68,7 +68,7 @@ impl ProgramText {
         Ok(())
     }
 
-    /// Writes the line of a span, and marks below the part of it that the span covers.
+    /// Writes the line of a span, and marks the part that the span covers on the line below.
     fn write_line(&self, f: &mut fmt::Formatter<'_>, span: Span, column: usize) -> fmt::Result {
         let text = &self.0;
         let start = text[..span.start as usize].rfind('\n').map_or(0, |end| end + 1);

@@ -11,7 +11,7 @@ pub enum Stage {
     Pixel,
 }
 
-/// A shader version, as the first token of a program names it.
+/// A shader version, named by the first token of a program.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "the variants are the version tokens")]
@@ -50,7 +50,7 @@ impl Version {
     /// OpenGL's fragment programs, in the order of the enumeration, which continues after [`Self::ALL`].
     pub const FRAGMENT: [Self; 2] = [Self::Fp1_0, Self::ArbFp1_0];
 
-    /// The version token as it is written in a program, `ps_1_4` for example.
+    /// The version token in a program, for example `ps_1_4`.
     pub const fn token(self) -> &'static str {
         match self {
             Self::Ps1_1 => "ps_1_1",

@@ -10,7 +10,7 @@ use crate::texture::{Region, SamplerState};
 /// Default value of attributes without a stream: (0, 0, 0, 1) in single precision.
 pub const DEFAULT_ATTRIBUTE: [u32; 4] = [0, 0, 0, 0x3f80_0000];
 
-/// The step rate of a stream.
+/// Step rate of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StepRate {
     /// Advances per vertex; restarts with each instance.
@@ -32,24 +32,24 @@ pub struct AttributeStream<'a> {
 
 /// Input of a vertex program: `instance_count` instances of `vertex_count` vertices.
 ///
-/// The crossbar draws this way: the four corners of a full-screen quad in per-vertex streams, N primitives in
-/// per-instance streams. One call draws N quads in order, as N calls would.
+/// The Ray Engine draws in this way: the corners of a full-screen quad are in per-vertex streams, N primitives in
+/// per-instance streams. One call draws N quads in order, like N calls.
 #[derive(Clone, Debug)]
 pub struct VertexStreams<'a> {
     /// Vertices per instance.
     pub vertex_count: usize,
     /// Number of instances.
     pub instance_count: usize,
-    /// The streams; registers without one hold [`DEFAULT_ATTRIBUTE`].
+    /// The streams; registers without a stream hold [`DEFAULT_ATTRIBUTE`].
     pub streams: Vec<AttributeStream<'a>>,
 }
 
 /// The vertices of a draw.
 #[derive(Clone, Debug)]
 pub enum VertexSource<'a> {
-    /// Already transformed, as the vertex stage would output them.
+    /// Vertices that are already transformed.
     Transformed(&'a [Vertex]),
-    /// Transformed by a vertex program.
+    /// Vertices transformed by a vertex program.
     Program {
         /// The program.
         program: &'a CheckedProgram,
@@ -69,7 +69,7 @@ pub struct BoundTexture {
     pub state: SamplerState,
 }
 
-/// A draw call. [`DrawCall::new`] returns one with everything disabled; set the fields that matter.
+/// A draw call. [`DrawCall::new`] returns a call with everything disabled, whose fields can then be set.
 #[derive(Clone, Debug)]
 pub struct DrawCall<'a> {
     /// The vertices.
@@ -86,7 +86,7 @@ pub struct DrawCall<'a> {
     pub samplers: [Option<BoundTexture>; SAMPLERS],
     /// Bump state of the stages (ps_1_x).
     pub bump: [BumpStage; BUMP_STAGES],
-    /// Projected textures of the stages (ps_1_1 to 1_3).
+    /// Texture projection of the stages (ps_1_1 to 1_3).
     pub projections: [Projection; BUMP_STAGES],
     /// Provoking vertex for flat shading; `None`: the colours `v#` are interpolated.
     pub flat: Option<Provoking>,

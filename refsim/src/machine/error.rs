@@ -6,7 +6,7 @@ use crate::output::{DepthFormat, OutputError};
 use crate::raster::RasterError;
 use crate::texture::{TexelFormat, TextureError};
 
-/// Invocation of a program.
+/// An invocation of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the fields are what the variants name")]
 pub enum ProgramPlace {
@@ -25,7 +25,7 @@ impl std::fmt::Display for ProgramPlace {
     }
 }
 
-/// Error of a machine. The machine is unchanged unless a variant says otherwise.
+/// Error of a machine. The machine is unchanged unless the variant states otherwise.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -55,7 +55,7 @@ pub enum MachineError {
     /// A volume texture is larger than the device allows.
     #[error("volume texture is {width}x{height}x{depth}, `{device}` allows {limit} per side (limits.max_volume_size)")]
     VolumeTooLarge { device: String, width: u32, height: u32, depth: u32, limit: u32 },
-    /// The draw has neither colour target nor depth buffer.
+    /// The draw has neither a colour target nor a depth buffer.
     #[error("the draw has no target; bind a colour target or a depth buffer")]
     NoTarget,
     /// Too many colour targets.
@@ -75,7 +75,8 @@ pub enum MachineError {
     /// A program of the wrong stage.
     #[error("expected a {expected:?} program, found `{found}`")]
     WrongStage { expected: Stage, found: Version },
-    /// A pixel or vertex exceeded the step budget. `instruction` is the index of the first one beyond it, from 0.
+    /// A pixel or vertex exceeded the step budget. `instruction` is the index, from 0, of the first instruction beyond
+    /// the budget.
     #[error(
         "{place}: the {version} program made the {budget} steps of its budget and did not end; the next was instruction {}, `{}`",
         instruction + 1, opcode.info().mnemonic

@@ -7,8 +7,8 @@ use crate::exec::batch::BatchExecutor;
 use crate::exec::gpu::Gpu;
 use std::sync::Arc;
 
-/// An executor, with its GPU if it needs one, for code that creates machines. These machines share its cache of decoded
-/// programs and textures.
+/// An executor, with its GPU if needed, that creates machines. These machines share its cache of decoded programs and
+/// textures.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub enum Executor {
@@ -45,7 +45,7 @@ impl Executor {
         }
     }
 
-    /// This executor, with a watcher of every draw of the machines that it makes from now on.
+    /// Returns this executor with a watcher of every draw of the machines that it will create.
     #[must_use]
     pub fn watched(&self, watcher: Arc<dyn DrawWatcher>) -> Self {
         Self::Watched { executor: Box::new(self.clone()), watcher }

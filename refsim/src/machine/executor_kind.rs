@@ -1,13 +1,13 @@
 //! Kinds of executors.
 
-/// Kind of executor that shades fragments. All produce the same bits.
+/// Kind of executor that shades fragments. All kinds produce the same bits.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ExecutorKind {
     /// The reference executor: one value at a time.
     #[default]
     Scalar,
-    /// Tiles of 256 fragments in the host's SIMD instructions.
+    /// Tiles of 256 fragments, with the host's SIMD instructions.
     Batch,
     /// A GPU of the host.
     #[cfg(feature = "wgpu")]

@@ -5,7 +5,6 @@ use crate::device::Profile;
 use crate::output::{DepthSurface, TargetTile};
 use crate::texture::{Image, TexelFormat};
 
-/// The card's memory.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     pub(super) textures: Vec<Option<Image>>,
@@ -90,7 +89,7 @@ impl Memory {
         Ok(())
     }
 
-    /// Discards the GPU's draws into targets since [`Self::download_newer`].
+    /// Discards draws of the GPU into targets since [`Self::download_newer`].
     #[cfg(feature = "wgpu")]
     pub(super) fn discard_gpu_contents(
         &mut self,

@@ -6,8 +6,8 @@ use crate::event::{Event, MipmapLevel, MipmapRecord};
 use crate::texture::{Image, MipmapRules, TexelFormat, TextureKind, texels_under};
 
 impl Machine {
-    /// Creates a zero-filled colour target with mip levels. Draws write level 0, samplers and [`Machine::read_back`]
-    /// see all levels, and [`Machine::generate_mipmaps`] fills the others. `levels` includes level 0; its maximum is
+    /// Creates a zero-filled colour target with mip levels. Draws write level 0, [`Machine::generate_mipmaps`] fills
+    /// the other levels, and samplers and [`Machine::read_back`] see all. `levels` includes level 0; its maximum is
     /// [`Image::most_levels`].
     ///
     /// As [`Machine::create_target`], and if the device does not support mip levels of the format or `levels` is too
@@ -22,9 +22,9 @@ impl Machine {
         self.keep_target(Image::new(format, TextureKind::D2, [width, height, 1], levels)?)
     }
 
-    /// Fills levels 1 and up of a texture or target from its level 0, as `glGenerateMipmap` does. (`GENERATE_MIPMAP` of
-    /// 2003 does so whenever level 0 changes; here it is a command.) The bits are those of [`Image::generate_mipmaps`]
-    /// with every executor. Returns the texels read and written.
+    /// Fills levels 1 and up of a texture or target from its level 0, as `glGenerateMipmap` does. (OpenGL's
+    /// `GENERATE_MIPMAP` does so whenever level 0 changes; here it is a command.) Every executor gives the bits of
+    /// [`Image::generate_mipmaps`]. Returns the texels read and written.
     ///
     /// If the handle is dead, the texture has one level although it could have more, or the device cannot filter
     /// textures of the format.

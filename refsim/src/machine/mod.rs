@@ -3,8 +3,8 @@
 //! A [`Machine`] consists of a device profile, an executor and memory. Textures and depth buffers are owned by the
 //! machine and referred to by handles; a colour target is a texture. [`Machine::draw`] validates a [`DrawCall`], runs
 //! the vertex stage, assembles, clips and sets up triangles in order, and shades the target in tiles of 16x16 pixels,
-//! in parallel on the worker threads. Within a tile, triangles are drawn in order of submission. So bits and counts do
-//! not depend on the number of threads, and one call with N instances equals N calls.
+//! in parallel on the worker threads. Within a tile, triangles are drawn in order of submission. Bits and counts do not
+//! depend on the number of threads, and one call with N instances equals N calls.
 //!
 //! Invalid calls return a [`MachineError`] before anything is written. Behaviour that cards leave undefined is defined
 //! here: an unbound sampler reads (0, 0, 0, 1), and reading a texture that the same call draws into is an error.
@@ -53,12 +53,11 @@ use recorder::Recorder;
 use tiles::{executor, tile_draw};
 use validate::Plan;
 
-/// Called before and after each draw of a machine ([`Executor::watched`]): for studies that look into passes of
-/// code which creates its machines itself. Watchers see the machine and cannot change it, so that values and counts
-/// are those of a machine without one.
+/// Called before and after each draw of a machine ([`Executor::watched`]): for observing draws of code that creates its
+/// machines itself. Watchers cannot change the machine, so values and counts are the same as without a watcher.
 pub trait DrawWatcher: Debug + Send + Sync {
-    /// Called before a draw that the machine accepts, with the targets as earlier draws left them:
-    /// [`Machine::trace`] follows pixels through the draw.
+    /// Called before a valid draw. The targets hold the results of earlier draws, so [`Machine::trace`] can follow
+    /// pixels through this draw.
     ///
     /// # Errors
     /// An error ends the draw before anything is drawn.
@@ -67,10 +66,10 @@ pub trait DrawWatcher: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Called after a draw: [`Machine::read_back`] has its targets.
+    /// Called after a draw; [`Machine::read_back`] returns its targets.
     ///
     /// # Errors
-    /// An error is that of the draw, which has been drawn.
+    /// An error is returned as the error of the draw, which has been drawn.
     fn after(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
         let _ = (machine, call);
         Ok(())
@@ -103,7 +102,7 @@ impl Machine {
         }
     }
 
-    /// Creates a machine with its own pool of `threads` threads. Their number affects the speed only.
+    /// Creates a machine with its own pool of `threads` threads. The number of threads only affects the speed.
     ///
     /// # Errors
     /// [`MachineError::Threads`] if the threads cannot be started.
@@ -129,8 +128,8 @@ impl Machine {
         self.executor
     }
 
-    /// Sets the SIMD level of the batch executor. `None`, the default, is the widest that the processor supports; a
-    /// level that it lacks falls back to a supported one. The level affects the speed only.
+    /// Sets the SIMD level of the batch executor. `None`, the default, selects the widest level that the processor
+    /// supports; an unsupported level falls back to a supported one. The level only affects the speed.
     pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
         self.batch.set_simd_level(level);
     }
@@ -138,7 +137,7 @@ impl Machine {
     /// Executes a draw call.
     ///
     /// # Errors
-    /// If the call is invalid for the machine or the device; nothing has been drawn then.
+    /// If the call is invalid for the machine or the device; then nothing is drawn.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         self.watch(|watcher, machine| watcher.before(machine, call))?;
@@ -151,7 +150,7 @@ impl Machine {
         Ok(events)
     }
 
-    /// Calls the watcher, whose read-backs are none of the log.
+    /// Calls the watcher; its read-backs are not logged.
     fn watch(
         &mut self,
         call: impl FnOnce(&dyn DrawWatcher, &Self) -> Result<(), MachineError>,
@@ -163,7 +162,6 @@ impl Machine {
         seen
     }
 
-    /// Executes a checked call.
     fn shade(&mut self, call: &DrawCall<'_>, plan: &Plan) -> Result<DrawEvents, MachineError> {
         #[cfg(feature = "wgpu")]
         if self.executor == ExecutorKind::Wgpu {

@@ -1,7 +1,7 @@
-//! Draws in hardware order, so that observers see texel reads in their actual order.
+//! Draws in the hardware's order, so that observers see texel reads in that order.
 //!
-//! The scalar executor computes the same bits as for any draw. Only the order of fragments differs: by primitive over
-//! the whole target, by tile within a primitive, then by quad, on one thread.
+//! The scalar executor computes the same bits as in other draws. Only the order of fragments differs: by primitive over
+//! the whole target, then by tile, then by quad, on one thread.
 
 use super::recorder::Recorder;
 use super::tiles::tile_draw;
@@ -49,8 +49,8 @@ impl Observer for TexelReporter<'_> {
 
 impl Machine {
     /// Sets an observer of texel reads. Until it is removed by `None`, draws run in hardware order on the scalar
-    /// executor, and the observer's traffic counts go into the draw's record in the log ([`Machine::record`]). The bits
-    /// stay the same, but drawing is slower.
+    /// executor, and the observer's traffic counts are stored in the draw's record in the log ([`Machine::record`]).
+    /// The bits stay the same, but drawing is slower.
     pub fn observe_textures(&mut self, observer: Option<Box<dyn TexelObserver>>) {
         self.recorder.observer = observer;
     }

@@ -1,7 +1,7 @@
 //! The machine's log of calls, for the timing model.
 //!
-//! Off by default, so that drawing pays nothing. Recording changes no value, and the log does not depend on the
-//! executor or the number of threads.
+//! Recording is off by default, because it takes time. It changes no value, and the log does not depend on the executor
+//! or the number of threads.
 
 use super::state::DrawState;
 use super::validate::Plan;
@@ -20,10 +20,9 @@ use crate::texture::{Image, MipFilter, Region};
 use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
 
-/// Maximum number of cached coverages within a draw: the crossbar draws the same outline again and again.
+/// Maximum number of cached coverages within a draw: the Ray Engine draws the same outline many times.
 const MAX_OUTLINES: usize = 1024;
 
-/// The log.
 impl Machine {
     /// Starts or stops recording. The events recorded so far are kept.
     pub fn record(&mut self, on: bool) {
@@ -37,7 +36,7 @@ impl Machine {
     }
 
     /// Reads a texture or target back asynchronously: in the log the host continues, and the fence is passed when the
-    /// last byte has arrived. The image is that of [`Machine::read_back`].
+    /// last byte has arrived. Returns the image of [`Machine::read_back`].
     ///
     /// # Errors
     /// If the handle is dead.
@@ -68,7 +67,7 @@ impl Machine {
         self.recorder.push(|| Event::FinishFence(fence));
     }
 
-    /// A new fence number; always the same if recording is off.
+    /// Returns a new fence number; the same number every time if recording is off.
     fn next_fence(&self) -> FenceId {
         let number = self.recorder.with(|log| {
             log.fences = log.fences.wrapping_add(1);
@@ -77,13 +76,11 @@ impl Machine {
         FenceId(number.unwrap_or_default())
     }
 
-    /// Records a synchronous read-back.
     pub(super) fn note_read_back(&self, resource: ResourceId, bytes: u64) {
         let mode = ReadBackMode::Synchronous;
         self.recorder.push(|| Event::ReadBack { resource, bytes, mode, fence: None });
     }
 
-    /// Records a draw.
     pub(super) fn note_draw(
         &self,
         call: &DrawCall<'_>,
@@ -177,7 +174,7 @@ impl Machine {
         })
     }
 
-    /// Number of quads that ran the pixel program; computed by repeating the triangle set-up, in rows.
+    /// Number of quads that ran the pixel program, computed by repeating the triangle set-up in rows.
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
         let needed = ComponentMask::NONE;
         let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), needed);
@@ -197,7 +194,7 @@ impl Machine {
     }
 }
 
-/// Vertices processed with half, one and two times `entries` in the vertex cache.
+/// Number of vertices processed with vertex caches of half, one and two times `entries`.
 fn vertices_run(call: &DrawCall<'_>, counts: &DrawEvents, entries: Option<u64>) -> [u64; 3] {
     let (Some(indices), Some(entries)) = (call.indices, entries) else { return [counts.vertices; 3] };
     let vertices = match &call.vertices {

@@ -10,7 +10,7 @@ use std::sync::{Mutex, PoisonError};
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
     pub(super) on: bool,
-    /// Behind a mutex because read-backs log through a shared reference.
+    /// In a mutex, because read-backs log through a shared reference.
     pub(super) log: Mutex<Log>,
     /// Observer of texel reads, if set.
     pub(super) observer: Option<Box<dyn TexelObserver>>,
@@ -34,7 +34,6 @@ impl Recorder {
         self.with(|log| log.events.push(event()));
     }
 
-    /// Returns `true` if recording is on.
     pub(super) fn is_on(&self) -> bool {
         self.on
     }

@@ -8,10 +8,9 @@ use crate::output::{AlphaTest, BlendState, DepthState, MAX_TARGETS, WriteMask};
 use crate::raster::{ClipSpace, Cull, PixelCenter, Provoking, Viewport};
 use crate::texture::Region;
 
-/// Number of state groups: the samplers, three of the vertex stage and ten others.
+/// Number of state groups: the samplers, three for the vertex stage, and ten others.
 const PIECES: u32 = SAMPLERS as u32 + 3 + 10;
 
-/// The state of a draw.
 #[derive(Clone, Debug)]
 pub(super) struct DrawState {
     samplers: [Option<BoundTexture>; SAMPLERS],
@@ -40,8 +39,8 @@ struct FixedState {
 }
 
 impl DrawState {
-    /// Replaces the state by that of a call; returns the number of state groups and of float constants that differ.
-    /// Before the first draw all groups are unset and constants are 0.
+    /// Replaces the state by the state of a call; returns the number of state groups and of float constants that
+    /// differ. Before the first draw all groups are unset and constants are 0.
     pub(super) fn update(state: &mut Option<Self>, call: &DrawCall<'_>) -> (u32, u32) {
         match state {
             Some(state) => {
@@ -58,7 +57,7 @@ impl DrawState {
         }
     }
 
-    /// Number of float constants of a call that differ from the current ones.
+    /// Number of float constants of a call that differ from the current constants.
     fn new_constants(&self, call: &DrawCall<'_>) -> u32 {
         let none = Constants::default();
         let (_, vertex_constants, _) = vertex_stage(call);
@@ -131,7 +130,7 @@ fn vertex_stage<'a>(call: &DrawCall<'a>) -> (Option<&'a Program>, Option<&'a Con
     }
 }
 
-/// Number of float constants, numbered or named, whose value changes; unset ones are 0.
+/// Number of float constants, numbered or named, whose value changes; unset constants are 0.
 fn differing(kept: &Constants, new: &Constants) -> u32 {
     let before = kept.float.iter().copied().chain(std::iter::repeat([0; 4]));
     let numbered = new.float.iter().zip(before).filter(|&(new, before)| *new != before).count();

@@ -8,12 +8,12 @@ use crate::isa::Stage;
 /// Relation of a pixel program to its step budget.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepBudget {
-    /// Every fragment exceeds it: the program has no flow control and is too long. The scalar executor counts its
-    /// steps.
+    /// Every fragment exceeds the budget: the program has no flow control and is too long. The scalar executor counts
+    /// its steps.
     Exceeded,
-    /// A fragment may exceed it; the value is the budget.
+    /// A fragment may exceed this budget.
     Enforced(u32),
-    /// No fragment can exceed it.
+    /// No fragment can exceed the budget.
     NeverExceeded,
 }
 

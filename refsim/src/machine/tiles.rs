@@ -8,7 +8,6 @@ use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
 use crate::isa::Stage;
 
-/// Tile executor of a draw.
 pub(super) enum Tiles<'a> {
     Scalar(Box<ScalarTiles<'a>>),
     Batch(Box<BatchTiles<'a>>),

@@ -29,19 +29,19 @@ pub struct FragmentTrace {
     pub instance: usize,
     /// The triangle within the instance, from 0, in order of assembly.
     pub triangle: usize,
-    /// The part of the triangle, from 0; clipping to more than three corners produces several.
+    /// The part of the triangle, from 0; a triangle clipped to more than three corners has several parts.
     pub part: usize,
-    /// Contents of the targets at the pixel before.
+    /// Contents of the targets at the pixel before the fragment.
     pub before: PixelState,
     /// Execution of the program.
     pub shading: Shading,
-    /// Contents of the targets at the pixel after.
+    /// Contents of the targets at the pixel after the fragment.
     pub after: PixelState,
 }
 
 impl Machine {
     /// Traces one pixel through a draw without modifying memory. Returns the fragments of all triangles that cover the
-    /// pixel, in order of submission; each starts from the targets as left by the previous ones.
+    /// pixel, in order of submission; each starts with the targets as the previous fragment left them.
     ///
     /// # Errors
     /// As [`Machine::draw`], and [`MachineError::NoSuchPixel`].
@@ -67,7 +67,7 @@ impl Machine {
                 overrun |= self.trace_on_gpu(call, &plan, some)?;
             }
             if overrun {
-                // The scalar executor determines which fragment it was.
+                // The scalar executor determines the fragment.
                 traced = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
                 self.trace_on_host(call, &plan, &mut traced)?;
                 return Err(self.disagreement());
@@ -102,7 +102,7 @@ impl Machine {
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
     }
 
-    /// Width and height of a call's targets, or of its depth buffer if it has no others; 0 without any.
+    /// Width and height of a call's targets, or of its depth buffer if it has no colour targets; 0 without either.
     ///
     /// # Errors
     /// If a handle is dead.
@@ -155,7 +155,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Executor of vertex programs; on GPU machines the batch executor.
+    /// The executor of vertex programs; GPU machines use the batch executor.
     fn vertex_executor(&self) -> (ExecutorKind, &BatchExecutor) {
         match self.executor {
             #[cfg(feature = "wgpu")]

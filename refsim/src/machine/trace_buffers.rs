@@ -15,11 +15,11 @@ use crate::texture::Image;
 /// Approximate limit of loop iterations per invocation, which some software adapters need.
 const PASSES: u32 = 16_000;
 
-/// A trace of pixels as the contents of the trace kernel's buffers, by binding. A dispatch of as many workgroups as
-/// there are pixels runs [`crate::exec::wgsl::follow::ENTRY`] of [`crate::exec::wgsl::follow::module`], reduced to
-/// [`TraceBuffers::parts`]. Then `video` holds a record per pixel ([`crate::exec::wgsl::follow::Record`]). While one is
-/// unfinished, the dispatch is repeated on the same buffers with 1 in word [`crate::exec::wgsl::kernel::RESUMES`] of
-/// `draw`.
+/// A trace of pixels, as the contents of the trace kernel's buffers by binding. A dispatch with one workgroup per pixel
+/// runs [`crate::exec::wgsl::follow::ENTRY`] of [`crate::exec::wgsl::follow::module`], reduced to
+/// [`TraceBuffers::parts`]. Then `video` holds a record per pixel ([`crate::exec::wgsl::follow::Record`]). While a
+/// record is unfinished, repeat the dispatch on the same buffers with 1 in word [`crate::exec::wgsl::kernel::RESUMES`]
+/// of `draw`.
 #[derive(Clone, Debug)]
 pub struct TraceBuffers {
     /// Binding 0, parameters. The first eight words are the format of the registers.
@@ -30,15 +30,15 @@ pub struct TraceBuffers {
     pub tiles: Vec<u32>,
     /// Binding 3, samplers.
     pub samplers: Vec<u32>,
-    /// Binding 4, up to the records.
+    /// Binding 4, without the records.
     pub video: Vec<u32>,
-    /// Words per record, which follow in binding 4.
+    /// Words per record; the records follow in binding 4.
     pub record_words: usize,
     /// Binding 5, the program.
     pub code: Vec<u32>,
     /// Number of words of binding 6.
     pub scratch_words: usize,
-    /// Number of words of binding 7, which are zero at first.
+    /// Number of words of binding 7, initially zero.
     pub count_words: usize,
     /// Parts of the module that the trace uses.
     pub parts: Parts,
@@ -48,7 +48,7 @@ pub struct TraceBuffers {
 #[derive(Default)]
 struct WordMemory {
     words: Vec<u32>,
-    /// First words of the textures.
+    /// First word of each texture.
     textures: BTreeMap<usize, usize>,
 }
 
@@ -71,8 +71,8 @@ impl VideoMemory for WordMemory {
 }
 
 impl Machine {
-    /// Encodes a trace of pixels, each up to the first triangle that covers it ([`Machine::trace_pixels`] follows all).
-    /// Records of programs with flow control have at most 256 steps.
+    /// Encodes a trace of pixels, each up to the first triangle that covers it ([`Machine::trace_pixels`] traces all
+    /// triangles). Records of programs with flow control have at most 256 steps.
     ///
     /// # Errors
     /// As [`Machine::trace`], and [`MachineError::GpuProgram`].

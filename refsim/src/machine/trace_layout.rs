@@ -25,14 +25,14 @@ const INPUTS: usize = 12;
 
 /// The kernels' buffer of textures, targets and records.
 pub(super) trait VideoMemory {
-    /// Allocates words; returns the first one.
+    /// Allocates words; returns the first word's index.
     fn allocate(&mut self, words: usize) -> Result<usize, MachineError>;
 
-    /// Ensures that texture `number` is there; returns its first word.
+    /// Ensures that texture `number` is in the buffer; returns its first word's index.
     fn place_texture(&mut self, number: usize, image: &Image) -> Result<usize, MachineError>;
 }
 
-/// Parameters of a draw into places of the buffer, for the kernels.
+/// Parameters of a draw for the kernels, with targets in the buffer.
 pub(super) fn draw_words(
     profile: &Profile,
     call: &DrawCall<'_>,
@@ -95,10 +95,9 @@ impl EncodedProgram {
     }
 }
 
-/// Layout of a trace's data.
 pub(super) struct TraceLayout {
     pub(super) words: DrawWords,
-    /// Copies of the targets with one row: a column per traced pixel, plus one for re-execution.
+    /// Copies of the targets with one row: one column per traced pixel, plus one column for re-execution.
     pub(super) colors: Vec<(usize, Image)>,
     /// First word of the copy of the depth buffer.
     pub(super) depth: Option<usize>,
@@ -109,7 +108,7 @@ pub(super) struct TraceLayout {
 }
 
 impl TraceLayout {
-    /// Places all that a trace of so many pixels needs.
+    /// Allocates the memory of a trace of this many pixels.
     pub(super) fn new(
         video: &mut impl VideoMemory,
         machine: &Machine,
@@ -161,7 +160,7 @@ impl TraceLayout {
     }
 }
 
-/// A pixel to be followed: its place, its column in the copies of the targets, and its triangles.
+/// A pixel to be traced: its place, its column in the copies of the targets, and its triangles.
 pub(super) struct PixelJob<'t> {
     pub(super) pixel: (u32, u32),
     pub(super) column: usize,

@@ -13,17 +13,13 @@ use std::ops::Range;
 /// Maximum number of vertices per instance, and of instances, per draw.
 const MAX_VERTICES: usize = 1 << 24;
 
-/// A validated call.
 pub(super) struct Plan {
-    /// State of the rasteriser.
     pub(super) raster: RasterState,
-    /// Number of vertices per instance.
     pub(super) vertex_count: usize,
-    /// Number of instances.
     pub(super) instance_count: usize,
-    /// Triangles of an instance, as vertex indices within it.
+    /// Triangles of an instance, as indices of its vertices.
     pub(super) triangles: Vec<[usize; 3]>,
-    /// For flat shading the provoking vertex of each triangle.
+    /// The provoking vertex of each triangle, for flat shading.
     pub(super) provoking: Option<Vec<usize>>,
 }
 
@@ -37,7 +33,7 @@ impl Plan {
         (0..count).step_by(step).map(move |first| first..count.min(first + step))
     }
 
-    /// Corners of triangle `i` of an instance whose vertices start at `base`, for set-up; in flat shading all with the
+    /// Corners of triangle `i` of an instance whose vertices start at `base`, for set-up. In flat shading all have the
     /// colours of the provoking vertex.
     pub(super) fn corners(&self, vertices: &[Vertex], base: usize, i: usize) -> Option<[Vertex; 3]> {
         let [a, b, c] = self.triangles[i].map(|v| vertices.get(base + v).copied());
@@ -50,7 +46,6 @@ impl Plan {
     }
 }
 
-/// Validates a call.
 pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Plan, MachineError> {
     check_stage(crate::exec::program(call.pixel_program), Stage::Pixel)?;
     let target = check_targets(profile, memory, call)?;

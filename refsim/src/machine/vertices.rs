@@ -22,7 +22,6 @@ pub(super) struct Batch {
     pub(super) slots: u64,
 }
 
-/// The vertex stage of a call.
 pub(super) enum VertexStage<'a> {
     /// Transformed vertices, and the clamp of their colours.
     Transformed(&'a [Vertex], ColorClamp),

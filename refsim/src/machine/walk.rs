@@ -1,4 +1,4 @@
-//! Tiled drawing: tiles in parallel, triangles in order within each.
+//! Tiled drawing: tiles in parallel, the triangles of a tile in order.
 
 use super::memory::Memory;
 use super::tiles::Tiles;
@@ -16,7 +16,6 @@ use crate::texture::Region;
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 
-/// The result of a draw.
 pub(super) struct DrawResult {
     /// Tiles touched by triangles, to be copied into memory.
     pub(super) tiles: Vec<TargetTile>,
@@ -30,7 +29,6 @@ struct TileWork {
     counts: FragmentCounts,
 }
 
-/// Executes a checked call.
 pub(super) fn draw(
     memory: &Memory,
     profile: &Profile,
@@ -100,11 +98,11 @@ pub(super) fn draw(
 /// Tile shapes that an executor supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TileShapes {
-    /// [`TILE`] in both directions.
+    /// [`TILE`] columns and rows.
     Square,
-    /// Also two rows with the same number of pixels, for regions of one row of quads.
+    /// Also two rows with this number of pixels, for regions of one row of quads.
     Flat,
-    /// Also one row with the same number of pixels, for regions of one row.
+    /// Also one row with this number of pixels, for regions of one row.
     Any,
 }
 
@@ -130,7 +128,7 @@ fn tiles(region: Region, shapes: TileShapes) -> Vec<TileWork> {
 }
 
 /// The first fragment over all tiles, in the order of [`Overrun`], that exceeded its step budget; independent of the
-/// order in which tiles are drawn. Tiles that cannot contain an earlier one are skipped.
+/// order in which tiles are drawn. Tiles that cannot contain an earlier overrun are skipped.
 #[derive(Default)]
 struct FirstOverrun(Mutex<Option<Overrun>>);
 
@@ -188,7 +186,7 @@ fn shade<'s>(
     }
 }
 
-/// For each row of tiles the triangles whose bounding box intersects it, in order.
+/// For each row of tiles, the triangles whose bounding box intersects the row, in order.
 fn row_bins<'s>(
     geometry: &impl Fn(usize) -> Option<&'s TriangleSetup>,
     triangles: usize,

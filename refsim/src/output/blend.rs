@@ -1,9 +1,8 @@
 //! Blending.
 //!
-//! guess: a fixed-point blender works on values of the target's precision. The source is clamped and rounded into the
-//! target's channels first; `source * factor op destination * factor` is then exact and rounded once more into the
-//! channel. In floating-point targets the products and the sum are one FP32 operation each, and the result is converted
-//! once.
+//! guess: a fixed-point blender works on values of the target's precision. The source is first clamped and rounded into
+//! the target's channels; then `source * factor op destination * factor` is exact, and rounded once into the channel.
+//! For floating-point targets the products and the sum are one FP32 operation each, and the result is converted once.
 
 use serde::Deserialize;
 use strum::VariantArray;
@@ -129,8 +128,8 @@ pub fn blend_texel(
     })
 }
 
-/// Rounds the source to the target's channels; components that the target does not store are unsigned with as many bits
-/// as its widest channel.
+/// Rounds the source to the target's channels; components that the target does not store count as unsigned, with the
+/// width of the widest channel.
 fn quantised_source(format: TexelFormat, from: Format, source: [u32; 4], rounding: TargetRounding) -> [Ratio; 4] {
     let record = format.record();
     let bits = record.stored().iter().map(|c| c.bits).max().unwrap_or(8);
@@ -147,7 +146,7 @@ fn quantised_source(format: TexelFormat, from: Format, source: [u32; 4], roundin
     out
 }
 
-/// Arithmetic of a blender: FP32 for float targets, exact fractions for fixed-point ones.
+/// Arithmetic of a blender: FP32 for float targets, exact fractions for fixed-point targets.
 trait BlendValue: Copy {
     const ZERO: Self;
     const ONE: Self;
@@ -164,7 +163,7 @@ fn blend<T: BlendValue>(equation: &BlendEquation, source: [T; 4], destination: [
         BlendOp::Max => return if s.is_below(d) { d } else { s },
         _ => {}
     }
-    // A factor of 0 removes its term and a factor of 1 leaves it unchanged, so that infinities give no NaN and -0 is
+    // A factor of 0 removes its term and a factor of 1 keeps it unchanged, so infinities don't give NaN, and -0 is
     // kept.
     let term = |value: T, factor: BlendFactor| match factor {
         BlendFactor::Zero => None,

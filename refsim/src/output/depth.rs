@@ -12,9 +12,9 @@ use crate::texture::TargetRounding;
 use crate::texture::value::{self, Exact};
 
 impl DepthFormat {
-    /// Encodes a depth given in number format `from`: clamped to 0 to 1, rounded once. NaN gives 0.
+    /// Encodes a depth given in number format `from`: clamped to [0, 1], rounded once. NaN gives 0.
     ///
-    /// Patterns of a format have the order of their depths. `rounding` applies to the fixed-point formats; the float
+    /// Patterns of a format are in the order of their depths. `rounding` applies to the fixed-point formats; the float
     /// formats round to nearest, ties to even.
     pub fn quantise(self, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
         let (significand, exponent, denominator) = match value::exact(from, bits) {
@@ -24,7 +24,7 @@ impl DepthFormat {
         };
         let nearest = rounding == TargetRounding::Nearest;
         let unorm = |scale: u64| value::scaled_magnitude(significand, exponent, denominator, scale, nearest) as u32;
-        // 32 bits of the quotient and a sticky bit: more than the float formats keep.
+        // 32 bits of the quotient and a sticky bit: more than the float formats need.
         let (significand, exponent) = match u64::from(denominator) {
             1 => (significand, exponent),
             d => (((significand << 32) / d) | u64::from(!(significand << 32).is_multiple_of(d)), exponent - 32),
@@ -60,7 +60,7 @@ impl DepthFormat {
 impl std::str::FromStr for DepthFormat {
     type Err = OutputError;
 
-    /// Parses our name or the Direct3D one (`D24S8`, `D24X8`, `D16`, `D24FS8`, ...), in any case.
+    /// Parses this project's name or Direct3D's (`D24S8`, `D24X8`, `D16`, `D24FS8`, ...), in any case.
     fn from_str(text: &str) -> Result<Self, OutputError> {
         let lower = text.trim().to_ascii_lowercase();
         match lower.strip_prefix("d3dfmt_").unwrap_or(&lower) {
@@ -97,12 +97,12 @@ fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_
         let (whole, rest, half) = (significand >> shift, significand & ((1 << shift) - 1), 1u64 << (shift - 1));
         whole + u64::from(rest > half || (rest == half && whole & 1 == 1))
     };
-    // The hidden bit adds one to the exponent field, so a carry is correct as well.
+    // Adding the hidden bit increments the exponent field, and so does a carry.
     let base = ((unit + mantissa_bits.cast_signed() + bias - 1) as u32) << mantissa_bits;
     (base + kept as u32).min(one)
 }
 
-/// Comparison of a new value with the stored one (or the alpha reference). As a number, it is the set of orders that
+/// Comparison of a new value with the stored value (or the alpha reference). As a number, it is the set of orders that
 /// pass: bit 0 less, 1 equal, 2 greater.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
@@ -130,7 +130,7 @@ impl CompareFunction {
     /// Every comparison.
     pub const ALL: &'static [Self] = Self::VARIANTS;
 
-    /// Returns whether less, equal and greater values pass.
+    /// Returns `true` for each order (less, equal, greater) that passes.
     pub(crate) const fn orders(self) -> [bool; 3] {
         let set = self as u8;
         [set & 1 != 0, set & 2 != 0, set & 4 != 0]
@@ -151,7 +151,7 @@ impl CompareFunction {
 /// The state of the depth test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct DepthState {
-    /// Comparison of the fragment's depth with the stored one; `None` disables test and write.
+    /// Comparison of the fragment's depth with the stored depth; `None` disables test and write.
     pub test: Option<CompareFunction>,
     /// `true` if passing fragments write their depth.
     pub write: bool,

@@ -28,13 +28,13 @@ impl From<&Rules> for OutputRules {
 /// The alpha test: compares alpha of colour 0 with a reference in the register format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AlphaTest {
-    /// Comparison that passing fragments satisfy.
+    /// The comparison that passes.
     pub function: CompareFunction,
     /// The reference, FP32 bits; converted to the register format once.
     pub reference: u32,
 }
 
-/// Set of written components, bit 0 red to bit 3 alpha.
+/// Set of written components: bit 0 is red, bit 3 alpha.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WriteMask(pub u8);
 
@@ -76,7 +76,7 @@ pub struct FragmentOutput {
     pub colors: [[u32; 4]; MAX_TARGETS],
     /// Bit `i` is set if colour `i` was written; targets without a colour keep their contents.
     pub written: u8,
-    /// Depth written by the program; `None`: the interpolated one.
+    /// Depth written by the program; `None`: the interpolated depth.
     pub depth: Option<u32>,
     /// `true` if the program killed the fragment.
     pub killed: bool,
@@ -117,8 +117,8 @@ impl AlphaTest {
 
 /// Applies alpha test, depth test, blending and write masks to a fragment, and writes it into a tile.
 ///
-/// `depth` is the interpolated depth, FP32 bits. A depth written by the program replaces it and is converted from the
-/// register format to the depth format once.
+/// `depth` is the interpolated depth, FP32 bits. A depth written by the program replaces it, converted once from the
+/// register format to the depth format.
 pub fn merge(
     tile: &mut TargetTile,
     (x, y): (u32, u32),
@@ -168,7 +168,7 @@ fn write_color(
 ) {
     let format = target.format;
     let writes = format.record().stored().iter().filter(|c| mask.has(c.stored_from));
-    // Bits of the written channels; the others keep their contents.
+    // Bits of the written channels; other bits are kept.
     let bits = writes.fold(0u128, |bits, c| bits | (u128::from(u32::MAX >> (32 - c.bits)) << c.shift));
     if bits == 0 {
         return;

@@ -84,7 +84,7 @@ impl TargetTile {
     /// Copies the tile's pixels of colour target `index` back to the image.
     ///
     /// # Errors
-    /// If size or format of the image differ from those loaded.
+    /// If the image's size or format differs from the loaded image's.
     pub fn store_color(&self, index: usize, image: &mut Image) -> Result<(), TextureError> {
         match self.colors.get(index) {
             Some(Some(tile)) => image.write_region(0, 0, self.region, &tile.bytes),

@@ -2,7 +2,7 @@
 
 use super::{Primitive, Provoking, RasterError};
 
-/// Index of the provoking vertex of the `i`th triangle of [`assemble`].
+/// Index of the provoking vertex of triangle `i` of [`assemble`].
 pub fn provoking(primitive: Primitive, i: usize, convention: Provoking) -> usize {
     let (first, last) = match primitive {
         Primitive::TriangleStrip => (i, i + 2),
@@ -19,8 +19,8 @@ pub fn provoking(primitive: Primitive, i: usize, convention: Provoking) -> usize
 
 /// Assembles `count` vertices into triangles of vertex indices; left-over vertices are ignored.
 ///
-/// A quad of vertices 0 1 2 3 is the triangles (0, 1, 2) and (0, 2, 3). Odd triangles of a strip are reordered to (n,
-/// n+2, n+1), so that all have the same winding and keep their first vertex.
+/// A quad of vertices 0 1 2 3 becomes the triangles (0, 1, 2) and (0, 2, 3). Odd triangles of a strip are reordered to
+/// (n, n+2, n+1), so that all have the same winding and keep their first vertex.
 ///
 /// # Errors
 /// For points and lines, which are not supported.
@@ -37,9 +37,8 @@ pub fn assemble(primitive: Primitive, count: usize) -> Result<impl Iterator<Item
     Ok((0..triangles).map(move |i| triangle(primitive, i)))
 }
 
-/// The `i`th triangle.
 fn triangle(primitive: Primitive, i: usize) -> [usize; 3] {
-    // Corners of a quad in order, split along the diagonal from the first.
+    // A quad is split along the diagonal from its first corner.
     let half = |[a, b, c, d]: [usize; 4]| if i.is_multiple_of(2) { [a, b, c] } else { [a, c, d] };
     match primitive {
         Primitive::TriangleStrip if i % 2 == 1 => [i, i + 2, i + 1],

@@ -66,7 +66,7 @@ fn is_outside(distance: u32) -> bool {
     value::is_negative(distance) || value::is_nan(distance)
 }
 
-/// Corners of a clipped triangle; each of the seven planes adds at most one.
+/// A clipped triangle; each of the seven planes adds at most one corner.
 pub(crate) struct Polygon {
     corners: [ClipVertex; 10],
     count: usize,
@@ -92,9 +92,9 @@ pub(crate) fn is_inside(triangle: &[&Vertex; 3], space: ClipSpace) -> bool {
 
 /// Clips a triangle by all planes (Sutherland-Hodgman). The result is convex, with its corners in the original order.
 ///
-/// A new corner on the edge from an inside to an outside vertex is `inside + t * (outside - inside)` with `t = d_inside
-/// / (d_inside - d_outside)`, each step in FP32. The result does not depend on the direction of the edge, so triangles
-/// with a common edge get the same corner. Components that are equal at both ends are copied.
+/// A new corner on the edge from an inside to an outside vertex is `inside + t * (outside - inside)` with
+/// `t = d_inside / (d_inside - d_outside)`, each step in FP32. The result does not depend on the direction of the edge,
+/// so two triangles get the same corner on a common edge. Components that are equal at both ends are copied.
 pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
     let start = triangle.map(ClipVertex::new);
     let mut polygon = Polygon { corners: [start[0]; 10], count: 0 };
@@ -109,9 +109,9 @@ pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
                 polygon.push(*corner);
             }
             match (is_outside(d), is_outside(d_next)) {
-                // From here the polygon follows the plane.
+                // From here the polygon's edge lies on the plane.
                 (false, true) => polygon.push(crossing(corner, d, next, d_next, false)),
-                // From here it continues along its previous edge.
+                // From here the edge is the previous one.
                 (true, false) => polygon.push(crossing(next, d_next, corner, d, corner.begins_edge)),
                 _ => {}
             }

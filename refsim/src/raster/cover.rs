@@ -11,7 +11,7 @@ pub struct PixelQuad {
     pub x: u32,
     /// Row of lane 0, even.
     pub y: u32,
-    /// Bit `i` is set if lane `i` is covered; the other lanes are helpers. Never 0.
+    /// Bit `i` is set if lane `i` is covered; other lanes are helpers. Never 0.
     pub mask: u8,
 }
 
@@ -29,8 +29,8 @@ impl TriangleSetup {
         self.edges.iter().all(|e| e.at(x, y) >= e.bias)
     }
 
-    /// Returns `true` only if no pixel of the region is covered. Conservative: may return `false` for a region that is
-    /// narrowly missed.
+    /// Returns `true` only if no pixel of the region is covered. Conservative: may return `false` for a region that the
+    /// triangle narrowly misses.
     pub fn misses(&self, region: Region) -> bool {
         let r = region.intersect(self.bounds);
         if r.width == 0 || r.height == 0 {

@@ -7,9 +7,9 @@ use super::window::{Corner, doubled_area, to_window};
 
 /// Sets up a clipped polygon as a fan around its first corner.
 ///
-/// Snapping the clipper's corners to the grid can fold a thin polygon over, so that it would cover pixels of its
+/// Snapping the clipper's corners to the grid can invert a thin polygon, which would then cover pixels of its
 /// neighbour. Therefore corners beyond an edge of the triangle are dropped, as are triangles of the fan with the
-/// opposite winding. The area lost is within the snapping error.
+/// opposite winding. The lost area is within the snapping error.
 pub(super) fn clipped_setup(
     polygon: &Polygon,
     state: &RasterState,
@@ -24,7 +24,7 @@ pub(super) fn clipped_setup(
     let (mut emitted, mut why) = (0, if polygon.corners().is_empty() { Dropped::Clipped } else { Dropped::Degenerate });
     for pair in corners.get(1..).unwrap_or(&[]).windows(2) {
         let part = [corners[0], pair[0], pair[1]];
-        // Snapping to the subpixel grid can turn a sliver of the fan over; it would be filled twice.
+        // Snapping to the subpixel grid can invert a sliver of the fan, which would then be filled twice.
         if doubled_area(part.map(|(_, corner)| corner)).signum() != winding {
             continue;
         }
@@ -39,8 +39,8 @@ pub(super) fn clipped_setup(
     SetupReport { emitted, dropped: (emitted == 0).then_some(why) }
 }
 
-/// Winding of a snapped polygon (the sign of its area), and its corners that lie inside all of its edges that belong to
-/// the original triangle. Neighbours snap a common edge identically, so each keeps corners on its own side only.
+/// Winding of a snapped polygon (the sign of its area), and its corners inside all edges of the original triangle.
+/// Neighbours snap a common edge identically, so each keeps only corners on its own side.
 fn unfolded(corners: &[(ClipVertex, Corner)]) -> (i64, Vec<(ClipVertex, Corner)>) {
     let around = |i: usize| (corners[i].1, corners[(i + 1) % corners.len()].1);
     let part = |i: usize| doubled_area([corners[0].1, around(i).0, around(i).1]);

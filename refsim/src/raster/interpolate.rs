@@ -25,16 +25,16 @@ pub struct FragmentInput {
 /// Barycentric weights of vertices 1 and 2 at a pixel, as FP32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Weights {
-    /// Linear in screen space; for depth.
+    /// Weights linear in screen space; for depth.
     pub linear: [u32; 2],
-    /// Perspective-correct; for all other components.
+    /// Perspective-correct weights; for all other components.
     pub perspective: [u32; 2],
 }
 
 impl TriangleSetup {
     /// Weights at a pixel's centre, which may lie outside the triangle.
     ///
-    /// `l1 = E1/A` and `l2 = E2/A` with the exact integers rounded to FP32 first. Unless all w are equal,
+    /// `l1 = E1/A` and `l2 = E2/A`, with the exact integers first rounded to FP32. Unless all w are equal,
     /// `g0 = ((1-l1)-l2) * (1/w0)`, `g1 = l1 * (1/w1)`, `g2 = l2 * (1/w2)`, `s = (g0+g1)+g2`, and the weights are
     /// `g1/s` and `g2/s`. Each step is rounded to FP32.
     pub fn weights(&self, x: u32, y: u32) -> Weights {
@@ -72,7 +72,7 @@ impl TriangleSetup {
         interpolated(plane, weights.perspective, format)
     }
 
-    /// 1 / w over the triangle, as a plane in FP32, linear in screen space. Constant if all w are equal.
+    /// 1 / w over the triangle, as an FP32 plane that is linear in screen space. Constant if all w are equal.
     pub(crate) fn reciprocal_w_plane(&self) -> Plane {
         plane(self.reciprocal_w, Format::FP32)
     }
@@ -94,7 +94,8 @@ impl TriangleSetup {
         [center(x), center(y), self.depth_at(weights), w]
     }
 
-    /// Interpolates the inputs of the fragment at pixel (x, y): depth and the needed components; the others are 0.
+    /// Interpolates the inputs of the fragment at pixel (x, y): depth and the needed components; other components are
+    /// 0.
     pub fn interpolate(&self, x: u32, y: u32, needed: ComponentMask) -> FragmentInput {
         let weights = self.weights(x, y);
         let mut input = FragmentInput { depth: self.depth_at(&weights), ..FragmentInput::default() };

@@ -1,8 +1,8 @@
 //! The rasteriser: primitive assembly, clipping, set-up, fill rule and interpolation.
 //!
 //! Positions are snapped to a fixed-point grid, and coverage is then computed in exact integers, so that two triangles
-//! with a common edge cover each pixel along it exactly once. Values are interpolated by a fixed sequence of FP32 steps
-//! that an executor with host floats can repeat bit for bit. See docs/numbers.md, "Interpolation".
+//! with a common edge cover each pixel along it exactly once. Values are interpolated by a fixed sequence of FP32
+//! steps, which an executor with host floats can repeat bit for bit. See docs/numbers.md, "Interpolation".
 
 mod assembly;
 mod clip;

@@ -7,7 +7,7 @@ use crate::num::{self, Format};
 /// A component as a function of the weights: `(base + l1 * d1) + l2 * d2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Plane {
-    /// Value at vertex 0; for a constant component the FP32 value delivered everywhere.
+    /// Value at vertex 0; for a constant component, the FP32 value everywhere.
     pub base: u32,
     /// Value at vertex 1 minus the value at vertex 0, rounded.
     pub d1: u32,

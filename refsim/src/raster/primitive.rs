@@ -10,14 +10,14 @@ pub enum Primitive {
     /// Every three vertices make a triangle.
     #[serde(rename = "triangles")]
     TriangleList,
-    /// From the third on, each vertex makes a triangle with its two predecessors.
+    /// Each vertex after the second makes a triangle with the two vertices before it.
     TriangleStrip,
-    /// From the third on, each vertex makes a triangle with its predecessor and the first.
+    /// Each vertex after the second makes a triangle with the vertex before it and the first vertex.
     TriangleFan,
     /// Every four vertices make a quad.
     #[serde(rename = "quads")]
     QuadList,
-    /// From the third on, every two vertices make a quad with the two before.
+    /// Every two vertices after the second make a quad with the two vertices before them.
     QuadStrip,
     /// Not supported.
     #[serde(skip)]
@@ -30,11 +30,11 @@ pub enum Primitive {
     LineStrip,
 }
 
-/// Provoking vertex: the vertex whose colours a flat-shaded primitive takes.
+/// Provoking vertex: the vertex that determines the colours of a flat-shaded primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Provoking {
-    /// The first one (Direct3D's `D3DSHADE_FLAT`). In a fan it is the vertex after the common one.
+    /// The first vertex (Direct3D's `D3DSHADE_FLAT`); in a fan, the vertex after the common vertex.
     First,
-    /// The last one (OpenGL's `GL_FLAT`); the fourth of a quad.
+    /// The last vertex (OpenGL's `GL_FLAT`); the fourth vertex of a quad.
     Last,
 }

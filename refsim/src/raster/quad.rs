@@ -3,8 +3,8 @@
 use super::Vertex;
 
 /// Creates a quad that covers the whole target, to be drawn as [`QuadList`](super::Primitive::QuadList) with Direct3D's
-/// clip space and OpenGL's pixel centres. `coordinates` maps the position of a corner, (0, 0) at the outer corner of
-/// the first texel and (1, 1) at that of the last, to its texture coordinate sets.
+/// clip space and OpenGL's pixel centres. `coordinates` maps the position of a corner to its texture coordinate sets;
+/// (0, 0) is the outer corner of the first texel, (1, 1) the outer corner of the last texel.
 ///
 /// ```
 /// use refsim::raster::full_screen_quad;

@@ -8,7 +8,7 @@ use super::vertex::Vertex;
 use super::window::to_window;
 use crate::texture::value;
 
-/// Sets up a triangle and appends the result, or several results if clipping leaves more than three corners.
+/// Sets up a triangle, and appends one result, or several if clipping leaves more than three corners.
 pub fn setup(
     triangle: [&Vertex; 3],
     state: &RasterState,
@@ -25,7 +25,7 @@ pub fn setup(
     }
 }
 
-/// Sets up a triangle that no clip plane cuts; `None` if one does.
+/// Sets up a triangle; `None` if a clip plane cuts it.
 fn unclipped(
     triangle: [&Vertex; 3],
     state: &RasterState,

@@ -59,18 +59,18 @@ pub struct TriangleSetup {
     pub iterator_format: Format,
 }
 
-/// Reason for which a triangle, or a part of it after clipping, is not drawn.
+/// Reason why a triangle, or a part of it after clipping, is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Dropped {
     /// A position is NaN or infinite, or overflowed.
     NotFinite,
-    /// It lies outside a clip plane.
+    /// Outside a clip plane.
     Clipped,
-    /// Its snapped vertices are collinear, or snapping folded the clipped polygon over.
+    /// The snapped vertices are collinear, or snapping inverted the clipped polygon.
     Degenerate,
-    /// Its winding is culled.
+    /// The winding is culled.
     Culled,
-    /// Its bounding box contains no pixel centre within viewport and scissor.
+    /// The bounding box contains no pixel centre within viewport and scissor.
     NoPixels,
 }
 
@@ -79,11 +79,11 @@ pub enum Dropped {
 pub struct SetupReport {
     /// Set-ups appended: 0, 1, or up to 8 if it was clipped.
     pub emitted: u32,
-    /// Reason why nothing was appended, if so.
+    /// Reason why nothing was appended, if nothing was.
     pub dropped: Option<Dropped>,
 }
 
-/// Sets up a triangle whose window positions are known.
+/// Sets up a triangle with known window positions.
 pub(super) fn prepare(
     vertices: &[ClipVertex; 3],
     corners: [Corner; 3],
@@ -95,7 +95,7 @@ pub(super) fn prepare(
     Ok(done)
 }
 
-/// [`prepare`] without attribute planes, which are left zero.
+/// [`prepare`] without attribute planes, which are zero.
 pub(crate) fn shape(
     corners: [Corner; 3],
     ws: [u32; 3],
@@ -104,7 +104,7 @@ pub(crate) fn shape(
 ) -> Result<TriangleSetup, Dropped> {
     let lines = i64::from(rules.subpixel_grid.lines());
     let [c0, c1, c2] = corners;
-    // Half-integer centres need an even number of lines a pixel.
+    // Half-integer centres need an even number of lines per pixel.
     let unit = lines.max(2);
     let widen = |c: Corner| (c.x * (unit / lines), c.y * (unit / lines));
     let points = [widen(c0), widen(c1), widen(c2)];
@@ -148,8 +148,7 @@ pub(crate) fn shape(
     })
 }
 
-/// The edge function through p and q, in `unit` lines a pixel, as a function of the pixel, oriented to be positive
-/// inside.
+/// The edge function through p and q, with `unit` lines per pixel, as a function of the pixel; positive inside.
 fn edge_through(p: (i64, i64), q: (i64, i64), sign: i64, center: i64, unit: i64) -> Edge {
     let a = (p.1 - q.1) * sign;
     let b = (q.0 - p.0) * sign;

@@ -41,7 +41,7 @@ impl Vertex {
         self.colors.as_flattened_mut().iter_mut().for_each(|color| *color = clamped_color(*color));
     }
 
-    /// The interpolated component with this index; 0 past the last.
+    /// The interpolated component with this index; 0 past the last component.
     pub fn component(&self, index: usize) -> u32 {
         match index {
             0..COLOR_COMPONENT => self.texcoords[index / 4][index % 4],
@@ -51,7 +51,6 @@ impl Vertex {
         }
     }
 
-    /// All interpolated components in order.
     pub(crate) fn components(&self) -> [u32; COMPONENTS] {
         std::array::from_fn(|i| self.component(i))
     }

@@ -4,11 +4,10 @@ use super::state::{ClipSpace, PixelCenter, RasterRules, RasterState};
 use crate::device::SubpixelRounding;
 use crate::texture::value;
 
-/// Limit at which positions saturate, in pixels from the origin. With 256 grid lines a pixel an edge function stays
+/// Limit at which positions saturate, in pixels from the origin. With 256 grid lines per pixel, an edge function is
 /// below 2^56.
 pub(crate) const FARTHEST: i64 = 1 << 17;
 
-/// Sign bit of an FP32 pattern.
 const SIGN: u32 = 1 << 31;
 
 /// A corner in window space.
@@ -56,8 +55,8 @@ pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, rules: &Ras
     Some(Corner { x: snap(window_x), y: snap(window_y), depth, reciprocal_w })
 }
 
-/// The column or row, an FP32 pattern with its sign set, toward which [`SubpixelRounding::Cut`] rounds: that of the
-/// first pixel's corner, where the hardware's window begins. Patterns of smaller numbers are larger.
+/// The column or row toward which [`SubpixelRounding::Cut`] rounds, as an FP32 pattern with its sign set: the first
+/// pixel's corner, where the hardware's window begins. Patterns of smaller numbers are larger.
 pub(crate) fn cut_origin(center: PixelCenter) -> u32 {
     match center {
         PixelCenter::Direct3d => SIGN | value::HALF,

@@ -1,4 +1,4 @@
-//! Exact texture addressing from coordinates to texel indices; a floating-point `floor(u * n)` would be wrong near
+//! Exact texture addressing, from coordinates to texel indices. A floating-point `floor(u * n)` would be wrong near
 //! texel edges.
 
 use super::{WeightRounding, value};
@@ -10,7 +10,7 @@ pub enum AddressMode {
     /// Repeats the image.
     #[default]
     Wrap,
-    /// Repeats the image, mirrored every second time.
+    /// Repeats the image; every second copy is mirrored.
     Mirror,
     /// Repeats the texel at the edge.
     Clamp,
@@ -51,10 +51,10 @@ pub(crate) fn resolve(mode: AddressMode, position: i64, size: u32) -> Option<u32
     Some(index as u32)
 }
 
-/// Replaces a coordinate by an equivalent one that is small enough for exact arithmetic.
+/// Replaces a coordinate by one with the same address that is small enough for exact arithmetic.
 ///
-/// NaN and infinities become 0. From 2^24 on every FP32 number is an even integer, so all of one sign address alike in
-/// every mode, and 2^24 represents them.
+/// NaN and infinities become 0. From 2^24 on every FP32 number is an even integer. All of one sign have the same
+/// address in every mode, so 2^24 represents them.
 fn bounded(bits: u32) -> u32 {
     const LARGEST: u32 = 0x4b80_0000; // 2^24
     let finite = value::finite_or_zero(bits);
@@ -69,11 +69,11 @@ pub fn nearest_index(mode: AddressMode, coordinate: u32, size: u32, scale: u32) 
     resolve(mode, value::scaled_floor(bounded(coordinate), scale, 0, false), size)
 }
 
-/// The two texels of linear filtering, and the weight of the second in units of `2^-fraction_bits`.
+/// The two texels of linear filtering, and the weight of the second texel in units of `2^-fraction_bits`.
 ///
 /// The position `coordinate * scale - 1/2` is rounded to `fraction_bits` (at most 12; nearest with halves up, or down);
 /// `None` is the border. With a weight of 0 the second texel does not contribute. Without fraction bits the first texel
-/// is the nearest one, under any rounding.
+/// is the nearest texel, under any rounding.
 pub fn linear_taps(
     mode: AddressMode,
     coordinate: u32,
@@ -102,8 +102,8 @@ pub fn project(coordinates: [u32; 4]) -> [u32; 4] {
 
 /// The cube face that a direction (FP32 bits) selects and the coordinates on it, 0 to 1.
 ///
-/// The face is that of the component of largest magnitude; ties go to z, then y, then x. On the face
-/// `u = (s / |m| + 1) * 1/2` with s and m of the Direct3D cube map table, each step one FP32 operation. NaN and
+/// The component of largest magnitude selects the face; ties go to z, then y, then x. On the face
+/// `u = (s / |m| + 1) * 1/2`, with s and m from Direct3D's cube map table, each step one FP32 operation. NaN and
 /// infinite components count as 0.
 pub fn cube_coordinates(direction: [u32; 3]) -> (CubeFace, u32, u32) {
     let (face, s, t, major) = cube_axes(direction);

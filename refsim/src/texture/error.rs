@@ -22,7 +22,7 @@ pub enum TextureError {
     /// The image would not fit the emulated memory.
     #[error("expected an image of at most {most} bytes, found {found}; make it smaller")]
     TooLarge { most: u64, found: u64 },
-    /// The size of the data (in bytes, texels or 32-bit words) differs from that of the image.
+    /// The size of the data (in bytes, texels or 32-bit words) differs from the image's size.
     #[error("expected {expected} {unit} of texel data, found {found}")]
     DataSize { unit: &'static str, expected: usize, found: usize },
     /// Coordinates outside the image.

@@ -41,7 +41,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// The intersection of two regions; of zero width or height if they are disjoint.
+    /// The intersection of two regions, with zero width or height if they are disjoint.
     pub fn intersect(self, other: Self) -> Self {
         let x = self.x.max(other.x);
         let y = self.y.max(other.y);
@@ -65,12 +65,12 @@ pub struct Image {
     stamp: Stamp,
 }
 
-/// Identifies an image's contents; 0 for none. Images of equal stamps are equal, but equal images may have different
+/// Identifies an image's contents; 0 for none. Images with equal stamps are equal, but equal images may have different
 /// stamps.
 #[derive(Clone, Debug, Default)]
 struct Stamp(u64);
 
-/// All stamps compare equal, so that comparisons of images ignore them.
+/// All stamps compare equal, so that comparisons of images ignore stamps.
 impl PartialEq for Stamp {
     fn eq(&self, _: &Self) -> bool {
         true
@@ -85,7 +85,7 @@ impl Image {
     /// Creates a zero-filled image. Extents that the kind does not use must be 1 (a cube's depth too).
     ///
     /// # Errors
-    /// If the extents are invalid for the kind, zero or above 16384, if there are more levels than in a full chain, or
+    /// If the extents are invalid for the kind, zero or above 16384; if there are more levels than in a full chain; or
     /// if the image would exceed 2 GiB.
     pub fn new(
         format: TexelFormat,
@@ -250,7 +250,7 @@ impl Image {
         }
     }
 
-    /// The stamp of the contents, if they have one. Images with the same stamp have equal contents and format.
+    /// The stamp of the contents, if any. Images with the same stamp have equal contents and format.
     pub(crate) fn contents_name(&self) -> Option<u64> {
         Some(self.stamp.0).filter(|&name| name != 0)
     }
@@ -277,7 +277,7 @@ impl Image {
         }
     }
 
-    /// The exact value of a texel; outside the image the value of zero bits.
+    /// The exact value of a texel; outside the image, the value of a texel of zero bits.
     pub fn texel(&self, level: u32, slice: u32, y: u32, x: u32, minimum: SignedTexelMinimum) -> Texel {
         decode(self.format, self.raw(level, slice, y, x), minimum)
     }

@@ -1,7 +1,7 @@
 //! Memory layouts of textures on the card.
 //!
 //! Values never depend on the layout: an [`Image`] stores its texels row by row. Only the timing model's texture cache
-//! uses it, because a cache line holds texels that are adjacent in memory.
+//! uses the layout, because a cache line holds texels that are adjacent in memory.
 
 use super::Image;
 
@@ -17,12 +17,11 @@ pub enum Layout {
     #[default]
     Rows,
     /// Micro tiles of 32 bytes (8-bit texels 8x4, 16-bit 8x2, 32-bit 4x2, 64-bit 2x2, 128-bit 2x1) within macro tiles
-    /// of 8x8 micro tiles (2 KiB), both row by row; as in R300's open driver. Levels smaller than a macro tile in
-    /// either direction have micro tiles only.
+    /// of 8x8 micro tiles (2 KiB), both row by row, as in R300's open driver. Levels that are smaller than a macro tile
+    /// in either direction only have micro tiles.
     Tiles,
 }
 
-/// Layout of one level.
 #[derive(Clone, Copy, Debug)]
 struct LevelMap {
     start: u64,

@@ -10,17 +10,17 @@ pub enum Lod {
     /// Level 0, for reads without derivatives.
     #[default]
     Base,
-    /// FP32 bits of log2 of texels per pixel: from [`lod_from_derivatives`] plus the bias of the instruction, or an
-    /// explicit level. NaN counts as 0.
+    /// Log2 of texels per pixel, in FP32 bits: [`lod_from_derivatives`] plus the instruction's bias, or an explicit
+    /// level. NaN counts as 0.
     Level(u32),
 }
 
 /// Computes the level of detail from the coordinates' derivatives `ddx` and `ddy` per pixel (all FP32 bits).
 ///
-/// rho^2 is the larger of the two squared lengths in texels of level 0, `((x*x) + (y*y)) + (z*z)` with each step one
-/// FP32 operation; the result is `floor(log2(rho^2) / 2)` on a grid of `2^-fraction_bits` (at most 8), by repeated
+/// rho^2 is the larger of the two squared lengths in texels of level 0, `((x*x) + (y*y)) + (z*z)`, where each step is
+/// one FP32 operation; the result is `floor(log2(rho^2) / 2)` on a grid of `2^-fraction_bits` (at most 8), by repeated
 /// squaring of the significand with 62 fraction bits kept. rho = 0 gives -127, an infinite rho 127, NaN 0. For cube
-/// maps the derivatives are those of the face coordinates, by the quotient rule.
+/// maps the derivatives are converted to face coordinates by the quotient rule.
 pub fn lod_from_derivatives(
     image: &Image,
     coordinates: [u32; 4],
@@ -52,7 +52,7 @@ fn texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     }
 }
 
-/// d(s/m) = (ds - (s/m) dm) / m; the face coordinate changes by half of it.
+/// Uses d(s/m) = (ds - (s/m) dm) / m; the face coordinate changes by half of this.
 fn cube_texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     let [x, y, z, _] = coordinates;
     let (_, s, t, major) = cube_axes([x, y, z]);
@@ -67,7 +67,7 @@ fn cube_texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     [change(s, s1), change(t, t1), value::ZERO]
 }
 
-/// Signed face axes of `moved` on the face that `direction` selects.
+/// Axes of `moved`, with signs, on the face that `direction` selects.
 fn on_same_face(direction: [u32; 3], moved: [u32; 3]) -> (u32, u32, u32) {
     use super::CubeFace::{NegativeX, NegativeY, NegativeZ, PositiveX, PositiveY, PositiveZ};
     let flip = |c: u32| c ^ 0x8000_0000;
@@ -98,7 +98,7 @@ fn half_log2(bits: u32, fraction_bits: u8) -> u32 {
     let mut result = i64::from(exponent) + i64::from(top);
     let mut mantissa = u128::from(significand) << (62 - top); // in [1, 2), 62 fraction bits
     for _ in 0..fraction_bits {
-        // Squaring doubles the logarithm; reaching 2 is its next binary digit.
+        // Squaring doubles the logarithm; if the square reaches 2, the next binary digit is 1.
         mantissa = (mantissa * mantissa) >> 62;
         let carry = mantissa >> 63;
         mantissa >>= carry;

@@ -25,20 +25,20 @@ impl From<&Rules> for MipmapRules {
     }
 }
 
-/// Range of texels along an axis that are averaged into texel `i` of the next level: 2i and 2i + 1, or i itself where
-/// the axis does not shrink. The last texel of an odd extent is dropped.
+/// Range of texels along an axis that are averaged into texel `i` of the next level: 2i and 2i + 1, or i if the axis
+/// does not shrink. The last texel of an odd extent is dropped.
 pub(crate) fn texels_under(extent: u32, next: u32, i: u32) -> Range<u32> {
     if extent == next { i..i + 1 } else { 2 * i..2 * i + 2 }
 }
 
 impl Image {
-    /// Fills levels 1 and up, each from the previous one.
+    /// Fills levels 1 and up, each from the previous level.
     ///
     /// A texel is the mean of two texels along each axis, 2i and 2i + 1. Along an axis of one texel, and across the
     /// faces of a cube, it is the texel i. The last row or column of an odd extent is dropped. Fixed-point values are
     /// summed exactly and rounded once, by value: the mean of -1 and 1 is 0, and halves round away from zero. Floats
     /// are combined in FP32, `a + (b - a) / 2` in rounded steps along x, then y, then z, and converted to the format,
-    /// as in a linear read between them.
+    /// as in a linear read midway between the texels.
     pub fn generate_mipmaps(&mut self, rules: MipmapRules) {
         let size = self.format().bytes();
         for fine in 0..self.levels().len() - 1 {
@@ -89,7 +89,7 @@ fn mean(channel: Channel, taps: &[u128], rules: MipmapRules) -> u32 {
     encode_ratio(channel, sum, u64::from(denominator(channel)) * taps.len() as u64, rules.rounding)
 }
 
-/// Combines pairs along x, then y, then z: the order of the taps.
+/// Combines pairs along x, then y, then z, in the order of the taps.
 fn float_mean(format: Format, channel: Channel, taps: &[u128]) -> u32 {
     let mut values: Vec<u32> =
         taps.iter().map(|&raw| num::ops::convert(&format, Format::FP32, channel.code(raw)).bits).collect();

@@ -1,8 +1,8 @@
 //! Textures: texel formats, images, addressing and filtering.
 //!
 //! Everything here is defined in integers: the exact value of a texel, an exact weighted sum (for fixed-point texels),
-//! and one rounding to the register format. Batch executors compute the same bits by other means and are tested against
-//! it. The rules are in docs/numbers.md, "Texels".
+//! and one rounding to the register format. Batch executors compute the same bits by other means, and are tested
+//! against this module. The rules are in docs/numbers.md, "Texels".
 
 mod address;
 mod error;

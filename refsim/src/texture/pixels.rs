@@ -60,7 +60,7 @@ impl Image {
     }
 
     /// Encodes level 0, slice 0 as a PNG file with 8 bits per channel: values below 0 and NaN become 0, values above 1
-    /// become 255, others the nearest code. No transfer function is applied. Needs the feature `png`.
+    /// become 255, and other values the nearest code. No transfer function is applied. Needs the feature `png`.
     ///
     /// ```
     /// use refsim::texture::{Image, TexelFormat};

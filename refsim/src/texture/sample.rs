@@ -23,7 +23,7 @@ pub enum Filter {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MipFilter {
-    /// Only the largest level allowed.
+    /// Only the finest level that may be read.
     #[default]
     None,
     /// The nearest level.
@@ -47,8 +47,8 @@ pub struct SamplerState {
     pub address_v: AddressMode,
     /// Addressing along the third axis.
     pub address_w: AddressMode,
-    /// Border colour, FP32 bits; it is stored into a texel of the image's format, or into bytes (nearest), by the
-    /// device's [`super::BorderStorage`], and read from there.
+    /// Border colour, FP32 bits. The device's [`super::BorderStorage`] converts it to a texel of the image's format, or
+    /// to bytes (nearest).
     pub border: [u32; 4],
     /// Bias added to the level of detail, FP32 bits.
     pub lod_bias: u32,
@@ -71,7 +71,7 @@ impl SamplerState {
     };
 }
 
-/// Value read from an unbound sampler: (0, 0, 0, 1).
+/// The value of an unbound sampler: (0, 0, 0, 1).
 pub fn unbound(format: Format) -> [u32; 4] {
     let one = value::ratio(format, 1, 1);
     [0, 0, 0, one]
@@ -82,8 +82,8 @@ pub fn unbound(format: Format) -> [u32; 4] {
 /// Fixed-point texels are summed exactly with weights of `filter_fraction_bits` and rounded once; under
 /// [`FilterArithmetic::ByteLerps`] bytes are combined along x, then y, then z, then between levels, each result rounded
 /// to a byte with halves up. Float texels are combined in FP32 in the same order, `a + w * (b - a)` in two rounded
-/// steps; a weight of 0 gives `a` itself. NaN and infinite coordinates count as 0. On a cube face coordinates are
-/// clamped whatever the state; on a rectangle, wrap and mirror act as clamp.
+/// steps; a weight of 0 gives `a` itself. NaN and infinite coordinates count as 0. On a cube face, coordinates are
+/// always clamped; on a rectangle, wrap and mirror act as clamp.
 pub fn sample(
     image: Option<&Image>,
     state: &SamplerState,
@@ -138,7 +138,7 @@ pub fn touched(
 struct Pick {
     filter: Filter,
     levels: [u32; 2],
-    /// Weight of the second level in units of `2^-lod_fraction_bits`; 0 if there is none.
+    /// Weight of the second level in units of `2^-lod_fraction_bits`; 0 without a second level.
     weight: u32,
 }
 
@@ -165,7 +165,6 @@ impl<'a> SamplePlace<'a> {
         Self { image, state, coordinates, face }
     }
 
-    /// Number of texture axes.
     fn axes(&self) -> usize {
         match self.image.kind() {
             TextureKind::D1 => 1,
@@ -249,7 +248,7 @@ impl<'a> SamplePlace<'a> {
             // Half a step is added, so that the floor rounds to the nearest level.
             MipFilter::Nearest => (((lambda + ((1 << bits) >> 1)) >> bits).clamp(first, last), 0),
             MipFilter::Linear => {
-                // The integer part selects the level, the fraction is the weight of the next one.
+                // The integer part selects the level; the fraction is the weight of the next level.
                 let clamped = lambda.clamp(first << bits, last << bits);
                 (clamped >> bits, clamped & ((1 << bits) - 1))
             }
@@ -266,7 +265,7 @@ impl<'a> SamplePlace<'a> {
         }
     }
 
-    /// Filters fixed-point texels: bytes as the device does, other components as an exact sum.
+    /// Filters fixed-point texels: bytes by the device's filter arithmetic, other components as an exact sum.
     fn filter_integers(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
         let sums = self.exact_sums(rules, pick);
         if rules.filter_arithmetic == FilterArithmetic::Exact {
@@ -274,7 +273,7 @@ impl<'a> SamplePlace<'a> {
         }
         let byte = |component| if let SampledComponent::Byte { byte, .. } = component { byte } else { 0 };
         let bytes = self.interpolate(rules, pick, |texel| texel.map(byte), lerp_bytes);
-        // Every texel and the border have their bytes in the same components.
+        // The same components are bytes in every texel and in the border.
         let border = self.border(rules);
         [0, 1, 2, 3].map(|i: usize| match border[i] {
             SampledComponent::Byte { signed, .. } => {
@@ -313,7 +312,7 @@ impl<'a> SamplePlace<'a> {
                 }
             }
         }
-        // The weights of three axes and of the level have this many fraction bits in total.
+        // Total fraction bits of the weights of three axes and of the level.
         let shift = 3 * u32::from(bits) + lod_bits;
         [0, 1, 2, 3].map(|i| value::ratio(rules.format, sums[i], denominators[i] << shift))
     }

@@ -1,5 +1,5 @@
-//! The sampling rules of a device, and components as a sampler takes them from texels and borders: bytes, or exact
-//! values, by the device's rules.
+//! The sampling rules of a device, and the components that a sampler reads from texels and borders: bytes or exact
+//! values, according to the rules.
 
 use super::{
     BorderStorage, ChannelValue, FilterArithmetic, MissingChannels, SignedTexelMinimum, TargetRounding, TexelFormat,
@@ -33,7 +33,7 @@ pub struct SampleRules {
 }
 
 impl SampleRules {
-    /// Direct3D's values and exact filters with fractions of 8 bits, for registers of a format.
+    /// Rules with Direct3D's values and exact filters with 8 fraction bits, for registers of a format.
     pub const fn exact(format: Format) -> Self {
         Self {
             format,
@@ -65,7 +65,7 @@ impl From<&Rules> for SampleRules {
     }
 }
 
-/// Source of a component that a sampler delivers.
+/// Source of a component that a sampler returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SampledSource {
     /// A stored channel.
@@ -75,7 +75,7 @@ pub(crate) enum SampledSource {
 }
 
 impl SampledSource {
-    /// Reads the component; `bits` extracts those of a channel.
+    /// Reads the component; `bits` extracts the bits of a channel.
     pub(crate) fn read(self, rules: &SampleRules, bits: impl Fn(Channel) -> u32) -> SampledComponent {
         match self {
             Self::Stored(channel) => rules.component(channel, bits(channel)),
@@ -84,14 +84,13 @@ impl SampledSource {
     }
 }
 
-/// A component before the filter. Components of one source are all bytes, or all values of one denominator or format.
+/// A component before the filter. All components of one source are bytes, or have the same denominator or format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SampledComponent {
     /// A byte.
     Byte {
         /// -128 to 127 if signed, else 0 to 255.
         byte: i32,
-        /// The channel is signed.
         signed: bool,
     },
     /// A channel that is not a byte.
@@ -99,8 +98,7 @@ pub(crate) enum SampledComponent {
 }
 
 impl SampledComponent {
-    /// Exact value on the way to a register. The smallest code of a signed byte is clamped here, not before a filter of
-    /// bytes.
+    /// The exact value for a register. The smallest code of a signed byte is clamped here, after a filter on bytes.
     pub(crate) fn value(self, rules: &SampleRules) -> ChannelValue {
         let (byte, signed) = match self {
             Self::Value(value) => return value,

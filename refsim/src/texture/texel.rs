@@ -1,4 +1,4 @@
-//! Decoding and encoding of texels: decoding is exact, and values are rounded once when they enter a register or a
+//! Decoding and encoding of texels: decoding is exact, and values are rounded once when written to a register or a
 //! target.
 
 use super::value::{self, Exact};
@@ -9,7 +9,7 @@ use crate::texel::{Channel, ChannelClass, ComponentSource};
 /// Exact value of a texel component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChannelValue {
-    /// `numerator / denominator`, not reduced; the denominator is that of the channel.
+    /// `numerator / denominator`, not reduced; the channel determines the denominator.
     Ratio {
         /// At most 32 bits in magnitude.
         numerator: i64,
@@ -105,7 +105,7 @@ pub fn decode(format: TexelFormat, raw: u128, minimum: SignedTexelMinimum) -> Te
 }
 
 /// Encodes a value for a channel: clamps it to the channel's range, scales it and rounds once. NaN gives 0 in
-/// normalised channels, and -1 is the least value encoded in signed ones.
+/// normalised channels; signed channels encode no value below -1.
 pub fn encode_channel(channel: Channel, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
     if let ChannelClass::Float(format) = channel.class {
         return num::ops::convert(&from, format, bits).bits & mask(channel.bits);

@@ -1,16 +1,12 @@
 //! Exact values of bit patterns, and the FP32 operations shared by the fixed-function stages.
 //!
-//! FP32 arithmetic of texture, raster and output, and their only use of [`crate::num`].
+//! The modules texture, raster and output use [`crate::num`] only through these FP32 operations.
 
 use crate::num::{self, Format};
 
-/// FP32 zero.
 pub(crate) const ZERO: u32 = 0;
-/// FP32 one.
 pub(crate) const ONE: u32 = 0x3f80_0000;
-/// FP32 one half.
 pub(crate) const HALF: u32 = 0x3f00_0000;
-/// The canonical FP32 NaN.
 pub(crate) const NAN: u32 = 0x7fc0_0000;
 
 pub(crate) fn add(a: u32, b: u32) -> u32 {
@@ -83,7 +79,6 @@ pub(crate) fn from_integer(value: i64) -> u32 {
 pub(crate) enum Exact {
     /// Not a number.
     Nan,
-    /// An infinity.
     Infinite {
         /// Below zero.
         negative: bool,
@@ -112,7 +107,6 @@ pub(crate) fn exact(format: Format, bits: u32) -> Exact {
     }
 }
 
-/// Decodes an FP32 pattern exactly.
 pub(crate) fn exact32(bits: u32) -> Exact {
     let negative = bits >> 31 == 1;
     let field = (bits >> 23 & 0xff).cast_signed();
@@ -163,7 +157,7 @@ pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, denominator: u32
     if shift > 100 {
         return 0;
     }
-    // In halves of a step, so that the last bit decides the rounding.
+    // Counts halves of a step, so that the last bit determines the rounding.
     let halves = if denominator == 1 {
         (product << (1 + exponent.clamp(0, 40))) >> shift
     } else {

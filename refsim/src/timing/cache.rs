@@ -1,14 +1,14 @@
 //! Simulated texture cache: set-associative with LRU replacement.
 //!
-//! The cache geometry of these cards is unpublished, so it is a guess of the profile. [`TextureCaches`] simulates half,
-//! all and twice the stated size at once, so that the sensitivity can be shown without drawing again.
+//! The cache geometry of these cards is unpublished, so the profile's is a guess. [`TextureCaches`] simulates half the
+//! stated size, the stated size and twice the size at once, to show the sensitivity without drawing again.
 
 use super::TimingError;
 use crate::device::Profile;
 use crate::event::{SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
 use std::collections::BTreeSet;
 
-/// Smallest line size in bytes: that of the largest texel.
+/// Smallest line size in bytes: the size of the largest texel.
 const LEAST_LINE: u64 = 16;
 /// Largest cache size in bytes, far beyond these cards.
 const MAX_BYTES: u64 = 1 << 26;
@@ -19,7 +19,7 @@ pub struct TextureCache {
     line_bytes: u64,
     ways: usize,
     sets: u64,
-    /// Line numbers plus one, 0 for an empty way; set by set, in each the most recently used first.
+    /// Line numbers plus one, 0 for an empty way; set by set, and within a set the most recently used first.
     lines: Vec<u64>,
 }
 
@@ -66,14 +66,14 @@ impl TextureCache {
 }
 
 /// Simulates a card's texture cache, shared by all samplers, at half its size, its size and twice its size. It is
-/// invalidated at the start of each draw: contents of an earlier draw could be stale, and drivers of the time
-/// invalidated it on state changes.
+/// invalidated at the start of each draw, because its contents could be stale, and drivers of the time invalidated it
+/// on state changes.
 #[derive(Clone, Debug)]
 pub struct TextureCaches {
     caches: [TextureCache; 3],
     traffic: [SamplerTraffic; SAMPLERS],
     lines: [BTreeSet<u64>; SAMPLERS],
-    /// Last line of each sampler; a repeated request hits.
+    /// Last line requested by each sampler; requesting it again is a hit.
     last: [Option<u64>; SAMPLERS],
 }
 
@@ -81,7 +81,7 @@ impl TextureCaches {
     /// The texture cache of a device.
     ///
     /// # Errors
-    /// [`TimingError::Missing`] if the device states none, [`TimingError::CacheShape`] if its shape is invalid.
+    /// [`TimingError::Missing`] if the device states no cache, [`TimingError::CacheShape`] if its shape is invalid.
     pub fn new(profile: &Profile) -> Result<Self, TimingError> {
         let figure = |figure: &'static str| {
             profile.rates.figure(figure).ok_or_else(|| TimingError::Missing {
@@ -94,7 +94,7 @@ impl TextureCaches {
         let line = figure("texture_cache_line_bytes")?;
         let ways = figure("texture_cache_ways")?;
         let whole = TextureCache::new(bytes, line, ways)?;
-        // A cache with a single set is halved by halving its ways.
+        // A cache with a single set is halved by halving its number of ways.
         let half =
             TextureCache::new(bytes / 2, line, ways).or_else(|_| TextureCache::new(bytes / 2, line, ways / 2))?;
         let double = TextureCache::new(bytes.saturating_mul(2), line, ways)?;

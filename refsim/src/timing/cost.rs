@@ -12,8 +12,8 @@ pub struct DrawCost {
     pub shader: Picoseconds,
     /// Memory: texture cache misses, depth, colour and vertices, at the peak rate times its efficiency.
     pub memory: Picoseconds,
-    /// Duration from the first clock of the first unit to the last clock of the last: the maximum of the above, plus
-    /// the time to fill and drain the pipeline.
+    /// Duration from the first clock of the first unit to the last clock of the last unit: the maximum of front end,
+    /// shader and memory, plus the time to fill and drain the pipeline.
     pub total: Picoseconds,
     /// [`DrawCost::total`] in core clocks.
     pub core_clocks: Clocks,
@@ -22,7 +22,7 @@ pub struct DrawCost {
 }
 
 impl DrawCost {
-    /// The sum of two costs in sequence; the bottleneck is that of the longer one.
+    /// The sum of two costs in sequence, with the bottleneck of the longer cost.
     #[must_use]
     pub fn and_then(self, next: Self) -> Self {
         Self {
@@ -57,6 +57,6 @@ pub enum Bottleneck {
     Output,
     /// Memory bandwidth.
     Memory,
-    /// A measured rate, in models without further detail.
+    /// A measured rate, in models without individual units.
     Rate,
 }

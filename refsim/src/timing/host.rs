@@ -1,8 +1,8 @@
-//! Cost of host work: counted operations, times one weight per kind, times one scale.
+//! Cost of host work: counted operations times a weight per kind, times one scale.
 //!
-//! The weights are relative guesses. The scale is calibrated on one published figure ([`CPU_ONLY_RAYS_PER_SECOND`]) and
-//! the operation counts of the same run, and stays fixed. So the total host time of that run is right by construction,
-//! its distribution over operations is not.
+//! The weights are relative guesses. The scale is calibrated once, on a published figure ([`CPU_ONLY_RAYS_PER_SECOND`])
+//! and the operation counts of the same run. So the total host time of that run is right by construction, but its
+//! distribution over operations is not.
 
 use std::ops::AddAssign;
 
@@ -11,11 +11,12 @@ use crate::device::{Confidence, FigureRow};
 
 pub use crate::event::HostOperation;
 
-/// Rays per second on the host alone for the teapot room: Ray Engine paper, Table 3, first row. The only figure on
-/// which the scale of [`HostModel`] is calibrated.
+/// Rays per second on the host alone for the teapot room: Ray Engine paper, Table 3, first row. The scale of
+/// [`HostModel`] is calibrated on this figure only.
 pub const CPU_ONLY_RAYS_PER_SECOND: u64 = 135_812;
 
-/// Error of calibrating the host model: the run has no counted operations with some weight, no rays, or a rate of 0.
+/// Error of calibrating the host model: the run has no counted operations with a weight above 0, no rays, or a rate of
+/// 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error(
     "expected counted operations with some weight, and some rays at some rate, to calibrate the host on; found a weight \
@@ -114,15 +115,15 @@ impl HostWeights {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HostModel {
     weights: HostWeights,
-    /// Picoseconds per unit of weight are `picoseconds / units`; exact, so that the calibration run takes its published
-    /// time.
+    /// Picoseconds per unit of weight are `picoseconds / units`, exactly, so that the calibration run takes its
+    /// published time.
     picoseconds: u128,
     units: u128,
 }
 
 impl HostModel {
-    /// Calibrates the scale such that a run with these counts and number of rays (or frames) reaches `rays_per_second`;
-    /// with the default weights.
+    /// Calibrates the scale, with the default weights, so that a run with these counts and number of rays (or frames)
+    /// reaches `rays_per_second`.
     ///
     /// # Errors
     /// [`HostError`] if one of the arguments is 0.
@@ -130,7 +131,7 @@ impl HostModel {
         Self::calibrate_with(HostWeights::default(), counts, rays, rays_per_second)
     }
 
-    /// As [`Self::calibrate`], with other weights; the scale is such that the calibration run takes the same time.
+    /// [`Self::calibrate`] with other weights: the calibration run still takes the same time.
     ///
     /// # Errors
     /// [`HostError`] if one of the arguments is 0, or all counted operations have weight 0.
@@ -144,7 +145,7 @@ impl HostModel {
         if units == 0 || rays == 0 || rays_per_second == 0 {
             return Err(HostError { weight: units, rays, rays_per_second });
         }
-        // rays / rate seconds for all units: up to 2^104 by up to 2^64 times the units.
+        // All units take rays / rate seconds. The numerator is up to 2^104, the denominator up to 2^64 times the units.
         let (picoseconds, units) = (u128::from(rays) * 1_000_000_000_000, units.saturating_mul(rays_per_second.into()));
         let common = gcd(picoseconds, units);
         Ok(Self { weights, picoseconds: picoseconds / common, units: units / common })

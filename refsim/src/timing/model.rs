@@ -8,14 +8,13 @@ use crate::event::{DrawRecord, MipmapRecord, ProgramWork};
 /// Level of detail of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Level {
-    /// Equation 11 of the paper: a fill rate (the measured one, if available) and the rates of the bus.
+    /// Equation 11 of the Ray Engine paper: a fill rate (measured if available) and the rates of the bus.
     Rates,
-    /// Bottom-up: clocks of the units, memory traffic, latencies.
+    /// A simulated pipeline: clocks of the units, memory traffic, latencies.
     Pipeline,
 }
 
-/// Figures that a recorded log depends on: traffic was observed with their values, so scaling them afterwards is
-/// invalid.
+/// Figures that a recorded log depends on: traffic was observed with their values, so they cannot be scaled afterwards.
 const SPENT: [&str; 5] = [
     "rates.texture_cache_line_bytes",
     "rates.texture_cache_ways",
@@ -43,7 +42,6 @@ const PIPELINE_FIGURES: [&str; 15] = [
     "texture_cache_line_bytes",
 ];
 
-/// Bytes per constant register.
 const CONSTANT_BYTES: u64 = 16;
 
 /// Bus figures required by both levels.
@@ -104,8 +102,8 @@ impl Model {
         }
     }
 
-    /// Cost of generating mip levels: level by level, each as a draw over the level. [`Level::Rates`] counts the texels
-    /// written as fragments.
+    /// Cost of generating mip levels: each level is a draw over that level. [`Level::Rates`] counts the texels written
+    /// as fragments.
     pub fn mipmaps(&self, record: &MipmapRecord) -> DrawCost {
         match self.level {
             Level::Rates => self.fill(record.texels_written()),
@@ -141,7 +139,7 @@ impl Model {
         rate(self.bus.readback_bytes_per_s).time_of(bytes) + self.latency(self.bus.readback_latency_ns)
     }
 
-    /// Duration of a state change on the card; the command processor works while the constants cross the bus.
+    /// Duration of a state change on the card; command processor and transfer of constants overlap.
     pub fn state_change(&self, changes: u32, constants: u32) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,
@@ -182,8 +180,8 @@ impl Model {
         open.map(|row| row.key).filter(|key| !SPENT.contains(&key.as_str())).collect()
     }
 
-    /// Returns the model with one guess scaled, rounded down but not to 0. Draw records contain misses at half, one and
-    /// two times the cache size (for textures if observed); the nearest of them is used.
+    /// Returns the model with one guess scaled, rounded down but not to 0. For cache sizes the nearest recorded size is
+    /// used: draw records have misses at half, one and two times the size (for textures only if observed).
     ///
     /// # Errors
     /// [`TimingError::NoGuess`] if the key is not among [`Self::guesses`], [`TimingError::Scale`] for a factor of 0.
@@ -214,7 +212,6 @@ impl Model {
         Ok(scaled)
     }
 
-    /// Current value of a figure.
     fn figure(&self, key: &str) -> Option<u64> {
         match key.split_once('.')? {
             ("rates", name) => self.rates.figure(name),

@@ -29,17 +29,17 @@ pub trait Costs {
 pub struct Options<'a> {
     /// Host cost of commands.
     pub queue: QueueFigures,
-    /// Overrides the mode of every read-back. Asynchronous read-backs in a log that never waits for the data give an
-    /// upper bound on the gain from asynchrony.
+    /// Overrides the mode of every read-back. Making all read-backs asynchronous, in a log that never waits for the
+    /// data, gives an upper bound on the gain from asynchrony.
     pub read_back: Option<ReadBackMode>,
-    /// Gives every resource two copies: uploads and clears, which overwrite all of it, use the copy not used last.
+    /// Gives every resource two copies: uploads and clears overwrite the copy that was not used last.
     pub double_buffered: bool,
-    /// Cost of host work; without a model it is free, and counted in [`Replay::uncosted`].
+    /// Cost of host work; without a model, host work costs nothing and is counted in [`Replay::uncosted`].
     pub host: Option<&'a HostModel>,
 }
 
 impl Options<'_> {
-    /// Options that fit a model: [`Level::Rates`], like the paper's equation 11, has no host cost of commands.
+    /// Options for a model: [`Level::Rates`], like equation 11 of the Ray Engine paper, has no host cost of commands.
     pub fn of(level: Level) -> Self {
         let queue = QueueFigures::default();
         let queue = if level == Level::Rates { queue.without_overhead() } else { queue };
@@ -73,7 +73,7 @@ impl Costs for Model {
     }
 }
 
-/// Error of replaying a log: the host waits for a fence that no read-back has set. Events are numbered from 0.
+/// Error of replaying a log: the host waits for a fence that no read-back set. Events are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
 #[diagnostic(code(timing::replay_fence), help("wait for a fence after the read-back that sets it"))]
@@ -93,7 +93,7 @@ pub struct Replay {
     pub draws: Vec<DrawCost>,
     /// Cost of each generation of mip levels, in the order of the log.
     pub mipmaps: Vec<DrawCost>,
-    /// Number of host operations without cost because there is no host model.
+    /// Number of host operations that cost nothing because there is no host model.
     pub uncosted: u64,
 }
 
@@ -166,7 +166,7 @@ impl Player<'_> {
                 let label = format!("read back {}", name(*resource));
                 let passed = self.queue.read_back(copy, costs.read_back(*bytes), mode, label);
                 if let Some(id) = fence {
-                    // An option made the read-back synchronous: the log's fence is passed with it, at no cost.
+                    // An option made the read-back synchronous, so the log's fence is passed with it and costs nothing.
                     let passed = passed.unwrap_or_else(|| self.queue.fence_for_free());
                     self.fences.insert(*id, passed);
                 }
@@ -193,7 +193,7 @@ impl Player<'_> {
         self.found.draws.push(cost);
     }
 
-    /// Scheduled as a draw that reads and writes the texture: it follows earlier draws, and nothing reads meanwhile.
+    /// Scheduled as a draw that reads and writes the texture: it follows earlier draws, and excludes other reads.
     fn mipmaps(&mut self, record: &MipmapRecord, cost: DrawCost) {
         let texture = self.current(record.texture);
         self.queue.draw(&[texture], &[texture], cost, format!("mip levels of {}", name(record.texture)));
@@ -209,7 +209,7 @@ impl Player<'_> {
         ResourceCopy { resource, second: self.seconds.contains(&resource) }
     }
 
-    /// The copy of a resource to overwrite: of a double-buffered one, the copy not used last.
+    /// The copy of a resource to overwrite; if double-buffered, the copy not used last.
     fn overwritten(&mut self, resource: ResourceId) -> ResourceCopy {
         if self.options.double_buffered && !self.seconds.remove(&resource) {
             self.seconds.insert(resource);

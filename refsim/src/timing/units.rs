@@ -3,7 +3,6 @@
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Mul, Sub};
 
-/// Picoseconds in a second.
 const PICO: u128 = 1_000_000_000_000;
 
 /// Number of clocks of one unit; [`Hertz`] gives their duration.

@@ -14,7 +14,7 @@ pub extern "C" fn refsim_push(byte: u32) {
     REQUEST.with_borrow_mut(|request| request.push(byte as u8));
 }
 
-/// Answers the request, and begins another; returns the length of the answer in bytes.
+/// Answers the request and starts a new request; returns the length of the answer in bytes.
 #[expect(unsafe_code, reason = "an exported name")]
 #[unsafe(no_mangle)]
 pub extern "C" fn refsim_answer() -> u32 {
@@ -25,7 +25,7 @@ pub extern "C" fn refsim_answer() -> u32 {
     length
 }
 
-/// The four bytes of the answer from an index on, the first one lowest; zeros behind its end.
+/// Four bytes of the answer from an index on, as a little-endian word; bytes past the end are 0.
 #[expect(unsafe_code, reason = "an exported name")]
 #[unsafe(no_mangle)]
 pub extern "C" fn refsim_read(index: u32) -> u32 {
@@ -47,7 +47,7 @@ mod tests {
         bytes.truncate(length as usize);
         assert_eq!(String::from_utf8(bytes).expect("text"), crate::answer(request));
         assert_eq!((refsim_read(length), refsim_read(u32::MAX)), (0, 0));
-        // The next one starts empty.
+        // The next request starts empty.
         let length = refsim_answer();
         assert!(length > 0 && crate::answer("").len() == length as usize);
     }

@@ -1,5 +1,5 @@
-//! The emulator for a web page: [`answer`] takes a request as JSON and returns the answer as JSON. `exports` makes it
-//! callable from WebAssembly without generated code; docs/page.md describes the page.
+//! The emulator for a web page: [`answer`] takes a request as JSON and returns the answer as JSON. `exports` makes
+//! [`answer`] callable from WebAssembly without generated code; docs/page.md describes the page.
 
 mod examples;
 pub mod exports;

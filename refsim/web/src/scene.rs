@@ -65,7 +65,6 @@ impl<'p> Scene<'p> {
         Ok(pixels.flat_map(|(x, y)| [16, 8, 0].map(|shift| (image.raw(0, 0, y, x) >> shift) as u8)).collect())
     }
 
-    /// Traces a pixel.
     pub(crate) fn trace(&self, pixel: [u32; 2]) -> Result<Vec<FragmentTrace>, MachineError> {
         self.machine.trace(&self.inputs.call(), pixel.into())
     }
@@ -110,7 +109,6 @@ fn kind(program: &Checked<Program>, sampler: usize) -> Option<TextureKind> {
     }
 }
 
-/// The texture of a sampler.
 fn image(sampler: usize, kind: TextureKind) -> Result<Image, TextureError> {
     let mut image = Image::new(TexelFormat::Bgra8, kind, [SIDE, SIDE, 1], 1)?;
     let code = |value: f64| (255.0 * value).round() as u8;

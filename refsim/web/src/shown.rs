@@ -17,17 +17,14 @@ struct Written {
     bits: String,
 }
 
-/// An executed instruction.
 #[derive(Debug, Serialize)]
 struct ShownStep {
     /// Line of the text, from 1.
     line: usize,
     written: Vec<Written>,
-    /// Exceptions.
     flags: Vec<String>,
 }
 
-/// The trace of a pixel.
 #[derive(Debug, Serialize)]
 pub(crate) struct ShownTrace {
     inputs: Vec<Written>,
@@ -35,11 +32,10 @@ pub(crate) struct ShownTrace {
     outcome: &'static str,
 }
 
-/// The first difference of two traces.
 #[derive(Debug, Serialize)]
 pub(crate) struct ShownDifference {
     stage: String,
-    /// Line of the text, from 1; 0 if it is about no instruction.
+    /// Line of the text, from 1; 0 if the difference has no instruction.
     line: usize,
     values: Vec<Compared>,
 }

@@ -12,12 +12,12 @@ use super::simd::SimdLevel;
 use super::unit::{CardLane, Gt200, Nv};
 use crate::num::{Format, FormatKind, Overflow, Rounding, Unit};
 
-/// Defines `Arithmetic`, and `with_any_lane`, which runs a block with that of an [`AnyLane`], once compiled for each.
-/// `$d` is a dollar sign, for the parameters of the inner macro.
+/// Defines `Arithmetic`, and `with_any_lane`, which runs a block with the arithmetic of an [`AnyLane`]. The block is
+/// compiled once per arithmetic. `$d` is a dollar sign, for the parameters of the inner macro.
 macro_rules! arithmetics {
     ($d:tt, $($format:ident($lane:ty),)+) => {
-        /// A closed list, so that each member is compiled to its own vector code. Roundings of floats are compiled in;
-        /// those of fixed point, and all other rules, are constants in registers.
+        /// An enum, so that each arithmetic is compiled to its own vector code. Roundings of floats are compiled in;
+        /// roundings of fixed point, and all other rules, are constants in registers.
         #[derive(Clone, Copy, Debug)]
         pub(crate) enum Arithmetic {
             $($format($lane),)+
@@ -130,7 +130,7 @@ impl AnyLane {
         with_any_lane!(self, |lane| { decode(lane, bits) })
     }
 
-    /// The bit pattern of the number in a slot; NaN gives the canonical one.
+    /// Encodes the number in a slot as a bit pattern; NaN becomes the canonical NaN.
     pub fn encode(&self, raw: u32) -> u32 {
         fn encode<L: Lane>(lane: &L, raw: u32) -> u32 {
             lane.encode(L::load(raw))
@@ -138,7 +138,7 @@ impl AnyLane {
         with_any_lane!(self, |lane| { encode(lane, raw) })
     }
 
-    /// A double rounded into the format, as a slot holds it. The double is exact or rounded to odd.
+    /// Rounds a double, exact or rounded to odd, into the format; returns the slot's bits.
     pub fn round(&self, x: f64) -> u32 {
         fn round<L: Lane>(lane: &L, x: f64) -> u32 {
             L::store(lane.round_f64(x))
@@ -146,7 +146,7 @@ impl AnyLane {
         with_any_lane!(self, |lane| { round(lane, x) })
     }
 
-    /// The number in a slot, clamped to [0, 1].
+    /// Clamps the number in a slot to [0, 1].
     pub fn saturate(&self, raw: u32) -> u32 {
         fn saturate<L: Lane>(lane: &L, raw: u32) -> u32 {
             L::store(lane.saturate(L::load(raw)))

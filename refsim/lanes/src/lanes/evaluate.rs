@@ -5,12 +5,11 @@ use super::lane::{Lane, apply, is_finite};
 use super::unit::{CardLane, CardUnit, drops_small_halves, without_small};
 use crate::num::{Format, NumberOperation};
 
-/// The operation on operands given as bit patterns of `format`; missing operands count as zero. Comparisons give the
-/// plain numbers 1 and 0, everything else bit patterns of `format`. `None` for operations that the lane arithmetic does
-/// not have.
+/// Evaluates the operation on arrays of bit patterns of `format`; missing operands count as zero. Comparisons return
+/// the integers 1 and 0, other operations bit patterns. Returns `None` if the lane arithmetic does not have the
+/// operation.
 ///
-/// This is the batch executor's arithmetic, written apart from [`crate::num::ops`] and equal to it; the full proof
-/// compares the two through this function.
+/// This is the batch executor's arithmetic, written independently of [`crate::num::ops`]; tests compare the two.
 pub fn evaluate(format: Format, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
     match AnyLane::new(format).arithmetic() {
         Arithmetic::Nv(lane) => return words(lane, operation, [a, b, c]),
@@ -22,7 +21,7 @@ pub fn evaluate(format: Format, operation: NumberOperation, [a, b, c]: [&[u32]; 
     })
 }
 
-/// The operation of a card's unit, on words.
+/// [`evaluate`] for the unit of a card, on words.
 fn words<U: CardUnit>(lane: &CardLane<U>, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
     use NumberOperation::{Equal, Less, LessEqual};
     let compares = matches!(operation, Less | LessEqual | Equal);
@@ -30,7 +29,7 @@ fn words<U: CardUnit>(lane: &CardLane<U>, operation: NumberOperation, [a, b, c]:
     a.iter().enumerate().map(|(i, &a)| word(i, a).map(|word| if compares { word & 1 } else { word })).collect()
 }
 
-/// `a b + b c + c a`, and for four terms `+ b b`, rounded once.
+/// Computes `a b + b c + c a`, plus `b b` for four terms, rounded once.
 pub fn exact_dot(format: Format, terms: usize, [a, b, c]: [&[u32]; 3]) -> Vec<u32> {
     fn dot<L: Lane>(lane: &L, terms: usize, operands: [u32; 3]) -> u32 {
         let [a, b, c] = operands.map(|bits| lane.decode(bits));
@@ -48,7 +47,7 @@ fn bits_at(row: &[u32], i: usize) -> u32 {
     row.get(i).copied().unwrap_or_default()
 }
 
-/// The operation on bit patterns.
+/// [`evaluate`] for one lane.
 fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) -> Option<u32> {
     if L::CARD {
         return None;
@@ -75,7 +74,7 @@ fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) 
     Some(lane.encode(raw.map_or(value, L::load)))
 }
 
-/// Bit patterns of `from` converted to `to`, as [`crate::num::ops::convert`] defines it.
+/// Converts bit patterns of `from` to `to`, as [`crate::num::ops::convert`] defines it.
 pub fn convert(from: Format, to: Format, bits: &[u32]) -> Vec<u32> {
     let mut wide = Vec::with_capacity(bits.len());
     with_any_lane!(&AnyLane::new(from), |lane| { wide.extend(bits.iter().map(|&b| lane.to_f64(lane.decode(b)))) });

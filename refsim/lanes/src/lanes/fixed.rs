@@ -8,18 +8,18 @@ use super::reading::Reading;
 use super::round::{EVEN, rounding_index};
 use crate::num::Format;
 
-/// The pivot of singles, for numbers of up to 22 bits, and its bits.
+/// 1.5 * 2^23: adding it rounds a single of up to 22 bits to an integer, which is then in the sum's low bits.
 const SINGLE_PIVOT: f32 = 12_582_912.0;
 const SINGLE_PIVOT_BITS: i32 = SINGLE_PIVOT.to_bits().cast_signed();
 
-/// The arithmetic of one fixed-point format: `WIDE` whether it has more than 16 bits, `WRAP` whether it wraps.
+/// The arithmetic of one fixed-point format: `WIDE` is true for more than 16 bits, `WRAP` if overflow wraps.
 ///
 /// Up to 16 bits a product, and a product plus a shifted addend, fits an `i32`: both factors are at most 2^15, so
 /// `|a b| <= 2^30`, `|c 2^F| <= 2^30` with `+2^30` impossible for the latter, and half a unit is at most 2^14. Wider
-/// ones use `i64`, where the same holds with 2^62.
+/// formats use `i64`, where the bound is 2^62.
 ///
-/// So no sum or product of numbers of the format leaves its type. The common operations are wrapping ones all the same:
-/// where a build checks each for overflow, its loops are no vector code.
+/// So no sum or product of numbers of the format overflows its host type. The common operations still use wrapping
+/// instructions: overflow checks would prevent vectorization.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     rounding: u8,
@@ -91,9 +91,9 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if WRAP { self.residue(v as i32) } else { v.clamp(self.low.into(), self.high.into()) as i32 }
     }
 
-    /// Products times `unit` plus the pivot, each rounded once, in the low bits of a single; what is out of range
-    /// stays so, since rounding is monotonic. Sums of `k` products are kept with `k` times the pivot's bits, which
-    /// wrap: still far from where the order of integers would break.
+    /// Sum of products, each rounded to nearest even by adding the pivot. Rounding is monotonic, so products that are
+    /// out of range stay out of range. The sum of `k` products contains `k` times the pivot's bits, and may wrap: the
+    /// integers still compare in the right order.
     #[inline(always)]
     pub(super) fn fused_sum_of<const N: usize>(&self, unit: f32, a: [i32; N], b: [i32; N]) -> i32 {
         let (low, high) = (SINGLE_PIVOT + self.low as f32, SINGLE_PIVOT + self.high as f32);
@@ -116,18 +116,18 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if negative { self.low } else { self.high }
     }
 
-    /// Returns `a / 0`.
     #[inline(always)]
     pub(super) fn by_zero(&self, a: i32) -> i32 {
         let extreme = self.extreme(a < 0);
         if a == 0 { 0 } else { extreme }
     }
 
-    /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and fitted; anything if `d` is zero.
+    /// Computes `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded, and saturated or wrapped; unspecified if
+    /// `d` is zero.
     ///
-    /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and
-    /// the double errs by one in `2^22` at most: it rounds as the quotient does. What saturates is clamped first; what
-    /// wraps is an integer of at most 31 bits.
+    /// A quotient that is neither an integer nor an integer and a half differs from all of these by at least one part
+    /// in `2^16`. The double's relative error is at most `2^-22`, so both are rounded alike. With saturation the
+    /// quotient is clamped first; with wrapping it is an integer of at most 31 bits.
     #[inline(always)]
     pub(super) fn quotient(&self, n: i32, d: i32) -> i32 {
         let exact = f64::from(n) / f64::from(d);
@@ -146,7 +146,8 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         self.fit32(near.wrapping_add(down.wrapping_sub(up) & (tie | any)))
     }
 
-    /// `magnitude / 2^guard` units, and a bit more if `sticky`, rounded and fitted; `guard` at least 2 with `sticky`.
+    /// Rounds `magnitude / 2^guard` units, plus a bit more if `sticky`, then saturates or wraps. With `sticky`, `guard`
+    /// is at least 2.
     pub(super) fn finish(&self, negative: bool, magnitude: u128, guard: u32, sticky: bool) -> i32 {
         // Two guard bits and a sticky bit suffice; lower bits are folded into the sticky bit.
         let (kept, guard, sticky) = if guard > 3 {
@@ -196,7 +197,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         let (low, high) = (f64::from(self.low), f64::from(self.high));
         let above_low = if rounded > low { rounded } else { low };
         let clamped = if above_low < high { above_low } else { high };
-        // Modulo the width: in [0, 2^width), and one more fold makes it signed.
+        // The residue modulo `2^width`: first in [0, 2^width), then folded into the signed range.
         let size = (1u64 << self.width) as f64;
         let residue = rounded - (rounded * (1.0 / size)).floor() * size;
         let folded = residue - if residue > high { size } else { 0.0 };
@@ -237,7 +238,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         self.fused_sum_of(1.0 / (1u64 << self.frac) as f32, a, b)
     }
 
-    /// The double rounds to nearest even as the quotient does ([`Self::quotient`]); there is nothing to correct.
+    /// To nearest even, the double rounds like the exact quotient ([`Self::quotient`]), without a correction.
     #[inline(always)]
     fn fused_div(&self, a: i32, b: i32) -> i32 {
         let exact = f64::from(a.wrapping_shl(self.frac)) / f64::from(b);
@@ -328,7 +329,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     }
 
     fn exp2(&self, a: i32) -> i32 {
-        // Beyond the range no residue exists.
+        // An exponential out of range saturates even in a wrapping format.
         if a >> self.frac >= self.int.cast_signed() && WRAP {
             return self.high;
         }

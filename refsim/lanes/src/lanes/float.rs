@@ -1,4 +1,4 @@
-//! Lane arithmetic of the binary floats `eXmY`: all of them live in a host `f32`, which holds each of their values.
+//! Lane arithmetic of the binary floats `eXmY`: a host `f32` represents each of their values.
 
 use super::lane::Lane;
 use super::layout::FloatLayout;
@@ -10,24 +10,25 @@ use crate::num::{Denormals, Encoding, Format, Overflow, Rounding, Specials};
 
 /// Binary32, in `f32`: nearest even is the host's own rounding.
 pub(crate) const HOST: u8 = 0;
-/// In `f32`, and rounded once more.
+/// In `f32`, then rounded once more into the format.
 ///
 /// Rounding to nearest even twice is innocuous for `+ - * / sqrt` if the wider format has at least `2p + 2` bits
 /// (Figueroa 1995, "When is double rounding innocuous?"): 24 >= 2 * 11 + 2. That also holds for a subnormal narrow
 /// result: the proof needs the distance between a result and a midpoint of at most `p + 1` bits, and subnormal
 /// midpoints have fewer bits. The wide result must not be subnormal itself: with six exponent bits and ten mantissa
-/// bits the smallest product is 2^-80. Products are exact. The other roundings are [`ShortRounder`]'s, for formats that
+/// bits the smallest product is 2^-80. Products are exact. The other roundings use [`ShortRounder`], for formats that
 /// keep subnormal numbers.
 pub(crate) const SINGLE: u8 = 1;
-/// Nearest even in `f64` by the same argument, `53 >= 2 * 24 + 2`; the other roundings in `f32` (see [`toward`]).
+/// Nearest even in `f64`, rounded twice as for [`SINGLE`]: `53 >= 2 * 24 + 2`; the other roundings in `f32`
+/// ([`toward`]).
 pub(crate) const DOUBLE: u8 = 2;
-/// Every format and rounding: exact results rounded to odd into doubles, slowly. The other paths fall back on it.
+/// Slow path for every format and rounding: exact results rounded to odd into doubles. Other paths fall back on it.
 pub(crate) const GENERAL: u8 = 3;
 
 /// Rounding decided at run time.
 pub(crate) const ANY: u8 = ODD + 1;
 
-/// The arithmetic that is right for every float format.
+/// The arithmetic that is correct for every float format.
 pub(crate) type GeneralLane = FloatLane<GENERAL, ANY>;
 
 /// The arithmetic of one float format. `PATH` is one of [`HOST`], [`SINGLE`], [`DOUBLE`], [`GENERAL`]; `R` is a
@@ -41,9 +42,9 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     short: ShortRounder,
     /// Magnitude of the results of `1/0` and `log2 0`.
     pole: f32,
-    /// The result if an operand is NaN or infinite: NaN, or 0 in formats without.
+    /// The result if an operand is NaN or infinite: NaN, or 0 in formats without NaN.
     nan: f32,
-    /// Turns -0 into +0, in encodings without it, when added.
+    /// Addend that turns -0 into +0 in encodings without -0; else -0.
     zero: f64,
     nv: bool,
     guarded: bool,
@@ -54,18 +55,18 @@ pub(crate) fn path(format: &Format, exp_bits: u8, man_bits: u8) -> u8 {
     let common = format.encoding == Encoding::Ieee && !matches!(format.rounding, Rounding::Up | Rounding::Odd);
     match (exp_bits, man_bits) {
         _ if !common => GENERAL,
-        // The largest number where the rule asks for infinity, and the guard sees nothing.
+        // `f32` gives its largest number where `:nvovf` requires infinity. That result is finite, so no guard finds it.
         (8, _) if format.overflow == Overflow::Nv30 && format.rounding != Rounding::NearestEven => GENERAL,
         (8, 23) => HOST,
         (..=6, ..=10) if format.rounding == Rounding::NearestEven || format.denormals == Denormals::Keep => SINGLE,
-        // Below the smallest normal number these would need a bit more than a single has.
+        // Subnormal results of these roundings would need one bit more than a single has.
         (_, 23) if format.rounding != Rounding::NearestEven => GENERAL,
         _ => DOUBLE,
     }
 }
 
 impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
-    /// The arithmetic of a float format with these bits, for which [`path`] must have said `PATH`, or [`GENERAL`].
+    /// Creates the arithmetic of a format for which [`path`] returns `PATH`, or with `PATH` = [`GENERAL`].
     pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
         let layout = FloatLayout::new(format, exp_bits, man_bits);
         let bounded = matches!(format.overflow, Overflow::Saturate | Overflow::Nv30);
@@ -85,11 +86,11 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
             guarded: match (PATH, R) {
                 (GENERAL, _) | (DOUBLE, EVEN) => false,
                 (_, EVEN) => exp_bits == 8 && bounded,
-                // Rounded to a power of two that is infinite, as the rule has it or not.
+                // The rounder overflows to infinity, where these rules may require the largest number.
                 (SINGLE, AWAY) => bounded,
                 (SINGLE, ZERO) => format.overflow != Overflow::Nv30,
                 (SINGLE, _) => true,
-                // A product just below the power of two that is infinite is rounded to it on its way.
+                // A product just below the infinite power of two may be rounded up to it before the last rounding.
                 (_, DOWN) if format.overflow == Overflow::Nv30 => true,
                 _ => exp_bits == 8,
             },
@@ -101,7 +102,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         if R == ANY { self.rounding } else { R }
     }
 
-    /// Rounds a result of single precision that is in the format's rounding already.
+    /// Rounds a single-precision result that was computed in the rounding `R`.
     #[inline(always)]
     fn narrow(&self, x: f32) -> f32 {
         match (PATH, R) {
@@ -118,7 +119,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         if x.is_nan() { self.nan } else { x }
     }
 
-    /// A pole's value, by sign.
+    /// The value of a pole, with a sign.
     #[inline(always)]
     fn pole(&self, sign: u32) -> f32 {
         f32::from_bits(self.pole.to_bits() | sign)
@@ -257,9 +258,10 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         let quotient = match (PATH, R) {
             (HOST, EVEN) => return self.narrow(a / b),
             (SINGLE, EVEN) => self.narrow(a / b),
-            // What decides a rounding, in any direction, is a number m of one bit more than the format, 25 at most.
-            // A quotient that is not m differs from it by 2^-49 of itself or more, since a - m b is a multiple of the
-            // unit of m b; the double differs from the quotient by 2^-53 at most. So both lie on one side of m.
+            // A rounding, in any direction, depends on how a quotient compares with numbers m of one bit more than the
+            // format, 25 at most. A quotient that is not m differs from m by 2^-49 of itself or more, since a - m b is
+            // a multiple of the unit of m b. The double differs from the quotient by 2^-53 at most, so both compare
+            // alike with m.
             _ => self.round_f64(f64::from(a) / f64::from(b)),
         };
         let pole = (b == 0.0) & (a.abs() < f32::INFINITY) & (a != 0.0);
@@ -271,7 +273,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if PATH == HOST && R == EVEN {
             return a.sqrt();
         }
-        // As for a quotient: a root that is not m differs from it by 2^-51 of itself or more, since a - m m is a
+        // As for a quotient: a root that is not m differs from m by 2^-51 of itself or more, since a - m m is a
         // multiple of the unit of m m.
         self.round_f64(f64::from(a).sqrt())
     }

@@ -11,28 +11,29 @@ use crate::num::{Denormals, Format, Overflow, Rounding, Specials};
 
 pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 
-/// The arithmetic of an IEEE format. `PATH` says in which host format operations are carried out before the rounding:
+/// The arithmetic of an IEEE format. `PATH` selects the host format in which operations are computed before the
+/// rounding:
 ///
-/// - [`HOST`]: in `f32`, which is the format itself; nothing is left to round.
+/// - [`HOST`]: in `f32`, which is the format itself, so there is no second rounding.
 /// - [`SINGLE`]: in `f32`, for formats of at most 11 significant bits and 6 exponent bits (see [`SINGLE`]).
-/// - [`DOUBLE`]: in `f64`, for all the others.
+/// - [`DOUBLE`]: in `f64`, for all other formats.
 ///
-/// Rounding twice is innocuous in all of them. Let `p` be the significant bits of the format and `q` those of the host.
-/// Products have `2p <= q` bits: exact. Sums: `q >= 2p + 2` (Figueroa 1995). Quotients: what decides a rounding is a
-/// number `k u`, `k < 2^(p+1)`, between neighbours, subnormal ones included, or one of them; a quotient `A/B` of
-/// integers below `2^p` that differs from it does so by at least one part in `k B < 2^(2p+1) < 2^q`, so the host's
-/// quotient stays on its side. A host never overflows or underflows where the format doesn't: it has the exponents to
-/// spare.
+/// Rounding twice is innocuous in all three. Let the format have `p` significant bits and the host `q`. Products have
+/// `2p <= q` bits: they are exact. Sums: `q >= 2p + 2` (Figueroa 1995). Quotients: a rounding depends on how the
+/// quotient compares with numbers `k u`, `k < 2^(p+1)`, which are numbers of the format or midpoints. A quotient `A/B`
+/// of integers below `2^p` that differs from `k u` does so by at least one part in `k B < 2^(2p+1) < 2^q`, so the
+/// host's quotient compares with it in the same way. A host never overflows or underflows where the format doesn't: it
+/// has more exponents.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IeeeLane<const PATH: u8> {
     /// General, slower arithmetic for conversions and rare cases.
     general: FloatLane<DOUBLE, EVEN>,
     /// Host bits of the smallest normal number; as integers they compare faster than as floats.
     lowest: (u32, u64),
-    /// Added to the exponent bits of a number makes one and a half times the number whose unit in the last place is the
-    /// format's there.
+    /// Pivot minus the binade, in exponent bits. The pivot is 1.5 times the number whose last place is the format's
+    /// unit.
     pivot: (u32, u64),
-    /// Factor that makes only numbers above the format's largest infinite; and its reciprocal.
+    /// Factor that makes exactly the numbers above the format's largest infinite, and its reciprocal.
     stretch: (f32, f64),
     shrink: (f32, f64),
 }
@@ -46,7 +47,7 @@ pub(crate) fn is_plain(format: &Format) -> bool {
 }
 
 impl<const PATH: u8> IeeeLane<PATH> {
-    /// The arithmetic of a float format with these bits, for which [`super::float::path`] must have said `PATH`.
+    /// Creates the arithmetic of a format for which [`super::float::path`] returns `PATH`.
     pub(crate) fn new(format: &Format, exp_bits: u8, man_bits: u8) -> Self {
         let m = u32::from(man_bits);
         let emax = (1 << (exp_bits - 1)) - 1;
@@ -63,9 +64,9 @@ impl<const PATH: u8> IeeeLane<PATH> {
 
     /// Rounds a single precision number into the format.
     ///
-    /// Half again of a power of two `2^(23-m)` times the binade is added and taken away: the sum stays in one binade
-    /// whatever the sign, and has the format's unit in its last place. A zero takes the sign of the number that became
-    /// zero. Infinities and NaN come through: their pivot is some finite number.
+    /// A pivot, 1.5 times `2^(23-m)` times the binade, is added and subtracted: the sum stays in one binade for either
+    /// sign, and its last place is the format's unit. A zero takes the sign of the number that became zero. Infinities
+    /// and NaN are unchanged, because their pivot is a finite number.
     #[inline(always)]
     fn narrow_single(&self, x: f32) -> f32 {
         let bits = x.to_bits();
@@ -76,7 +77,7 @@ impl<const PATH: u8> IeeeLane<PATH> {
         (signed * self.stretch.0) * self.shrink.0
     }
 
-    /// Rounds a double into the format, as [`Self::narrow_single`] does it.
+    /// [`Self::narrow_single`] for a double.
     #[inline(always)]
     fn narrow_double(&self, x: f64) -> f64 {
         let bits = x.to_bits();
@@ -152,7 +153,6 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
             }
             return sum;
         }
-        // Stays in doubles on the way.
         let product = |k: usize| self.narrow_double(f64::from(a[k]) * f64::from(b[k]));
         let mut sum = product(0);
         for k in 1..N {

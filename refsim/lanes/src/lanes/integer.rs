@@ -1,13 +1,13 @@
-//! Every rounding of integers that are divided by powers of two, of doubles to integers, and of quotients: by constants
-//! in place of branches.
+//! Branch-free roundings to integers, selected by constants: of integers divided by powers of two, of doubles, and of
+//! quotients.
 
 use super::round::{AWAY, EVEN, UP, ZERO};
 
 /// Division by a power of two, by one formula for every rounding: `(v + more + (v >> at & mask)) >> count`.
 ///
 /// - Nearest even is `floor((v + half - 1 + odd) / 2^count)`: ties move up only from odd floors.
-/// - Nearest away is half a unit up, one less where `v` is negative.
-/// - Toward zero is up to the next unit where `v` is negative, and up is that everywhere.
+/// - Nearest away adds half a unit, less one where `v` is negative.
+/// - Toward zero rounds up where `v` is negative; up rounds up everywhere.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shift {
     pub(super) count: u32,
@@ -36,34 +36,34 @@ impl Shift {
     }
 }
 
-/// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
+/// Adding this to a double leaves the nearest integer, ties to even, in the low bits of the sum.
 pub(super) const PIVOT: f64 = 6_755_399_441_055_744.0;
 
-/// The nearest integer, ties to even, of a double below 2^51.
+/// Rounds a double below 2^51 to the nearest integer, ties to even.
 #[inline(always)]
 pub(super) fn by_pivot(x: f64) -> f64 {
     (x + PIVOT) - PIVOT
 }
 
 /// Rounding of a double to an integer: the nearest integer (ties to even) of the number or of its magnitude, corrected
-/// by one depending on the distance of the number from it.
+/// by one depending on the difference.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IntegerRounding {
     /// Mask of the bits that are kept: all, or all but the sign.
     sign: u64,
-    /// Distances below which one is subtracted, and from which one is added.
+    /// Thresholds of the difference: below `lower` one is subtracted, from `upper` on one is added.
     pub(super) lower: f64,
     pub(super) upper: f64,
 }
 
 impl IntegerRounding {
-    /// The number that is rounded: it, or its magnitude.
+    /// The number to be rounded: `x`, or its magnitude.
     #[inline(always)]
     pub(super) fn magnitude(&self, x: f64) -> f64 {
         f64::from_bits(x.to_bits() & self.sign)
     }
 
-    /// The rounded magnitude, with the sign of the number if that was taken off.
+    /// Restores the sign of `x` that [`Self::magnitude`] removed.
     #[inline(always)]
     pub(super) fn signed(&self, rounded: f64, x: f64) -> f64 {
         f64::from_bits(rounded.to_bits() | x.to_bits() & !self.sign)
@@ -82,8 +82,8 @@ impl IntegerRounding {
     }
 }
 
-/// Masks of when a quotient becomes the integer beside its nearest even one: one less if it lies below, one more if
-/// beyond, by its sign; any quotient, or ties alone.
+/// Corrections of a quotient's nearest even integer, by the sign of the remainder: `less` subtracts one and `more` adds
+/// one, in ties, or wherever the quotient is inexact if `any` is -1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside {
     pub(super) less: [i32; 2],

@@ -40,37 +40,37 @@ impl RegisterNumber for i32 {
 
 /// The arithmetic of one number format on single lanes.
 ///
-/// Every method is the exact real result rounded once into the format, as `refsim::num` defines it; none of the
-/// code is shared with `num`, so that agreement of the two proves something. The methods that matter for speed
-/// have no branches that depend on the data: called in a plain loop over a fixed array, the compiler turns them
-/// into vector code for whatever instruction set the loop was dispatched to.
+/// Every method returns the exact real result rounded once into the format, as `refsim::num` defines it. No code is
+/// shared with `num`, so that agreement between the two is evidence. Methods that matter for speed have no
+/// data-dependent branches, so that the compiler vectorizes plain loops over fixed arrays, for the instruction set that
+/// the loop is dispatched to.
 ///
-/// Registers hold `T`: the number itself, as a host integer or a host float that holds every value of the format
-/// exactly. Bits are made only when a value leaves the executor ([`Lane::encode`]); a NaN is one value here.
+/// Registers hold `T`: the number itself, as a host integer or a host float that represents every value of the format.
+/// Bit patterns are made only when a value leaves the executor ([`Lane::encode`]); all NaN are one value here.
 pub(crate) trait Lane: Copy + Send + Sync {
     /// Type of a register component.
     type T: RegisterNumber;
     /// Type of [`Lane::general`].
     type General: Lane;
 
-    /// The number behind a bit pattern of the format.
+    /// Decodes a bit pattern of the format.
     fn decode(&self, bits: u32) -> Self::T;
-    /// The bit pattern of a number; NaN gives the canonical one.
+    /// Encodes a number as a bit pattern; NaN becomes the canonical NaN.
     fn encode(&self, x: Self::T) -> u32;
     /// The number that a slot holds.
     #[inline(always)]
     fn load(raw: u32) -> Self::T {
         Self::T::from_bits(raw)
     }
-    /// The number as stored in a slot: its host bits, in any format.
+    /// Converts a number to a slot's bits: its host bits, in any format.
     #[inline(always)]
     fn store(x: Self::T) -> u32 {
         x.to_bits()
     }
-    /// The number as a double: exact, or of a normalized format the nearest one.
+    /// Converts a number to a double: exact, except that a number of a normalized format is rounded to nearest.
     fn to_f64(&self, x: Self::T) -> f64;
-    /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]), or what
-    /// [`Lane::to_f64`] gives.
+    /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]), or a result of
+    /// [`Lane::to_f64`].
     fn round_f64(&self, x: f64) -> Self::T;
     /// Rounds a single into the format.
     #[inline(always)]
@@ -80,33 +80,30 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// Interpretation of a slot's bits as a number.
     fn reading(&self) -> Reading;
 
-    /// True for the unit of a card, whose rows have separate loops.
+    /// True for the unit of a card; its rows have separate loops.
     const CARD: bool = false;
 
-    /// False for an arithmetic that vector instructions make no faster.
+    /// False for an arithmetic that vector instructions do not make faster.
     const VECTORS: bool = true;
 
     /// True if [`Lane::is_guarded`] can return true.
     const GUARDED: bool = false;
-    /// Returns `true` if results of this arithmetic are right only where they are finite; [`Lane::general`] computes
-    /// the rest.
+    /// Returns `true` if finite results of this arithmetic are correct and others may be wrong; [`Lane::general`]
+    /// recomputes these.
     #[inline(always)]
     fn is_guarded(&self) -> bool {
         false
     }
-    /// The arithmetic that is always right, for formats that have infinities and NaN.
+    /// The arithmetic that is always correct, for formats that have infinities and NaN.
     fn general(&self) -> Option<Self::General> {
         None
     }
 
-    /// `a + b`
     fn add(&self, a: Self::T, b: Self::T) -> Self::T;
-    /// `a - b`
     #[inline(always)]
     fn sub(&self, a: Self::T, b: Self::T) -> Self::T {
         self.add(a, self.neg(b))
     }
-    /// `a b`
     fn mul(&self, a: Self::T, b: Self::T) -> Self::T;
     /// Products added in order, each product and each sum rounded; `N` at least 1.
     #[inline(always)]
@@ -119,18 +116,18 @@ pub(crate) trait Lane: Copy + Send + Sync {
     }
     /// True if [`Lane::is_fused`] can return true.
     const FUSED: bool = false;
-    /// Returns `true` if [`Lane::fused_sum`] and [`Lane::fused_div`] compute the same as [`Lane::sum`] and
-    /// [`Lane::div`], in fewer instructions on a host with fused multiply-add.
+    /// Returns `true` if [`Lane::fused_sum`] and [`Lane::fused_div`] equal [`Lane::sum`] and [`Lane::div`], in fewer
+    /// instructions on a host with fused multiply-add.
     #[inline(always)]
     fn is_fused(&self) -> bool {
         false
     }
-    /// [`Lane::sum`], where [`Lane::is_fused`].
+    /// [`Lane::sum`], if [`Lane::is_fused`].
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T {
         self.sum(a, b)
     }
-    /// [`Lane::div`], where [`Lane::is_fused`].
+    /// [`Lane::div`], if [`Lane::is_fused`].
     #[inline(always)]
     fn fused_div(&self, a: Self::T, b: Self::T) -> Self::T {
         self.div(a, b)
@@ -139,11 +136,8 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn fused_mad(&self, a: Self::T, b: Self::T, c: Self::T) -> Self::T;
     /// The sum of `N` products, rounded once.
     fn exact_dot<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T;
-    /// `a / b`
     fn div(&self, a: Self::T, b: Self::T) -> Self::T;
-    /// Square root.
     fn sqrt(&self, a: Self::T) -> Self::T;
-    /// `1 / a`
     fn rcp(&self, a: Self::T) -> Self::T;
     /// `1 / sqrt(a)`
     fn rsq(&self, a: Self::T) -> Self::T;
@@ -152,9 +146,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// The logarithm of `a` to base 2.
     fn log2(&self, a: Self::T) -> Self::T;
 
-    /// The smaller one.
     fn min(&self, a: Self::T, b: Self::T) -> Self::T;
-    /// The larger one.
     fn max(&self, a: Self::T, b: Self::T) -> Self::T;
     /// The largest integer not above `a`.
     #[inline(always)]
@@ -163,9 +155,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     }
     /// `a - floor(a)`
     fn frc(&self, a: Self::T) -> Self::T;
-    /// `-a`
     fn neg(&self, a: Self::T) -> Self::T;
-    /// `|a|`
     fn abs(&self, a: Self::T) -> Self::T;
     /// `a 2^shift`, `shift` within -3 to 3.
     #[inline(always)]

@@ -22,9 +22,8 @@ pub(crate) struct FloatLayout {
     canonical_nan: u32,
     /// `true` if zero has no sign.
     one_zero: bool,
-    /// Smallest normal number.
     pub(crate) min_normal: f64,
-    /// `2^-man_bits`: a binade's power of two times this is its unit in the last place.
+    /// `2^-man_bits`: the unit in the last place, relative to the binade's power of two.
     pub(crate) unit: f64,
     /// `true` if subnormal patterns are read as zero.
     flushes: bool,
@@ -55,7 +54,6 @@ impl FloatLayout {
         }
     }
 
-    /// Decodes a bit pattern.
     #[inline(always)]
     pub(crate) fn decode(&self, bits: u32) -> f32 {
         let (m, x) = (self.man_bits, self.exp_bits);

@@ -1,5 +1,5 @@
 //! Products of matrices in matrix units: sixteen columns at a time, in code that the compiler turns into vector
-//! instructions. Written apart from [`crate::num::matrix`], which defines every bit.
+//! instructions. Independent of [`crate::num::matrix`], which defines every bit.
 
 use std::ops::Range;
 
@@ -9,11 +9,11 @@ use crate::num::{FormatKind, Rounding};
 
 /// Columns that are computed at once.
 const WIDTH: usize = 16;
-/// Products that are added in 32 bits: each is below `2^27`, being below 4 in units of `2^-25`.
+/// Number of products added in 32 bits: each is below 4 in units of `2^-25`, so below `2^27`.
 const CHUNK: usize = 16;
-/// The most bits below the largest exponent that fit.
+/// The most bits below the largest exponent that 32-bit sums can keep.
 const MAX_BITS: u32 = 25;
-/// Exponent of zeros: two of them are below that of all products, and fit.
+/// Exponent of zeros: the sum of two is below the exponents of all products, and fits the type.
 const ZERO: i16 = -1 << 13;
 
 /// Rows of A or columns of B, each along k.
@@ -25,7 +25,7 @@ pub struct MatrixRows {
     pub length: usize,
     /// Patterns, row after row.
     pub codes: Vec<u64>,
-    /// Patterns of the scales, row after row; empty without.
+    /// Patterns of the scales, row after row; empty without scales.
     pub scales: Vec<u8>,
     /// Numbers of a row that share a scale, at least 1.
     pub share: usize,
@@ -55,12 +55,11 @@ struct Adder {
     /// Least exponent that addends are aligned to.
     least: i32,
     product_fraction: i32,
-    /// Fraction bits of a word, and how many of them results have.
+    /// Fraction bits of a word, and the number of them that results have.
     fraction: i32,
     kept: i32,
     least_result: i32,
     infinity: u64,
-    /// Place of the sign.
     sign: u32,
     nearest: bool,
 }
@@ -75,11 +74,11 @@ type Lanes = [[i16; WIDTH]; 2];
 pub struct MatrixColumns<'a> {
     unit: MatrixUnit,
     columns: &'a MatrixRows,
-    /// The numbers of all patterns of the unit's types of up to 16 bits; `None` for infinities and NaN.
+    /// Decoded numbers for all patterns of the unit's types of up to 16 bits; `None` for infinities and NaN.
     tables: Vec<(Element, Vec<Option<Unpacked>>)>,
-    /// By group of columns, then k.
+    /// Numbers by group of columns, then k.
     numbers: Vec<Lanes>,
-    /// By group: `true` if one of its numbers is NaN or infinite, which is left to the definition.
+    /// By group: `true` if one of its numbers is NaN or infinite: [`crate::num::matrix`] computes these.
     special: Vec<bool>,
 }
 
@@ -159,8 +158,8 @@ impl<'a> MatrixColumns<'a> {
         })
     }
 
-    /// Rows of D for rows of A: words of the result, as [`MatrixUnit::dot`] gives them, over `depth` products behind
-    /// `start`, which is a multiple of the block. `c` holds a pattern for each element of these rows of D.
+    /// Computes rows of D for rows of A, as words of [`MatrixUnit::dot`], over `depth` products behind `start`, a
+    /// multiple of the block. `c` holds a pattern for each element of these rows of D.
     pub fn multiply(&self, a: &MatrixRows, rows: Range<usize>, start: usize, depth: usize, c: &[u64]) -> Vec<u64> {
         let count = self.columns.count();
         let mut sums = c.to_vec();
@@ -200,7 +199,7 @@ impl<'a> MatrixColumns<'a> {
     }
 }
 
-/// All blocks of rows of sixteen elements of D: a block of B stays in the cache while all rows of A pass.
+/// Computes D in blocks of sixteen columns: a block of B stays in the cache while all rows of A are multiplied.
 #[inline(always)]
 fn chains(adder: &Adder, rows: &[(usize, &[Unpacked])], b: &[Lanes], words: &mut [[u64; WIDTH]]) {
     for (at, b) in b.chunks(adder.block).enumerate() {
@@ -255,7 +254,7 @@ fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32
 }
 
 impl Adder {
-    /// Exponent of an addend; [`i32::MIN`] halved of zeros.
+    /// Exponent of an addend; [`i32::MIN`] / 2 for zeros.
     #[inline(always)]
     fn exponent(self, word: u64) -> i32 {
         let size = word & ((1 << self.sign) - 1);
@@ -272,7 +271,7 @@ impl Adder {
         }
         let field = size >> self.fraction;
         let significand = size & ((1 << self.fraction) - 1) | u64::from(field != 0) << self.fraction;
-        // 35 bits more than the fraction: the largest `bits` is within them.
+        // 35 bits more than the fraction: the largest `bits` is less.
         let cut = (top - self.exponent(c) + 35 - self.bits + self.fraction).clamp(0, 63);
         let kept = ((significand << 35) >> cut).cast_signed();
         let sum = total + if c >> self.sign == 0 { kept } else { -kept };

@@ -1,12 +1,13 @@
 //! The arithmetic of number formats on single lanes, and the vector instructions that it is compiled for.
 //!
-//! - `row`: rows of lanes; `lane`: what an arithmetic has to offer; `layout`: fields of floats; `integer`, `fixed`,
-//!   `normalized`, `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the host's;
-//!   `toward`: in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into doubles.
+//! - `row`: rows of lanes; `lane`: the interface of an arithmetic; `layout`: fields of floats; `integer`, `fixed`,
+//!   `normalized`, `ieee`, `float`: in host integers and host floats; `round`: to formats that are narrower than the
+//!   host's; `toward`: in roundings that the host does not have; `odd`, `power`: exact results rounded to odd into
+//!   doubles.
 //! - `unit`: units of cards, on words.
-//! - `any`: which format gets which; `reading`: what slots hold as numbers of the host.
+//! - `any`: the arithmetic for a format; `reading`: slots as numbers of the host.
 //! - `matrix`: products of matrices in the units of [`crate::num::matrix`].
-//! - `simd`: vector instructions; `evaluate`: one operation on many operands, for the proof.
+//! - `simd`: vector instructions; `evaluate`: one operation on many operands, for tests.
 
 mod any;
 mod evaluate;

@@ -9,10 +9,11 @@ use super::reading::Reading;
 use super::round::{AWAY, EVEN, rounding_index};
 use crate::num::Format;
 
-/// The arithmetic of one normalized format: `WRAP` whether it wraps. Operations that do not depend on the unit are
-/// those of the codes as integers.
+/// The arithmetic of one normalized format: `WRAP` is true if overflow wraps. Operations that do not depend on the unit
+/// are integer operations on the codes.
 ///
-/// Codes have 16 bits and the denominator `D` 8 at most: products of two codes fit an `i32`, and sums of four a double.
+/// Codes have 16 bits and the denominator `D` 8 at most: products of two codes fit an `i32`, and sums of four products
+/// a double.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NormalizedLane<const WRAP: bool> {
     codes: FixedLane<false, WRAP>,
@@ -26,7 +27,7 @@ pub(crate) struct NormalizedLane<const WRAP: bool> {
     fused: bool,
 }
 
-/// Codes of this width at most have products that a single rounds correctly.
+/// Largest width of codes whose products a single rounds correctly.
 const FUSED_WIDTH: u32 = 13;
 
 impl<const WRAP: bool> NormalizedLane<WRAP> {
@@ -46,10 +47,10 @@ impl<const WRAP: bool> NormalizedLane<WRAP> {
         }
     }
 
-    /// `v / D`, rounded and fitted, for integers of at most 33 bits.
+    /// Computes `v / D`, rounded, and saturated or wrapped, for integers of at most 33 bits.
     ///
-    /// The nearest integer: quotients lie at least `1 / 2D` from the middle between two, and the double errs by less
-    /// than `2^-20`. The remainder is exact and shows on which side of the quotient it lies.
+    /// The nearest integer is right: quotients lie at least `1 / 2D` from the middle between two, and the double errs
+    /// by less than `2^-20`. The remainder is exact and shows on which side of the quotient it lies.
     #[inline(always)]
     fn over(&self, v: f64) -> i32 {
         let value = self.product.magnitude(v);
@@ -82,8 +83,8 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
         self.codes.encode(x)
     }
 
-    /// The nearest double. It rounds into every other format as the number does: a number that isn't an integer lies at
-    /// least one part in `2^42` from every number of another format, and from the middle between two.
+    /// The nearest double. It rounds into every other format like the exact number: a number that isn't an integer
+    /// differs by at least one part in `2^42` from every number of another format, and from every midpoint.
     #[inline(always)]
     fn to_f64(&self, x: i32) -> f64 {
         f64::from(x) / self.denominator
@@ -94,10 +95,10 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// Twice the number of units is exact for doubles of up to 44 bits. For a longer result (a quotient, rounded to odd
-    /// or to nearest) the error is less than one part in `2^51`; a result that near to an integer is one. In 255ths,
-    /// fractions of texels lie at least one part in `2^49` from the next, whatever four weights of 8 bits they were
-    /// multiplied by; in other units that holds of channels of up to 8 bits, and 16-bit ones come nearer only if chance
-    /// is unkind by a factor of a billion.
+    /// or to nearest) the error is less than one part in `2^51`; a result that near to an integer is taken for one. In
+    /// 255ths, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In other units that is
+    /// proved for channels of up to 8 bits; channels of 16 bits come nearer with a probability of about one in a
+    /// billion.
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
         const NEAR: f64 = 1.0 / (1u64 << 50) as f64;
@@ -131,7 +132,7 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
 
     /// Both the unit and its product with a factor are rounded, so the relative error is at most `2^-23`, and the error
     /// is less than `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product
-    /// avoids the middle between two codes, so that the sum with the pivot is rounded to the right one.
+    /// avoids the middle between two codes, so the sum with the pivot is rounded to the right code.
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
         self.codes.fused_sum_of(self.reciprocal as f32, a, b)
@@ -184,7 +185,7 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     fn exp2(&self, a: i32) -> i32 {
-        // Beyond the range no residue exists.
+        // An exponential out of range saturates even in a wrapping format.
         if self.whole(a) >= self.int.cast_signed() && WRAP {
             return self.codes.by_zero(1);
         }

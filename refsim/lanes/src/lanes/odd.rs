@@ -1,25 +1,24 @@
-//! Exact real results squeezed into a double without losing what a later rounding needs: rounding to odd.
+//! Rounding to odd: a double that a later rounding turns into the same number as the exact real result.
 //!
 //! A real number is rounded to odd by truncating it and setting the last bit if anything was cut off. Rounding that
-//! once more into a format of `p` bits, in any direction, gives what rounding the real number itself gives, as long as
-//! the intermediate has `p + 2` bits (Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved
-//! algorithms using rounding to odd", theorem 2). A double has 53 bits and no format here more than 24; and no result
-//! of two such operands leaves the exponent range of a double. So every arithmetic operation below is done in doubles
-//! and its error, known exactly, moves the last bit.
+//! once more into a format of `p` bits, in any direction, equals rounding the real number itself, if the intermediate
+//! has `p + 2` bits (Boldo and Melquiond, "Emulation of FMA and correctly rounded sums: proved algorithms using
+//! rounding to odd", theorem 2). A double has 53 bits and formats here at most 24; no result of two such operands
+//! leaves the exponent range of a double. So every arithmetic operation below is done in doubles and its error, known
+//! exactly, moves the last bit.
 
-/// The sign bit of a double.
 pub(crate) const SIGN: u64 = 1 << 63;
 
 /// Rounds `s + e` to odd, where `s` is a double and `e` an exact remainder of less than one unit in the last place
 /// of `s`, measured towards `e`'s side. Infinite and NaN `s` pass: their remainder is NaN or compares as zero.
 #[inline(always)]
 pub(crate) fn odd(s: f64, e: f64) -> f64 {
-    // Cut off, then odd. Products of this size don't vanish.
+    // Truncate, then set the last bit. Products of this size don't vanish.
     let cut = s.to_bits().wrapping_sub(u64::from(e * s < 0.0));
     f64::from_bits(cut | u64::from(e.abs() > 0.0))
 }
 
-/// `a + b` as its double and the exact error of that (Knuth's two-sum). NaN error where the sum is not finite.
+/// `a + b` rounded, and the exact error (Knuth's two-sum), which is NaN if the sum is not finite.
 #[inline(always)]
 pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
@@ -34,21 +33,20 @@ pub(crate) fn add_odd(a: f64, b: f64) -> f64 {
     odd(s, e)
 }
 
-/// The double nearest to `x` that has 26 significant bits (or 25), so that its square is exact.
-///
-/// Veltkamp's split; `x` must be far from overflow.
+/// Rounds to 26 significant bits (or 25) by Veltkamp's split, so that the square is exact. `x` must be far from
+/// overflow.
 #[inline(always)]
 pub(crate) fn head(x: f64) -> f64 {
     let c = x * 134_217_729.0;
     c - (c - x)
 }
 
-/// `a / b` rounded to odd to all 53 bits: what fixed-point formats of more than 24 bits need. `a` is any double and `b`
-/// not 0 and of at most 26 significant bits, both far from the ends of the range.
+/// `a / b` rounded to odd in all 53 bits, for fixed-point formats of more than 24 bits. `a` is any double, `b` is not 0
+/// and has at most 26 significant bits; both are far from the ends of the range.
 ///
 /// The quotient q, in [1, 2) units of 2^e, is split into 26 and 27 bits, whose products with `b` have 53 bits at most:
-/// they are exact. Let `b` be an integer of n bits, so that `a` is a multiple of 2^(e+n-54). `a` less the larger
-/// product is a multiple of that or of 2^(e-25), whichever is smaller, and less than 2^(e+n-25): 29 bits or n. The
+/// they are exact. Let `b` be an integer of n bits, so that `a` is a multiple of 2^(e+n-54). `a` minus the larger
+/// product is a multiple of the smaller of 2^(e+n-54) and 2^(e-25), and less than 2^(e+n-25): it has 29 or n bits. The
 /// remainder, at most `b` half units of q, is a multiple of 2^(e-53) and less than 2^(e+n-52). Both differences are
 /// exact.
 #[inline(always)]
@@ -61,9 +59,9 @@ pub fn div_odd_long(a: f64, b: f64) -> f64 {
 
 /// `1 / sqrt(a)` rounded to odd, for finite `a > 0` of at most 24 significant bits.
 ///
-/// The candidate is within two units of a double; its head `y` of 26 bits is therefore within `2^-26 y` of the truth.
-/// With `y^2 = h + l` split so that both parts times `a` are exact, `1 - h a` is exact (it cancels), and comparing it
-/// with `l a` shows on which side of `y` the exact value lies.
+/// The candidate is within two units of a double; its head `y` of 26 bits is therefore within `2^-26 y` of the exact
+/// value. With `y^2 = h + l` split so that both parts times `a` are exact, `1 - h a` is exact (it cancels), and
+/// comparing it with `l a` shows on which side of `y` the exact value lies.
 #[inline(always)]
 pub(crate) fn rsq_odd(a: f64) -> f64 {
     let y = head(1.0 / a.sqrt());
@@ -71,7 +69,7 @@ pub(crate) fn rsq_odd(a: f64) -> f64 {
     let h = head(square);
     let l = square - h;
     let (p, q) = (1.0 - h * a, l * a);
-    // The exact remainder 1 - y^2 a; a comparison only, so that no rounding can spoil its sign.
+    // The exact remainder 1 - y^2 a; it is only compared, so rounding cannot change its sign.
     let e = if p > q {
         1.0
     } else if p < q {
@@ -82,8 +80,7 @@ pub(crate) fn rsq_odd(a: f64) -> f64 {
     odd(y, e)
 }
 
-/// The sum of exact doubles, rounded to odd. NaN and infinities come out as adding in order gives them; a sum that
-/// is exactly zero is `+0`.
+/// The sum of exact doubles, rounded to odd. NaN and infinities are as in an addition in order; an exact zero is `+0`.
 ///
 /// The sum is kept as an expansion, doubles whose bits don't overlap (Shewchuk 1997, "Adaptive precision
 /// floating-point arithmetic", GROW-EXPANSION), then read from the top: the first nonzero error decides the side.

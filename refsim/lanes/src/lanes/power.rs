@@ -1,9 +1,9 @@
-//! `2^x` and `log2 x`, rounded to odd into a double: the batch executor's own way, in 128-bit fixed point.
+//! `2^x` and `log2 x`, rounded to odd into a double: the batch executor's implementation, in 128-bit fixed point.
 //!
-//! Both are irrational wherever they aren't obviously exact (an integer exponent, a power of two), so the true value is
-//! never on a boundary between two roundings; the evaluations below are good to 2^-95 or better, and operands have at
-//! most 32 bits, and no result comes nearer than about 2^-75 to a boundary unless chance has been unkind by a factor of
-//! a million. The full proof run compares every operand of every format of 16 bits.
+//! Both are irrational unless obviously exact (an integer exponent, a power of two), so the true value is never on a
+//! rounding boundary. The evaluations below are accurate to 2^-95. Operands have at most 32 bits, so the probability
+//! that any result is nearer than 2^-75 to a boundary is about one in a million. The tests in full form compare every
+//! operand of every format of 16 bits.
 
 use super::layout::pow2;
 
@@ -21,8 +21,8 @@ fn mul_high(a: u128, b: u128) -> u128 {
     a1 * b1 + ((a1 * b0) >> 64) + ((a0 * b1) >> 64) + (middle >> 64)
 }
 
-/// `2^x` rounded to odd; `x` has at most 32 significant bits. Infinities and NaN as IEEE would have it. Beyond `|x| =
-/// 900` a double of the right side and size replaces it, far outside every format.
+/// `2^x` rounded to odd; `x` has at most 32 significant bits. Infinities and NaN as in IEEE 754. For `|x|` above 900
+/// the result is some double far outside the range of every format, on the right side.
 pub(crate) fn exp2(x: f64) -> f64 {
     const ONE: u64 = 1023 << 52;
     if x.is_nan() || x == f64::INFINITY {
@@ -41,7 +41,7 @@ pub(crate) fn exp2(x: f64) -> f64 {
         return pow2(x as i32);
     }
     if x.abs() < TINY {
-        // 1 + x ln 2 + ...: no format has a boundary so near to 1.
+        // 1 + x ln 2 + ...: no rounding boundary of a format is so near to 1.
         return f64::from_bits(if x > 0.0 { ONE | 1 } else { ONE - 1 });
     }
     let bits = x.to_bits();
@@ -64,7 +64,6 @@ pub(crate) fn exp2(x: f64) -> f64 {
     f64::from_bits(((whole + 1023) as u64) << 52 | mantissa | 1)
 }
 
-/// `2^-40`
 const TINY: f64 = 1.0 / 1_099_511_627_776.0;
 
 /// `log2 x` rounded to odd, for `x > 0` of at most 32 significant bits; NaN and infinity pass.
@@ -88,7 +87,7 @@ pub(crate) fn log2(x: f64) -> f64 {
         m = if carry == 1 { square } else { square << 1 };
     }
     let value = (exponent << FRACTION) + fraction;
-    // The truth lies just above `value`; truncating the magnitude of a negative one means one less.
+    // The exact value lies just above `value`; truncating a negative magnitude subtracts one.
     let magnitude = if value < 0 { (-value - 1) as u128 } else { value as u128 };
     let top = 127 - magnitude.leading_zeros();
     let kept = (magnitude >> (top - 52)) as u64 & ((1 << 52) - 1);

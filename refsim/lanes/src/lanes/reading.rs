@@ -1,5 +1,5 @@
-//! Numbers in slots as numbers of the host: floats as they are, integers in units of their format. The same for all
-//! formats of a kind, whatever their rules.
+//! Interprets slots as numbers of the host: floats as they are, integers in units of their format. It depends on the
+//! kind of format, not on its rules.
 
 use super::row::{LANES, LaneRow};
 use super::simd::SimdLevel;
@@ -13,15 +13,15 @@ pub enum Reading {
     Word,
     /// An integer of `1 / units`.
     Integer {
-        /// The integer of 1, or the largest one below.
+        /// The code of 1, or the largest code below.
         one: i32,
-        /// Units of 1.
+        /// Units per 1.
         units: f64,
     },
 }
 
 impl Reading {
-    /// The number as a double: exact, or of a normalized format the nearest one.
+    /// Converts the number to a double: exact, except that a number of a normalized format is rounded to nearest.
     #[inline(always)]
     pub fn to_f64(self, raw: u32) -> f64 {
         match self {
@@ -38,9 +38,9 @@ impl Reading {
         if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }
     }
 
-    /// The number clamped to [0, 1] (NaN gives 0), times `scale` plus `half`, truncated.
+    /// Truncates `scale` times the number clamped to [0, 1] (NaN gives 0), plus `half`.
     ///
-    /// Exact for 24 bits times 24, and where the quotient by `units` is an integer.
+    /// Exact for products of 24 bits by 24, and where the quotient by `units` is an integer.
     #[inline(always)]
     pub fn to_steps(self, raw: u32, scale: f64, half: f64) -> u32 {
         match self {
@@ -90,7 +90,7 @@ impl Reading {
     }
 }
 
-/// A function of all lanes, in a loop for each kind.
+/// Applies a function to all lanes, in a separate loop for each kind of reading.
 #[inline(always)]
 fn each<R>(reading: Reading, row: &LaneRow, out: &mut [R; LANES], f: impl Fn(Reading, u32) -> R) {
     match reading {

@@ -1,10 +1,10 @@
-//! Rounding a number of the host into a narrower float format, without branches: constants of the format, and one body
-//! for both widths of the host.
+//! Rounding a number of the host into a narrower float format, without branches: the format enters as constants, and
+//! one macro serves `f32` and `f64`.
 
 use super::layout::pow2;
 use crate::num::{Denormals, Encoding, Format, Overflow, Rounding};
 
-/// The number of a rounding: a constant of the lanes.
+/// The const parameter of the lanes that selects a rounding.
 pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
     match rounding {
         Rounding::NearestEven => EVEN,
@@ -26,23 +26,23 @@ pub(crate) const ODD: u8 = 5;
 
 macro_rules! rounder {
     ($name:ident, $float:ty, $bits:ty, $mantissa:literal) => {
-        /// How numbers of the host become numbers of a format.
+        /// Rounds numbers of the host into a format.
         #[derive(Clone, Copy, Debug)]
         pub(crate) struct $name {
             /// Exponent bits of the smallest normal number: below it the unit in the last place stays the same.
             lowest: $bits,
-            /// Added to the exponent bits of a number makes one and a half times the number whose unit in the last
-            /// place is the format's there.
+            /// Pivot minus the binade, in exponent bits. The pivot is 1.5 times the number whose last place is the
+            /// format's unit.
             pivot: $bits,
-            /// A binade times this is that unit.
+            /// The format's unit in the last place, relative to the binade's power of two.
             unit: $float,
             /// Numbers below this become zero: the smallest normal number under [`Denormals::Flush`], else 0.
             flush: $float,
             /// The largest finite number.
             max: $float,
-            /// From where on an exact magnitude becomes infinite, by sign; NaN if none does, infinities neither.
+            /// Smallest exact magnitude that becomes infinite, by sign; NaN if none does.
             infinite: [$float; 2],
-            /// The number beyond: infinity, or NaN in encodings without it.
+            /// Result above the range: infinity, or NaN in encodings without infinity.
             beyond: $float,
         }
 
@@ -50,7 +50,7 @@ macro_rules! rounder {
             const SIGN: $bits = 1 << (<$bits>::BITS - 1);
             const EXPONENT: $bits = Self::SIGN - (1 << $mantissa);
 
-            /// For a format with these bits.
+            /// Creates the rounder of a format with these bits.
             pub(crate) fn new(format: &Format, man_bits: u8) -> Self {
                 let m = <$bits>::from(man_bits);
                 let (emin, emax) = format.exponents();
@@ -69,7 +69,7 @@ macro_rules! rounder {
                     (Overflow::Nv30, _) => [(pow2(emax) * 2.0) as $float; 2],
                     (_, Rounding::NearestEven | Rounding::NearestAway) => {
                         let half = (exact_max + last / 2.0) as $float;
-                        // To even, a tie stays if the largest number is even.
+                        // If `short`, the largest number is even: to nearest even, a tie above it rounds down to it.
                         let stays = short && format.rounding == Rounding::NearestEven;
                         [<$float>::from_bits(half.to_bits() + <$bits>::from(stays)); 2]
                     }
@@ -88,8 +88,8 @@ macro_rules! rounder {
                 }
             }
 
-            /// Rounds a number of any size; infinities and NaN pass. The pivot must be a number: exponents of the host
-            /// reach as far beyond those of `x` as its mantissa is longer.
+            /// Rounds a number of any size; infinities and NaN are unchanged. The pivot, whose exponent exceeds that of
+            /// `x` by the difference of the two mantissa lengths, must be finite.
             #[inline(always)]
             pub(crate) fn round(&self, rounding: u8, x: $float) -> $float {
                 let exponent = (x.to_bits() & Self::EXPONENT).max(self.lowest);
@@ -106,12 +106,12 @@ macro_rules! rounder {
             /// The magnitude rounded to the unit of the binade with these exponent bits.
             ///
             /// Adding and subtracting the pivot rounds to nearest even; the other roundings compare the result with the
-            /// operand. The pivot of an infinity or a NaN is some finite number, so that they come through.
+            /// operand. The pivot of an infinity or a NaN is finite, so these are unchanged.
             #[inline(always)]
             fn near(&self, rounding: u8, x: $float, exponent: $bits) -> $float {
                 let pivot = <$float>::from_bits(exponent.wrapping_add(self.pivot));
                 let unit = <$float>::from_bits(exponent) * self.unit;
-                // Up is down of the number turned round.
+                // Rounding up is rounding the negated number down.
                 let value = match rounding {
                     DOWN => x,
                     UP => -x,
@@ -134,7 +134,7 @@ macro_rules! rounder {
             #[inline(always)]
             fn fit(&self, rounding: u8, x: $float, kept: $float) -> $float {
                 let kept = if kept < self.flush { 0.0 } else { kept };
-                // In this order a NaN stays.
+                // With these operands of the comparison a NaN is kept.
                 let limited = if self.max < kept { self.max } else { kept };
                 let by_sign = (self.infinite[0].to_bits() ^ self.infinite[1].to_bits()) & Self::negative(x);
                 let differs = if rounding == DOWN || rounding == UP { by_sign } else { 0 };
@@ -150,8 +150,8 @@ rounder!(SingleRounder, f32, u32, 23);
 rounder!(DoubleRounder, f64, u64, 52);
 
 impl SingleRounder {
-    /// Like [`Self::round`], for the roundings other than nearest even: normal numbers by their bits, so no pivot can
-    /// be too large.
+    /// [`Self::round`] for the roundings other than nearest even. It rounds normal numbers by their bits, without a
+    /// pivot.
     #[inline(always)]
     pub(crate) fn cut(&self, rounding: u8, x: f32) -> f32 {
         let size = x.to_bits() & !Self::SIGN;
@@ -166,13 +166,14 @@ impl SingleRounder {
         self.fit(rounding, x, if size < self.lowest { small } else { normal })
     }
 
-    /// Bits that a normal number of the format does not have. (No arithmetic here is checked: a check is a branch.)
+    /// Mask of the bits that normal numbers of the format lack. (Wrapping arithmetic: an overflow check would be a
+    /// branch.)
     #[inline(always)]
     fn dropped(&self) -> u32 {
         1u32.wrapping_shl(self.pivot >> 23).wrapping_sub(1)
     }
 
-    /// Makes a subnormal number of binary32 zero, if the format asks for it.
+    /// Flushes a subnormal number of binary32 to zero if the format does.
     #[inline(always)]
     pub(crate) fn flushed(&self, x: f32) -> f32 {
         let kept = if self.flush == 0.0 { u32::MAX } else { Self::SIGN };
@@ -192,11 +193,11 @@ impl DoubleRounder {
     }
 }
 
-/// How numbers of single precision become numbers of a format of at most eleven bits and six exponent bits, in
-/// roundings other than nearest even; subnormal numbers are kept, and what is too large becomes infinite.
+/// Rounds singles into a format of at most eleven bits and six exponent bits, in roundings other than nearest even.
+/// Subnormal numbers are kept, and magnitudes above the range become infinite.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShortRounder {
-    /// Exponent bits of the smallest normal number, and of the power of two that is too large.
+    /// Exponent bits of the smallest normal number, and of the power of two above the range.
     binades: [u32; 2],
     /// This minus the exponent bits of a binade is the bit pattern of 1 / (unit of the binade).
     per_unit: u32,
@@ -220,11 +221,10 @@ impl ShortRounder {
         }
     }
 
-    /// Rounds a number that comes from numbers of the format; infinities and NaN pass.
+    /// Rounds a result of an operation on numbers of the format; infinities and NaN are unchanged.
     ///
-    /// In units of its binade it has eleven bits before the point, where the host rounds to an integer in the requested
-    /// direction. Half a unit is added without an error that matters: numbers of less than a unit come from products,
-    /// which have 22 bits.
+    /// The number is scaled to eleven bits before the point, where the host rounds it to an integer in the requested
+    /// direction. Adding half a unit is exact enough: numbers below a unit are products, which have 22 bits.
     #[inline(always)]
     pub(crate) fn round(&self, rounding: u8, x: f32) -> f32 {
         let [lowest, highest] = self.binades;

@@ -1,14 +1,14 @@
-//! Vector instruction sets of the host that the batch executor uses. No level changes a bit; the narrower ones exist so
-//! that this can be tested on one machine.
+//! Vector instruction sets of the host that the batch executor uses. All levels give the same bits; the narrower level
+//! exists so that one machine can test this.
 
 use multiversion::multiversion;
 use multiversion::target::match_target;
 
-/// A set of vector instructions; each level includes the previous ones.
+/// A set of vector instructions; each level includes the previous levels.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SimdLevel {
-    /// Instructions of every processor of the target (SSE2 on x86-64).
+    /// Instructions that every processor of the target has (SSE2 on x86-64).
     Baseline,
     /// AVX2 and FMA.
     Avx2,
@@ -28,7 +28,7 @@ impl SimdLevel {
         Self::ALL.into_iter().rfind(|level| level.is_available()).unwrap_or(Self::Baseline)
     }
 
-    /// Lower-case name: `baseline`, `avx2`.
+    /// Lower-case name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
@@ -46,8 +46,8 @@ impl SimdLevel {
         self == Self::Baseline
     }
 
-    /// Runs `work` compiled for this level, or for the supported part of it. The closure, and what it calls, must be
-    /// `#[inline(always)]` to be compiled for the level at all.
+    /// Runs `work` compiled for this level, or for the supported part of it. The closure, and functions that it calls,
+    /// must be `#[inline(always)]`: others are compiled for the baseline.
     #[inline(always)]
     pub fn run<R>(self, work: impl FnOnce() -> R) -> R {
         let work = match self {
@@ -61,8 +61,8 @@ impl SimdLevel {
     }
 }
 
-/// Runs `work` with AVX2 and FMA, or gives it back on a processor without. The version for such processors has no copy
-/// of `work`: each level is compiled once.
+/// Runs `work` with AVX2 and FMA, or gives it back on a processor without. That version contains no copy of `work`, so
+/// each level is compiled once.
 #[multiversion(targets("x86_64+avx2+fma"))]
 fn avx2<R, F: FnOnce() -> R>(work: F) -> Result<R, F> {
     match_target! {

@@ -1,24 +1,24 @@
-//! Sums, products and reciprocals of single precision in the roundings that the host does not have: the host's own,
+//! Sums, products and reciprocals of single precision in roundings that the host lacks: the host's nearest result,
 //! moved by one unit where its error has the wrong sign.
 //!
-//! Truncating twice, to 24 bits and then to fewer, is truncating once, and so is rounding down twice; and rounding to
-//! nearest away sees the same halves after a truncation. So these serve every format of up to 24 bits. A finite
-//! result that is too large for single precision is the largest number where it is cut off, and what the host makes of
-//! it where it is rounded to nearest; a reciprocal is infinite.
+//! Truncating twice, to 24 bits and then to fewer, equals truncating once; so does rounding down twice. Rounding to
+//! nearest away after a truncation sees the same ties. So these functions serve every format of up to 24 bits. A finite
+//! sum or product that is too large for single precision is the largest number if truncated, and the host's result if
+//! rounded to nearest; a reciprocal is infinite.
 
 use super::round::{AWAY, DOWN};
 
 const SIGN: u32 = 1 << 31;
 /// The pattern of -infinity as an integer: negative finite numbers, `-0` among them, lie below, and every NaN above.
 const INFINITE: i32 = 0xff80_0000_u32.cast_signed();
-/// `2^-49`: a product times this is less than the last bit that the exact product can have.
+/// `2^-49`: a product times this is less than any last bit of the exact product.
 const HAIR: f32 = f32::from_bits((127 - 49) << 23);
 
-/// `a + b` cut off or, for [`DOWN`], rounded down.
+/// `a + b` truncated or, for [`DOWN`], rounded down.
 #[inline(always)]
 pub(crate) fn sum<const R: u8>(a: f32, b: f32) -> f32 {
     if R == DOWN {
-        // Rounding is symmetric, and `-a - b` is `+0` where it cancels.
+        // Rounding is symmetric, and `-a - b` is `+0` where the sum cancels.
         let s = -(-a - b);
         return one_lower(s, is_above(s, a, b));
     }
@@ -28,38 +28,37 @@ pub(crate) fn sum<const R: u8>(a: f32, b: f32) -> f32 {
     f32::from_bits(s.to_bits().wrapping_sub(is_above(s.abs(), a, b).into()))
 }
 
-/// Tells if `s`, the single nearest to `a + b`, is larger than the sum, as infinity is where the operands are finite.
+/// Returns `true` if `s`, the single nearest to `a + b`, is larger than the sum, as infinity is for finite operands.
 ///
 /// Let `|a| >= |b|`. Then `s - a` is a single, and compares with `b` as `s` does with `a + b`. The other difference may
-/// be rounded, but not past `a`, which is a single: it never makes `s` appear larger than it is.
+/// be rounded, but not past the single `a`: it never makes `s` appear larger than it is.
 #[inline(always)]
 fn is_above(s: f32, a: f32, b: f32) -> bool {
     (s - a > b) | (s - b > a)
 }
 
-/// Singles whose rounding by `R` to at most eleven bits equals that of `a + b` itself, for numbers of at most eleven
-/// bits and exponents of at most six.
+/// Returns a single that rounds by `R`, to at most eleven bits, as `a + b` does. The operands have at most eleven bits
+/// and six exponent bits.
 ///
 /// If the sum `s` of the host is not exact, the smaller operand is less than an eighth of a unit of `s` in the format.
-/// Then `s` and the sum round to the larger operand when rounding to nearest. When cutting off, it matters on which
-/// side of the larger operand the sum lies if `s` is that operand itself, and not otherwise: no other multiple of a
-/// unit is near.
+/// Rounded to nearest, both `s` and the sum give the larger operand. Truncated, they can differ only if `s` is the
+/// larger operand itself: no other multiple of a unit is near.
 #[inline(always)]
 pub(crate) fn short_sum<const R: u8>(a: f32, b: f32) -> f32 {
     if R == DOWN {
         return sum::<DOWN>(a, b);
     }
     let s = a + b;
-    // Both products are the same number if `s` is exact. If `s` is one of the operands the right one is zero, and the
-    // left one negative if the other operand makes the sum smaller than `s`.
+    // Both products are equal if `s` is exact. If `s` is one of the operands, the right product is zero, and the left
+    // product is negative if the other operand makes the sum smaller than `s`.
     let too_large = (R != AWAY) & (a * b < (s - a) * (s - b));
     f32::from_bits(s.to_bits().wrapping_sub(too_large.into()))
 }
 
-/// `a b` cut off or, for [`DOWN`], rounded down.
+/// `a b` truncated or, for [`DOWN`], rounded down.
 ///
-/// The error of a product can be too small for single precision, but its sign is always right: a negative one is `-0`
-/// at least, and no error is `+0`.
+/// The error of a product can be too small for single precision, but its sign is always right: a negative error gives
+/// at least `-0`, an exact product `+0`.
 #[inline(always)]
 pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
     let p = a * b;
@@ -72,15 +71,15 @@ pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
     f32::from_bits(p.to_bits().wrapping_sub(too_large.into()))
 }
 
-/// `1 / x` cut off or, for [`DOWN`], rounded down; of zero an infinity of its sign.
+/// `1 / x` truncated or, for [`DOWN`], rounded down; zero gives an infinity of its sign.
 ///
 /// The host's reciprocal times `x`, less 1, is a number of single precision: its sign shows on which side of the exact
-/// value the reciprocal lies. No reciprocal but those of powers of two, which are exact, is half way between two
-/// singles, so that rounding to nearest away is what the host does.
+/// value the reciprocal lies. No reciprocal lies half way between two singles, so the host's result also rounds to
+/// nearest away.
 #[inline(always)]
 pub(crate) fn reciprocal<const R: u8>(x: f32) -> f32 {
     let q = 1.0 / x;
-    // Positive where `q` is too large in magnitude; infinite or NaN where it is an infinity, NaN where it is a zero.
+    // Positive where `q` is too large in magnitude; infinite or NaN for an infinite `q`, NaN for a zero `q`.
     let excess = error(q, x, 1.0);
     let too_large = (excess > 0.0) & (excess < f32::INFINITY);
     let (inward, outward) =
@@ -95,10 +94,10 @@ pub(crate) fn nearest_sum(a: f32, b: f32) -> f32 {
     tie_away(s, e)
 }
 
-/// `a b`, rounded in the same way; NaN where the product is too small to be moved.
+/// `a b` rounded to the nearest single, ties away; NaN where the product is too small to be adjusted.
 ///
-/// The product has 48 bits at most. If a number is moved outward by a nonzero amount less than its last bit, ties round
-/// away and nothing else changes: the amount, rounded if subnormal, is at most half of its last bit.
+/// The product has 48 bits at most. Moving a number outward by a nonzero amount less than its last bit rounds ties away
+/// and changes nothing else. The amount, rounded if subnormal, is at most half of the last bit.
 #[inline(always)]
 pub(crate) fn nearest_product(a: f32, b: f32) -> f32 {
     let outward = a * b * HAIR;
@@ -122,15 +121,15 @@ fn multiply_add(a: f32, b: f32, c: f32) -> f32 {
     a.mul_add(b, c)
 }
 
-/// The next number away from zero if the error is half the way to it; otherwise the number, which is the nearest then.
+/// The next number away from zero if the error is half the distance to it; otherwise the number itself.
 #[inline(always)]
 fn tie_away(x: f32, error: f32) -> f32 {
     let next = f32::from_bits(x.to_bits().wrapping_add(1));
     if error + error == next - x { next } else { x }
 }
 
-/// The sum of the host, and its error (Knuth's two-sum, which needs no order of the operands). The error is NaN if the
-/// sum is infinite; it can be if the sum was rounded outward and the second operand is the largest number.
+/// The host's sum and its error (Knuth's two-sum, for operands in any order). The error is NaN if the sum is infinite,
+/// and can be NaN if the sum was rounded outward and the second operand is the largest number.
 #[inline(always)]
 fn sum_and_error(a: f32, b: f32) -> (f32, f32) {
     let s = a + b;
@@ -138,7 +137,7 @@ fn sum_and_error(a: f32, b: f32) -> (f32, f32) {
     (s, (a - (s - part)) + (b - part))
 }
 
-/// The next number toward -infinity, if requested.
+/// The next number toward -infinity, if `lower`.
 #[inline(always)]
 fn one_lower(x: f32, lower: bool) -> f32 {
     let outward = (x.to_bits().cast_signed() >> 31 | 1).cast_unsigned();

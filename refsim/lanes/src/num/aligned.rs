@@ -1,7 +1,7 @@
 //! The adder of graphics cards and matrix units: addends are aligned to the largest exponent, cut, and added exactly.
 
-/// An addend `(-1)^negative * magnitude * 2^(exponent - fraction)`. The exponent is the one that the hardware sees:
-/// that of an operand, or of a product the sum of two. Nothing is normalized: the magnitude may be below or above
+/// An addend `(-1)^negative * magnitude * 2^(exponent - fraction)`. The exponent is the one that the hardware sees: an
+/// operand's exponent, or the sum of two for a product. Nothing is normalized: the magnitude may be below or above
 /// `2^fraction`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Addend {
@@ -15,7 +15,7 @@ pub struct Addend {
     pub fraction: u32,
 }
 
-/// Treatment of the bits of an addend below the last one that is kept.
+/// Treatment of an addend's bits below the last kept bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Alignment {
     /// They are dropped from the magnitude.
@@ -34,12 +34,13 @@ pub struct AlignedSum {
 }
 
 /// The exact sum of addends, each truncated to `bits` bits below the largest exponent. The largest exponent is at least
-/// `least`, where there is one. The sum is not rounded; the caller rounds or cuts it.
+/// `least`, if given. The sum is not rounded; the caller rounds or cuts it.
 ///
 /// `bits` is at most 60, so that 2^32 addends cannot overflow. Without addends and without `least` the sum is 0, and
 /// the exponent too.
 ///
-/// Every addend counts in the largest exponent, one of magnitude zero too: who calls leaves out what its hardware does.
+/// Every addend counts in the largest exponent, even with magnitude zero: the caller omits addends that its hardware
+/// ignores.
 pub fn aligned(
     addends: impl IntoIterator<Item = Addend> + Clone,
     bits: u32,
@@ -49,7 +50,7 @@ pub fn aligned(
     let exponents = addends.clone().into_iter().map(|addend| addend.exponent);
     let Some(top) = exponents.chain(least).max() else { return AlignedSum { sum: 0, top: 0 } };
     let kept = |addend: Addend| {
-        // Magnitudes have 64 bits, so a shift by 127 leaves nothing; to the left it is at most 60.
+        // Magnitudes have 64 bits, so a right shift by 127 leaves nothing; a left shift is at most 60.
         let left = i64::from(bits) - i64::from(addend.fraction) + i64::from(addend.exponent) - i64::from(top);
         let magnitude = i128::from(addend.magnitude);
         let shifted =

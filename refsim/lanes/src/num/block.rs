@@ -30,8 +30,8 @@ use super::unpack::{Unpacked, nan_bits, unpack};
 /// Elements of a block in every format of the specification.
 pub const BLOCK: usize = 32;
 
-/// A block format: which format the elements have. Written `mxfp8-e4m3`, `mxfp8-e5m2`, `mxfp6-e2m3`, `mxfp6-e3m2`,
-/// `mxfp4` or `mxint8`.
+/// A block format, named after the format of its elements. Written `mxfp8-e4m3`, `mxfp8-e5m2`, `mxfp6-e2m3`,
+/// `mxfp6-e3m2`, `mxfp4` or `mxint8`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct BlockFormat {
     name: &'static str,
@@ -43,7 +43,7 @@ const fn element(exp_bits: u8, man_bits: u8, encoding: Encoding) -> Format {
     format.with_encoding(encoding).with_overflow(Overflow::Saturate)
 }
 
-/// A text that names no block format.
+/// Error of parsing a block format's name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error("block format `{text}`: expected one of {expected}")]
 #[diagnostic(code(num::block_format), help("the names are those of OCP's Microscaling specification, in lower case"))]
@@ -81,18 +81,18 @@ impl BlockFormat {
         self.name
     }
 
-    /// The format of the elements: saturating, to nearest even. That of `mxint8` is `s1.6`.
+    /// The format of the elements: saturating, to nearest even. The elements of `mxint8` are `s1.6`.
     pub const fn element(self) -> Format {
         self.element
     }
 
-    /// Converts numbers of a format to one block ([`BLOCK`] of them in the specification; any number works).
+    /// Converts numbers of a format to one block ([`BLOCK`] numbers in the specification; any count works).
     ///
-    /// The scale is `2^(e - E)`, where `2^e` is the largest power of two that the largest magnitude reaches, and `2^E`
-    /// that of the largest element; within the range of scales, and the smallest one if all numbers are zero. Each
-    /// number over the scale is rounded once, to nearest even; a quotient that is too large becomes the largest element
-    /// (specification 6.3). The specification leaves infinities and NaN open: a block with one has the scale NaN,
-    /// elements of zero, and raises `INVALID`.
+    /// The scale is `2^(e - E)`, clamped to the range of scales: `2^e` is the largest power of two not above the
+    /// largest magnitude, `2^E` the largest power of two of an element. If all numbers are zero it is the smallest
+    /// scale. Each number divided by the scale is rounded once, to nearest even; a quotient above the range becomes the
+    /// largest element (specification 6.3). The specification leaves infinities and NaN open: a block that contains one
+    /// has the scale NaN, zero elements, and raises `INVALID`.
     pub fn quantize(self, from: &Format, numbers: &[u32]) -> Block {
         let values: Vec<Unpacked> = numbers.iter().map(|&bits| unpack(from, bits)).collect();
         let mut largest = None;
@@ -122,8 +122,8 @@ impl BlockFormat {
         Block { scale: (power - least).unsigned_abs(), elements, flags }
     }
 
-    /// Converts a block to numbers of a format, each the scale times an element, rounded once. A scale that is NaN
-    /// makes every number NaN (0, and `INVALID`, in formats without).
+    /// Converts a block to numbers of a format, each the scale times an element, rounded once. A NaN scale makes every
+    /// number NaN (0, and `INVALID`, in formats without NaN).
     pub fn dequantize(self, to: impl Into<Env>, scale: u32, elements: &[u32]) -> Vec<Outcome> {
         let to = to.into();
         let none = if to.format.canonical_nan().is_none() { Flags::INVALID } else { Flags::empty() };

@@ -9,15 +9,16 @@ use super::unpack::{Unpacked, nan_bits, unpack, zero};
 
 /// Converts the number `bits` from format `from` to format `to`, rounding once by `to`'s rules.
 ///
-/// NaN to NaN, `INVALID` if it was signalling; NaN to a format without one is 0 and `INVALID`. Infinity stays infinity;
-/// in fixed point it saturates with `OVERFLOW`, also where finite numbers wrap, and in floats without infinity it
-/// overflows as numbers do.
+/// NaN stays NaN, with `INVALID` if it was signalling; in a format without NaN it becomes 0 with `INVALID`. Infinity
+/// stays infinity; in fixed point it saturates with `OVERFLOW`, also where finite numbers wrap; in floats without
+/// infinity it overflows as finite numbers do.
 ///
-/// Into the unit of a card single floats pass unchanged; out of it subnormals become zeros. A NaN of GT200 becomes the
-/// canonical NaN of the other format ([`super::unit::gt200_conversions::to_half`] gives the card's NaN).
+/// Single floats are converted to the format of a card's unit unchanged; from it, subnormals become zeros. A NaN of
+/// GT200 becomes the canonical NaN of the other format ([`super::unit::gt200_conversions::to_half`] gives the card's
+/// NaN).
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
-    // Units of cards pass single floats on as they are, NaN and subnormals too.
+    // Units of cards accept single floats unchanged, including NaN and subnormals.
     if to.format.unit.is_card() && from.kind == Format::FP32.kind && from.encoding == Encoding::Ieee {
         return Outcome::exact(bits);
     }
@@ -38,7 +39,7 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     }
 }
 
-/// Rounds a host double once into a format, by its rules; NaN and infinities as [`convert`] has them.
+/// Rounds a host double once into a format, by its rules; NaN and infinities as in [`convert`].
 pub fn from_f64(to: impl Into<Env>, x: f64) -> Outcome {
     let to = to.into();
     let (sign, field, fraction) = (x.is_sign_negative(), (x.to_bits() >> 52 & 0x7ff) as i32, x.to_bits() & FRACTION);
@@ -57,9 +58,9 @@ pub fn from_f64(to: impl Into<Env>, x: f64) -> Outcome {
 const FRACTION: u64 = (1 << 52) - 1;
 
 /// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits, except
-/// for normalized ones, which are rounded to nearest; NaN and infinities are preserved.
+/// for normalized formats, whose numbers are rounded to nearest; NaN and infinities are preserved.
 pub fn to_f64(format: &Format, bits: u32) -> f64 {
-    // Subnormals keep their value even in flushing formats: this shows the stored number, not the operand.
+    // Subnormals keep their value even in flushing formats: the stored number is shown, not the operand.
     match unpack(&format.with_denormals(Denormals::Keep), bits) {
         Unpacked::Nan { .. } => f64::NAN,
         Unpacked::Inf { sign: true } => f64::NEG_INFINITY,

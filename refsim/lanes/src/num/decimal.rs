@@ -11,8 +11,8 @@ use super::unpack::{Unpacked, invalid, nan_result, unpack};
 /// Number of significant digits read; later nonzero digits only set a sticky bit. The midpoint between two neighbours
 /// of any format has fewer than 200 digits.
 const DIGITS: usize = 800;
-/// Decimal exponents beyond this overflow or underflow in every format (`2^128` has 39 digits, `2^-149` starts at the
-/// 45th place).
+/// Larger decimal exponents overflow or underflow in every format (`2^128` has 39 digits, `2^-149` starts at the 45th
+/// place).
 const FAR: i64 = 400;
 
 /// Text that is not a decimal number.
@@ -33,9 +33,9 @@ pub struct DecimalError {
 /// Parses a decimal number and rounds it once into the format.
 ///
 /// Grammar: an optional sign, then `inf`, `infinity` or `nan` in any case, or digits with at most one point and an
-/// optional exponent (`e` or `E`, optional sign, digits). Any length and any exponent are fine. `inf` and `nan` become
-/// the end of the range (`OVERFLOW`) and zero (`INVALID`) in fixed point. In a wrapping format numbers of magnitude
-/// `2^86` and more saturate.
+/// optional exponent (`e` or `E`, optional sign, digits). Any length and any exponent are accepted. `inf` and `nan`
+/// become the end of the range (`OVERFLOW`) and zero (`INVALID`) in fixed point. In a wrapping format numbers of
+/// magnitude `2^86` and more saturate.
 ///
 /// # Errors
 /// [`DecimalError`] if the text doesn't follow the grammar.
@@ -173,8 +173,8 @@ pub fn to_decimal_exact(format: &Format, bits: u32) -> String {
 
 /// Formats `bits` as the shortest decimal text that [`from_decimal`] reads back to the same bits (of equally short
 /// ones, the nearest to the value). Subnormals of a flushing format are written as zero. Large and small magnitudes are
-/// written with an exponent. Normalized numbers of a format that rounds to odd may have no text that is read back: no
-/// decimal number is two thirds, and all that are near round to odd.
+/// written with an exponent. A normalized number in a format that rounds to odd may have no such text: no decimal
+/// number is exactly two thirds, and all decimals near it may round to its odd neighbours.
 pub fn to_decimal(format: &Format, bits: u32) -> String {
     let (sign, digits, point) = match expand(format, bits) {
         Ok(parts) => parts,
@@ -192,7 +192,7 @@ pub fn to_decimal(format: &Format, bits: u32) -> String {
     compact(sign, &digits, point)
 }
 
-/// Decimal places of a normalized number that is not an integer: more than distinguish all of a format.
+/// Decimal places of a normalized number that is not an integer: enough to distinguish all numbers of a format.
 const PLACES: u32 = 20;
 
 /// Returns the sign, the digits without leading or trailing zeros, and the power of ten of the point as in [`Literal`].

@@ -7,8 +7,8 @@ use super::Format;
 pub enum Tininess {
     /// Before rounding: the exact result is nonzero and below the smallest normal number.
     Before,
-    /// After rounding: so is the result rounded to the format's precision with an unbounded exponent. The default, as
-    /// in TestFloat 3e's `testfloat_gen`.
+    /// After rounding: the result, rounded to the format's precision with an unbounded exponent, is nonzero and below
+    /// the smallest normal number. The default, as in TestFloat 3e's `testfloat_gen`.
     #[default]
     After,
 }

@@ -6,9 +6,9 @@ use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 
 /// A number format: a layout, and four rules that map an exact result to a representable one.
 ///
-/// Written `s3.12`, `e5m10`, `fp24:rtz:ftz`; see [`FromStr`](std::str::FromStr) below and the room's essay.
-/// Fields may be changed freely as long as the layout stays within the ranges of [`FormatKind`]; a rule that has no
-/// meaning for the kind (a float that wraps, a fixed-point infinity) acts as the kind's default overflow rule.
+/// Written `s3.12`, `e5m10`, `fp24:rtz:ftz`; see [`FromStr`](std::str::FromStr) below and the module's documentation.
+/// Fields may be changed freely as long as the layout stays within the ranges of [`FormatKind`]; an overflow rule that
+/// the kind lacks (a float that wraps, a fixed-point infinity) acts as the kind's default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Format {
@@ -46,8 +46,8 @@ pub enum FormatKind {
         /// Bits of the codes from 0 to 1, 2 to 8.
         frac_bits: u8,
     },
-    /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits. With
-    /// [`Encoding::Scale`] the exponent alone: `e8m0`, 8 bits.
+    /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits. [`Encoding::Scale`]
+    /// has only the exponent: `e8m0`, 8 bits.
     Float {
         /// Exponent bits, 2 to 8 (7 in encodings without infinity); [`Encoding`] determines the bias, and the meaning
         /// of the largest field.
@@ -124,8 +124,8 @@ impl Format {
         }
     }
 
-    /// This layout with another encoding. [`Encoding::Finite`] and [`Encoding::UnsignedZero`] are for floats of at
-    /// most 7 exponent bits, whose numbers single precision has, [`Encoding::Scale`] for [`Format::E8M0`] alone.
+    /// This layout with another encoding. [`Encoding::Finite`] and [`Encoding::UnsignedZero`] require at most 7
+    /// exponent bits, so that single precision represents every number; [`Encoding::Scale`] requires [`Format::E8M0`].
     pub const fn with_encoding(mut self, encoding: Encoding) -> Format {
         self.encoding = encoding;
         self
@@ -155,7 +155,7 @@ impl Format {
         self
     }
 
-    /// This format, computed by the unit of a card, which makes no subnormal numbers; for [`Format::FP32`] alone.
+    /// This format, computed by the unit of a card, which flushes subnormal numbers; for [`Format::FP32`] only.
     pub const fn with_unit(mut self, unit: Unit) -> Format {
         self.unit = unit;
         if unit.is_card() {
@@ -164,14 +164,14 @@ impl Format {
         self
     }
 
-    /// Returns `true` for fixed-point formats, normalized ones among them: a pattern is a two's complement integer in
-    /// units of the format, and there is one zero, no infinity and no NaN.
+    /// Returns `true` for fixed-point and normalized formats: a pattern is a two's complement integer in units of the
+    /// format, with one zero, no infinity and no NaN.
     #[inline]
     pub const fn is_fixed(&self) -> bool {
         !matches!(self.kind, FormatKind::Float { .. })
     }
 
-    /// The odd part of the numbers' denominator: every number is an integer times a power of two, over this.
+    /// The odd part of the numbers' denominator: every number is an integer times a power of two, divided by this.
     /// `2^frac_bits - 1` in normalized formats, else 1.
     #[inline]
     pub const fn denominator(&self) -> u32 {
@@ -222,9 +222,9 @@ impl Format {
         }
     }
 
-    /// Returns `true` if every number of another format, with its infinities, NaN and negative zero, is one of this
-    /// format too, so that conversion there and back changes nothing. Numbers that the other format only reads as zero,
-    /// subnormals under `:ftz`, are not numbers of it.
+    /// Returns `true` if every number of another format, with its infinities, NaN and negative zero, is also a number
+    /// of this format, so that conversion to this format and back changes nothing. Subnormals of a format with `:ftz`
+    /// do not count as its numbers.
     pub fn holds(self, other: Self) -> bool {
         use FormatKind::{Fixed, Float, Normalized};
         let least = |exponent: i32, digits: u8, denormals: Denormals| match denormals {
@@ -259,7 +259,7 @@ impl Format {
         }
     }
 
-    /// Returns `true` if the largest number of this float is at least that of another with the same largest exponent.
+    /// Returns `true` if this float's largest number is at least the other's; both have the same largest exponent.
     fn reaches(self, other: Self) -> bool {
         let digits = |format: Self| match format.kind {
             FormatKind::Float { man_bits, .. } => (format.max_finite() & ((1 << man_bits) - 1)) << (23 - man_bits),
@@ -319,7 +319,7 @@ impl Format {
         }
     }
 
-    /// The end of the finite range on the given side.
+    /// The largest or the most negative finite number.
     pub const fn extreme(&self, negative: bool) -> u32 {
         if negative { self.min_finite() } else { self.max_finite() }
     }
@@ -336,8 +336,8 @@ impl Format {
         }
     }
 
-    /// The NaN that operations return: positive, quiet, rest of the payload zero; in encodings that have but one, that.
-    /// Units of cards have all bits but the sign set. `None` in fixed point and in finite floats of at most 6 bits.
+    /// The NaN that operations return: positive, quiet, rest of the payload zero; or the encoding's only NaN. In units
+    /// of cards all bits but the sign are set. `None` in fixed point and in finite floats of at most 6 bits.
     pub const fn canonical_nan(&self) -> Option<u32> {
         match (self.kind, self.encoding) {
             _ if self.unit.is_card() => Some(self.sign_bit() - 1),
@@ -382,7 +382,8 @@ impl Format {
         bits & self.mask() & self.sign_bit() != 0
     }
 
-    /// Returns `true` if operations treat the pattern as zero: either zero, or a subnormal of a flushing format.
+    /// Returns `true` if operations treat the pattern as zero: a zero of either sign, or a subnormal of a flushing
+    /// format.
     #[inline]
     pub const fn is_zero(&self, bits: u32) -> bool {
         match self.kind {

@@ -22,21 +22,21 @@
 //! Values are bit patterns in the low bits of a `u32`. An operation of [`ops`] takes a format and patterns and returns
 //! an [`Outcome`]: a pattern, and the exceptions as [`Flags`]. Its result is **the exact real result, rounded once**:
 //! an operation computes the exact magnitude (or enough leading bits and a sticky bit), and one function rounds and
-//! encodes it ([`from_parts`] is its public face). Numbers of a normalized format are integers over
-//! [`Format::denominator`]: that function counts in units of the format, operations give it what they find in those
-//! units, and only `round_quotient` divides. Operations with intermediate roundings have separate names: [`ops::mad`]
-//! has two roundings, [`ops::fused_mad`] has one, and [`ops::dot`] takes the order of summation.
+//! encodes it ([`from_parts`] is its public form). Numbers of a normalized format are integers over
+//! [`Format::denominator`]: operations and rounding count in units of the format, and only `round_quotient` divides.
+//! Operations with intermediate roundings have separate names: [`ops::mad`] has two roundings, [`ops::fused_mad`] has
+//! one, and [`ops::dot`] takes the order of summation.
 //!
 //! [`NumberOperation`] enumerates the operations.
 //!
 //! Conventions that hold for all operations:
-//! - No host float decides a bit. `fp32` goes the same way as every other format.
+//! - Host floats are never used, not even for `fp32`.
 //! - A NaN result is the canonical one: positive, quiet, the rest of its payload zero. A signalling NaN operand
 //!   raises `INVALID`, a quiet one doesn't (except in the signalling comparisons).
 //! - Where there is no real result, floats give NaN and formats without NaN give zero, with `INVALID`.
-//! - An exactly infinite result is infinity with `DIVIDE_BY_ZERO`, or NaN where there is no infinity; fixed point,
-//!   floats without either and `:sat` floats give the end of the range instead.
-//! - Under `:ftz` subnormal operands and results are zeros of their sign, in every operation, moves included.
+//! - An exactly infinite result is infinity with `DIVIDE_BY_ZERO`, or NaN in formats without infinity; fixed point,
+//!   floats with neither, and `:sat` floats give the end of the range.
+//! - Under `:ftz` subnormal operands and results become zeros of their sign, in every operation, including moves.
 //! - `UNDERFLOW` is raised for results that are tiny and inexact; [`Tininess`] chooses what tiny means. In fixed
 //!   point it is never raised.
 //!

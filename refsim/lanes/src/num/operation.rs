@@ -25,8 +25,8 @@ macro_rules! operations {
             }
 
             /// Evaluates the operation on bit patterns of the format; surplus operands are ignored. `None` for
-            /// operations whose operands or results are not all numbers of the format, and for those of cards' units in
-            /// formats of others. Comparisons return 1 or 0.
+            /// operations whose operands or results are not all numbers of the format, and for operations of a card's
+            /// unit in other formats. Comparisons return 1 or 0.
             pub fn evaluate(self, env: impl Into<Env>, operands: [u32; 3]) -> Option<Outcome> {
                 let env = env.into();
                 match self { $(Self::$variant => operations!(@ self env operands ($($operand),+) $($definition)? $(=> $unit)?),)* }
@@ -153,11 +153,11 @@ operations! {
     LitSpecular(a, b, c) => UnitOperation::LitSpecular;
     /// 1 if `a < b`, else 0, by the unit of a card; modern NV3x gives NaN for NaN.
     SetLess(a, b) => UnitOperation::SetLess;
-    /// 1 if `a <= b`, else 0; NaN as above.
+    /// 1 if `a <= b`, else 0; NaN as in `SetLess`.
     SetLessEqual(a, b) => UnitOperation::SetLessEqual;
-    /// 1 if `a == b`, else 0, likewise.
+    /// 1 if `a == b`, else 0; NaN as in `SetLess`.
     SetEqual(a, b) => UnitOperation::SetEqual;
-    /// 1 if `a != b`, else 0, likewise.
+    /// 1 if `a != b`, else 0; NaN as in `SetLess`.
     SetNotEqual(a, b) => UnitOperation::SetNotEqual;
     /// -1, 0 or 1 as `a` compares with +0 (SSG of the vertex units).
     Sign(a) => UnitOperation::Sign;
@@ -171,7 +171,7 @@ impl NumberOperation {
             || self as u32 >= Self::JoinPattern as u32 && self as u32 <= Self::SplitSignedByte as u32
     }
 
-    /// Returns `true` if units of cards alone have the operation.
+    /// Returns `true` if only units of cards have the operation.
     pub const fn is_of_units(self) -> bool {
         self as u32 >= Self::ExpFloor as u32
     }
@@ -189,7 +189,7 @@ impl NumberOperation {
         self as u32
     }
 
-    /// Name of the operation's constant in shaders: `N_` and its name in capitals.
+    /// Name of the operation's constant in shaders: `N_`, then the operation's name in capitals.
     pub fn constant(self) -> String {
         let mut name = String::from("N");
         for (i, c) in format!("{self:?}").chars().enumerate() {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::format::{Format, FormatKind};
 use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 
-/// Aliases of layouts, and the one layout that matches none of the patterns.
+/// Aliases of layouts, and the only layout that matches no pattern.
 const ALIASES: [(&str, Format); 7] = [
     ("ps14", Format::S3_12),
     ("fx12", Format::FX12),
@@ -17,7 +17,7 @@ const ALIASES: [(&str, Format); 7] = [
     ("e8m0", Format::E8M0),
 ];
 
-/// Encodings of floats that are part of the layout's name, behind the bit counts; the longer name first.
+/// Suffixes of the layout's name for encodings of floats; the longer suffix first.
 const ENCODINGS: [(&str, Encoding); 2] = [("fnuz", Encoding::UnsignedZero), ("fn", Encoding::Finite)];
 
 /// Error of parsing a number format. Each message contains the whole string and what to write instead.
@@ -103,7 +103,7 @@ pub enum FormatError {
         /// The rule that is set twice.
         rule: &'static str,
     },
-    /// A card's unit in a format that it does not compute in.
+    /// A card's unit, with a format in which it does not compute.
     #[error(
         "number format `{text}`: expected `e8m23:{found}`, with :rtz at most (GT200), found another layout or more rules"
     )]
@@ -135,8 +135,8 @@ pub enum FormatError {
 }
 
 impl Format {
-    /// The format itself, if registers and instructions of a device can have it: all but [`Format::E8M0`], and all
-    /// roundings but [`Rounding::Stochastic`] and, in fixed point and normalized integers, [`Rounding::Odd`].
+    /// Returns the format if registers and instructions of a device can have it. They cannot have [`Format::E8M0`],
+    /// [`Rounding::Stochastic`] and, in fixed point and normalized integers, [`Rounding::Odd`].
     ///
     /// # Errors
     /// [`FormatError::Registers`].
@@ -178,7 +178,7 @@ impl FromStr for Format {
     }
 }
 
-/// `sI.F`, `nI.F`, `eXmY` with or without an encoding, or an alias.
+/// Parses `sI.F`, `nI.F`, `eXmY` with or without an encoding, or an alias.
 fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
     if let Some((_, format)) = ALIASES.iter().find(|(name, _)| *name == layout) {
         return Ok(*format);

@@ -1,8 +1,8 @@
-//! Random words of stochastic rounding, by a counter.
+//! Counter-based random words for stochastic rounding.
 
-/// The word of the operation with a number: the upper half of output `index` (from 0) of SplitMix64 (Steele, Lea and
-/// Flood 2014, "Fast splittable pseudorandom number generators") from the state `seed`. A function of both alone,
-/// independent of earlier calls.
+/// The random word of operation `index`: the upper half of output `index` (from 0) of SplitMix64 (Steele, Lea and Flood
+/// 2014, "Fast splittable pseudorandom number generators") from the state `seed`. It only depends on `seed` and
+/// `index`, not on earlier calls.
 ///
 /// ```
 /// // The first two outputs from 1234567 are 6457827717110365317 and 3203168211198807973.

@@ -10,16 +10,16 @@ use super::rules::{Denormals, Encoding, Overflow, Rounding};
 use super::unpack::invalid;
 pub(crate) use super::unpack::zero;
 
-/// Exponents beyond this overflow or underflow in every format; clamping to it keeps the arithmetic below in range.
+/// Exponents of larger magnitude overflow or underflow in every format; clamping to this keeps the arithmetic in range.
 const FAR: i32 = 1 << 20;
 
 /// Rounds `(-1)^sign * v` once into the format, where `v = sig * 2^exp`, or with `sticky` some `v` strictly between
 /// `sig * 2^exp` and `(sig + 1) * 2^exp`. With `sticky` there must be no number of the format, and no midpoint of two,
-/// strictly between these two, otherwise the result is not determined: `2^exp` is at most half a unit in the last place
-/// of the result.
+/// strictly between these two, otherwise the result is undetermined. This holds if `2^exp` is at most half a unit in
+/// the last place of the result.
 pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: bool) -> Outcome {
     let env = env.into();
-    // A denominator has 8 bits at most: what it moves out of the word is below every unit in the last place.
+    // A denominator has at most 8 bits: bits that it shifts out of the word are below every unit in the last place.
     let den = u128::from(env.format.denominator());
     match sig.checked_mul(den) {
         Some(sig) => in_units(&env, sign, sig, exp, sticky),
@@ -31,7 +31,7 @@ pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: 
 }
 
 /// Rounds `(-1)^sign * sig * 2^exp / den` once into the format; `den` is not zero, and `sig` times the format's
-/// denominator below `2^64`. The one place where a denominator is divided by.
+/// denominator is below `2^64`. Only this function divides by a denominator.
 #[inline]
 pub(crate) fn round_quotient(env: &Env, sign: bool, sig: u64, exp: i32, den: u64) -> Outcome {
     let unit = u64::from(env.format.denominator());
@@ -44,7 +44,7 @@ pub(crate) fn round_quotient(env: &Env, sign: bool, sig: u64, exp: i32, den: u64
         return round(env, sign, sig, exp, false);
     }
     if let Rounding::Stochastic(_) = env.format.rounding {
-        // More bits, for the 32 of the fraction.
+        // Stochastic rounding needs more bits, for the 32 of the fraction.
         let left = u128::from(sig).leading_zeros();
         let (dividend, den) = (u128::from(sig) << left, u128::from(den));
         return in_units(env, sign, dividend / den, exp - left.cast_signed(), dividend % den != 0);
@@ -140,7 +140,7 @@ fn round_float(env: &Env, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: 
     }
     let man = i32::from(man_bits);
     let (min_exp, max_exp) = format.exponents();
-    // With the leading bit at 2^63 the last place of every float lies above the last bit of `sig`. (Zero with a sticky
+    // With the leading bit at 2^63, the last place of every float is above the last bit of `sig`. (Zero with a sticky
     // bit keeps its exponent.)
     let left = sig.leading_zeros() & 63;
     let (sig, exp) = (sig << left, exp - left.cast_signed());
@@ -151,7 +151,7 @@ fn round_float(env: &Env, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: 
     }
     let unit = (top - man).max(min_exp - man);
     let (kept, inexact) = shift_round(format.rounding, sign, sig, unit - exp, sticky);
-    // Adds exponent field and mantissa: the hidden bit adds the first 1 to the exponent, a carry the next.
+    // Adds exponent field and mantissa: the hidden bit increments the exponent, and so does a carry.
     let magnitude = (((unit - min_exp + man) as u64) << man) + kept;
     if magnitude > u64::from(format.max_finite()) {
         return overflow_float(format, sign, top > max_exp);
@@ -175,9 +175,9 @@ fn round_float(env: &Env, man_bits: u8, sign: bool, sig: u64, exp: i32, sticky: 
     Outcome::new(magnitude as u32 | if sign { format.sign_bit() } else { 0 }, flags)
 }
 
-/// Rounds a power of two times a number in [1, 2) to a scale: `sig` is that number with its leading bit at 2^63, or 0
-/// for something above zero. Ties go up: a one-digit significand is never even (IEEE 754-2019, 4.3.1). Below the
-/// smallest scale everything above zero is that one.
+/// Rounds `2^top` times a number in [1, 2) to a scale: `sig` is the number with its leading bit at 2^63, or 0 for an
+/// unknown value above zero. Ties go up: a one-digit significand is never even (IEEE 754-2019, 4.3.1). Positive values
+/// below the smallest scale become the smallest scale.
 fn round_scale(format: &Format, sign: bool, sig: u64, top: i32, sticky: bool) -> Outcome {
     let (least, most) = format.exponents();
     if sign {
@@ -238,7 +238,7 @@ fn round_fixed(
         let up = goes_up(format.rounding, sign, kept & 1 == 1, half, below, || fraction(sig, shift));
         (kept + u128::from(up), false, half || below)
     };
-    // Two's complement reaches one unit further on the negative side.
+    // Two's complement has one more unit on the negative side.
     let limit = (1u128 << magnitude_bits) - u128::from(!sign);
     let low = kept as u32;
     let bits = (if sign { low.wrapping_neg() } else { low }) & format.mask();
@@ -249,21 +249,20 @@ fn round_fixed(
     Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// The pattern that replaces an infinity: itself; NaN if there is no infinity; the end of the range if there is no NaN
-/// either.
+/// The pattern for an infinity: infinity if the format has it, else NaN, else the end of the range.
 fn unbounded(format: &Format, sign: bool) -> u32 {
     format.infinity(sign).or(format.canonical_nan()).unwrap_or(format.extreme(sign))
 }
 
-/// The result of an exact infinity from finite operands: infinity (or what stands for it), or the end of the range
-/// where the format saturates.
+/// The result of an exact infinity from finite operands: infinity ([`unbounded`]), or the end of the range if the
+/// format saturates.
 pub(crate) fn divide_by_zero(format: &Format, sign: bool) -> Outcome {
     let saturates = format.overflow == Overflow::Saturate;
     Outcome::new(if saturates { format.extreme(sign) } else { unbounded(format, sign) }, Flags::DIVIDE_BY_ZERO)
 }
 
-/// The result of an infinite operand: infinity; without infinity, with `OVERFLOW`, its replacement, or the end of the
-/// range if the format saturates.
+/// The result of an infinite operand: infinity. Formats without infinity raise `OVERFLOW` and give [`unbounded`], or
+/// the end of the range if they saturate.
 pub(crate) fn infinite(format: &Format, sign: bool) -> Outcome {
     match format.infinity(sign) {
         Some(bits) => Outcome::exact(bits),
@@ -292,7 +291,7 @@ pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> 
     let scaled = num << shift;
     let (mut quotient, mut rest) = (scaled / den, scaled % den);
     let mut exp = -shift.cast_signed();
-    // Long division, bit by bit, until the quotient is as long as rounding needs it.
+    // Long division, bit by bit, until the quotient is long enough for rounding.
     while rest != 0 && quotient >> 126 == 0 && (quotient >> 64 == 0 || exp > -33) {
         let bit = rest >= den - rest;
         rest = if bit { rest - (den - rest) } else { rest << 1 };

@@ -1,18 +1,19 @@
-//! The rules of a format: which patterns are what, and how an exact result becomes a number of it.
+//! The rules of a format: the meaning of patterns, and the rounding of exact results.
 
 /// Encoding of infinities, NaN and zeros in a float.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Encoding {
-    /// IEEE 754: the largest exponent field has infinity and NaN, the bias is `2^(X-1) - 1`. Fixed point has this too.
+    /// IEEE 754: the largest exponent field has infinity and NaN, the bias is `2^(X-1) - 1`. Fixed point also has this
+    /// value.
     Ieee,
     /// `eXmYfn`, "finite": the largest field has numbers like any other, and there is no infinity. The pattern of all
     /// ones is NaN, of either sign; in formats of at most 6 bits it is a number too, and there is no NaN.
     Finite,
-    /// `eXmYfnuz`, "finite, unsigned zero": numbers in the largest field, no infinity, no -0, whose pattern is the one
-    /// NaN. The bias is one more, `2^(X-1)`.
+    /// `eXmYfnuz`, "finite, unsigned zero": numbers in the largest field, and no infinity. The pattern of -0 is the
+    /// only NaN. The bias is larger by one, `2^(X-1)`.
     UnsignedZero,
-    /// `e8m0`: powers of two from `2^-127` to `2^127`, without sign and without zero; all ones is NaN. A scale of
-    /// blocks ([`super::block`]).
+    /// `e8m0`: powers of two from `2^-127` to `2^127`, without sign and without zero; all ones is NaN. Used for scales
+    /// of blocks ([`super::block`]).
     Scale,
 }
 
@@ -30,17 +31,17 @@ pub enum Rounding {
     /// Toward plus infinity (`:rup`).
     Up,
     /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. A result with this
-    /// rounding can be rounded once more into a format of two bits less, in any direction, as if it had been exact.
+    /// rounding can be rounded again into a format of two bits less, in any direction, as if it were exact.
     Odd,
     /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits
-    /// of the discarded fraction and this word, is at least `2^32`. A fraction of a quarter is rounded up for a quarter
-    /// of all words. The word belongs to one operation ([`super::random_word`]); operations of several roundings use it
-    /// for each. Devices refuse it ([`super::Format::for_registers`]).
+    /// of the discarded fraction and this word, is at least `2^32`. A fraction of 1/4 is rounded up for 1/4 of all
+    /// words. Each operation has a word ([`super::random_word`]), which all its roundings use. Devices refuse it
+    /// ([`super::Format::for_registers`]).
     Stochastic(u32),
 }
 
 impl Rounding {
-    /// Every rounding that depends on nothing else, by its name in format strings.
+    /// Every rounding except stochastic rounding, by its name in format strings.
     pub const ALL: [(&'static str, Self); 6] = [
         ("rne", Self::NearestEven),
         ("rna", Self::NearestAway),
@@ -55,7 +56,7 @@ impl Rounding {
         Self::ALL.iter().find(|(_, rounding)| *rounding == self).map_or("rst", |(name, _)| name)
     }
 
-    /// Returns `true` if a magnitude of this sign is rounded to the next larger one wherever it is inexact.
+    /// Returns `true` if every inexact magnitude with this sign is rounded away from zero.
     pub(crate) const fn is_outward(self, negative: bool) -> bool {
         matches!((self, negative), (Self::Down, true) | (Self::Up, false))
     }
@@ -64,16 +65,16 @@ impl Rounding {
 /// Treatment of results out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Overflow {
-    /// The nearest end of the range (`:sat`). A float with this rule makes no infinity from finite operands at
-    /// all: division by zero and `log2 0` give the largest finite number too (Direct3D's `log(0) = -FLT_MAX`).
+    /// The nearest end of the range (`:sat`). A float with this rule never makes an infinity from finite operands:
+    /// division by zero and `log2 0` also give the largest finite number (Direct3D's `log(0) = -FLT_MAX`).
     Saturate,
-    /// Modulo the width (`:wrap`), fixed point only. Results that are exactly infinite, and overflowing
-    /// exponentials, have no residue and saturate.
+    /// Modulo the width (`:wrap`), fixed point only. Exactly infinite results, and overflowing exponentials, have no
+    /// residue and saturate.
     Wrap,
-    /// IEEE 754 (`:inf`): infinity or the largest finite number, as the rounding direction asks. Encodings without
-    /// infinity have NaN in its place, those without NaN the largest finite number. Floats only.
+    /// IEEE 754 (`:inf`): infinity or the largest finite number, according to the rounding direction. Encodings without
+    /// infinity have NaN in its place, and encodings without both the largest finite number. Floats only.
     Infinity,
-    /// `NV_fragment_program` (`:nvovf`): exact magnitudes of `2^(emax+1)` and more become infinity, smaller ones
+    /// `NV_fragment_program` (`:nvovf`): exact magnitudes of `2^(emax+1)` and more become infinity, smaller magnitudes
     /// at most the largest finite number, in every rounding direction. Floats only.
     Nv30,
 }
@@ -99,8 +100,8 @@ pub enum Specials {
     Nv,
 }
 
-/// The arithmetic unit that computes: an ideal one, or one of a card as it was measured ([`super::unit`]). Units of
-/// cards are for `e8m23` alone; they have their own rounding, overflow, subnormal numbers and special values.
+/// The arithmetic unit that computes: an ideal unit, or a card's unit as measured ([`super::unit`]). Units of cards
+/// require `e8m23`; they have their own rounding, overflow, subnormal numbers and special values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// Every result is the exact one, rounded once by the rules of the format.
@@ -111,7 +112,7 @@ pub enum Unit {
     Nv3xLegacy,
     /// The vertex unit of NV30 and NV35 as programs of GL_NV_vertex_program2 see it (`:nv3x`).
     Nv3x,
-    /// The unit of GT200 (`:gt200`); it rounds to the nearest, or toward zero where the format does.
+    /// The unit of GT200 (`:gt200`); it rounds to nearest, or toward zero if the format does.
     Gt200,
     /// The unit of GT200 in the state in which 0 times anything is 0 (`:gt200-zero-wins`).
     Gt200ZeroWins,

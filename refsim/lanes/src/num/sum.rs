@@ -23,7 +23,7 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
     sum_over(env, a, b, env.format.denominator().into())
 }
 
-/// `(a + b) / den`, rounded once; `den` is 1 where terms have exponents, and the sum fits in one word where it is not.
+/// `(a + b) / den`, rounded once; `den` is 1 if terms have exponents; otherwise the sum fits in one word.
 pub(crate) fn sum_over(env: &Env, a: Term, b: Term, den: u64) -> Outcome {
     if a.sig == 0 && b.sig == 0 {
         let sign = if a.sign == b.sign { a.sign } else { cancelled(env) };

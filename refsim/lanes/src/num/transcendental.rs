@@ -2,9 +2,9 @@
 //!
 //! An irrational value is enclosed between two integers in units of `2^-places`. If both ends round to the same bits
 //! and flags, so does the value between them (rounding is monotone); if not, the enclosure is recomputed with twice the
-//! places (Ziv's strategy). The enclosure times the format's denominator is rounded, since rounding counts in units of
-//! the format. Exact results are handled separately, so the loop ends: `2^x` is irrational for every rational `x` that
-//! isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
+//! places (Ziv's strategy). The enclosure times the format's denominator is rounded, because rounding counts in units
+//! of the format. Exact results are handled separately, so the loop ends: `2^x` is irrational for every rational `x`
+//! that isn't an integer, and `log2 x` for every rational `x` that isn't a power of two.
 
 mod circle;
 mod enclose;
@@ -24,7 +24,7 @@ use super::unit::UnitOperation;
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
 /// Numbers of places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24
-/// bits, so the later ones are never reached in practice.
+/// bits, so the larger numbers are never reached in practice.
 const PLACES: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
 
 /// `2^x`, correctly rounded. `2^-inf` is +0. In a wrapping format an overflowing result saturates.
@@ -63,7 +63,7 @@ pub fn exp2(env: impl Into<Env>, x: u32) -> Outcome {
     })
 }
 
-/// `floor(x)`, clamped to +-2^20: beyond that every format overflows or underflows.
+/// `floor(x)`, clamped to +-2^20, where every format overflows or underflows.
 fn floor_clamped(sign: bool, sig: u64, exp: i32, den: u32) -> i32 {
     const FAR: i64 = 1 << 20;
     let value = if sign { -i128::from(sig) } else { i128::from(sig) }.div_euclid(den.into());
@@ -96,7 +96,7 @@ pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
                 let whole = exp + (sig / den).ilog2().cast_signed();
                 return from_parts(env, whole < 0, whole.unsigned_abs().into(), 0, false);
             }
-            // The difference of two logarithms; that of 1 is 0.
+            // The difference of two logarithms; the logarithm of 1 is 0.
             let whole = exp + sig.ilog2().cast_signed() - den.ilog2().cast_signed();
             let [quick, less] = [enclose::log2_quick(sig), enclose::log2_quick(den)];
             let base = i128::from(whole) << quick.exp.unsigned_abs();
@@ -169,7 +169,7 @@ fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
         _ => return None,
     };
     let den = u128::from(env.format.denominator());
-    // The value's floor is one of near ..= far - 1.
+    // The value's floor is in near ..= far - 1.
     let first = in_units(env, sign, near.unsigned_abs() * den, exp, true);
     let last = in_units(env, sign, far.unsigned_abs() * den - 1, exp, true);
     (first == last).then_some(first)

@@ -26,13 +26,13 @@ pub enum Unpacked {
         sig: u64,
         /// Exponent of the unit.
         exp: i32,
-        /// [`Format::denominator`] of the number's format: 1 but in normalized formats.
+        /// [`Format::denominator`] of the number's format: 1 except in normalized formats.
         den: u32,
     },
 }
 
-/// Decodes `bits` as operations see them: under [`Denormals::Flush`] a subnormal is a zero of its sign (the one zero,
-/// if there is but one). Bits above the width are ignored.
+/// Decodes an operand: under [`Denormals::Flush`] a subnormal becomes a zero of its sign (or the only zero). Bits above
+/// the width are ignored.
 pub fn unpack(format: &Format, bits: u32) -> Unpacked {
     let bits = bits & format.mask();
     let sign = format.is_negative(bits);
@@ -46,7 +46,7 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
             let field = (bits >> man_bits) & ((1 << exp_bits) - 1);
             let man = bits & ((1 << man_bits) - 1);
             if format.is_nan(bits) {
-                // Encodings with one NaN have a quiet one.
+                // Encodings with a single NaN have a quiet NaN.
                 let quiet = format.encoding != Encoding::Ieee || man >> (man_bits - 1) != 0;
                 return Unpacked::Nan { signaling: !quiet };
             }
@@ -69,7 +69,7 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
     }
 }
 
-/// Passes a value through: NaNs become canonical, subnormals are flushed where the format flushes; no exceptions.
+/// Copies a value: NaN becomes canonical, and subnormals are flushed if the format flushes; raises nothing.
 pub(crate) fn pass(format: &Format, bits: u32) -> u32 {
     let bits = bits & format.mask();
     if let FormatKind::Float { .. } = format.kind {
@@ -88,7 +88,7 @@ pub(crate) fn nan_bits(format: &Format) -> u32 {
     format.canonical_nan().unwrap_or(0)
 }
 
-/// A zero of the given sign. Fixed point has only one, as have some floats; a scale is never zero, which is `INVALID`.
+/// A zero of the given sign. Fixed point and some floats have only one zero; scales have none, which is `INVALID`.
 pub(crate) fn zero(format: &Format, sign: bool) -> Outcome {
     if !format.is_signed() {
         return invalid(format);

@@ -1,4 +1,4 @@
-//! Operations that are compiled for no format, or for the numbers alone.
+//! Operations that are compiled once for all formats, or only for the kind of numbers.
 
 use super::code::LaneCode;
 use super::masks::{combine_patterns, compare_numbers};
@@ -6,8 +6,8 @@ use super::pack;
 use crate::lanes::{LANES, Lane, LaneRow, SimdLevel, narrow};
 use crate::num::NumberOperation as Op;
 
-/// An operation whose results are not numbers of the format, or are never guarded. Only rounding, decoding and encoding
-/// are compiled for each format.
+/// Computes an operation whose results are not numbers of the format, or are never guarded. Only rounding, decoding and
+/// encoding are compiled per format.
 #[inline(always)]
 pub(super) fn apart<L: Lane>(
     l: &L,
@@ -54,7 +54,7 @@ pub(super) fn apart<L: Lane>(
                 out[i] = L::store(l.decode(a[i] >> shift & mask));
             }
         }
-        // Executed by the caller, or by separate steps.
+        // The caller or separate steps execute these.
         _ => {}
     }
 }

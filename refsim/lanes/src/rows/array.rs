@@ -6,7 +6,7 @@ use super::slots::Slots;
 use crate::lanes::{AnyLane, LANES, SimdLevel};
 use crate::num::{self, Format, NumberOperation};
 
-/// Finite doubles beyond this are replaced by it: it is out of range of every format, and like all larger doubles a
+/// Larger finite doubles are replaced by this one. It is out of range in every format and, like all larger doubles, a
 /// multiple of the range in which fixed point wraps.
 const FAR: f64 = f64::from_bits((1023 + 200) << 52);
 
@@ -39,7 +39,7 @@ pub struct ArrayOperation {
 
 impl ArrayOperation {
     /// Creates an operation. `None` for formats that registers cannot have ([`Format::for_registers`]), and for
-    /// operations whose operands or results are not numbers of the format alone.
+    /// operations whose operands or results are not all numbers of the format.
     pub fn new(format: Format, operation: NumberOperation) -> Option<Self> {
         use NumberOperation as Op;
         let known = matches!(
@@ -66,7 +66,7 @@ impl ArrayOperation {
         Self::of(format, Some(operation).filter(|_| known)?.into())
     }
 
-    /// Creates the rounding of doubles into a format, without an operation. `None` as for [`Self::new`].
+    /// Creates a rounding of doubles into a format, without an operation. `None` as for [`Self::new`].
     pub fn rounding(format: Format) -> Option<Self> {
         Self::of(format, None)
     }
@@ -82,9 +82,9 @@ impl ArrayOperation {
         self.operation.map_or(1, NumberOperation::operands)
     }
 
-    /// Computes with numbers: each operand is rounded into the format first, by its rules; NaN becomes 0 in formats
-    /// without one. An operand of one element counts for all, other missing elements are 0. The results are exact
-    /// doubles, but for those of normalized formats, which are the nearest.
+    /// Computes with numbers: each operand is first rounded into the format; NaN becomes 0 in formats without NaN. An
+    /// operand of one element is used for all elements; other missing elements are 0. Results are exact doubles, except
+    /// for normalized formats, where they are the nearest doubles.
     pub fn doubles(&mut self, operands: [&[f64]; 3], out: &mut [f64]) {
         self.blocks(operands, out, Self::round_row, |unit, from, out| {
             unit.run(LaneCode::Widen, 0, from);
@@ -92,8 +92,8 @@ impl ArrayOperation {
         });
     }
 
-    /// Computes with bit patterns of the format, in the low bits; other bits are ignored. Elements that are missing
-    /// are treated as by [`Self::doubles`].
+    /// Computes with bit patterns of the format, in the low bits; other bits are ignored. Missing elements are treated
+    /// as in [`Self::doubles`].
     pub fn patterns(&mut self, operands: [&[u32]; 3], out: &mut [u32]) {
         let decode = |unit: &mut Self, to: u16, some: &[u32], start: usize| {
             fill(unit.slots.row_mut(to), some, start, |bits| bits);
@@ -108,12 +108,12 @@ impl ArrayOperation {
     /// Rounds doubles into the row of an operand.
     fn round_row(&mut self, to: u16, some: &[f64], start: usize) {
         if self.format.denominator() != 1 {
-            // In units of the format a double is not exact: by the definition.
+            // A double is not exact in units of a normalized format, so `num` rounds it.
             let (format, lane) = (self.format, self.lane);
             let raw = |x| lane.decode(num::from_f64(format, x).bits);
             return fill(self.slots.row_mut(to), some, start, raw);
         }
-        // One NaN, whose bits the lanes may count up and down; and numbers whose binades they can scale.
+        // One NaN, whose bits the lanes can increment, and numbers whose binades the lanes can scale.
         let near = |x: f64| match x {
             _ if x.is_nan() => f64::NAN,
             _ if x.is_finite() && x.abs() > FAR => FAR.copysign(x),
@@ -123,7 +123,7 @@ impl ArrayOperation {
         self.run(LaneCode::Narrow, to, to);
     }
 
-    /// Runs the operation block by block: `load` fills the row of an operand from some place on, `store` takes the row
+    /// Runs the operation block by block: `load` fills the row of an operand from a start index, `store` takes the row
     /// of the result.
     fn blocks<T: Copy>(
         &mut self,

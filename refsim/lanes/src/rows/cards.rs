@@ -1,7 +1,7 @@
 //! Rows of the units of cards.
 //!
-//! Frequent operations are computed in loops of vector code. Lanes with a special value or a magnitude at the end of
-//! the range are then computed again.
+//! Frequent operations are computed in vectorized loops. Lanes with a special value, or a magnitude at the end of the
+//! range, are then recomputed.
 
 use super::apart::apart;
 use super::code::{LaneCode, LaneOp};
@@ -10,10 +10,9 @@ use super::slots::Slots;
 use crate::lanes::{CardLane, CardUnit, LANES, Lane, LaneRow, Met, SimdLevel, TRUE, without_small};
 use crate::num::NumberOperation as Op;
 
-/// The sign bit.
 const SIGN: u32 = 1 << 31;
 
-/// Executes operations in the arithmetic of a unit. Fused codes are not among them.
+/// Executes operations in the arithmetic of a unit, except fused codes.
 #[inline(never)]
 pub(super) fn run<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
@@ -39,7 +38,7 @@ pub(super) fn run<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, ops: &[LaneO
     }
 }
 
-/// A function of `N` rows in vector code, and `slow` in lanes where the vector result is wrong.
+/// Computes a function of `N` rows in vector code, then `slow` in lanes where the vector result may be wrong.
 #[inline(always)]
 fn checked<const N: usize>(
     rows: [&LaneRow; N],
@@ -67,7 +66,7 @@ fn checked<const N: usize>(
     }
 }
 
-/// A sum of `N` products of `M` rows, the factors of one product after the other.
+/// Computes a sum of `N` products of `M` rows, the factors of one product after the other.
 #[inline(always)]
 fn products<U: CardUnit, const FUSED: bool, const N: usize, const M: usize>(
     unit: &U,
@@ -77,7 +76,7 @@ fn products<U: CardUnit, const FUSED: bool, const N: usize, const M: usize>(
     checked(
         rows,
         out,
-        // Out of line a closure would be compiled for the baseline processor.
+        // Not inlined, a closure would be compiled for the baseline processor.
         #[inline(always)]
         |x| unit.quick_dot::<FUSED, N>(factors(x, 0), factors(x, 1)),
         |x| unit.dot::<N>(factors(x, 0), factors(x, 1)),
@@ -94,7 +93,7 @@ fn factors<const N: usize, const M: usize>(x: [u32; M], which: usize) -> [u32; N
     factors
 }
 
-/// A function of two rows.
+/// Applies a function to two rows.
 #[inline(always)]
 fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32) {
     for i in 0..LANES {
@@ -102,7 +101,7 @@ fn two(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> u32)
     }
 }
 
-/// A function of a row and of its entries in a table.
+/// Applies a function to a row and to table entries for it.
 #[inline(always)]
 fn with_table<E: Copy>(a: &LaneRow, out: &mut LaneRow, entry: impl Fn(u32) -> E, f: impl Fn(u32, E) -> u32) {
     let mut entries = [entry(0); LANES];
@@ -114,7 +113,7 @@ fn with_table<E: Copy>(a: &LaneRow, out: &mut LaneRow, entry: impl Fn(u32) -> E,
     }
 }
 
-/// A function of three rows.
+/// Applies a function to three rows.
 #[inline(always)]
 fn three([a, b, c]: [&LaneRow; 3], out: &mut LaneRow, f: impl Fn(u32, u32, u32) -> u32) {
     for i in 0..LANES {
@@ -122,7 +121,7 @@ fn three([a, b, c]: [&LaneRow; 3], out: &mut LaneRow, f: impl Fn(u32, u32, u32) 
     }
 }
 
-/// Computes an operation in vector code, if there is such code; else returns `false`.
+/// Computes an operation in vector code; returns `false` if there is no such code.
 #[inline(always)]
 fn quick<U: CardUnit, const FUSED: bool>(lane: &CardLane<U>, op: &LaneOp, slots: &mut Slots) -> bool {
     let Slots { rows, scratch, .. } = slots;
@@ -168,7 +167,6 @@ fn quick<U: CardUnit, const FUSED: bool>(lane: &CardLane<U>, op: &LaneOp, slots:
     true
 }
 
-/// Computes an operation lane by lane.
 fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &mut Slots) {
     let Slots { rows, scratch, wide, .. } = slots;
     let out: &mut LaneRow = scratch;

@@ -17,7 +17,7 @@ pub enum LaneCode {
     Neighbors(bool),
     /// Copies `a` to the wide row.
     Widen,
-    /// Copies `a`, a half float, to the wide row, by a unit that flushes small numbers.
+    /// Copies `a` to the wide row, to be converted to half floats by a unit that flushes small numbers.
     WidenToHalf,
     /// Rounds the wide row to the destination.
     Narrow,
@@ -25,11 +25,11 @@ pub enum LaneCode {
     Dot(u8),
     /// 2 to 4 products, added in order, each product and each sum rounded.
     Sum(u8),
-    /// As [`Self::Sum`], of 1 to 4 products whose first factors are uniform.
+    /// [`Self::Sum`] with uniform first factors, of 1 to 4 products.
     SumBy(u8),
     /// `a b - c d`, each step rounded.
     Difference,
-    /// `a + b`; in this and the following operations `a` is uniform.
+    /// `a + b`; in this and the next operations `a` is uniform.
     AddTo,
     /// `a - b`
     SubFrom,
@@ -42,7 +42,7 @@ pub enum LaneCode {
 }
 
 impl LaneCode {
-    /// What copies numbers of one format to the wide row, to be rounded to another.
+    /// The code that copies numbers of one format to the wide row, to be rounded to another format.
     pub fn widen(from: &Format, to: &Format) -> Self {
         if drops_small_halves(from, to) { Self::WidenToHalf } else { Self::Widen }
     }
@@ -93,7 +93,7 @@ pub struct LaneOp {
     pub to: Slot,
     /// The operands `a`, `b`, `c`, or the factors of one product after the other.
     pub args: [Slot; OPERANDS],
-    /// `true` if a product with a zero factor is zero, for any other factor.
+    /// `true` if a product with a zero factor is always zero.
     pub zero_wins: bool,
 }
 

@@ -1,7 +1,7 @@
-//! Recomputation of results that a fast arithmetic may get wrong: those that are infinite or NaN.
+//! Recomputation of infinite and NaN results, which a fast arithmetic may get wrong.
 //!
 //! Fast arithmetics omit checks for the end of the range, and for products of zero and infinity. Any error there, also
-//! in an intermediate result of a longer operation, leads to an infinity or a NaN, so only such results are recomputed
+//! in an intermediate result of a longer operation, leads to an infinity or a NaN, so only these results are recomputed
 //! with the general arithmetic.
 
 use super::code::{LaneCode, LaneOp};

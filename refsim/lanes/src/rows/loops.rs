@@ -1,10 +1,10 @@
 //! Loops over rows: apply a function of lane values to all lanes.
 //!
-//! Each row is a separate argument, so that the compiler knows that the result does not alias the operands. For boxed
-//! rows or slices it cannot know the length, and does not vectorise.
+//! Each row is a separate argument, so that the compiler knows that the result does not alias the operands. It does not
+//! know the length of boxed rows or slices, and does not vectorise them.
 //!
-//! Loops that write rows also return the largest magnitude of their results, which arithmetics with a guard need: in
-//! the same loop it costs next to nothing, and nothing if it is not read.
+//! Loops that write rows also return the largest magnitude of their results, which guarded arithmetics need: this costs
+//! almost nothing, and nothing if it is not used.
 
 use super::code::LaneOp;
 use super::slots::Slots;

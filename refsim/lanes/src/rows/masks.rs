@@ -1,10 +1,11 @@
-//! Comparisons and operations on bits: the same in all formats, or in all of a kind.
+//! Comparisons and operations on bits: the same in all formats, or in all formats of a kind.
 
 use super::code::LaneCode;
 use crate::lanes::{LANES, LaneRow, RegisterNumber, SimdLevel, TRUE};
 use crate::num::NumberOperation as Op;
 
-/// `a < b`, `a <= b`, `a == b` as masks; the mask `a` or `b < c`; `b` where `0 <= a`, else `c`. False for NaN.
+/// Masks of `a < b`, `a <= b`, `a == b`, and of `a` or `b < c`; or `b` if `0 <= a`, else `c`. Comparisons with NaN are
+/// false.
 #[inline(never)]
 pub(super) fn compare_numbers<T: RegisterNumber>(
     simd: SimdLevel,
@@ -70,7 +71,7 @@ fn combine(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u32, u32) -> 
 #[inline(always)]
 fn select(mask: &LaneRow, a: &LaneRow, b: &LaneRow, out: &mut LaneRow) {
     for i in 0..LANES {
-        // Masks are all zeros or all ones; a conditional would become a selection of addresses.
+        // Masks are all zeros or all ones. The compiler would turn a conditional into a selection of addresses.
         out[i] = mask[i] & a[i] | !mask[i] & b[i];
     }
 }

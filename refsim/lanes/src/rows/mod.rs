@@ -2,8 +2,8 @@
 //!
 //! - `code`: operations; `slots`: storage of values; `ops`, `loops`, `masks`, `pack`: their execution; `guard`:
 //!   recomputation of results that fast arithmetics get wrong.
-//! - `sums`: sums of one adder, the same code for every format.
-//! - `cards`: loops of units of cards; `apart`: code that does not depend on a format.
+//! - `sums`: sums computed by one adder, with the same code for every format.
+//! - `cards`: loops of units of cards; `apart`: code that does not depend on the format.
 //! - `array`: one operation on arrays of any length.
 
 mod apart;

@@ -8,7 +8,7 @@ use super::{cards, guard, pack};
 use crate::lanes::{AnyLane, Arithmetic, LANES, Lane, LaneRow, SimdLevel, is_finite, with_any_lane};
 use crate::num::NumberOperation as Op;
 
-/// Executes operations in the arithmetic of a format, in vector code of this level.
+/// Executes operations in the arithmetic of a format, with vector instructions of this level.
 pub fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     match lane.arithmetic() {
         Arithmetic::Nv(lane) => cards::run(lane, simd, ops, slots),
@@ -17,7 +17,7 @@ pub fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     }
 }
 
-/// A function per arithmetic and level: a single function for all compiles slowly.
+/// One function per arithmetic and level: a single function for all would compile slowly.
 #[inline(never)]
 fn run_at<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     if L::CARD {
@@ -33,10 +33,10 @@ fn run_at<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots)
     }
 }
 
-/// Forced inlining: out of line, longer lane functions would be compiled for the baseline processor.
+/// Inlining is forced: otherwise longer lane functions would be compiled for the baseline processor.
 #[inline(always)]
 fn run_lanes<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
-    // Below, a fused multiply-add would be a call of a function.
+    // Below this level, a fused multiply-add would be a function call.
     let fused = L::FUSED && lane.is_fused() && simd >= SimdLevel::Avx2;
     for op in ops {
         let largest = match op.code {
@@ -79,7 +79,7 @@ fn run_lanes<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slo
             _ => step(lane, (simd, fused), op, slots),
         };
         if op.zero_wins || lane.is_guarded() && op.code.is_guarded() {
-            // Where there is never a guard the loops don't look for the largest.
+            // Loops of unguarded arithmetics don't compute the largest magnitude.
             let largest = if L::GUARDED { largest } else { largest_of(&slots.scratch) };
             if !is_finite(largest) {
                 guard::mend(lane.general(), op, slots);
@@ -89,7 +89,7 @@ fn run_lanes<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slo
     }
 }
 
-/// A sum of products of rows.
+/// Computes a sum of products of rows.
 #[inline(always)]
 fn sum<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &mut Slots) -> Largest {
     if L::FUSED && fused {
@@ -108,7 +108,7 @@ fn sum<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &mut 
     )
 }
 
-/// A sum of products of uniform values and rows.
+/// Computes a sum of products of uniform values and rows.
 #[inline(always)]
 fn sum_by<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &mut Slots) -> Largest {
     if L::FUSED && fused {
@@ -127,8 +127,8 @@ fn sum_by<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &m
     )
 }
 
-/// Executes an operation of the table, or one that reads neighbouring lanes. An operation that is never guarded gives
-/// 0.
+/// Executes an operation of the table, or one that reads neighbouring lanes. Returns 0 for an operation that is never
+/// guarded.
 #[inline(always)]
 fn step<L: Lane>(l: &L, (simd, fused): (SimdLevel, bool), op: &LaneOp, slots: &mut Slots) -> Largest {
     let Slots { rows, scratch, values, wide, .. } = slots;

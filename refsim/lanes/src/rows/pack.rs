@@ -1,11 +1,10 @@
-//! Packing of numbers into words, and conversion to addresses, lane by lane: seldom done, and not in vector code.
+//! Packing of numbers into words, and conversion to addresses, lane by lane: rarely used, so not vectorized.
 
 use super::code::LaneCode;
 use crate::lanes::{LANES, LaneRow, Reading, div_odd_long};
 use crate::num::NumberOperation as Op;
 
-/// Inserts a number, as a part of [`Op::JoinShort`], [`Op::JoinByte`] or [`Op::JoinSignedByte`], into the word of each
-/// lane.
+/// Inserts a number into the word of each lane, for [`Op::JoinShort`], [`Op::JoinByte`] or [`Op::JoinSignedByte`].
 pub(super) fn join(reading: Reading, code: LaneCode, [words, values]: [&LaneRow; 2], out: &mut LaneRow) {
     let LaneCode::Immediate(operation, shift) = code else { return };
     for i in 0..LANES {
@@ -26,7 +25,7 @@ pub(super) fn join_patterns(words: &LaneRow, shift: i8, patterns: &mut LaneRow) 
     }
 }
 
-/// The number to be rounded: the part of each lane's word, rounded to odd, or the integer nearest to its number. `None`
+/// The numbers to be rounded: the part of each lane's word, rounded to odd, or each number's nearest integer. `None`
 /// for other operations.
 pub(super) fn parts(reading: Reading, code: LaneCode, row: &LaneRow) -> Option<Box<[f64; LANES]>> {
     let (operation, shift) = match code {

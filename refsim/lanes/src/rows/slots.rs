@@ -1,5 +1,4 @@
-//! Storage of a batch: an array of 256 lanes per live component, and scalars for values that are uniform over all
-//! lanes.
+//! Storage of a batch: an array of 256 lanes per live component, and scalars for uniform values.
 
 use super::code::Slot;
 use crate::lanes::{LANES, LaneRow};
@@ -35,9 +34,9 @@ pub struct Slots {
     #[expect(clippy::vec_box, reason = "a row changes places with the spare one by its pointer, not by its 1 KiB")]
     pub(super) rows: Vec<Box<Aligned>>,
     pub(super) scratch: Box<Aligned>,
-    /// Uniform values of slots of constants and given values.
+    /// Uniform values of slots for constants and given values.
     pub(super) values: Vec<u32>,
-    /// `false` for slots whose row is never read, only the uniform value.
+    /// `false` for slots of which only the uniform value is read.
     as_rows: Vec<bool>,
     /// Doubles between two conversion steps.
     pub(super) wide: Box<[f64; LANES]>,
@@ -55,7 +54,7 @@ impl Slots {
         }
     }
 
-    /// Marks a slot whose row is never read, only the uniform value.
+    /// Marks a slot of which only the uniform value is read.
     pub fn without_row(&mut self, slot: Slot) {
         self.as_rows[usize::from(slot)] = false;
     }
@@ -91,8 +90,8 @@ impl Slots {
         self.row_mut(slot).fill(raw);
     }
 
-    /// [`Slots::fill`] for a slot that nothing else writes: cheap if it already has the value, or if the row is never
-    /// read.
+    /// [`Slots::fill`] for a slot that nothing else writes: cheap if the slot already has the value, or if its row is
+    /// never read.
     pub fn give(&mut self, slot: Slot, raw: u32) {
         let i = usize::from(slot);
         if self.values[i] != raw {

@@ -1,25 +1,24 @@
-//! Sums that one adder makes of numbers of a float format, on rows: lane by lane in doubles, which hold the sum before
-//! it is rounded. One function serves every format; only the rounding of the row of doubles is compiled for each.
+//! Sums of numbers of a float format in one adder, on rows: computed lane by lane in doubles, before rounding. One
+//! function serves every format; only the rounding of the row of doubles is compiled per format.
 
 use super::code::Slot;
 use super::slots::Slots;
 use crate::lanes::{AnyLane, LANES, LaneRow, SimdLevel, add_odd};
 use crate::num::{Format, FormatKind, Rounding};
 
-/// The sign bit of a double.
 const SIGN: u64 = 1 << 63;
 
-/// How numbers are added.
+/// Kind of sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RowSum {
-    /// The first numbers, aligned to the largest exponent and cut.
+    /// Sum of the first numbers, aligned to the largest exponent and truncated.
     Aligned {
         /// Number of addends, 1 to 4.
         terms: u8,
         /// Bits kept below the largest exponent, at most 28.
         bits: u8,
     },
-    /// `a b + c` of the first three, the product cut to the significand of the format.
+    /// `a b + c` of the first three numbers, with the product truncated to the significand of the format.
     ProductCut,
 }
 
@@ -33,7 +32,7 @@ impl RowSum {
     }
 }
 
-/// Adds rows of numbers of a float format, whose arithmetic is `lane`.
+/// Adds rows of numbers of a float format with the arithmetic `lane`.
 pub fn add_rows(
     format: Format,
     lane: &AnyLane,
@@ -60,7 +59,7 @@ pub fn add_rows(
     slots.commit(to);
 }
 
-/// A function of rows of singles.
+/// Applies a function to rows of singles.
 #[inline(always)]
 fn each([a, b, c, d]: [&LaneRow; 4], wide: &mut [f64; LANES], f: impl Fn([f64; 4]) -> f64) {
     for i in 0..LANES {
@@ -68,7 +67,7 @@ fn each([a, b, c, d]: [&LaneRow; 4], wide: &mut [f64; LANES], f: impl Fn([f64; 4
     }
 }
 
-/// The sum of numbers, exact but for the bits that alignment drops. Branch-free.
+/// The sum of numbers, exact except for bits that alignment drops. Branch-free.
 #[inline(always)]
 fn aligned<const N: usize>(numbers: [f64; N], bits: u8, down: bool) -> f64 {
     const FIELD: u64 = 0x7ff << 52;
@@ -79,7 +78,7 @@ fn aligned<const N: usize>(numbers: [f64; N], bits: u8, down: bool) -> f64 {
         (signs, all) = (signs | number.to_bits(), all & number.to_bits());
     }
     let (top, bits) = (largest.to_bits() & FIELD, u64::from(bits) << 52);
-    // Powers of two by their fields: one makes the last bit that is kept 1, the other takes that back.
+    // Powers of two, by their fields: one scales the last kept bit to 1, the other undoes that.
     let (up, unit) = ((2046u64 << 52).wrapping_sub(top).wrapping_add(bits), top.wrapping_sub(bits));
     let mut sum = 0.0;
     for number in numbers {
@@ -93,7 +92,7 @@ fn aligned<const N: usize>(numbers: [f64; N], bits: u8, down: bool) -> f64 {
     if plain.abs() < f64::INFINITY { scaled } else { plain }
 }
 
-/// `a b + c` of the first three, rounded to odd, with the product cut.
+/// `a b + c` of the first three numbers, rounded to odd, with the product truncated.
 #[inline(always)]
 fn product_cut(format: Format, [a, b, c, _]: [f64; 4], down: bool) -> f64 {
     let FormatKind::Float { man_bits, .. } = format.kind else { return f64::NAN };

@@ -69,7 +69,7 @@ fn reciprocals_and_logarithms() {
         ],
     );
     assert_eq!(rows, 8126);
-    // The logarithm of 1 alone is exact: the table's first row has a constant, which 0.5 shows.
+    // Only the logarithm of 1 is exact: the table's first row has a constant term, as 0.5 shows.
     let facts = [
         (Op::Rcp, 0x4040_0000, 0x3eaa_aaab),
         (Op::Rcp, 0x3f80_0001, 0x3f7f_fffe),

@@ -2,7 +2,7 @@
 
 use refsim_lanes::num::{Format, NumberOperation, Rounding, Unit};
 
-/// The operation of a column: from the operands of a row, or from cells by name.
+/// A column's name, and its operation on a row.
 pub(crate) type Check<'c> = (&'c str, &'c dyn Fn(&Row<'_>) -> String);
 
 /// A row of a table.
@@ -12,7 +12,7 @@ pub(crate) struct Row<'t> {
 }
 
 impl<'t> Row<'t> {
-    /// The cell of a column; an empty one repeats that of the column that it differs from.
+    /// The cell of a column; an empty cell repeats the cell of [`repeated`]'s column.
     pub(crate) fn cell(&self, column: &str) -> &'t str {
         let index = self.columns.iter().position(|c| *c == column).unwrap_or_else(|| panic!("no column {column}"));
         if self.cells[index].is_empty() { self.cell(&repeated(column)) } else { self.cells[index] }

@@ -68,7 +68,8 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// `program.local[3]` or, if `many`, `program.env[0..4]`: the first register and the index of the last.
+    /// Parses `program.local[3]` or, if `many`, `program.env[0..4]`; returns the first register and the index of the
+    /// last.
     fn program_range(&mut self, many: bool) -> Parsed<(Register, u16)> {
         self.cursor.next();
         self.cursor.expect(".", "parameters are program.local[0] or program.env[0]")?;
@@ -83,7 +84,7 @@ impl<'a> Parser<'a> {
         Ok((Register::new(RegisterFile::Constant, base + first), base + last))
     }
 
-    /// `3]` or, if `many`, `3..5]`: first and last index.
+    /// Parses `3]` or, if `many`, `3..5]`; returns the first and last index.
     pub(super) fn range(&mut self, many: bool, most: u16) -> Parsed<(u16, u16)> {
         let first = operand::index(&mut self.cursor, most)?;
         let mut last = first;

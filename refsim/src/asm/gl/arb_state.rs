@@ -1,5 +1,5 @@
-//! Parser of `state.*` of `!!ARBfp1.0`: GL_ARB_fragment_program, grammar from `<stateSingleItem>` and
-//! `<stateMultipleItem>` on.
+//! Parser of `state.*` in `!!ARBfp1.0` (GL_ARB_fragment_program, grammar from `<stateSingleItem>` and
+//! `<stateMultipleItem>` on).
 
 use super::super::error::{Parsed, SyntaxError};
 use super::arb::{Parser, unknown};
@@ -13,7 +13,7 @@ use crate::isa::{
 const HELP: &str = "state is for example state.light[0].position, state.fog.color or state.matrix.mvp.row[0]";
 
 impl<'a> Parser<'a> {
-    /// Parses a single item of four numbers.
+    /// Parses one item of state, which has four numbers.
     pub(super) fn state_item(&mut self) -> Parsed<StateBinding> {
         let start = self.cursor.peek();
         let mut rows = self.state_items(false)?;
@@ -23,7 +23,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Parses the state of an array element: a single item, rows of a matrix, or all four of them.
+    /// Parses the state of array elements: a single item, some rows of a matrix, or all four rows.
     pub(super) fn state_items(&mut self, many: bool) -> Parsed<Vec<StateBinding>> {
         self.cursor.next();
         let group = self.part()?;
@@ -70,7 +70,7 @@ impl<'a> Parser<'a> {
         if token.text == word { Ok(()) } else { Err(expected(token, word)) }
     }
 
-    /// `[3]`, below `count`.
+    /// Parses an index in brackets, below `count`.
     fn number(&mut self, count: u16) -> Parsed<u8> {
         self.cursor.expect("[", HELP)?;
         let number = operand::index(&mut self.cursor, count - 1)?;
@@ -160,7 +160,7 @@ impl<'a> Parser<'a> {
         Ok((first..=last).map(|row| StateBinding::MatrixRow(matrix, form, row)).collect())
     }
 
-    /// `[1]`; if `many` also `[1..3]`.
+    /// Parses an index in brackets; if `many`, also a range.
     fn rows(&mut self, many: bool) -> Parsed<(u8, u8)> {
         self.cursor.expect("[", "rows are numbered")?;
         let (first, last) = self.range(many, 3)?;

@@ -20,10 +20,10 @@ macro_rules! put {
     };
 }
 
-/// Prints a program in canonical form: host-set names first, one statement per line, other constants in place, shortest
-/// decimals.
+/// Prints a program in canonical form: names of host-set constants first, other constants where they are used, one
+/// statement per line, shortest decimals.
 ///
-/// [`super::assemble`] parses the result back to an equal program, if it also produced the original.
+/// If [`super::assemble`] produced the program, it parses the result back to an equal program.
 pub(in super::super) fn print(program: &Program) -> String {
     let mut out = format!("{}\n", program.version);
     let arb = program.version == Version::ArbFp1_0;
@@ -45,7 +45,7 @@ pub(in super::super) fn print(program: &Program) -> String {
     out
 }
 
-/// Writes the declarations of a program: its temporaries, `R0` to the highest one, and what it binds without using it.
+/// Writes the declarations of a program: temporaries `R0` to the highest, and bindings that no instruction uses.
 fn declarations(program: &Program, out: &mut String) {
     let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
     let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);
@@ -159,7 +159,7 @@ impl Printer<'_> {
         self.out.push_str(close);
     }
 
-    /// `R0, -x, 0, 1, z`: the operand of `SWZ`.
+    /// Writes the operands of `SWZ`: `R0, -x, 0, 1, z`.
     fn extended(&mut self, s: &Source, negate: u8) {
         self.register(&s.register, false);
         for (i, c) in s.swizzle.0.into_iter().enumerate() {

@@ -7,10 +7,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Maximum number of entries.
 const MAX_KEPT: usize = 16;
 
-/// The most recently used values, by key.
+/// A cache of the most recently used values, by key.
 #[derive(Debug)]
 pub(crate) struct Cache<K, V> {
-    /// In order of use, the latest last.
+    /// Entries in order of use, the latest last.
     entries: Mutex<Vec<(K, Arc<V>)>>,
 }
 

@@ -12,7 +12,7 @@ use crate::exec::{Constants, TileDraw};
 use crate::isa::Program;
 use crate::raster::ComponentMask;
 
-/// The batch executor: its caches, which clones share, and its SIMD level.
+/// The batch executor: caches, shared by clones, and a SIMD level.
 #[derive(Clone, Debug, Default)]
 pub struct BatchExecutor {
     decoded: Arc<DecodedCaches>,
@@ -27,8 +27,8 @@ struct DecodedCaches {
 }
 
 impl BatchExecutor {
-    /// Sets the SIMD level. `None`, the default, is the widest that the processor supports; a level that it lacks falls
-    /// back to a supported one. The level affects the speed only.
+    /// Sets the SIMD level. `None`, the default, selects the widest level that the processor supports; an unsupported
+    /// level falls back to a supported one. The level only affects the speed.
     pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
         self.simd = level;
     }
@@ -38,14 +38,14 @@ impl BatchExecutor {
         self.simd.unwrap_or(SimdLevel::widest())
     }
 
-    /// Prepares a draw. `None` if the scalar executor has to do it: the program has more values than there are slots,
-    /// or every fragment exceeds the step budget.
+    /// Prepares a draw. Returns `None` if only the scalar executor can run it: the program has more values than there
+    /// are slots, or every fragment exceeds the step budget.
     pub fn tiles<'a>(&self, draw: &TileDraw<'a>) -> Option<BatchTiles<'a>> {
         BatchTiles::new(draw, (&self.decoded.pixel, &self.decoded.textures), self.simd())
     }
 
-    /// Prepares a vertex program that computes the position and the `needed` components. `None` if the scalar executor
-    /// has to run it: every vertex exceeds the step budget.
+    /// Prepares a vertex program that computes the position and the `needed` components. Returns `None` if only the
+    /// scalar executor can run it: every vertex exceeds the step budget.
     pub fn vertices(
         &self,
         (program, constants): (&Program, &Constants),

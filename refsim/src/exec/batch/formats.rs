@@ -14,7 +14,7 @@ pub(crate) struct LaneFormats {
 }
 
 impl LaneFormats {
-    /// The arithmetics of a program with these formats.
+    /// Selects the arithmetic of each format.
     pub(crate) fn new(table: Formats, simd: SimdLevel) -> Self {
         let lanes = table.all().iter().copied().map(AnyLane::new).collect();
         Self { table, lanes, simd }

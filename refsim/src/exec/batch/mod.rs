@@ -1,9 +1,10 @@
-//! The batch executor: executes programs on whole tiles of fragments with the host's SIMD instructions. Bit-identical
-//! to [`super::scalar`], with which it shares no arithmetic; tested by `tests/agree` and `refsim/tests/batch/lanes.rs`.
+//! The batch executor: executes programs on whole tiles of fragments with the host's SIMD instructions. It is
+//! bit-identical to [`super::scalar`] and shares no arithmetic with it; tested by `tests/agree` and
+//! `refsim/tests/batch/lanes.rs`.
 //!
-//! - The package `refsim-lanes`: arithmetic of number formats, on rows. `formats`: those of a program. `schedule`:
+//! - The package `refsim-lanes`: arithmetic of number formats on rows. `formats`: the formats of a program. `schedule`:
 //!   schedules the graph of `super::lower` as steps. `run`: executes steps on rows.
-//! - `vertex`: attributes to triangles. `tile`: triangles to targets.
+//! - `vertex`: from attributes to triangles. `tile`: from triangles to targets.
 //! - `cache`: caches of decoded data; [`BatchExecutor`]: their owner.
 //!
 //! Values are rows of 256 lanes (`[u32; 256]` with host integers or floats) that are processed in plain loops. The SIMD

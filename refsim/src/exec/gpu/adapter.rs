@@ -75,8 +75,8 @@ pub(super) fn describe(adapter: &wgpu::Adapter) -> Adapter {
     }
 }
 
-/// Selects the adapter named `asked`: its full name, or a part of it that matches no other, ignoring case. Without a
-/// name, prefers a discrete adapter, then an integrated or virtual one, then any.
+/// Selects the adapter by its full name, or by a part of the name that no other adapter has, ignoring case. Without a
+/// name, prefers a discrete adapter, then an integrated or virtual adapter, then any.
 pub(super) fn pick(asked: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
     let all = raw_adapters();
     let known: Vec<Adapter> = all.iter().map(describe).collect();
@@ -84,7 +84,7 @@ pub(super) fn pick(asked: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
     all.into_iter().nth(chosen).ok_or(GpuError::NoAdapter)
 }
 
-/// The choice of [`Gpu::open`](super::Gpu::open) among known adapters: its index.
+/// Index of the adapter that [`Gpu::open`](super::Gpu::open) would choose among known adapters.
 #[doc(hidden)] // Public for its test: no host has these adapters.
 pub fn choose(known: &[Adapter], asked: Option<&str>) -> Result<usize, GpuError> {
     let rank = |kind| match kind {

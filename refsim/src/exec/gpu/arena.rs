@@ -1,16 +1,16 @@
-//! Words of a buffer, which are used again.
+//! Allocation of words in a buffer.
 
 /// Allocator of words in `video`.
 #[derive(Debug, Default)]
 pub(super) struct Arena {
     /// End of the allocated range.
     pub(super) end: usize,
-    /// Free ranges below it in ascending order: first word, length.
+    /// Free ranges below `end` in ascending order: first word, length.
     holes: Vec<(usize, usize)>,
 }
 
 impl Arena {
-    /// The first word of a range, the lowest that is free.
+    /// Allocates the lowest free range; returns its first word.
     pub(super) fn take(&mut self, words: usize) -> usize {
         if let Some(i) = self.holes.iter().position(|hole| hole.1 >= words) {
             let (base, length) = self.holes[i];
@@ -26,7 +26,6 @@ impl Arena {
         base
     }
 
-    /// Frees a range.
     pub(super) fn give(&mut self, base: usize, words: usize) {
         let i = self.holes.partition_point(|hole| hole.0 < base);
         self.holes.insert(i, (base, words));

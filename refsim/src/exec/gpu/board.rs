@@ -90,7 +90,7 @@ impl Board {
         &self.gpu
     }
 
-    /// Allocates words in `video`; returns the first one.
+    /// Allocates words in `video`; returns the first word's index.
     ///
     /// # Errors
     /// [`GpuError::Memory`].
@@ -119,7 +119,7 @@ impl Board {
         self.gpu.upload(&self.video.buffer, base, words)
     }
 
-    /// Reads words from `video`, after all work submitted before.
+    /// Reads words from `video`, after all previously submitted work.
     ///
     /// # Errors
     /// [`GpuError::Device`].
@@ -137,7 +137,7 @@ impl Board {
         self.counts.fill(&self.gpu, &vec![0; counts])
     }
 
-    /// Uploads the set-ups of the dispatches that follow.
+    /// Uploads the set-ups for the next dispatches.
     ///
     /// # Errors
     /// [`GpuError::Memory`], [`GpuError::Device`].

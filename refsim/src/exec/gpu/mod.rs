@@ -5,8 +5,7 @@
 //! - `testing`: access to an adapter for tests.
 //! - `board`: the GPU buffers of an emulated card.
 //!
-//! Results are determined by the shaders alone (`refsim::exec::wgsl`), which operate on storage buffers of 32-bit
-//! words.
+//! Only the shaders (`refsim::exec::wgsl`) determine results; they operate on storage buffers of 32-bit words.
 
 mod adapter;
 mod arena;

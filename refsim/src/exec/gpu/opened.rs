@@ -54,8 +54,8 @@ pub struct Kernel {
 }
 
 /// Compilation policy of a kernel: the first `MAX_EXACT` texts have exactly the parts of the draw, texts up to
-/// `MAX_GROWING` have all parts used so far, and the next one has all parts. Otherwise random programs would need one
-/// text each.
+/// `MAX_GROWING` have all parts used so far, and the next text has all parts. Otherwise every random program would need
+/// its own text.
 const MAX_EXACT: usize = 6;
 const MAX_GROWING: usize = 9;
 
@@ -79,7 +79,7 @@ impl fmt::Debug for Gpu {
 }
 
 impl Gpu {
-    /// Opens the adapter with this name (or part of a name), or the best one.
+    /// Opens the adapter with this name (or part of a name), or the best adapter.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`], [`GpuError::UnknownAdapter`], [`GpuError::AmbiguousAdapter`], [`GpuError::Open`].
@@ -149,7 +149,7 @@ impl Gpu {
         Ok(pipeline)
     }
 
-    /// Returns a pipeline of a kernel with at least these parts; reuses a compiled one if possible.
+    /// Returns a pipeline of a kernel with at least these parts; reuses a compiled pipeline if possible.
     ///
     /// # Errors
     /// As [`Self::pipeline`].
@@ -226,7 +226,7 @@ impl Gpu {
     /// Writes words into a buffer, starting at word `at`.
     ///
     /// # Errors
-    /// [`GpuError::Device`] if they exceed the buffer.
+    /// [`GpuError::Device`] if the words exceed the buffer.
     pub fn upload(&self, buffer: &Buffer, at: usize, words: &[u32]) -> Result<(), GpuError> {
         if at + words.len() > buffer.words {
             let end = at + words.len();
@@ -243,7 +243,7 @@ impl Gpu {
         self.queue.submit([encoder.finish()]);
     }
 
-    /// Dispatches `groups` workgroups with the buffers as bindings 0, 1, ...; later commands see its writes.
+    /// Dispatches `groups` workgroups with the buffers as bindings 0, 1, ...; later commands see the writes.
     ///
     /// # Errors
     /// [`GpuError::Device`] if the buffers don't match the pipeline or the device fails.

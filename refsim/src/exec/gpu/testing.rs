@@ -8,13 +8,13 @@ static SHARED: LazyLock<Result<Arc<Gpu>, GpuError>> = LazyLock::new(|| {
     Gpu::open(asked.as_deref()).map(Arc::new)
 });
 
-/// The adapter shared by the tests of one process: the one named by the environment variable `CROSSBAR_ADAPTER`, or
-/// else the best one.
+/// The adapter shared by the tests of one process: named by the environment variable `CROSSBAR_ADAPTER`, or else the
+/// best adapter.
 ///
 /// `Ok(None)` if there is no adapter: the test should count as ignored.
 ///
 /// # Errors
-/// If an adapter cannot be opened, or if there is none although the environment variable `CI` is set.
+/// If an adapter cannot be opened, or if there is no adapter and the environment variable `CI` is set.
 pub fn shared() -> Result<Option<Arc<Gpu>>, GpuError> {
     match &*SHARED {
         Ok(gpu) => Ok(Some(Arc::clone(gpu))),

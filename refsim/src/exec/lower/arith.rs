@@ -53,7 +53,7 @@ impl<'a> GraphBuilder<'a> {
         self.graph.node(NodeKind::Compute(k, code, [a, b, c]))
     }
 
-    /// A mask that can be simplified: of constants, or of redundant masks.
+    /// Simplifies a mask of constants, or of redundant masks; `None` if it cannot be simplified.
     fn known_mask(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> Option<NodeId> {
         let constant = |n: NodeId| match self.graph.kind(n) {
             NodeKind::Constant(raw) => Some(raw),
@@ -103,8 +103,8 @@ impl<'a> GraphBuilder<'a> {
             return a;
         }
         // Single precision represents every number of a format with up to 24 significant bits, so the round trip
-        // preserves the number, which also fits the format's wrapping variant. It represents normalized numbers by the
-        // nearest single, from which only rounding to nearest leads back.
+        // preserves the number, which also fits the format's wrapping variant. A normalized number becomes the nearest
+        // single; only rounding to nearest restores it.
         let returns = |format: Format| match format.kind {
             FormatKind::Float { .. } => true,
             FormatKind::Fixed { .. } => format.width() <= 24,
@@ -114,7 +114,7 @@ impl<'a> GraphBuilder<'a> {
             && from == Arith::Single
             && (origin == to || (origin, to) == (Arith::Main, Arith::Wrapped))
             && returns(self.formats.format(origin))
-            // Single precision keeps neither the subnormals nor every NaN of a card's words.
+            // Single precision preserves neither the subnormals nor every NaN of a card's words.
             && !self.graph.is_card(origin)
         {
             return number;
@@ -136,13 +136,13 @@ impl<'a> GraphBuilder<'a> {
         if self.is_pixel && k != Arith::Single { self.rules.sums_in(format) } else { SumRules::plain(format) }
     }
 
-    /// The arithmetic in which products of a format are rounded.
+    /// The format in which products are rounded.
     fn products(&self, k: Arith) -> Arith {
         let products = self.sums(k).products;
         if products == self.formats.format(k) { k } else { self.formats.arith_of(products) }
     }
 
-    /// The sum that one adder makes.
+    /// The sum computed by one adder.
     fn aligned(&mut self, k: Arith, bits: u8, addends: &[NodeId]) -> NodeId {
         let mut all = [addends[0]; 4];
         all[..addends.len()].copy_from_slice(addends);
@@ -191,7 +191,7 @@ impl<'a> GraphBuilder<'a> {
         self.compute(k, Op::Mad, a, b, c)
     }
 
-    /// Multiply-add under the rules, or as the unit of a card does it.
+    /// Multiply-add under the rules, or by a card's unit.
     pub(crate) fn mad(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
         if self.graph.is_card(k) {
             return self.compute(k, Op::Mad, a, b, c);
@@ -214,7 +214,7 @@ impl<'a> GraphBuilder<'a> {
         }
     }
 
-    /// Rounds a number of format `from` to that of a storage, if it has one, and back.
+    /// Rounds a number of format `from` to a storage's format, if it has one, and converts it back.
     pub(crate) fn stored(&mut self, from: Arith, storage: Option<Format>, x: NodeId) -> NodeId {
         let Some(storage) = storage else { return x };
         let storage = self.formats.arith_of(storage);
@@ -255,7 +255,7 @@ impl<'a> GraphBuilder<'a> {
         }
     }
 
-    /// Sum of neighbours in pairs, and of their sums.
+    /// Sums neighbours in pairs, then the sums likewise.
     fn tree(&mut self, k: Arith, mut level: Vec<NodeId>) -> NodeId {
         while level.len() > 1 {
             let pair = |p: &[NodeId]| if p.len() == 2 { self.binary(k, Op::Add, p[0], p[1]) } else { p[0] };
@@ -270,8 +270,8 @@ impl<'a> GraphBuilder<'a> {
         self.rules.accumulator_of(self.formats.format(k)).filter(|_| has_one)
     }
 
-    /// Dot product with sums in an accumulator. If it lacks numbers of the operands, products are rounded to odd first
-    /// ([`PRODUCTS`]), which makes the second rounding that of the exact product.
+    /// Dot product with sums in an accumulator. If the accumulator cannot represent all operands, products are first
+    /// rounded to odd ([`PRODUCTS`]), so that the second rounding equals a rounding of the exact product.
     fn accumulated(&mut self, k: Arith, accumulator: Format, terms: usize, (a, b): (&[NodeId], &[NodeId])) -> NodeId {
         let to = self.formats.arith_of(accumulator);
         let rounded_in = self.products(to);

@@ -1,4 +1,4 @@
-//! Translation of programs with flow control: each instruction is a set of nodes, whose results are merged into
+//! Translation of programs with flow control: each instruction is a set of nodes; their results are merged into
 //! registers under the mask of active lanes and the predicate.
 
 use std::collections::BTreeMap;
@@ -33,7 +33,7 @@ fn written(program: &Program) -> Vec<RegisterComponent> {
     out
 }
 
-/// Instructions of a program as graph nodes, and the slots of the registers that they are merged into.
+/// Instructions of a program as graph nodes, and the slots of the registers that receive their results.
 pub(crate) struct MaskedProgram {
     /// One entry per instruction.
     pub(crate) parts: Vec<MaskedInstruction>,
@@ -102,7 +102,7 @@ fn part(
                 }
             }
             Effect::Kill(mask) => {
-                // Several components of one instruction: their masks are combined before they reach the slot.
+                // Masks of several components of one instruction are combined before they reach the slot.
                 let killing = t.make.binary(MASK, Op::And, active, mask);
                 let before = match part.to.iter().position(|&s| s == KILLED) {
                     Some(i) => part.roots[i],
@@ -117,7 +117,7 @@ fn part(
                     }
                 }
             }
-            // In versions with flow control only oDepth writes depth.
+            // In versions with flow control, only oDepth writes depth.
             Effect::Depth(..) => {}
         }
     }

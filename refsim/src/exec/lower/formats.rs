@@ -22,7 +22,7 @@ impl Formats {
         let stored = rules.storage.iter().map(|(_, format)| format);
         let mut formats =
             Self::new(program, rules.format, rules.partial, stored.chain(rules.accumulator).chain(products));
-        // What computes in one of these rounds its products in another.
+        // Each of these formats rounds products in another format.
         let rounded: Vec<Format> = formats.0.iter().map(|&format| rules.sums_in(format).products).collect();
         for format in rounded {
             formats.include(format);
@@ -34,7 +34,7 @@ impl Formats {
         Self::new(program, rules.vertex_format, None, [])
     }
 
-    /// Formats with registers in `main` and `_pp` arithmetic in `partial`, and those of storages and sums.
+    /// Formats with registers in `main`, `_pp` arithmetic in `partial`, and the formats of storages and sums.
     fn new(program: &Program, main: Format, partial: Option<Format>, stored: impl IntoIterator<Item = Format>) -> Self {
         let FragmentFormats { half, fixed, .. } = FragmentFormats::of_registers(main, partial);
         let named: [Format; NAMED_FORMATS] =
@@ -52,12 +52,12 @@ impl Formats {
         }
     }
 
-    /// Formats of single instructions, storages and sums that are not the registers', each once.
+    /// Formats of single instructions, storages and sums that differ from the registers' formats, each once.
     pub(crate) fn own(&self) -> &[Format] {
         &self.0[NAMED_FORMATS..]
     }
 
-    /// The arithmetic of an instruction or a storage with this format of its own.
+    /// The arithmetic of an instruction or a storage with its own format.
     pub(crate) fn arith_of(&self, own: Format) -> Arith {
         self.own().iter().position(|&f| f == own).map_or(Arith::Main, |index| Arith::Own(index as u8))
     }

@@ -18,7 +18,6 @@ pub(crate) fn of_file(file: RegisterFile) -> Arith {
 }
 
 impl Translator<'_> {
-    /// Translates an instruction.
     pub(crate) fn fragment(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let value = match (instruction.opcode, instruction.opcode.info().class, instruction.destination) {
             (Opcode::Kil, ..) => return self.kil(instruction, effects),
@@ -55,7 +54,7 @@ impl Translator<'_> {
         self.loaded(source, negate).map(|x| self.make.convert(from, to, x))
     }
 
-    /// Interprets a value that may be arbitrary bits as the number that they encode.
+    /// Interprets a value that may be arbitrary bits as the encoded number.
     pub(crate) fn number(&mut self, node: NodeId) -> NodeId {
         if !self.words.contains(&node) {
             return node;
@@ -226,7 +225,7 @@ impl Translator<'_> {
         })
     }
 
-    /// An operand in single precision: `f[TEX#]` as it was interpolated, any other register converted.
+    /// An operand in single precision: `f[TEX#]` as interpolated, other registers converted.
     fn place(&mut self, source: &Source) -> NodeVector {
         if source.register.file == RegisterFile::Texture {
             return source.swizzle.0.map(|c| {

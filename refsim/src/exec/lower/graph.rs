@@ -22,11 +22,11 @@ pub(crate) enum Arith {
     Partial,
     /// Single precision: coordinates and addresses.
     Single,
-    /// The register format with wrapping overflow, for coordinates delivered by `texcrd` with their fraction preserved.
+    /// The register format with wrapping overflow, for `texcrd` with preserved fractions.
     Wrapped,
-    /// H in OpenGL's fragment programs.
+    /// Suffix H in OpenGL's fragment programs.
     Half,
-    /// X in OpenGL's fragment programs.
+    /// Suffix X in OpenGL's fragment programs.
     Fixed,
     /// A format of single instructions, storages or sums: its index in [`super::Formats::own`].
     Own(u8),
@@ -46,7 +46,7 @@ impl Arith {
         }
     }
 
-    /// Index in the shaders' tables of formats, which also contain those of targets and textures.
+    /// Index in the shaders' tables of formats, which also contain the formats of targets and textures.
     pub(crate) const fn number(self) -> u32 {
         match self {
             Self::Main => 0,
@@ -87,9 +87,9 @@ pub(crate) enum NodeKind {
     Compute(Arith, Op, [NodeId; 3]),
     /// A difference across the quad: right minus left, or (if `true`) lower minus upper.
     Difference(Arith, bool, NodeId),
-    /// A dot product with the given number of terms, rounded once, or as the unit of a card makes it.
+    /// A dot product with the given number of terms, rounded once, or computed by a card's unit.
     Dot(Arith, u8, [NodeId; 4], [NodeId; 4]),
-    /// A sum that one adder makes; surplus operands are ignored.
+    /// A sum computed by one adder; surplus operands are ignored.
     Sum(Arith, RowSum, [NodeId; 4]),
     /// A conversion between formats, rounded once.
     Convert(Arith, Arith, NodeId),
@@ -102,7 +102,7 @@ pub(crate) enum NodeKind {
     Circle(Arith, bool, NodeId),
     /// A component of a texture read's result.
     Texel(NodeId, u8),
-    /// A relatively addressed float constant: `c[index + a]`, component, integer `a`.
+    /// A relatively addressed float constant `c[index + a]`: index, component, integer `a`.
     Relative(i32, u8, NodeId),
 }
 
@@ -138,9 +138,9 @@ impl NodeKind {
 /// The nodes; each follows its operands.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
-    /// By [`Arith::index`].
+    /// Formats by [`Arith::index`].
     formats: Vec<Format>,
-    /// `true` if inputs are words as they are, rather than results of arithmetic.
+    /// `true` if inputs are arbitrary words, not results of arithmetic.
     reads_words: bool,
     kinds: Vec<NodeKind>,
     known: BTreeMap<NodeKind, NodeId>,
@@ -156,18 +156,18 @@ impl Graph {
         self.formats.get(arith.index())
     }
 
-    /// Returns `true` if the unit of a card computes.
+    /// Returns `true` if a card's unit computes in this arithmetic.
     pub(crate) fn is_card(&self, arith: Arith) -> bool {
         self.format(arith).is_some_and(|format| format.unit.is_card())
     }
 
-    /// What takes numbers of one format on their way to another.
+    /// The operation that copies numbers of one format to be rounded to another.
     pub(crate) fn widen(&self, from: Arith, to: Arith) -> LaneCode {
         self.format(from).zip(self.format(to)).map_or(LaneCode::Widen, |(from, to)| LaneCode::widen(from, to))
     }
 
     /// The operation that converts single floats into the words of a card's unit, and its format; `None` for other
-    /// conversions. Words stay as they are; numbers of an ideal format become their patterns, with one NaN. Vertex
+    /// conversions. Words stay unchanged; numbers of an ideal format become their patterns, with one NaN. Vertex
     /// programs read words.
     pub(crate) fn copies(&self, from: Arith, to: Arith, number: NodeId) -> Option<(Arith, Op)> {
         let is_single = |format: &Format| format.kind == Format::FP32.kind && format.encoding == Encoding::Ieee;
@@ -236,8 +236,8 @@ impl Graph {
             let same = match *kind {
                 NodeKind::Constant(_) => true,
                 NodeKind::Input(component) => input(component),
-                // Uniform values are computed where adjacent lanes are other triangles. (A difference of equal lanes is
-                // a zero, whose sign depends on the format.)
+                // Uniform values are computed where adjacent lanes hold other triangles. (The difference of equal lanes
+                // is a zero, whose sign depends on the format.)
                 NodeKind::Difference(..) => false,
                 NodeKind::Held(_) | NodeKind::Relative(..) => false,
                 _ if across(kind) => false,

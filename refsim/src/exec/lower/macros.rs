@@ -112,7 +112,7 @@ impl GraphBuilder<'_> {
         }
     }
 
-    /// One if a comparison holds, else zero. A card's unit has an operation for it, which may give NaN.
+    /// One if a comparison holds, else zero. A card's unit has its own operation, which may give NaN.
     fn set(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
         if self.graph.is_card(k) {
             return self.binary(k, code, a, b);
@@ -128,7 +128,7 @@ impl GraphBuilder<'_> {
         self.select(holds, yes, no)
     }
 
-    /// Returns `true` if a vertex unit computes, which has instructions of several of these steps.
+    /// Returns `true` for a vertex unit, whose instructions combine several of these steps.
     fn is_vertex_unit(&self, k: Arith) -> bool {
         matches!(self.formats.format(k).unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x)
     }
@@ -266,7 +266,7 @@ impl GraphBuilder<'_> {
         [one, x, self.select(lit, power, zero), one]
     }
 
-    /// Brings a number within +-32767/256; NaN stays.
+    /// Clamps a number to +-32767/256; NaN is unchanged.
     fn held_exponent(&mut self, k: Arith, w: NodeId) -> NodeId {
         let limit_bits = num::from_ratio(self.formats.format(k), false, 32767, 256).bits;
         let limit = self.pattern(k, limit_bits);

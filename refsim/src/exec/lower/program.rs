@@ -23,7 +23,7 @@ pub(crate) fn has_flow(program: &Program) -> bool {
 }
 
 impl Ends {
-    /// The values to be computed.
+    /// The output values.
     pub(crate) fn roots(&self) -> Vec<NodeId> {
         self.colors.iter().flatten().flatten().copied().chain(self.killed).chain(self.depth.map(|d| d.1)).collect()
     }
@@ -93,14 +93,13 @@ pub(crate) fn translate_instruction(t: &mut Translator<'_>, instruction: &Instru
         OpcodeClass::Arithmetic => t.arithmetic(instruction, effects),
         OpcodeClass::Texture => t.texture(instruction, effects),
         OpcodeClass::Marker if instruction.opcode == Opcode::Phase => {
-            // Alpha is lost: zero.
+            // `phase` clears alpha: zero.
             t.registers.retain(|&(file, _, component), _| file != RegisterFile::Temp || component != 3);
         }
         OpcodeClass::Marker | OpcodeClass::Flow => {}
     }
 }
 
-/// Final values of the colours.
 fn final_colors(t: &mut Translator<'_>, program: &Program) -> [Option<[NodeId; 4]>; 4] {
     let zero = t.make.zero();
     let mut colors = [None; 4];
@@ -119,7 +118,7 @@ fn final_colors(t: &mut Translator<'_>, program: &Program) -> [Option<[NodeId; 4
     }
     let written = crate::exec::colors_written(program);
     for (i, slot) in colors.iter_mut().enumerate() {
-        // Colour 0 is needed for the alpha test even if the program doesn't write it.
+        // The alpha test needs colour 0 even if the program doesn't write it.
         if i == 0 || written >> i & 1 == 1 {
             *slot = Some(std::array::from_fn(|c| {
                 t.registers.get(&(RegisterFile::ColorOut, i as u16, c as u8)).copied().unwrap_or(zero)

@@ -44,12 +44,12 @@ pub(crate) struct Translator<'a> {
     pub(crate) program: &'a Program,
     pub(crate) constants: &'a ResolvedConstants,
     pub(crate) bindings: Option<&'a PixelBindings<'a>>,
-    /// Current values of registers. In a program with flow control each component is in its own slot, and its value is
-    /// not known here.
+    /// Current values of registers. In a program with flow control each component has its own slot, and its value is
+    /// unknown.
     pub(crate) registers: BTreeMap<RegisterComponent, NodeId>,
     /// The slot of `aL` in a program with flow control.
     pub(crate) loop_counter: Option<Slot>,
-    /// Dot products left by `texm3x2pad` and `texm3x3pad`, and their number.
+    /// Dot products stored by `texm3x2pad` and `texm3x3pad`, and their number.
     pub(crate) padded: [NodeId; 2],
     pub(crate) pads: usize,
     /// Condition codes of an OpenGL program.
@@ -63,7 +63,7 @@ pub(crate) struct Translator<'a> {
     pub(crate) open_constants: bool,
 }
 
-/// The first input of constants, after those of 16 attributes.
+/// The first input for constants, after those for 16 attributes.
 pub(crate) const CONSTANT_INPUTS: u16 = 64;
 
 impl<'a> Translator<'a> {
@@ -111,8 +111,8 @@ impl<'a> Translator<'a> {
         self.make.stored(Arith::Single, self.make.rules.storage.of(Storage::Coordinates), input)
     }
 
-    /// A colour as the program reads it: clamped, rounded to the iterator's precision, in the register format, and
-    /// rounded to the format of colors.
+    /// A colour as the program reads it: clamped, rounded to the iterator's precision, converted to the register
+    /// format, and rounded to the storage format of colors.
     fn color(&mut self, number: u16, component: usize) -> NodeId {
         let delivered = self.delivered_color(number, component);
         self.make.stored(Arith::Main, self.make.rules.storage.of(Storage::Colors), delivered)
@@ -192,8 +192,8 @@ impl<'a> Translator<'a> {
         self.make.graph.node(NodeKind::Relative(i32::from(register.index), component as u8, address))
     }
 
-    /// Arithmetic in which an instruction computes: its own format, that of its precision or of `_pp`, or the
-    /// registers'.
+    /// The arithmetic of an instruction: its own format, the format of its precision or of `_pp`, or the register
+    /// format.
     pub(crate) fn arith(&self, instruction: &Instruction) -> Arith {
         let partial = instruction.destination.is_some_and(|d| d.partial_precision);
         match instruction.format {
@@ -257,7 +257,7 @@ impl<'a> Translator<'a> {
         self.make.binary(Arith::Main, Op::Max, below, minus)
     }
 
-    /// Format of the values that instructions write to a register file, if not the file's.
+    /// Format of the values that instructions write to a register file, if different from the file's format.
     pub(crate) fn storage(&self, file: RegisterFile) -> Option<Format> {
         self.make.rules.storage.written(file).filter(|_| self.is_pixel())
     }

@@ -10,9 +10,9 @@ pub(crate) struct Alu<'r> {
     rules: &'r Rules,
     /// `true` if results are clamped to [-1, 1] when written to a register.
     to_one: bool,
-    /// Format of the sums of dot products, if not [`Self::format`].
+    /// Format of the sums of dot products, if different from [`Self::format`].
     accumulator: Option<Format>,
-    /// Products and sums.
+    /// Rules of products and sums.
     sums: SumRules,
     /// Format of operands and results.
     pub(crate) format: Format,
@@ -37,14 +37,14 @@ impl<'r> Alu<'r> {
         Self { rules, to_one, accumulator, sums, format, flags: Flags::empty() }
     }
 
-    /// Creates vertex arithmetic in `format`: without the range, the accumulator and the sums of pixel arithmetic.
+    /// Creates vertex arithmetic in `format`, without the range, accumulator and sum rules of pixel arithmetic.
     pub(crate) fn vertex(rules: &'r Rules, format: Format) -> Self {
         let sums = SumRules { zero_wins: rules.vertex_zero_times_anything, ..SumRules::plain(format) };
         Self { sums, ..Self::plain(rules, format) }
     }
 
-    /// Creates address arithmetic in `format`: without the legacy rule for zero, and the range, the accumulator and the
-    /// sums of pixel arithmetic.
+    /// Creates address arithmetic in `format`, without the legacy rule for zero, and without the range, accumulator and
+    /// sum rules of pixel arithmetic.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
         let sums = SumRules::plain(format);
         Self { to_one: false, accumulator: None, sums, ..Self::new(rules, format) }
@@ -55,7 +55,7 @@ impl<'r> Alu<'r> {
         std::mem::replace(&mut self.flags, Flags::empty())
     }
 
-    /// Returns `true` if the unit of a card computes, whose own rules then hold instead of the device's.
+    /// Returns `true` for a card's unit, whose own rules replace the device's.
     pub(crate) fn by_card(&self) -> bool {
         self.format.unit.is_card()
     }
@@ -66,7 +66,7 @@ impl<'r> Alu<'r> {
         Some(self.keep(outcome))
     }
 
-    /// 1 where a comparison holds, else 0. A card's unit has an operation for it, which may give NaN.
+    /// 1 if a comparison holds, else 0. A card's unit has its own operation, which may give NaN.
     pub(crate) fn set(&mut self, operation: NumberOperation, a: u32, b: u32) -> u32 {
         if let Some(result) = self.card(operation, [a, b, 0]) {
             return result;
@@ -85,7 +85,7 @@ impl<'r> Alu<'r> {
         outcome.bits
     }
 
-    /// One (the largest number in formats without one).
+    /// The number 1 (the largest number in formats without 1).
     pub(crate) fn one(&self) -> u32 {
         self.format.one()
     }
@@ -103,8 +103,8 @@ impl<'r> Alu<'r> {
         self.keep(ops::convert(&from, self.format, bits))
     }
 
-    /// [`Self::enter`] that also canonicalises NaN and flushes subnormals if the formats are equal; for values that are
-    /// not results of an operation.
+    /// [`Self::enter`] that also canonicalises NaN and flushes subnormals if the formats are equal; for values that did
+    /// not result from an operation.
     pub(crate) fn convert(&mut self, from: Format, bits: u32) -> u32 {
         self.keep(ops::convert(&from, self.format, bits))
     }
@@ -141,8 +141,8 @@ impl<'r> Alu<'r> {
         self.keep(self.sums.add(self.format, a, b))
     }
 
-    /// `a - b` as an instruction subtracts; [`Self::difference`] is that of neighbouring lanes, which no adder of the
-    /// pixel unit makes.
+    /// `a - b` for instructions; [`Self::difference`] subtracts neighbouring lanes, which does not use the pixel unit's
+    /// adder.
     pub(crate) fn sub(&mut self, a: u32, b: u32) -> u32 {
         match self.sums.add {
             AddMode::Rounded => self.difference(a, b),
@@ -175,7 +175,7 @@ impl<'r> Alu<'r> {
     }
 
     /// `_SAT` of OpenGL's programs (GL_NV_fragment_program 3.11.4.4, GL_ARB_fragment_program 3.11.4.3): numbers below 0
-    /// become 0, numbers above 1 become 1, and NaN, which is neither, stays.
+    /// become 0, numbers above 1 become 1, and NaN stays.
     pub(crate) fn saturate_number(&mut self, x: u32) -> u32 {
         let stays = self.format.specials == Specials::Ieee && !(self.less(0, x) || self.less_or_equal(x, 0));
         if stays { x } else { self.saturate(x) }
@@ -198,7 +198,7 @@ impl<'r> Alu<'r> {
         }
     }
 
-    /// Rounds a number of format `from` to that of a storage, if it has one, and back.
+    /// Rounds a number of format `from` to a storage's format, if it has one, and converts it back.
     pub(crate) fn stored(&mut self, from: Format, storage: Option<Format>, bits: u32) -> u32 {
         let Some(storage) = storage.filter(|storage| *storage != from) else { return bits };
         let narrowed = self.keep(ops::convert(&from, storage, bits));

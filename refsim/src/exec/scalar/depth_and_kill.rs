@@ -23,7 +23,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// `texkill`: kills the fragment if a component is below zero (-0 and NaN are not). ps_1_x tests three components,
-    /// ps_2_x those given by the rules. In ps_1_x `t#` is tested as interpolated, in ps_2_x in the register format.
+    /// of `t#` as interpolated; ps_2_x tests three or four, according to the rules, in the register format.
     pub(super) fn texkill(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         let version = self.prepared.program.version;
         let four = version.is_ps_2() && self.prepared.rules.texkill_components == TexkillComponents::Four;

@@ -1,4 +1,4 @@
-//! Flow control by lane masks and resolved jump targets.
+//! Flow control with lane masks and resolved jump targets.
 
 use super::interpreter::{Interpreter, OpenBlock};
 use crate::exec::Observer;
@@ -97,7 +97,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         at + 1
     }
 
-    /// `endrep`, `endloop` at `at`, whose loop starts at `start`.
+    /// Executes `endrep` or `endloop` at `at`; the loop starts at `start`.
     fn end_pass(&mut self, at: usize, start: usize) -> usize {
         let Some(OpenBlock::Loop { live, restore, left, step, outer_counter }) = self.open.last_mut() else {
             return at + 1;
@@ -143,8 +143,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// `call`, `callnz`. As on the cards, calls lead forward only, so that every program ends; a call that leads
-    /// backward is skipped.
+    /// `call`, `callnz`. As on the cards, calls only lead forward, so that every program ends; a backward call is
+    /// skipped.
     fn call(&mut self, at: usize, target: usize, instruction: &Instruction) -> usize {
         let entering = match instruction.opcode {
             Opcode::CallNz => self.condition(instruction),

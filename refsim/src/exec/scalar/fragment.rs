@@ -1,12 +1,12 @@
 //! OpenGL fragment programs: three precisions, condition codes, packing. Follows GL_NV_fragment_program and
-//! GL_ARB_fragment_program, whose mnemonics it uses.
+//! GL_ARB_fragment_program, and uses their mnemonics.
 //!
 //! Order within an instruction: operands are loaded, swizzled, made absolute, negated, then converted to the format of
-//! the operation. The result is saturated, converted to the format of the destination, rounded to that of its storage,
+//! the operation. The result is saturated, converted to the format of the destination, rounded to its storage's format,
 //! and written subject to mask and condition; the written components also update the condition codes, if requested.
 //!
-//! A packed word is stored in `R#` as bits. Full-precision `MOV` without modifiers copies bits; everything else,
-//! including the end of the program, interprets them as a number of the register format.
+//! A packed word is stored in `R#` as bits. Full-precision `MOV` without modifiers copies bits; other instructions, and
+//! the end of the program, interpret the bits as a number of the register format.
 
 use super::fragment_state::{ConditionCode, FragmentState};
 use super::interpreter::{ArithmeticUnit, Interpreter};
@@ -151,7 +151,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         let opcode = instruction.opcode;
         match opcode {
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
-                // Into half precision: the number that the word encodes.
+                // Half precision: reads the number that the word encodes.
                 let Some(source) = instruction.sources.first() else { return [0; 4] };
                 let word = self.packed(lane, instruction, source);
                 let full = self.full.format;

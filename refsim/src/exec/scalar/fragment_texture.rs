@@ -1,5 +1,5 @@
-//! Texture reads of OpenGL fragment programs. As in Direct3D's programs, addresses are single precision with any
-//! register format; the texel is converted to full precision and then to the destination's.
+//! Texture reads of OpenGL fragment programs. As in Direct3D's programs, addresses are single precision for any
+//! register format. The texel is converted to full precision, then to the destination's format.
 
 use super::interpreter::Interpreter;
 use super::registers::{Components, LANES, modified};
@@ -16,7 +16,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             return;
         };
         let nv = self.prepared.program.version == Version::Fp1_0;
-        // NV's instruction does not divide the directions of a cube map, ARB's does (sections 3.11.5.40 and 3.11.6.2).
+        // NV's instruction does not divide the directions of a cube map; ARB's does (sections 3.11.5.40 and 3.11.6.2).
         let projects =
             instruction.opcode == Opcode::TexLdP && !(nv && instruction.fragment.target == Some(TextureTarget::Cube));
         let mut coordinates: Quad = [[0; 4]; LANES];
@@ -51,7 +51,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// An operand in single precision: `f[TEX#]` as it was interpolated, any other register converted.
+    /// An operand in single precision: `f[TEX#]` as interpolated, other registers converted.
     fn address(&mut self, lane: usize, source: &Source) -> Components {
         if source.register.file == RegisterFile::Texture {
             let set = self.coordinate_set(lane, source.register.index);

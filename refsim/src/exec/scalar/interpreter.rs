@@ -1,7 +1,7 @@
 //! The interpreter: executes a program on the four lanes of a quad in lockstep, including stores and observer calls.
 //!
 //! A vertex is executed as a quad with one active lane. Lanes masked off by flow control keep their registers. Helper
-//! lanes (outside the primitive) execute like the others, so that derivatives exist, and are discarded at the end.
+//! lanes (outside the primitive) also execute, to provide derivatives; their results are discarded.
 
 use super::alu::Alu;
 use super::fragment_state::FragmentState;
@@ -20,9 +20,9 @@ pub(super) enum ArithmeticUnit {
     Full,
     /// The format of `_pp` instructions, or the register format if the device has none.
     Partial,
-    /// H in OpenGL's fragment programs.
+    /// Suffix H in OpenGL's fragment programs.
     Half,
-    /// X in OpenGL's fragment programs.
+    /// Suffix X in OpenGL's fragment programs.
     Fixed,
     /// The current instruction's own format.
     Own,
@@ -66,15 +66,15 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) lanes: [Registers; LANES],
     /// Interpolated coordinates `t#`, single precision patterns, before any conversion.
     pub(super) coordinates: [[Components; 8]; LANES],
-    /// Dot products left by `texm3x2pad` and `texm3x3pad`, single precision.
+    /// Dot products stored by `texm3x2pad` and `texm3x3pad`, single precision.
     pub(super) padded: [[u32; 2]; LANES],
-    /// Number of such dot products.
+    /// Number of dot products in `padded`.
     pub(super) pads: usize,
     /// Arithmetic in the register format.
     pub(super) full: Alu<'a>,
-    /// Arithmetic of `_pp` instructions, if the device has one.
+    /// Arithmetic of `_pp` instructions, if the device has a format for them.
     partial: Option<Alu<'a>>,
-    /// Arithmetic of the instruction that is executed, if it has a format of its own.
+    /// Arithmetic of the current instruction, if it has its own format.
     pub(super) own: Option<Alu<'a>>,
     /// Single precision arithmetic of texture addresses.
     pub(super) address: Alu<'a>,
@@ -82,7 +82,6 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) active: u8,
     /// Lanes covered by the primitive.
     pub(super) covered: u8,
-    /// Lanes killed.
     pub(super) killed: u8,
     /// Depth written by the program, per lane.
     pub(super) depth: [Option<(Format, u32)>; LANES],
@@ -130,7 +129,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         }
     }
 
-    /// The unit in which an arithmetic instruction computes, with precision `otherwise` if it has no format of its own.
+    /// The unit of an arithmetic instruction: its own format, or else `otherwise`.
     pub(super) fn unit_of(&mut self, instruction: &Instruction, otherwise: ArithmeticUnit) -> ArithmeticUnit {
         let Some(format) = instruction.format else { return otherwise };
         self.own = Some(self.prepared.alu(format));
@@ -161,8 +160,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 }
                 continue;
             };
-            // In Direct3D programs `arithmetic` executes a co-issued pair at once; in OpenGL programs the second
-            // instruction comes separately, and is not another step.
+            // In Direct3D programs `arithmetic` executes a co-issued pair at once. In OpenGL programs the second
+            // instruction is executed separately, but does not count as a step.
             if let Some(budget) = self.prepared.budget
                 && instruction.opcode != Opcode::Phase
                 && !(self.fragment.is_some() && instruction.coissue)
@@ -214,8 +213,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         }
     }
 
-    /// Executes an arithmetic instruction, or a co-issued pair whose members both read the state before the pair.
-    /// Returns the next instruction.
+    /// Executes an arithmetic instruction, or a co-issued pair, which reads the state before the pair. Returns the next
+    /// instruction.
     fn arithmetic(&mut self, at: usize, instruction: &Instruction) -> usize {
         let program = self.prepared.program;
         let partner = program.instructions.get(at + 1).filter(|_| self.prepared.flow.pairs_with_next(at));
@@ -299,9 +298,9 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         done
     }
 
-    /// The operands of an instruction in one lane, each loaded by `load` from a lane. Those of `dsx` and `dsy` are the
-    /// two of the quad's row or column, the second to be subtracted from the first: both lanes get the same value, and
-    /// inactive lanes contribute the contents of their registers.
+    /// The operands of an instruction in one lane, each loaded by `load` from a lane. `dsx` and `dsy` subtract the
+    /// second operand from the first, which come from the two lanes of the quad's row or column: both lanes get the
+    /// same value, and inactive lanes contribute the contents of their registers.
     pub(super) fn operands(
         &mut self,
         lane: usize,
@@ -335,8 +334,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         operand(self.alu(unit), prepared.format, source, value, wanted)
     }
 
-    /// Clamps a result to the range of results, rounds it to the format of its storage, writes it subject to mask and
-    /// predicate, and notifies the observer.
+    /// Clamps a result to the rules' range, rounds it to its storage's format, writes it subject to mask and predicate,
+    /// and notifies the observer.
     pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, mut value: Components) {
         let Some(destination) = &instruction.destination else {
             return;
@@ -404,13 +403,13 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         };
         let x = self.source(lane, a, Mask(1), ArithmeticUnit::Full)[0];
         let y = self.source(lane, b, Mask(1), ArithmeticUnit::Full)[0];
-        // A branch writes nothing and so reports no flags.
+        // A branch writes no result, so it reports no flags.
         self.full.take_flags();
         compare(&self.full, instruction.comparison.unwrap_or(Comparison::Eq), x, y)
     }
 }
 
-/// Compares two numbers. With a NaN only `ne` holds.
+/// Compares two numbers. A comparison with NaN is false, except `ne`.
 fn compare(alu: &Alu<'_>, comparison: Comparison, a: u32, b: u32) -> bool {
     match comparison {
         Comparison::Gt => alu.less(b, a),

@@ -1,5 +1,5 @@
-//! Operations that cards execute as several rounded steps. The documentation of each function states the sequence,
-//! which is a definition of this project, because no source describes the cards' own.
+//! Operations that cards execute as several rounded steps. The documentation of each function states the sequence. This
+//! project defines it, because no source describes the cards' sequences.
 
 use super::alu::Alu;
 use super::registers::Components;
@@ -18,17 +18,17 @@ pub(super) fn bem(alu: &mut Alu<'_>, base: &Components, offset: &Components, bum
 }
 
 /// `pow`: `exp2(exponent * log2(base))` in three rounded steps, as the slot cost of 3 suggests and both OpenGL
-/// extensions define it; so `pow(0, 0)` is NaN. Sources: Direct3D, "pow - ps"; GL_NV_fragment_program 3.11.5.24.
+/// extensions define; so `pow(0, 0)` is NaN. Sources: Direct3D, "pow - ps"; GL_NV_fragment_program 3.11.5.24.
 pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
     let log = alu.log2(base);
     let product = alu.mul(exponent, log);
     alu.exp2(product)
 }
 
-/// `expp` of vs_1_1: `(exp2(floor w), w - floor w, exp2(w), 1)`, each rounded once. The card's third component has ten
-/// good bits; here it has all. Source: Direct3D, "expp - vs".
+/// `expp` of vs_1_1: `(exp2(floor w), w - floor w, exp2(w), 1)`, each rounded once. On cards the third component has
+/// ten bits of precision; here it is rounded once. Source: Direct3D, "expp - vs".
 ///
-/// Vertex units of cards have an instruction for it, whose third component has about 11 good bits.
+/// Vertex units of cards have their own instruction, with about 11 bits of precision in the third component.
 pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
     let card = [Op::ExpFloor, Op::ExpFraction, Op::ExpPower].map(|operation| alu.card(operation, [w, 0, 0]));
     if let [Some(floor), Some(fraction), Some(power)] = card {
@@ -38,11 +38,11 @@ pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
     [alu.exp2(floor), alu.frc(w), alu.exp2(w), alu.one()]
 }
 
-/// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once, of a
-/// magnitude. For 0 the first and third component are `log2(0)` and the second is 1. Source: DirectX 8.1, "logp"
-/// (vs_1_0 and vs_1_1). The Direct3D 9 page has one value in all components for every version.
+/// `logp` of vs_1_1: with `e = floor(log2 |w|)`, `(e, |w| * exp2(-e), log2 |w|, 1)`, each step rounded once; the
+/// operand is a magnitude. For 0 the first and third component are `log2(0)` and the second is 1. Source: DirectX 8.1,
+/// "logp" (vs_1_0 and vs_1_1). The Direct3D 9 page gives one value for all components, in every version.
 ///
-/// Vertex units of cards have an instruction for it, as for [`expp`].
+/// Vertex units of cards have their own instruction.
 pub(super) fn logp(alu: &mut Alu<'_>, magnitude: u32) -> Components {
     let operations = [Op::LogExponent, Op::LogMantissa, Op::LogPower];
     let card = operations.map(|operation| alu.card(operation, [magnitude, 0, 0]));
@@ -71,8 +71,8 @@ pub(super) fn crs(alu: &mut Alu<'_>, a: &Components, b: &Components) -> Componen
     [component(1, 2), component(2, 0), component(0, 1), 0]
 }
 
-/// `nrm`: `d = dp3(a, a)`; `f = rsq(d)`, or the largest finite number where d is zero; then all four components times
-/// f.
+/// `nrm`: `d = dp3(a, a)`; `f = rsq(d)`, or the largest finite number if d is zero; then all four components are
+/// multiplied by f.
 ///
 /// Source: Direct3D, "nrm - ps" (the factor is `FLT_MAX` for a zero vector).
 pub(super) fn nrm(alu: &mut Alu<'_>, a: &Components) -> Components {
@@ -81,8 +81,8 @@ pub(super) fn nrm(alu: &mut Alu<'_>, a: &Components) -> Components {
     [alu.mul(a[0], factor), alu.mul(a[1], factor), alu.mul(a[2], factor), alu.mul(a[3], factor)]
 }
 
-/// `sgn`: -1 below zero, 0 for zeros, else 1, for NaN too. Source: Direct3D, "sgn - vs". Vertex units of cards have an
-/// instruction for it.
+/// `sgn`: -1 below zero, 0 for zeros, else 1, also for NaN. Source: Direct3D, "sgn - vs". Vertex units of cards have
+/// their own instruction.
 pub(super) fn sgn(alu: &mut Alu<'_>, a: u32) -> u32 {
     if let Some(sign) = alu.card(Op::Sign, [a, 0, 0]) {
         return sign;
@@ -96,10 +96,10 @@ pub(super) fn sgn(alu: &mut Alu<'_>, a: u32) -> u32 {
     }
 }
 
-/// `sincos`: `(cos x, sin x, 0, 0)` by Taylor series of the half angle, whose coefficients are the two constant
-/// operands (`D3DSINCOSCONST1` and `2`), so that their rounding into the register format counts.
+/// `sincos`: `(cos x, sin x, 0, 0)` by Taylor series of the half angle. The coefficients are the two constant operands
+/// (`D3DSINCOSCONST1` and `2`), rounded into the register format.
 ///
-/// With `q = x*x`, every `+` below a `mad` under the rules, every `*` outside a `mad` a `mul`:
+/// With `q = x*x`, where every `+` is a `mad` under the rules, and every other `*` is a `mul`:
 /// `s = (((q*p.x + p.w)*q + r.x)*q + r.w) * x` (sin x/2), `c = ((q*p.y + p.z)*q + r.y)*q + r.z` (cos x/2),
 /// `sin = t + t` with `t = s*c`, `cos = r.z - (u + u)` with `u = s*s`. Source: Direct3D, "sincos - ps".
 pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Components, r: &Components) -> Components {
@@ -121,10 +121,10 @@ pub(super) fn sincos(alu: &mut Alu<'_>, x: u32, p: &Components, r: &Components) 
 /// `lit`: with x and y clamped to 0 from below, `(1, x, x > 0 ? y^w : 0, 1)`, the power as in [`pow`].
 ///
 /// Direct3D clamps w to +-127.9961 (32767/256) and gives 0 for the power of 0. GL_ARB_fragment_program clamps w, and
-/// `0^0` is 1. GL_NV_fragment_program does neither. A clamp leaves a NaN, and those of OpenGL leave a -0. Sources:
-/// Direct3D, "lit - vs"; section 3.11.5.13 of both extensions.
+/// `0^0` is 1. GL_NV_fragment_program does neither. Clamps keep a NaN; OpenGL's clamps also keep -0. Sources: Direct3D,
+/// "lit - vs"; section 3.11.5.13 of both extensions.
 ///
-/// Vertex units of cards have an instruction for it.
+/// Vertex units of cards have their own instruction.
 pub(super) fn lit(alu: &mut Alu<'_>, version: Version, a: &Components) -> Components {
     let [mut x, mut y, _, mut w] = *a;
     let card = [alu.card(Op::LitDiffuse, [x, 0, 0]), alu.card(Op::LitSpecular, [x, y, w])];
@@ -159,8 +159,8 @@ pub(super) fn lit(alu: &mut Alu<'_>, version: Version, a: &Components) -> Compon
     [alu.one(), x, specular, alu.one()]
 }
 
-/// `RFL`: the direction `d` reflected about the axis `a`: `q = (a.d + a.d) / (a.a)`, then `q * a - d`, a product and a
-/// difference per component; w gives 0, and is not written. Source: GL_NV_fragment_program.
+/// `RFL`: the direction `d` reflected about the axis `a`: `q = (a.d + a.d) / (a.a)`, then `q * a - d` with a product
+/// and a difference per component; w is 0 and not written. Source: GL_NV_fragment_program.
 pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Components, direction: &Components) -> Components {
     let along = alu.dot(&axis[..3], &direction[..3]);
     let twice = alu.add(along, along);
@@ -173,8 +173,8 @@ pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Components, direction: &Components) 
     [component(0), component(1), component(2), 0]
 }
 
-/// `X2D`: a point displaced by a transformed vector: `(a.x + b.x*c.x) + b.y*c.y` in x and z, with `c.z`, `c.w` and
-/// `a.y` in y and w, each step a `mad` under the rules. Source: GL_NV_fragment_program.
+/// `X2D`: a point displaced by a transformed vector: `(a.x + b.x*c.x) + b.y*c.y` in x and z, the same with `a.y`, `c.z`
+/// and `c.w` in y and w. Each step is a `mad` under the rules. Source: GL_NV_fragment_program.
 pub(super) fn x2d(alu: &mut Alu<'_>, a: &Components, b: &Components, c: &Components) -> Components {
     let mut row = |base: u32, i: usize| {
         let first = alu.mad(b[0], c[i], base);

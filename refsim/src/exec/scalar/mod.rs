@@ -7,9 +7,9 @@
 //! - `prepared`: per-draw preparation; `pixel`, `vertex`, `tile`: entry points.
 //!
 //! The order within an instruction is Direct3D's: swizzle, source modifier, operation, shift, saturation, write mask.
-//! Whatever cards leave undefined has a defined value here: unwritten registers and the alpha lost at `phase` are zero,
-//! a constant outside its file is zero, an unbound sampler reads (0, 0, 0, 1), a loop makes at most 255 iterations, and
-//! a call that leads backward is skipped.
+//! Behaviour that cards leave undefined is defined here: unwritten registers and alpha after `phase` are zero, a
+//! constant outside its file is zero, an unbound sampler reads (0, 0, 0, 1), a loop makes at most 255 iterations, and a
+//! call that leads backward is skipped.
 
 mod alu;
 mod depth_and_kill;
@@ -52,8 +52,8 @@ fn address_value(format: Format, opcode: Opcode, bits: u32) -> i32 {
             }
         }
         Unpacked::Finite { sign, sig, exp, den } => {
-            // An integer: bits below the point are zero. If a normalized format ends before the next integer, its end
-            // represents that integer, and is cut off.
+            // `sig` is an integer: bits below the point are zero. If a normalized format ends before the next integer,
+            // its largest number represents that integer, and is truncated here.
             let sig = sig / u64::from(den);
             let magnitude = match exp {
                 0.. if sig == 0 => 0,

@@ -1,6 +1,6 @@
 //! Arithmetic operations for one lane: map operands (after swizzle and source modifier) to a result (before shift,
-//! saturation and write mask). Follows the instruction pages of the Direct3D shader assembly reference, and where they
-//! differ the sections of GL_NV_fragment_program and GL_ARB_fragment_program.
+//! saturation and write mask). Follows the instruction pages of the Direct3D shader assembly reference, and for
+//! OpenGL's programs, where different, GL_NV_fragment_program and GL_ARB_fragment_program.
 
 use super::alu::Alu;
 use super::macros;
@@ -9,14 +9,14 @@ use crate::device::Rules;
 use crate::isa::{Mask, Opcode, Version};
 use crate::num::NumberOperation as Set;
 
-/// Inputs of an operation besides its operands.
+/// Inputs of an operation other than its operands.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Context {
-    /// The language: some operations differ from one to another.
+    /// The language: some operations depend on it.
     pub(crate) version: Version,
     /// Bump matrix `M00 M01 M10 M11` of the destination's stage, in the format of the operation (`bem`).
     pub(crate) bump: [u32; 4],
-    /// The components needed. Component-wise operations leave the others zero and raise no flags for them.
+    /// The needed components. Component-wise operations leave other components zero and raise no flags for them.
     pub(crate) mask: Mask,
 }
 
@@ -47,7 +47,7 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
             [alu.add(dot, c[0]); 4]
         }
         Cnd => each(mask, |i| alu.cnd(a[i], b[i], c[i])),
-        // ARB selects by `< 0`, Direct3D by `>= 0`: a NaN selects the other operand.
+        // ARB selects by `< 0`, Direct3D by `>= 0`: the two differ for NaN.
         Cmp if version == Version::ArbFp1_0 => each(mask, |i| if alu.less(a[i], 0) { b[i] } else { c[i] }),
         Cmp => each(mask, |i| alu.cmp(a[i], b[i], c[i])),
         Bem => macros::bem(alu, &a, &b, &context.bump),
@@ -88,7 +88,7 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
         Cos => [alu.cos(a[0]); 4],
         Sin => [alu.sin(a[0]); 4],
         Scs => [alu.cos(a[0]), alu.sin(a[0]), 0, 0],
-        // A card's unit adds the fourth term in the same sum.
+        // A card's unit includes the fourth term in one sum.
         Dph if alu.by_card() => [alu.dot(&[a[0], a[1], a[2], alu.one()], &b); 4],
         Dph => {
             let dot = alu.dot(&a[..3], &b[..3]);

@@ -1,4 +1,4 @@
-//! Packing of numbers into a 32-bit word: `PK2H`, `PK2US`, `PK4B`, `PK4UB` and the inverse. Source:
+//! Packing of numbers into a 32-bit word (`PK2H`, `PK2US`, `PK4B`, `PK4UB`), and unpacking. Source:
 //! GL_NV_fragment_program.
 
 use super::registers::Components;
@@ -21,8 +21,8 @@ pub(super) fn pack(formats: &FragmentFormats, opcode: Opcode, value: &Components
     }
 }
 
-/// Contents of a register of the format after a word is written to it: the word's bits, if the register is a 32-bit
-/// float, else the number encoded by its lower bits.
+/// Contents of a register after a word is written to it: the word, if `format` is a 32-bit float, else the number
+/// encoded by the word's lower bits.
 pub(super) fn stored_word(format: Format, word: u32) -> u32 {
     if format.width() == 32 && !format.is_fixed() {
         word

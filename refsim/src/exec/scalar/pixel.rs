@@ -23,13 +23,12 @@ impl<'a> PixelProgram<'a> {
         Self { prepared: Prepared::pixel(program, rules, bindings) }
     }
 
-    /// Sets a step budget.
     pub(super) fn within(mut self, budget: u32) -> Self {
         self.prepared.set_budget(budget);
         self
     }
 
-    /// Interpolated components that the program can read; the others need not be provided.
+    /// Interpolated components that the program can read; other components need not be provided.
     pub fn inputs_read(&self) -> ComponentMask {
         self.prepared.reads
     }
@@ -40,12 +39,12 @@ impl<'a> PixelProgram<'a> {
         self.stored(Storage::Colors, self.prepared.format, delivered)
     }
 
-    /// Interpolated texture coordinates in the format of their storage, single precision.
+    /// Interpolated texture coordinates, rounded to their storage's format, single precision.
     fn delivered_coordinates(&self, interpolated: [u32; 4]) -> [u32; 4] {
         self.stored(Storage::Coordinates, Format::FP32, interpolated)
     }
 
-    /// Rounds numbers of a format to that of a storage.
+    /// Rounds numbers of a format to the format of a storage.
     fn stored(&self, storage: Storage, format: Format, value: [u32; 4]) -> [u32; 4] {
         let rules = self.prepared.rules;
         match rules.storage.of(storage) {
@@ -54,12 +53,12 @@ impl<'a> PixelProgram<'a> {
         }
     }
 
-    /// Converts interpolated FP32 values to those that arithmetic instructions read.
+    /// Converts interpolated fp32 values to the values that arithmetic instructions read.
     fn coordinates(&self, interpolated: [u32; 4]) -> [u32; 4] {
         interpolated.map(|x| ops::convert(&Format::FP32, self.prepared.format, x).bits)
     }
 
-    /// The fog coordinate as read by instructions of OpenGL programs: its fourth component is 1 in ARB's, 0 in NV's.
+    /// The fog coordinate as read by instructions of OpenGL programs: its fourth component is 1 for ARB, 0 for NV.
     fn fog(&self, input: &FragmentInput) -> [u32; 4] {
         let [x, ..] = self.coordinates([input.fog; 4]);
         let arb = self.prepared.program.version == Version::ArbFp1_0;
@@ -81,9 +80,9 @@ impl<'a> PixelProgram<'a> {
     }
 
     /// Executes a quad with lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set if lane `i` is a
-    /// fragment; the others are helpers, which the observer sees too but whose results are meaningless. Texture reads
-    /// of covered lanes are added to `fetches`. Also returns, for each lane that was stopped by the step budget, the
-    /// instruction before which it was stopped.
+    /// fragment; other lanes are helpers: the observer sees them, but their results are meaningless. Texture reads of
+    /// covered lanes are added to `fetches`. Also returns, per lane, the instruction before which the step budget
+    /// stopped the lane, if it did.
     pub fn run<O: Observer>(
         &self,
         inputs: &[FragmentInput; LANES],

@@ -56,7 +56,6 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Enforces a step budget.
     pub(crate) fn set_budget(&mut self, budget: u32) {
         self.budget = enforced(self.program, &self.flow, &self.constants, budget);
     }
@@ -66,7 +65,7 @@ impl<'a> Prepared<'a> {
         if self.is_pixel() { Alu::new(self.rules, format) } else { Alu::vertex(self.rules, format) }
     }
 
-    /// Format of the values that instructions write to a register file, if not the register format.
+    /// Format of the values that instructions write to a register file, if different from the register format.
     pub(crate) fn written(&self, file: RegisterFile) -> Option<Format> {
         self.rules.storage.written(file).filter(|_| self.is_pixel())
     }

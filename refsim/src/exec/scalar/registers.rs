@@ -63,8 +63,8 @@ impl Registers {
         usize::try_from(i64::from(register.index) + i64::from(offset)).ok()
     }
 
-    /// Value of a register before swizzle and modifiers. Registers outside their file (in particular relatively
-    /// addressed constants) read as zero, and so do files that hold no numbers.
+    /// Value of a register before swizzle and modifiers. Registers outside their file (for example by relative
+    /// addressing) and files without numbers read as zero.
     pub(super) fn value(&self, register: &Register, constants: &ResolvedConstants, loop_counter: i32) -> Components {
         let Some(number) = self.number(register, loop_counter) else {
             return [0; 4];
@@ -108,7 +108,7 @@ impl Registers {
     }
 }
 
-/// An operand as an operation reads it: converted to the operation's format where that differs from the registers'
+/// An operand as an operation reads it: converted to the operation's format if that differs from the register format
 /// (`_pp`), swizzled, modified. Components outside `wanted` are zero.
 pub(super) fn operand(
     alu: &mut Alu<'_>,
@@ -128,7 +128,7 @@ pub(super) fn operand(
 
 /// Applies a source modifier to a component. Each step rounds once; negation comes last.
 ///
-/// Division (`_dz`, `_dw`) belongs to texture addressing and logical negation to predicates, so neither has an effect
+/// Division (`_dz`, `_dw`) applies to texture addressing, and logical negation to predicates; neither has an effect
 /// here.
 pub(super) fn modified(alu: &mut Alu<'_>, modifier: Modifier, x: u32) -> u32 {
     match modifier {
@@ -162,8 +162,8 @@ pub(super) fn modified(alu: &mut Alu<'_>, modifier: Modifier, x: u32) -> u32 {
     }
 }
 
-/// Finishes a result for a register: shift, then saturation, then conversion to the registers' format if the operation
-/// has another one (`_pp`).
+/// Finishes a result for a register: shift, then saturation, then conversion to the register format if the operation
+/// has another format (`_pp`).
 pub(super) fn finished(
     alu: &mut Alu<'_>,
     registers: Format,

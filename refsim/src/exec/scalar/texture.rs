@@ -1,6 +1,6 @@
-//! Texture instructions. Addresses are single precision with any register format: coordinates `t#` reach a sampler
-//! unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is single
-//! precision with one rounding per step and dot products in the device's order.
+//! Texture instructions. Addresses are single precision for any register format: coordinates `t#` reach a sampler
+//! unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) rounds once per
+//! step and sums dot products in the device's order.
 
 use super::interpreter::{ArithmeticUnit, Interpreter};
 use super::registers::{Components, LANES};
@@ -11,10 +11,9 @@ use crate::isa::{Destination, Instruction, Mask, Modifier, Opcode, RegisterFile,
 use crate::num::{Format, Overflow, ops};
 use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
 
-/// Single precision 1.0.
 const ONE: u32 = 0x3f80_0000;
 
-/// A vector per lane.
+/// One vector per lane.
 pub(super) type Quad = [Components; LANES];
 
 /// Source of a read's level of detail.
@@ -162,8 +161,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// The operand of `texld` and `texcrd` in ps_1_4. `_dz` and `_dw` divide x and y by z (w), or set them to 1.0 if
-    /// the divisor is zero; the third and fourth component, undefined on the cards, become 0.
+    /// The operand of `texld` and `texcrd` in ps_1_4. `_dz` and `_dw` divide x and y by z or w, or set them to 1.0 if
+    /// the divisor is zero. Components 3 and 4 are undefined on the cards, and 0 here.
     fn selected(&mut self, lane: usize, source: &Source) -> Components {
         let plain = Source { modifier: Modifier::None, ..*source };
         let [x, y, z, w] = self.address_of(lane, &plain);
@@ -212,14 +211,14 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         self.address.dot(&own[..3], &vector[..3])
     }
 
-    /// The three rows: two from pad instructions, and a new one.
+    /// The three matrix rows: two stored by pad instructions, and a new row.
     fn normal(&mut self, lane: usize, own: Components, source: &Source) -> [u32; 3] {
         let [x, y] = self.padded[lane];
         [x, y, self.row(lane, own, source)]
     }
 
-    /// The eye ray reflected at the normal, `(2 (n.e) / (n.n)) n - e`, in the steps `q = dp3(n, e) / dp3(n, n)`, `q +
-    /// q`, times n, minus e.
+    /// The eye ray reflected at the normal, `(2 (n.e) / (n.n)) n - e`, in the steps `q = dp3(n, e) / dp3(n, n)`,
+    /// `q + q`, multiply by n, subtract e.
     fn reflected(&mut self, n: [u32; 3], e: [u32; 3]) -> Components {
         let unit = &mut self.address;
         let (ne, nn) = (unit.dot(&n, &e), unit.dot(&n, &n));
@@ -244,8 +243,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         out
     }
 
-    /// Reads a texel for one lane, rounded to the format of texels, and counts the read. An unbound sampler returns
-    /// (0, 0, 0, 1), in `!!FP1.0` zeros.
+    /// Reads a texel for one lane, rounded to the storage format of texels, and counts the read. An unbound sampler
+    /// returns (0, 0, 0, 1), in `!!FP1.0` zeros.
     pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {
         let (format, storage) = (self.prepared.format, self.prepared.rules.storage.of(Storage::Texels));
         let image = self.prepared.sampler(stage).map(|binding| binding.image.format());
@@ -289,7 +288,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         [0, 1, 2, 3].map(|i: usize| self.address.sub(b[i], a[i]))
     }
 
-    /// Rounds a result to the instruction's own format, or to that of `_pp`, and returns it in the register format.
+    /// Rounds a result to the instruction's own format, or to the format of `_pp`, and returns it in the register
+    /// format.
     pub(super) fn through(&self, own: Option<Format>, value: Components) -> Components {
         let format = self.prepared.format;
         match own {
@@ -336,8 +336,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         self.full.convert(Format::FP32, single)
     }
 
-    /// `texcrd`: converts a coordinate to the register format. Out of range it saturates, or wraps so that the fraction
-    /// is preserved (fixed point only), according to the rules.
+    /// `texcrd`: converts a coordinate to the register format. A coordinate out of range saturates, or in fixed point
+    /// wraps with its fraction preserved, according to the rules.
     fn coordinate_in_register(&mut self, single: u32) -> u32 {
         let format = self.prepared.format;
         match self.prepared.rules.texcrd_overflow {
@@ -368,8 +368,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// `texm3x2depth`: the depth becomes the quotient of the two rows in single precision, or 1.0 if the divisor is
-    /// zero.
+    /// `texm3x2depth`: the depth is the quotient of the two rows in single precision, or 1.0 if the divisor is zero.
     fn texm3x2depth(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         let Some(source) = instruction.sources.first() else {
             return;

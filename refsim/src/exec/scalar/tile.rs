@@ -54,7 +54,7 @@ impl<'a> ScalarTiles<'a> {
         let mut counts = FragmentCounts::default();
         let mut first: Option<Overrun> = None;
         for quad in triangle.quads(region) {
-            // Quads that can only contain later overruns are skipped.
+            // Skips quads that can only contain later overruns.
             if first.is_some_and(|known| (known.y, known.x) < (quad.y, quad.x)) {
                 continue;
             }
@@ -92,7 +92,7 @@ impl<'a> ScalarTiles<'a> {
     }
 
     fn merge(&self, result: &FragmentResult, depth: u32, place: (u32, u32), tile: &mut TargetTile) -> FragmentFate {
-        // A single-precision depth (texm3x2depth) is treated like the interpolated one.
+        // A single-precision depth (texm3x2depth) is treated like the interpolated depth.
         let (own, depth) = match result.depth {
             Some(DepthValue { format, bits }) if format == self.rules.format => (Some(bits), depth),
             Some(DepthValue { format: Format::FP32, bits }) => (None, bits),
@@ -111,8 +111,8 @@ impl ScalarTiles<'_> {
     /// Returns the fragment counts, without helper lanes.
     ///
     /// # Errors
-    /// The first fragment, in the order of [`Overrun`], that exceeds the step budget. The tile's contents are invalid
-    /// then.
+    /// The first fragment, in the order of [`Overrun`], that exceeds the step budget. The tile's contents are then
+    /// invalid.
     pub fn run_tile(
         &self,
         triangles: &[TriangleSetup],
@@ -129,7 +129,7 @@ impl ScalarTiles<'_> {
     }
 }
 
-/// The first fragment of a quad that was stopped; its triangle is reported as 0.
+/// The first stopped fragment of a quad; its triangle is reported as 0.
 fn overrun(quad: &PixelQuad, cut_at: &[Option<usize>; 4]) -> Option<Overrun> {
     let of = |lane: usize| {
         let instruction = cut_at[lane].filter(|_| quad.mask >> lane & 1 == 1)?;

@@ -15,8 +15,8 @@ pub struct VertexProgram<'a> {
 /// Result of a vertex program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VertexResult {
-    /// The vertex, in single precision. Unwritten outputs are zero; colours are clamped to [0, 1], as Direct3D does
-    /// before interpolation, unless the rules clamp them at the pixel.
+    /// The vertex, in single precision. Unwritten outputs are zero. Colours are clamped to [0, 1] here, as Direct3D
+    /// specifies, unless the rules clamp them at the pixel.
     pub vertex: Vertex,
     /// Instruction slots executed (a matrix product counts its rows).
     pub slots: u64,
@@ -28,20 +28,19 @@ impl<'a> VertexProgram<'a> {
         Self { prepared: Prepared::vertex(program, rules, constants) }
     }
 
-    /// Sets a step budget.
     pub(crate) fn within(mut self, budget: u32) -> Self {
         self.prepared.set_budget(budget);
         self
     }
 
-    /// Executes the program on the attributes `v0` to `v15`, single-precision patterns; to the observer the vertex is
-    /// lane 0. Also returns the instruction before which the vertex was stopped by the step budget, if it was.
+    /// Executes the program on the attributes `v0` to `v15`, single-precision patterns; the observer sees the vertex as
+    /// lane 0. Also returns the instruction before which the step budget stopped the vertex, if it did.
     pub fn run<O: Observer>(&self, attributes: &[[u32; 4]; 16], observer: &mut O) -> (VertexResult, Option<usize>) {
         let format = self.prepared.format;
         let mut run = Interpreter::new(&self.prepared, 0b0001, observer);
         run.lanes[0].input = attributes.map(|v| v.map(|x| ops::convert(&Format::FP32, format, x).bits));
         run.run();
-        // Units of cards hand words on as they are: a moved NaN keeps its sign (docs/measured.md).
+        // Units of cards copy words unchanged: a moved NaN keeps its sign (docs/measured.md).
         let out = |x: u32| if format.unit.is_card() { x } else { ops::convert(&format, Format::FP32, x).bits };
         let registers = &run.lanes[0];
         let clamp = self.prepared.rules.color_clamp;

@@ -21,9 +21,9 @@ pub const HEAD: usize = RESULTS + 19;
 const INPUT: usize = 4;
 const RESULTS: usize = INPUT + 45;
 const NOTHING: u32 = 1;
-/// First word of a record with a fragment.
+/// Value of the first word of a record with a fragment.
 pub const FRAGMENT: u32 = 2;
-/// First word of a record whose dispatch must be repeated.
+/// Value of the first word of a record whose dispatch must be repeated.
 pub const UNFINISHED: u32 = 3;
 
 /// The complete module: the kernel, the machine that runs programs, and texture reads.
@@ -47,7 +47,7 @@ pub struct FollowDispatch {
     pub jobs: usize,
     /// Register rows of the program in `scratch`; [`super::kernel::EXTRA_ROWS`] follow.
     pub registers: usize,
-    /// `true` if it resumes the previous dispatch, which exceeded its iteration limit and had the same parameters.
+    /// `true` to resume the previous dispatch, which had the same parameters and exceeded its iteration limit.
     pub resumes: bool,
     /// Approximate limit of loop iterations per invocation.
     pub passes: u32,
@@ -55,7 +55,7 @@ pub struct FollowDispatch {
     pub records: usize,
     /// Capacity of a record, in steps.
     pub room: usize,
-    /// Number of initial steps that are not stored.
+    /// Number of leading steps that are not stored.
     pub skipped: usize,
 }
 
@@ -97,7 +97,7 @@ impl<'w> Record<'w> {
         self.words[0] == UNFINISHED
     }
 
-    /// Index, in the pixel's list, of the first triangle that covers it; `None` if none does.
+    /// Index, in the pixel's list, of the first triangle that covers the pixel; `None` if there is none.
     pub fn triangle(&self) -> Option<usize> {
         (self.words[0] == FRAGMENT).then_some(self.words[1] as usize)
     }
@@ -148,7 +148,7 @@ impl<'w> Record<'w> {
         let main = |raw| formats.encode(Arith::Main, raw);
         let words = &self.words[RESULTS..HEAD];
         let (killed, depth, is_main) = (words[16] != 0, words[17], words[18] != 0);
-        // Only texm3x2depth writes depth in single precision, and it always does.
+        // Only texm3x2depth writes depth in single precision, and always does.
         let single = program(checked).instructions.iter().any(|i| i.opcode == Opcode::TexM3x2Depth);
         FragmentResult {
             killed,

@@ -31,11 +31,11 @@ pub const INVOCATIONS: usize = 64;
 /// Words of `counts`: outcomes of fragments and reads per sampler, two words each; then [`UNFINISHED`], [`CUT`] and
 /// [`OVERRUN`].
 pub const COUNT_WORDS: usize = 47;
-/// Index in `counts`: invocations with work left, in which case the dispatch must be repeated.
+/// Index in `counts` of the invocations with work left: if any, the dispatch must be repeated.
 pub const UNFINISHED: usize = 44;
-/// Index in `counts`: invocations whose loops the driver terminated, in which case the results are invalid.
+/// Index in `counts` of the invocations whose loops the driver terminated: if any, the results are invalid.
 pub const CUT: usize = 45;
-/// Index in `counts`: quads with a fragment that exceeded its step budget.
+/// Index in `counts` of the quads with a fragment that exceeded its step budget.
 pub const OVERRUN: usize = 46;
 /// Rows of `scratch` after the program's registers: inputs, outputs, and saved state of an invocation.
 pub const EXTRA_ROWS: usize = IN_OUT_ROWS + SAVED_ROWS;
@@ -60,13 +60,13 @@ const FIELDS: [(&str, usize); 22] = [
     ("D_NEAREST", 1),
     // Enable, equation of colours, equation of alpha.
     ("D_BLEND", 7),
-    // First row of `scratch` after the program's registers; resume flag; limit of loop iterations per invocation, and
-    // their number per triangle.
+    // First row of `scratch` after the program's registers; resume flag; limit of loop iterations per invocation; loop
+    // iterations per triangle.
     ("D_ROWS", 1),
     ("D_RESUMES", 1),
     ("D_PASSES", 1),
     ("D_COST", 1),
-    // Two numbers that are multiplied by repeated addition, to detect drivers that cut loops off.
+    // Two numbers that are multiplied by repeated addition, to detect drivers that terminate loops.
     ("D_PROOF", 2),
     // Offset of records in `video`, words per record, number of step words stored, and first one stored.
     ("D_FOLLOW", 4),
@@ -174,7 +174,7 @@ pub struct DrawDispatch {
     pub groups: usize,
     /// Register rows of the program in `scratch`; [`EXTRA_ROWS`] follow.
     pub registers: usize,
-    /// `true` if it resumes the previous dispatch, which exceeded its iteration limit and had the same parameters.
+    /// `true` to resume the previous dispatch, which had the same parameters and exceeded its iteration limit.
     pub resumes: bool,
     /// Approximate limit of loop iterations per invocation. These are iterations of the shader, not of the program that
     /// it executes.
@@ -238,7 +238,7 @@ impl DrawWords {
         &self.interpolation
     }
 
-    /// Parts of the kernel that the draw uses, including those of its program.
+    /// Parts of the kernel that the draw and its program use.
     pub fn parts_with(&mut self, code: &Microcode) -> Parts {
         self.program_cost = code.passes;
         let mut parts = code.parts.clone();
@@ -311,7 +311,7 @@ impl DrawWords {
         usize::from(PLANES) + 3 * self.interpolation.components.len()
     }
 
-    /// Loop iterations that a triangle costs an invocation, including its program, unless that can be suspended.
+    /// Loop iterations per triangle and invocation, including the program's unless the program can be suspended.
     pub(super) fn cost(&self) -> u32 {
         let targets = (0..4).filter(|i| self.words[field("D_TARGETS") + i * target::WORDS] == 1).count();
         1500 + 110 * self.interpolation.components.len() as u32 + 1500 * targets as u32 + self.program_cost
@@ -378,7 +378,7 @@ fn orders(function: CompareFunction) -> u32 {
 }
 
 /// Converts a pattern of a format to the shaders' representation: a sign-extended integer, or the single-precision
-/// pattern of the same number with canonical NaN; of units of cards the word itself.
+/// pattern of the same number with canonical NaN; for units of cards, the word itself.
 pub fn raw(format: &Format, bits: u32) -> u32 {
     match format.kind {
         FormatKind::Fixed { .. } | FormatKind::Normalized { .. } => {

@@ -1,5 +1,5 @@
-//! Generation of WGSL for the GPU executor: modules that compute the reference's bits in integer arithmetic, so that
-//! every adapter gives the same result. Needs no GPU.
+//! Generation of WGSL for the GPU executor: shader modules that compute the reference's bits in integer arithmetic, so
+//! that every adapter gives the same result. Generation needs no GPU.
 //!
 //! - `interface`: declarations shared by all parts. [`kernel`] and [`target`]: rasterisation, tests, blending, targets.
 //! - [`follow`]: kernel for pixel traces.
@@ -7,7 +7,8 @@
 //!   [`program`]: pixel programs and interpolation. [`parts`]: reduction of the text to the parts that a draw uses.
 //!
 //! Values have the \"raw\" representation of the batch executor: a fixed-point number is a sign-extended two's
-//! complement integer; a float of any format is the binary32 pattern of the same number, NaN always `0x7fc00000`.
+//! complement integer; a float of any format is the binary32 pattern of the same number, and NaN is always
+//! `0x7fc00000`.
 
 pub mod follow;
 pub mod kernel;

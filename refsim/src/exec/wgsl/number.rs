@@ -1,7 +1,7 @@
 //! Arithmetic in WGSL: the text of the number library, and the encoding of formats in words.
 //!
 //! It implements [`crate::num`]: the exact result, rounded once. It uses 32-bit integer arithmetic for every format, so
-//! its results are the same on every adapter that conforms to WGSL; its floating point has no effect.
+//! its results are the same on every adapter that conforms to WGSL, whatever the adapter's floating point.
 
 mod unit_tables;
 
@@ -9,9 +9,9 @@ use super::parts::section;
 use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials, Unit};
 
 /// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
-/// rounding, overflow, denormals, special values, and the denominator of a normalized format, else 0. Shaders take a
-/// normalized format for one of fixed point without fraction bits, whose numbers are divided by the denominator. Units
-/// of cards take the place of the special values, from 2 on.
+/// rounding, overflow, denormals, special values, and the denominator of a normalized format, else 0. Shaders treat a
+/// normalized format as fixed point without fraction bits, and divide its numbers by the denominator. The field of
+/// special values encodes units of cards, from 2 on.
 ///
 /// Rules that do not apply to the kind are replaced by its default, as in [`Format`].
 pub fn format_words(format: &Format) -> [u32; 8] {
@@ -47,7 +47,7 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     [kind, upper.into(), frac.into(), rounding, overflow, flush, special, denominator_word(format)]
 }
 
-/// The kind of a float: 1 of IEEE 754; without infinity 2, without NaN too 3, without -0 4.
+/// The kind of a float: 1 for IEEE 754, 2 without infinity, 3 without infinity and NaN, 4 without -0.
 fn float_word(format: &Format) -> u32 {
     match format.encoding {
         Encoding::Ieee => 1,

@@ -1,18 +1,18 @@
 //! Reduction of the shader text to the parts that a draw uses.
 //!
-//! Drivers inline every function and compile code that is never reached, so a complete machine takes them minutes.
-//! Therefore unused parts are removed from the text first. The text is valid WGSL before and after. Parts are arms of
+//! Drivers inline every function and compile unreachable code, so compiling the complete machine takes minutes.
+//! Therefore unused parts are first removed from the text. The text is valid WGSL before and after. Parts are arms of
 //! switches (`case VM_DOT: {`) labelled with names of parts, blocks under `if (HAS_CUBES) {`, and functions that become
-//! unreachable. Sections between `// begin HAS_GT200` and `// end HAS_GT200` go with all that they hold.
+//! unreachable. Sections between `// begin HAS_GT200` and `// end HAS_GT200` are removed as a whole.
 
 use super::program::operations;
 use crate::num::{Encoding, Format, NumberOperation, Unit};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Features of draws besides operations. In the text, each guards blocks with an `if`.
+/// Features of draws other than operations. In the text, each feature guards blocks with an `if`.
 const FEATURES: [&str; 25] = [
-    // Numbers: fixed-point registers; normalized ones; floats without infinity; formats other than single precision
-    // with default rules.
+    // Numbers: fixed-point registers; normalized registers; floats without infinity; formats other than single
+    // precision with default rules.
     "HAS_FIXED",
     "HAS_NORMALIZED",
     "HAS_FINITE",
@@ -23,8 +23,8 @@ const FEATURES: [&str; 25] = [
     // Programs: may exceed one dispatch; steps are counted.
     "HAS_SUSPENSION",
     "HAS_STEP_BUDGET",
-    // Textures: arithmetic before the read; cube maps; choice of a level; several texels weighed; images repeated or
-    // mirrored; fixed-point texels; float texels; filtered float texels; filtered bytes; either of the two.
+    // Textures: arithmetic before the read; cube maps; level selection; linear filtering; repeated or mirrored images;
+    // fixed-point texels; float texels; filtered float texels; filtered bytes; filtered float texels or bytes.
     "HAS_TEXTURE_DETAIL",
     "HAS_CUBES",
     "HAS_LEVELS",
@@ -45,8 +45,8 @@ const FEATURES: [&str; 25] = [
 ];
 /// Features of draws that use units of cards. Each has a section of the text, with its constant.
 const UNITS: [&str; 3] = ["HAS_UNITS", "HAS_VERTEX_UNIT", "HAS_GT200"];
-/// Operations that are expensive to compile, in groups that are included together. All others are always included, so
-/// that programs that differ only in them share a text.
+/// Operations that are expensive to compile, in groups that are included together. All other operations are always
+/// included, so that programs that differ only in these share a text.
 const COSTLY: [&[NumberOperation]; 6] = [
     &[NumberOperation::Exp2, NumberOperation::Log2],
     &[NumberOperation::Sin, NumberOperation::Cos],
@@ -82,7 +82,7 @@ const COSTLY: [&[NumberOperation]; 6] = [
         NumberOperation::LitSpecular,
     ],
 ];
-/// Arms needed for cube maps.
+/// Arms for cube maps.
 const CUBES: [&str; 12] = [
     "TEXTURE_STEP_MOVE",
     "TEXTURE_STEP_QUOTIENT",
@@ -119,7 +119,7 @@ impl Parts {
         Self(features.chain(operations).chain(operations::all()).collect())
     }
 
-    /// All parts, of units of cards only those that are in the set.
+    /// All parts, except parts of units of cards that are not in the set.
     pub fn grown(&self) -> Self {
         let mut all = Self::all();
         if !self.contains("HAS_UNITS") {
@@ -197,7 +197,7 @@ impl Parts {
         let mut out = String::with_capacity(text.len());
         // Nesting depth of braces within removed text.
         let mut open = 0;
-        // The removed section that the line is in.
+        // The enclosing section that is being removed, if any.
         let mut left_out: Option<&str> = None;
         for line in text.lines() {
             if let Some(name) = line.strip_prefix(BEGIN) {
@@ -235,7 +235,7 @@ impl Parts {
             let goes = all.0.contains(feature) && !self.0.contains(feature);
             return (!goes).then(|| line.to_owned());
         }
-        // Sums are for devices with a rule for them: texts of others have no constant that names them.
+        // Sums need a rule of the device; texts of other devices have no constant that names them.
         if trimmed.starts_with("const VM_SUM:") {
             return self.contains("VM_SUM").then(|| line.to_owned());
         }
@@ -256,7 +256,7 @@ pub(super) fn section(feature: &str, text: &str) -> String {
     format!("{BEGIN}{feature}\nconst {feature}: bool = true;\n{text}{END}{feature}\n")
 }
 
-/// The feature constants, all `true`: blocks of removed features are gone from the text.
+/// The feature constants, all `true`: blocks of unused features are removed from the text.
 pub fn constants() -> String {
     FEATURES.iter().map(|name| format!("const {name}: bool = true;\n")).collect()
 }

@@ -58,7 +58,7 @@ fn channel_words(channel: &Channel) -> [u32; 6] {
         ChannelClass::Unorm => (0, 0),
         ChannelClass::Snorm => (1, 0),
         ChannelClass::SplitSnorm => (2, 0),
-        // Their indices in the table of formats.
+        // The second number is the index in the table of formats.
         ChannelClass::Float(Format::FP16) => (3, 5),
         ChannelClass::Float(Format::FP24) => (3, 6),
         ChannelClass::Float(_) => (3, 7),

@@ -1,11 +1,11 @@
 //! Texture reads in WGSL: the sampler table, images as words, and the text of the texture library.
 //!
-//! The text defines `texture_read` and `texel_decode`. It requires from the rest of its module: the bindings `samplers`
-//! and `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, `texture_operand` and `texture_result` for
+//! The text defines `texture_read` and `texel_decode`. The rest of the module must define: the bindings `samplers` and
+//! `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, `texture_operand` and `texture_result` for
 //! operands and results, and `Format`, `n_round`, `n_infinite`, `n_nan` and `s_alu` of the number library.
 //!
 //! All parameters of a read are in the sampler table, so one module serves all textures and states. A sampler has
-//! [`SAMPLER_WORDS`] words at the offsets given by the constants, which have the same names in the text.
+//! [`SAMPLER_WORDS`] words; constants define their offsets, with the same names in Rust and WGSL.
 
 use super::parts::Parts;
 use crate::exec::SamplerBinding;
@@ -65,7 +65,7 @@ shared! {
     FLAG_FLOAT = 27;
     /// Coordinates are normalised (0 to 1); else they are in texels.
     FLAG_NORMALISED = 28;
-    /// Filter weights are cut; else they are rounded.
+    /// Filter weights are truncated; else they are rounded.
     FLAG_CUT = 29;
     /// Bytes are interpolated in steps that are rounded to bytes.
     FLAG_BYTES = 30;
@@ -266,7 +266,7 @@ fn scales(image: &Image) -> [u32; 3] {
     }
 }
 
-/// Returns `true` if some component is a byte that is interpolated.
+/// Returns `true` if a component is an interpolated byte.
 fn interpolates_bytes(format: TexelFormat, rules: &SampleRules) -> bool {
     let is_byte = |source: &SampledSource| matches!(source.read(rules, |_| 0), SampledComponent::Byte { .. });
     rules.filter_arithmetic == FilterArithmetic::ByteLerps
@@ -291,7 +291,7 @@ fn channel_word(mut channel: Channel, rules: &SampleRules) -> u32 {
         && !matches!(channel.class, ChannelClass::Float(_))
         && rules.texel_values == TexelValues::Bytes
     {
-        // The upper byte is read as a channel of its own.
+        // The upper byte is treated as a channel.
         (channel.shift, channel.bits, bytes) = (channel.shift + 8, 8, true);
     }
     let clamped = rules.signed_texel_minimum == SignedTexelMinimum::Clamp;
@@ -310,7 +310,7 @@ fn channel_word(mut channel: Channel, rules: &SampleRules) -> u32 {
     class as u32 | u32::from(channel.shift) << 8 | u32::from(channel.bits) << 16
 }
 
-/// Encodes the border: what `texel_code`, or of float texels `texel_single`, makes of the bits of a texel.
+/// Encodes the border: the results of `texel_code`, or for float texels of `texel_single`, for the border texel.
 fn border_words(format: TexelFormat, state: &SamplerState, rules: &SampleRules) -> [u32; 4] {
     let floats = format.record().is_float();
     rules.border(format, state.border).map(|component| match component {

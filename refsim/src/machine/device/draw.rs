@@ -29,11 +29,12 @@ use std::sync::Arc;
 const MAX_TRIANGLES: usize = 8192;
 /// Maximum number of tiles per dispatch.
 const MAX_TILES: usize = 4096;
-/// Maximum number of loop iterations per invocation and dispatch. On software adapters a quarter of lavapipe's 65,535,
-/// because divergent lanes add up. These are the shader's own loops, independent of the program's step budget.
+/// Maximum number of loop iterations per invocation and dispatch. On software adapters it is a quarter of lavapipe's
+/// limit, 65,535, because divergent lanes add up. These are loops of the shader, independent of the program's step
+/// budget.
 const SOFTWARE_PASSES: u32 = 16_000;
 const PASSES: u32 = 1 << 22;
-/// Workgroups per row of a dispatch: WebGPU's limit is 65,535.
+/// Workgroups per row of a dispatch; WebGPU's limit is 65,535.
 const ROW: usize = 256;
 
 impl Machine {
@@ -47,10 +48,10 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Executes a checked call on the GPU: the given one, or the best adapter of the host.
+    /// Executes a checked call on the given GPU, or on the best adapter of the host.
     ///
-    /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU reports only that a
-    /// fragment did; the batch executor then finds which one.
+    /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU only reports that a
+    /// fragment exceeded it; the batch executor then finds the fragment.
     pub(in crate::machine) fn draw_on_gpu(
         &mut self,
         call: &DrawCall<'_>,
@@ -82,14 +83,14 @@ impl Machine {
             }
         }
         self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
-        // The GPU found an error but not which fragment is first; the host repeats the draw and reports it.
+        // The GPU found an overrun but not the first fragment; the host repeats the draw and reports it.
         let kind = (ExecutorKind::Batch, &self.batch);
         let tiles = executor(kind, &tile_draw(&self.profile, &self.memory, call));
         walk::draw(&self.memory, &self.profile, call, plan, kind, &tiles)?;
         Err(self.disagreement())
     }
 
-    /// Error: the GPU reported an exceeded budget that the host does not find.
+    /// Error: the GPU reported an exceeded step budget, but the host finds none.
     pub(in crate::machine) fn disagreement(&self) -> MachineError {
         let name = |card: &Card| card.board.gpu().adapter().name.clone();
         let adapter = self.memory.card.as_ref().map_or_else(|| "the best there is".to_owned(), name);
@@ -144,7 +145,7 @@ impl Card {
         Ok(Some(events))
     }
 
-    /// The counts; an error if the driver cut a loop off.
+    /// Reads the counts; an error if the driver terminated a loop.
     pub(super) fn uncut(&self) -> Result<Vec<u32>, MachineError> {
         let found = self.board.counts(COUNT_WORDS)?;
         if found.get(CUT).is_some_and(|&n| n != 0) {
@@ -235,7 +236,6 @@ pub(super) fn passes(gpu: &Gpu) -> u32 {
     }
 }
 
-/// Decodes the 64-bit counts.
 fn counts(words: &[u32]) -> FragmentCounts {
     let of = |k: usize| match words.get(2 * k..2 * k + 2) {
         Some(&[low, high]) => u64::from(high) << 32 | u64::from(low),

@@ -1,4 +1,4 @@
-//! Pixel tracing on the GPU: each round advances every pixel to the next triangle that covers it.
+//! Pixel tracing on the GPU: each round advances every pixel to the next triangle that covers the pixel.
 //!
 //! The kernel works on copies of the pixels' targets, so a trace changes nothing. All pixels of a round share a
 //! dispatch.
@@ -118,7 +118,7 @@ impl<'a> GpuTracer<'a> {
         }
     }
 
-    /// Advances pixels to the next triangle that covers each.
+    /// Advances each pixel to the next triangle that covers it.
     fn round(
         &mut self,
         jobs: &[usize],
@@ -148,7 +148,7 @@ impl<'a> GpuTracer<'a> {
         Ok(())
     }
 
-    /// Returns the words of all steps; those beyond the record's capacity are obtained by re-executing the pixel.
+    /// Returns the words of all steps; steps beyond the record's capacity are obtained by executing the pixel again.
     fn steps(
         &mut self,
         record: &Record<'_>,

@@ -1,7 +1,7 @@
 //! Memory and draws of a machine on a GPU of the host.
 //!
-//! Textures, targets and depth buffers stay on the GPU between draws. A host copy is uploaded before a draw that needs
-//! it if the host wrote it last; a drawn target is downloaded once, when the host asks for it.
+//! Textures, targets and depth buffers stay on the GPU between draws. Before a draw, a host copy that is newer is
+//! uploaded; a drawn target is downloaded once, when the host reads it.
 
 mod batches;
 mod draw;

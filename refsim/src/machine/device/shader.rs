@@ -43,7 +43,7 @@ pub(super) fn load(
 }
 
 impl EncodedProgram {
-    /// Compiles the kernel that executes the program; returns the sampler table too.
+    /// Compiles the kernel that executes the program; also returns the sampler table.
     pub(super) fn load(self, gpu: &Gpu, kernel: &Kernel) -> Result<(LoadedProgram, Vec<u32>), MachineError> {
         let pipeline = gpu.kernel(kernel, &self.parts)?;
         let program = LoadedProgram { pipeline, code: self.code.words, registers: self.code.slots };

@@ -11,11 +11,11 @@ pub(super) const PLAIN_TEXEL: u64 = 4;
 /// Busy clocks of a pipeline's units per fragment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentClocks {
-    /// Arithmetic.
+    /// Clocks of arithmetic.
     pub arithmetic: Clocks,
-    /// Texture issue.
+    /// Clocks of texture issue.
     pub textures: Clocks,
-    /// `true` if the two alternate; else they overlap, working on different fragments.
+    /// `true` if arithmetic and textures alternate; else they overlap, on different fragments.
     pub takes_turns: bool,
 }
 
@@ -29,7 +29,6 @@ impl FragmentClocks {
 /// Arithmetic work of a phase, in clocks at one slot per clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct FragmentWork {
-    /// Clocks of the float unit.
     float: u64,
     /// Fixed-point multiplications, two per clock and unit; `operations` are the other fixed-point operations, one per
     /// clock.
@@ -37,8 +36,8 @@ struct FragmentWork {
     operations: u64,
 }
 
-/// Clocks per fragment. A phase is one pass through the units and takes whole clocks of each; a program takes at least
-/// one clock. Samplers that are not listed read 32-bit texels.
+/// Clocks per fragment. A phase is one pass through the units, with an integer number of clocks in each; a program
+/// takes at least one clock. Samplers that are not listed read 32-bit texels.
 pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates: &Rates) -> FragmentClocks {
     let takes_turns = rates.texture_blocks_arithmetic == Some(1);
     let (mut arithmetic, mut textures) = (0_u64, 0_u64);
@@ -52,8 +51,8 @@ pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates:
     FragmentClocks { arithmetic: Clocks(pressed(arithmetic).max(1)), textures: Clocks(pressed(textures)), takes_turns }
 }
 
-/// Arithmetic clocks of a phase. Fixed point runs on its own units, if there are any, while the float unit is busy
-/// (including `blocked` clocks of texture reads); the rest is shared with the float unit.
+/// Arithmetic clocks of a phase. Fixed-point units, if any, work while the float unit is busy (including `blocked`
+/// clocks of texture reads); the remaining fixed-point work is shared with the float unit.
 fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     let units = rates.fixed_units.unwrap_or(0);
     let mut work = FragmentWork::default();
@@ -70,11 +69,10 @@ fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     float.saturating_add(taken_over(&work, float.saturating_add(blocked), units))
 }
 
-/// Clocks that the float unit spends on fixed-point work so that the fixed-point units finish the rest at the same
-/// time; the float unit is busy for `busy` clocks before. An operation is worth two multiplications, so operations move
-/// first.
+/// Clocks of the float unit for fixed-point work, after `busy` clocks of its own, so that the fixed-point units finish
+/// at the same time. Operations are moved to the float unit first, because one counts as two multiplications.
 fn taken_over(work: &FragmentWork, busy: u64, units: u64) -> u64 {
-    // Counted in multiplications; the units do `done` per clock.
+    // Work in units of multiplications; the fixed-point units do `done` per clock.
     let [operations, multiplications, done] =
         [work.operations, work.multiplications, units.saturating_mul(2)].map(u128::from);
     let meanwhile = done * u128::from(busy);
@@ -125,7 +123,7 @@ fn read_clocks(slot: &TextureSlot, samplers: &[SamplerRecord], rates: &Rates) ->
     issue.max(1).saturating_mul(wide.max(1)).saturating_mul(levels.max(1))
 }
 
-/// NV30: every two live fp32 registers beyond the full-speed number add a percentage of the clocks.
+/// NV30: every two live fp32 registers above the full-speed number add a percentage of the clocks.
 fn under_pressure(clocks: u64, live_halves: u32, rates: &Rates) -> u64 {
     let (Some(free), Some(step)) = (rates.full_speed_registers, rates.register_step_percent) else { return clocks };
     // Two registers are four halves.

@@ -7,12 +7,11 @@ use crate::device::Rates;
 use crate::event::{MipmapLevel, MipmapRecord};
 use crate::timing::Clocks;
 
-/// Triangles per quad.
 const TRIANGLES: u64 = 2;
 /// Texels per bilinear read.
 const BILINEAR: u64 = 4;
 
-/// Clocks of each level; a level starts when the previous one is finished.
+/// Clocks of each level; a level starts when the previous level is finished.
 pub(in crate::timing) fn mipmap_clocks(record: &MipmapRecord, rates: &Rates) -> Vec<PipelineClocks> {
     record.levels.iter().map(|level| level_clocks(level, record.texel_bytes.into(), rates)).collect()
 }

@@ -1,7 +1,7 @@
 //! Cost of a draw in a card's pipeline: busy clocks of each unit, in core clocks.
 //!
 //! All units work in parallel on different parts of the draw, so the draw takes as long as the busiest unit, plus the
-//! time to fill and drain the pipeline. docs/timing.md has the formulas with a worked example.
+//! time to fill and drain the pipeline. docs/timing.md has the formulas and a worked example.
 
 mod fragment;
 mod mipmaps;
@@ -57,7 +57,7 @@ impl PipelineClocks {
         pipes.max(self.output)
     }
 
-    /// The busiest unit.
+    /// Clocks of the busiest unit.
     pub fn busiest(&self) -> Clocks {
         self.vertices.max(self.setup).max(self.shader()).max(self.memory)
     }
@@ -115,8 +115,8 @@ pub(super) fn pipeline_clocks(
     }
 }
 
-/// Core clocks per instruction of a pipeline, as a fraction: 1 on cards with four-component pipelines; on scalar
-/// processors, four of their own clocks.
+/// Core clocks per instruction of a pipeline, as a fraction: 1 on cards with four-component pipelines; four shader
+/// clocks on scalar processors.
 struct Shaders {
     numerator: u128,
     denominator: u128,
@@ -133,7 +133,7 @@ impl Shaders {
     }
 }
 
-/// Vertex clocks: instructions of the processed vertices, divided among the units; at least the time at the stated
+/// Vertex clocks: instructions of the processed vertices divided among the units, but at least the time at the stated
 /// vertex rate.
 fn vertices(draw: &DrawRecord, rates: &Rates, (cache, shaders): (CacheSize, &Shaders)) -> Clocks {
     let (run, each) = (wide(cache.vertices_run(draw)), wide(draw.counts.vertices).max(1));
@@ -174,7 +174,7 @@ fn wide(n: u64) -> u128 {
     u128::from(n)
 }
 
-/// A quotient, rounded up.
+/// Divides and rounds up.
 fn clocks(work: u128, rate: u128) -> Clocks {
     Clocks(u64::try_from(work.div_ceil(rate.max(1))).unwrap_or(u64::MAX))
 }

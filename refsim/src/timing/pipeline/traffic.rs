@@ -3,7 +3,7 @@
 use crate::device::Rates;
 use crate::event::{DrawRecord, SamplerRecord, SamplerTraffic};
 
-/// Cache size assumed by a model. Draw records have the misses of all sizes (for textures only if observed).
+/// Cache size assumed by a model. Draw records contain the misses for all sizes (for textures only if observed).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum CacheSize {
     /// Half the size that the profile states.
@@ -11,7 +11,7 @@ pub enum CacheSize {
     /// The size that the profile states.
     #[default]
     Stated,
-    /// Twice that size.
+    /// Twice the size that the profile states.
     Double,
 }
 
@@ -59,9 +59,9 @@ impl Traffic {
     }
 }
 
-/// Memory traffic of a draw, for given sizes of the texture cache and the post-transform vertex cache. Depth and colour
-/// move once per access and vertices each time they are processed; compression and early depth rejection are not
-/// modelled. Textures move by missed cache lines; for draws that were not observed, compulsory misses are estimated.
+/// Memory traffic of a draw, for given sizes of the texture cache and the post-transform vertex cache. Every depth and
+/// colour access counts, and every processed vertex; compression and early depth rejection are not modelled. Texture
+/// traffic is missed cache lines; for draws that were not observed, compulsory misses are estimated.
 pub fn traffic(draw: &DrawRecord, rates: &Rates, (cache, vertex_cache): (CacheSize, CacheSize)) -> Traffic {
     let bytes = &draw.counts.bytes;
     let line = rates.texture_cache_line_bytes.unwrap_or(1);
@@ -83,8 +83,8 @@ fn fetched(draw: &DrawRecord, cache: CacheSize) -> u64 {
     u64::try_from((bytes * run).div_ceil(u128::from(draw.counts.vertices.max(1)))).unwrap_or(u64::MAX)
 }
 
-/// Compulsory misses are estimated: if all textures of the draw fit into the cache, each texel is fetched once, else once
-/// per primitive. At most one texel per read, because the neighbours that a filter needs hit the cache.
+/// Compulsory misses are estimated: if all textures of the draw fit into the cache, each texel is fetched once, else
+/// once per primitive. At most one texel per read is fetched, because the filter's other texels hit the cache.
 fn estimate(draw: &DrawRecord, rates: &Rates) -> u64 {
     let read = |s: &&SamplerRecord| draw.fetches(s.sampler) > 0;
     let size = draw.samplers.iter().filter(read).fold(0_u64, |sum, s| sum.saturating_add(s.texture_bytes));

@@ -4,7 +4,7 @@ use crate::device::{Confidence, FigureRow};
 
 macro_rules! queue_figures {
     ($($(#[$doc:meta])* $field:ident = $value:literal $unit:literal $source:literal;)*) => {
-        /// Host cost of commands, and how far the card may run behind. None of it is published for these cards: every
+        /// Host cost of commands, and limits of the queue between host and card. No source publishes these, so every
         /// figure is a guess; `crossbar timeline --sensitivity` shows the effect of each.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct QueueFigures {
@@ -51,7 +51,7 @@ queue_figures! {
     finish_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
     /// Commands that the queue holds before the host has to wait; at least 1.
     commands = 256 "command" "no source was found; a command buffer of some KiB";
-    /// Draws that the front end may be ahead of the pixel pipelines, not counting the draw that they work on.
+    /// Number of draws by which the front end may be ahead of the draw in the pixel pipelines.
     draws_ahead = 4 "draw" "no source was found; set-up keeps some primitives ready";
 }
 

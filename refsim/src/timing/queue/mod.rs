@@ -1,8 +1,8 @@
 //! The command queue: the host submits commands, the card executes them in order, the buses transfer data in parallel.
 //!
-//! The simulation is online: each call schedules its command immediately, from what was scheduled before. Every start
-//! is a maximum of ends, so shortening an operation or removing a dependency never lengthens the whole. All durations
-//! are inputs. docs/timing.md lists the rules, with an example.
+//! The simulation is online: each call schedules its command immediately, after previously scheduled work. Every start
+//! is a maximum of ends, so shortening an operation or removing a dependency never lengthens the run. All durations are
+//! inputs. docs/timing.md lists the rules, with an example.
 
 mod figures;
 mod schedule;
@@ -43,14 +43,14 @@ struct ResourceUse {
     read: Mark,
 }
 
-/// Host, queue, card and buses, with everything submitted to them.
+/// Host, queue, card and buses, with all submitted work.
 #[derive(Clone, Debug)]
 pub struct Queue {
     figures: QueueFigures,
     schedule: Schedule,
-    /// Times at which the last commands left the queue.
+    /// Times at which the most recent commands left the queue.
     taken: VecDeque<Mark>,
-    /// End times of the last draws and clears.
+    /// End times of the most recent draws and clears.
     bodies: VecDeque<Mark>,
     /// End of all work submitted to the card, transfers included.
     done: Mark,
@@ -85,7 +85,7 @@ impl Queue {
         }
     }
 
-    /// Current time of the host: the end of all that it has done and waited for.
+    /// Current time of the host: the end of its work and waits so far.
     pub fn now(&self) -> Picoseconds {
         self.schedule.free(Unit::Host).time
     }
@@ -117,7 +117,7 @@ impl Queue {
         self.done = self.done.or_later(end);
     }
 
-    /// Fills a resource with one value, in memory time.
+    /// Fills a resource with one value; `duration` is time of the memory.
     pub fn clear(&mut self, resource: ResourceCopy, duration: Picoseconds, label: impl Into<Label>) {
         let command = self.submit(self.figures.clear_ps, label.into());
         let (start, _) = self.front_end(&command, Picoseconds::ZERO, SpanKind::State);
@@ -128,10 +128,10 @@ impl Queue {
     }
 
     /// Submits a draw that reads some resources and writes others. The front end may be ahead of the pixel pipelines by
-    /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory work in parallel, on one draw at a time.
+    /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory work in parallel on one draw at a time.
     pub fn draw(&mut self, reads: &[ResourceCopy], writes: &[ResourceCopy], cost: DrawCost, label: impl Into<Label>) {
         let command = self.submit(self.figures.draw_ps, label.into());
-        // Remainder of the total without the busiest unit: the time to fill and drain the pipeline.
+        // The total minus the busiest unit: the time to fill and drain the pipeline.
         let fill = cost.front_end.max(cost.shader).max(cost.memory).until(cost.total);
         let (start, vertices) = self.front_end(&command, cost.front_end, SpanKind::Vertices);
         let needs = self.body_needs(start.plus(fill), reads, writes);
@@ -143,8 +143,9 @@ impl Queue {
     }
 
     /// Reads a resource back, after all earlier draws. If synchronous, the host waits for all earlier work and the
-    /// transfer, as with `glReadPixels`. If asynchronous, host and card continue, only writes to the resource wait, and
-    /// a fence is returned that is passed when the data have arrived and all earlier work is done; setting it is free.
+    /// transfer, as with `glReadPixels`. If asynchronous, host and card continue, and only writes to the resource wait.
+    /// It returns a fence, which is passed when the data have arrived and all earlier work is done; setting the fence
+    /// costs nothing.
     pub fn read_back(
         &mut self,
         resource: ResourceCopy,
@@ -174,7 +175,7 @@ impl Queue {
         }
     }
 
-    /// A fence after all commands so far, at no cost: it is part of another command.
+    /// A fence after all commands so far; it costs nothing because it is part of another command.
     pub(super) fn fence_for_free(&self) -> Fence {
         Fence(self.done)
     }
@@ -186,7 +187,7 @@ impl Queue {
         self.schedule.host_waits(fence.0, WaitReason::Fence, command.index);
     }
 
-    /// Returns everything submitted as a timeline.
+    /// Returns the timeline of all submitted work.
     pub fn timeline(self) -> Timeline {
         self.schedule.finish(self.done)
     }
@@ -232,7 +233,7 @@ impl Queue {
         (placed.start, placed.end)
     }
 
-    /// Dependencies of a draw's or clear's first pixel; `filled` is when the pipeline has one.
+    /// Dependencies of the first pixel of a draw or clear; `filled` is when the pipeline has a first pixel.
     fn body_needs(&self, filled: Mark, reads: &[ResourceCopy], writes: &[ResourceCopy]) -> [(Mark, WaitReason); 3] {
         let inputs = reads.iter().map(|resource| self.resource_use(*resource).written);
         let outputs = writes.iter().map(|resource| {

@@ -31,8 +31,7 @@ impl Schedule {
         self.free[unit.index()]
     }
 
-    /// Schedules work of `duration` on the unit, after all its earlier work. `ready` is when the command reaches the
-    /// unit.
+    /// Schedules work of `duration` on the unit, after its earlier work. `ready` is when the command reaches the unit.
     ///
     /// Work of zero duration keeps its place in the order but has no span.
     pub(super) fn place(

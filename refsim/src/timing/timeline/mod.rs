@@ -15,14 +15,14 @@ use super::Picoseconds;
 /// Label of a span: the name of a draw, an upload, or host work. Shared by the spans of one command.
 pub type Label = Arc<str>;
 
-/// A unit of host, card or bus. Each does one thing at a time.
+/// A unit of host, card or bus, which does one piece of work at a time.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Unit {
     /// The host's processor: its own work, and the submission of commands.
     Host,
-    /// Host to card.
+    /// The bus from host to card.
     #[strum(to_string = "upload bus")]
     UploadBus,
     /// Command processor, vertex units, triangle set-up.
@@ -33,7 +33,7 @@ pub enum Unit {
     ShaderArray,
     /// The card's memory.
     Memory,
-    /// Card to host.
+    /// The bus from card to host.
     #[strum(to_string = "read-back bus")]
     ReadBackBus,
 }
@@ -72,7 +72,7 @@ pub enum SpanKind {
     Clear,
     /// Commands, vertices and set-up of a draw.
     Vertices,
-    /// Fill and drain of the pipeline. It takes time but occupies no unit, so it appears on the critical path only.
+    /// Fill and drain of the pipeline. It takes time but occupies no unit, so it only appears on the critical path.
     #[strum(to_string = "pipeline fill")]
     Fill,
     /// Fragments of a draw.
@@ -104,10 +104,10 @@ pub struct TimelineSpan {
     pub label: Label,
     /// Index of the command in program order, from 0; host work counts too.
     pub command: u32,
-    /// The dependency that ended last: this span starts [`TimelineSpan::latency`] after its end. `None` without
+    /// The dependency that ended last; this span starts [`TimelineSpan::latency`] after its end. `None` without
     /// dependencies.
     pub after: Option<SpanId>,
-    /// Latency between the two, in which the pipeline fills or drains.
+    /// Latency after the dependency, in which the pipeline fills or drains.
     pub latency: Picoseconds,
 }
 
@@ -118,17 +118,17 @@ impl TimelineSpan {
     }
 }
 
-/// Reason for which a unit with pending work waits.
+/// Reason why a unit with pending work waits.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum WaitReason {
-    /// Host: the command queue is full.
+    /// The host waits because the command queue is full.
     #[strum(to_string = "queue full")]
     QueueFull,
-    /// Host: a fence.
+    /// The host waits for a fence.
     Fence,
-    /// Host: a synchronous read-back.
+    /// The host waits for a synchronous read-back.
     #[strum(to_string = "read-back")]
     Transfer,
     /// The resource is still being read, written or transferred.
@@ -137,7 +137,7 @@ pub enum WaitReason {
     /// Earlier commands are not finished.
     #[strum(to_string = "earlier commands")]
     Order,
-    /// Earlier pipeline stages have produced nothing yet.
+    /// Earlier pipeline stages have not produced anything yet.
     #[strum(to_string = "earlier stages")]
     Input,
 }
@@ -180,7 +180,7 @@ impl Mark {
         if other.time > self.time { other } else { self }
     }
 
-    /// The mark `latency` later.
+    /// This mark, `latency` later.
     pub(in crate::timing) fn plus(self, latency: Picoseconds) -> Self {
         Self { time: self.time + latency, latency: self.latency + latency, ..self }
     }
@@ -195,12 +195,12 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// All spans; those of one unit are in order of time.
+    /// All spans; spans of one unit are in order of time.
     pub fn spans(&self) -> &[TimelineSpan] {
         &self.spans
     }
 
-    /// All waits; those of one unit are in order of time.
+    /// All waits; waits of one unit are in order of time.
     pub fn waits(&self) -> &[Wait] {
         &self.waits
     }
@@ -210,7 +210,7 @@ impl Timeline {
         self.spans.get(id.0 as usize)
     }
 
-    /// Duration of the run, until the host and everything it submitted are done.
+    /// Duration of the run, until the host and all submitted work are done.
     pub fn makespan(&self) -> Picoseconds {
         self.end.time
     }

@@ -8,7 +8,7 @@ use crate::timing::Picoseconds;
 /// A segment of the critical path. Segments are contiguous: the first starts at 0, the last ends with the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Segment {
-    /// The span; for [`SpanKind::Fill`] the span whose end starts the pipeline fill, if there is one.
+    /// The span; for [`SpanKind::Fill`], the span whose end starts the pipeline fill, if any.
     pub span: Option<SpanId>,
     /// The busy unit; the front end for pipeline fills.
     pub unit: Unit,
@@ -27,7 +27,7 @@ impl Segment {
     }
 }
 
-/// Share of the critical path with one unit and kind of work.
+/// Share of one unit and kind of work in the critical path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathShare {
     /// The busy unit.
@@ -44,7 +44,7 @@ impl Timeline {
     /// The critical path from start to end; each segment depends on the previous one. Durations sum to
     /// [`Timeline::makespan`].
     ///
-    /// Ties are resolved in favour of the unit's own previous span, then of program order.
+    /// Ties prefer the unit's own previous span, then program order.
     pub fn critical_path(&self) -> Vec<Segment> {
         let mut path = Vec::new();
         let (mut end, mut after, mut latency) = (self.end.time, self.end.after, self.end.latency);

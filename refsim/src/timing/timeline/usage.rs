@@ -10,7 +10,7 @@ pub struct Usage {
     pub unit: Unit,
     /// Time with work.
     pub busy: Picoseconds,
-    /// Time with pending work that waits.
+    /// Time in which pending work waits.
     pub waiting: Picoseconds,
     /// Time without work.
     pub idle: Picoseconds,

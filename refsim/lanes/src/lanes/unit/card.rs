@@ -9,42 +9,35 @@ use crate::lanes::lane::apply;
 use crate::lanes::reading::Reading;
 use crate::num::{Format, FormatKind, NumberOperation as Op, Unit as Name};
 
-/// 0.5.
 const HALF: u32 = 0x3f00_0000;
 
 /// Functions of a unit besides sums, products, comparisons and integral parts.
 pub(crate) trait CardFunctions {
-    /// Numbers of a table. They are looked up apart: a loop that does is compiled to no vector code.
+    /// Numbers of a table. They are looked up in a separate loop, because lookups prevent vectorization.
     type Entry: Copy;
-    /// What RCP of `x` starts from.
+    /// Table entry for RCP of `x`.
     fn rcp_entry(&self, x: u32) -> Self::Entry;
-    /// RCP.
     fn rcp(&self, x: u32, entry: Self::Entry) -> u32;
-    /// What RSQ of `x` starts from.
+    /// Table entry for RSQ of `x`.
     fn rsq_entry(&self, x: u32) -> Self::Entry;
-    /// RSQ.
     fn rsq(&self, x: u32, entry: Self::Entry) -> u32;
-    /// An operation besides those; `None` if the unit does not have it.
+    /// Any other operation; `None` if the unit does not have it.
     fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
 }
 
-/// Operations that differ between units. The quick versions are for loops of vector code: beside their result they
-/// return the range of magnitudes met, from which the caller sees whether it may be wrong. `FUSED` is `true` if the
-/// host has fused multiply-add.
+/// Operations that differ between units. The `quick_` versions are vectorized: they also return the range of magnitudes
+/// met, which shows whether the result may be wrong. `FUSED` is `true` if the host has fused multiply-add.
 pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
-    /// True if comparisons set NaN where words have no order.
+    /// True if comparisons return NaN for unordered words.
     const SETS_NAN: bool;
 
     /// The unit of a format.
     fn new(format: &Format) -> Self;
 
-    /// `a b`
     fn mul(&self, a: u32, b: u32) -> u32;
-    /// The sum of `N` products, 1 to 4, as the unit makes it.
+    /// The sum of `N` products, 1 to 4, by the unit's rules.
     fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32;
-    /// `a + b`
     fn add(&self, a: u32, b: u32) -> u32;
-    /// `a b + c`
     fn mad(&self, a: u32, b: u32, c: u32) -> u32;
 
     /// [`Self::add`] in vector code.
@@ -56,15 +49,13 @@ pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// [`Self::dot`] in vector code.
     fn quick_dot<const FUSED: bool, const N: usize>(&self, a: [u32; N], b: [u32; N]) -> (u32, Met);
 
-    /// Returns `true` if one of two words is a NaN that has no order. Branch-free, as the following are.
+    /// Returns `true` if one of two words is an unordered NaN. Branch-free, like the methods below.
     fn unordered(&self, a: u32, b: u32) -> bool;
     /// `a < b` of ordered words.
     fn below(&self, a: u32, b: u32) -> bool;
     /// `a == b` of ordered words.
     fn same(&self, a: u32, b: u32) -> bool;
-    /// The lesser word.
     fn min(&self, a: u32, b: u32) -> u32;
-    /// The greater word.
     fn max(&self, a: u32, b: u32) -> u32;
     /// The largest integer not above `x`.
     fn floor(&self, x: u32) -> u32;
@@ -72,7 +63,7 @@ pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     fn saturate(&self, x: u32) -> u32;
 }
 
-/// The arithmetic of a unit. Operations that the unit lacks are those of the ideal format, with the unit's NaN.
+/// The arithmetic of a unit. Operations that the unit lacks are computed in the ideal format, with the unit's NaN.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CardLane<U> {
     pub(crate) unit: U,
@@ -93,7 +84,7 @@ impl<U: CardUnit> CardLane<U> {
         if x.is_nan() { NAN } else { x.to_bits() }
     }
 
-    /// An operation on words; masks where it compares. `None` for operations that lanes do not have.
+    /// Computes an operation on words; comparisons return masks. `None` for operations that lanes do not have.
     pub(crate) fn word(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
         let unit = &self.unit;
         Some(match operation {
@@ -129,12 +120,12 @@ impl<U: CardUnit> CardLane<U> {
         })
     }
 
-    /// A number that is computed, of an operation that every arithmetic has.
+    /// Computes a number, by an operation that every arithmetic has.
     fn number(&self, operation: Op, operands: [i32; 3]) -> i32 {
         self.word(operation, operands.map(i32::cast_unsigned)).unwrap_or(NAN).cast_signed()
     }
 
-    /// An operation that the unit does not have.
+    /// Computes an operation that the unit does not have.
     fn otherwise(&self, operation: Op, words: [u32; 3]) -> Option<u32> {
         let operands = words.map(|word| self.ideal.decode(word));
         let value = match operation {
@@ -151,25 +142,25 @@ impl<U: CardUnit> CardLane<U> {
         if U::SETS_NAN & self.unit.unordered(a, b) { NAN } else { word }
     }
 
-    /// `a < b`; false without an order.
+    /// `a < b`; false for unordered words.
     #[inline(always)]
     pub(crate) fn less(&self, a: u32, b: u32) -> bool {
         !self.unit.unordered(a, b) & self.unit.below(a, b)
     }
 
-    /// `a <= b`; false without an order.
+    /// `a <= b`; false for unordered words.
     #[inline(always)]
     pub(crate) fn less_equal(&self, a: u32, b: u32) -> bool {
         !self.unit.unordered(a, b) & !self.unit.below(b, a)
     }
 
-    /// `b` where `a` is not below zero, else `c`.
+    /// `b` if `a` is not below zero, else `c`.
     #[inline(always)]
     pub(crate) fn select_non_negative(&self, a: u32, b: u32, c: u32) -> u32 {
         if self.less_equal(0, a) { b } else { c }
     }
 
-    /// `a == b`; false without an order.
+    /// `a == b`; false for unordered words.
     #[inline(always)]
     pub(crate) fn equal(&self, a: u32, b: u32) -> bool {
         !self.unit.unordered(a, b) & self.unit.same(a, b)

@@ -1,6 +1,5 @@
-//! The unit of GT200: sums and products of the host where these are exact or rounded once. The quick versions are for
-//! loops of vector code and return the range of magnitudes met, from which the caller sees whether their results may be
-//! wrong.
+//! The unit of GT200: host sums and products where these are exact or rounded once. The `quick_` versions are
+//! vectorized and return the range of magnitudes met, which shows whether their results may be wrong.
 
 use super::card::CardUnit;
 use super::tables::{GT200, Tables};
@@ -10,10 +9,9 @@ use crate::lanes::round::ZERO;
 use crate::lanes::toward;
 use crate::num::{Format, Rounding, Unit};
 
-/// `2^-126 (1 - 2^-25)`: smaller numbers, rounded to 24 bits, are below the least normal number.
+/// `2^-126 (1 - 2^-25)`: smaller numbers stay below the least normal number when rounded to 24 bits.
 const LEAST: f64 = f64::from_bits((1023 - 126) << 52) * (1.0 - f64::from_bits((1023 - 25) << 52));
 
-/// The state of the unit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gt200 {
     /// Sums and products are rounded toward zero, except in MAD.
@@ -22,25 +20,25 @@ pub(crate) struct Gt200 {
     pub(super) tables: &'static Tables<128, 3>,
 }
 
-/// Returns `true` if a conversion flushes magnitudes below `2^-33` in every rounding: GT200's to half floats.
+/// Returns `true` for GT200's conversion to half floats, which flushes magnitudes below `2^-33` in every rounding.
 pub(crate) fn drops_small_halves(from: &Format, to: &Format) -> bool {
     matches!(from.unit, Unit::Gt200 | Unit::Gt200ZeroWins) && to.kind == Format::FP16.kind
 }
 
-/// A number after flushing as [`drops_small_halves`] requires.
+/// Flushes a number as [`drops_small_halves`] describes.
 #[inline(always)]
 pub(crate) fn without_small(x: f64) -> f64 {
     let kept = if x.abs() < crate::lanes::layout::pow2(-33) { 0.0 } else { x };
     kept.copysign(x)
 }
 
-/// A subnormal as a zero.
+/// Converts a word to a double; a subnormal becomes zero.
 #[inline(always)]
 fn number(w: u32) -> f64 {
     f64::from(f32::from_bits(flushed(w)))
 }
 
-/// The word of a result that is rounded: without subnormals, of one NaN.
+/// The word of a rounded result: subnormals become zero, and there is one NaN.
 #[inline(always)]
 fn word(x: f32) -> u32 {
     if x.is_nan() { NAN } else { flushed(x.to_bits()) }
@@ -55,13 +53,13 @@ impl Gt200 {
         if x.abs() < LEAST { (x as f32).to_bits() & SIGN } else { word(kept) }
     }
 
-    /// The exact product, or a zero that wins.
+    /// The exact product, or zero for a zero factor if zero wins.
     fn product(self, a: u32, b: u32) -> f64 {
         let product = number(a) * number(b);
         if self.zero_wins & (is_zero(a) | is_zero(b)) { 0.0 } else { product }
     }
 
-    /// MIN, or MAX if `flip` is all ones: the order of integers, turned around.
+    /// MIN, or MAX if `flip` is all ones, which reverses the order of the integers.
     #[inline(always)]
     fn choose(a: u32, b: u32, flip: u32) -> u32 {
         let (a, b) = (flushed(a), flushed(b));
@@ -72,7 +70,6 @@ impl Gt200 {
         if is_nan(a) & is_nan(b) { NAN } else { chosen }
     }
 
-    /// `x 2^shift`
     pub(super) fn scale(self, x: u32, shift: i32) -> u32 {
         self.rounded(number(x) * crate::lanes::layout::pow2(shift))
     }
@@ -93,7 +90,7 @@ impl CardUnit for Gt200 {
         self.rounded(self.product(a, b))
     }
 
-    /// The first product, and MAD for the others.
+    /// The first product, then MAD for the others.
     fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
         (1..N).fold(self.mul(a[0], b[0]), |sum, k| self.mad(a[k], b[k], sum))
     }
@@ -108,12 +105,12 @@ impl CardUnit for Gt200 {
         let cut = f64::from_bits(product.to_bits() & !SURPLUS);
         // Below the least normal number the host rounds as the unit does.
         let sum = word(odd::add_odd(cut, number(c)) as f32);
-        // Without an addend the product is rounded.
+        // With a zero addend the product is rounded.
         let alone = f32::from_bits(nearest.rounded(product)) + f32::from_bits(flushed(c));
         if is_zero(c) { word(alone) } else { sum }
     }
 
-    /// A sum below the least normal number is exact.
+    /// Sums below the least normal number are exact.
     #[inline(always)]
     fn quick_add(&self, a: u32, b: u32) -> (u32, Met) {
         let (a, b) = (f32::from_bits(flushed(a)), f32::from_bits(flushed(b)));
@@ -129,7 +126,7 @@ impl CardUnit for Gt200 {
         (if self.zero_wins & (is_zero(a) | is_zero(b)) { 0 } else { product }, Met::product(product))
     }
 
-    /// The product of 24 bits and the sum are those of the host.
+    /// The product of 24 bits and the sum are computed by the host.
     #[inline(always)]
     fn quick_mad<const FUSED: bool>(&self, a: u32, b: u32, c: u32) -> (u32, Met) {
         let (x, y, z) = (flushed(a), flushed(b), f32::from_bits(flushed(c)));
@@ -175,7 +172,6 @@ impl CardUnit for Gt200 {
         Self::choose(a, b, u32::MAX)
     }
 
-    /// A zero keeps its sign.
     #[inline(always)]
     fn floor(&self, x: u32) -> u32 {
         word(f32::from_bits(flushed(x)).floor())

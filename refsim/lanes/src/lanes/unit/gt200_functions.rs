@@ -59,13 +59,13 @@ impl CardFunctions for Gt200 {
     }
 }
 
-/// What RSQ depends on but for powers of 4: the mantissa, and whether the exponent is odd.
+/// Input of RSQ without powers of 4: the mantissa, and the parity of the exponent.
 #[inline(always)]
 fn root_bits(x: u32) -> u32 {
     !x & 1 << 23 | x & MANTISSA
 }
 
-/// The squarer: each partial product is cut.
+/// The squarer: each partial product is truncated.
 #[inline(always)]
 fn square(y: u32) -> u32 {
     let mut sum = 0;
@@ -80,13 +80,12 @@ fn squared(y: u32) -> f64 {
     f64::from(square(y).cast_signed())
 }
 
-/// A result of an exponent field and a significand, 2^23 to 2^24.
+/// Assembles a result from an exponent field and a significand, 2^23 to 2^24.
 #[inline(always)]
 fn scaled(sign: u32, field: i32, significand: u32) -> u32 {
     assembled(sign, field + (significand >> 24).cast_signed(), significand)
 }
 
-/// LG2.
 fn log2(x: u32) -> u32 {
     if is_nan(x) {
         return NAN;

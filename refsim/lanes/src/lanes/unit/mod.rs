@@ -5,8 +5,8 @@
 //! - `tables`: tables as doubles.
 //! - `card`: a unit as the arithmetic of a format.
 //!
-//! Slots hold the words themselves: no bit of a NaN or of a subnormal number is lost where an instruction passes an
-//! operand on.
+//! Slots hold the words themselves, so an instruction that copies an operand keeps all bits of a NaN or subnormal
+//! number.
 
 mod card;
 mod gt200;

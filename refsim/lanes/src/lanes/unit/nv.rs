@@ -1,8 +1,7 @@
 //! The vertex unit of NV20 to NV35: products cut to 24 bits, sums of aligned addends.
 //!
-//! [`Nv::mul`] and [`Nv::sum`] are right for all words. The quick versions are for loops of vector code. They compute
-//! in host floats, and return the range of magnitudes met, from which the caller sees whether their results may be
-//! wrong.
+//! [`Nv::mul`] and [`Nv::sum`] are right for all words. The `quick_` versions are vectorized: they compute in host
+//! floats and return the range of magnitudes met, which shows whether their results may be wrong.
 
 use super::card::CardUnit;
 use super::tables::{NV, Tables};
@@ -11,18 +10,17 @@ use super::word::{
 };
 use crate::num::{Format, Unit};
 
-/// The state of the unit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nv {
     /// NV20 and NV25: sums and products have no infinity, and subnormal addends count.
     pub(super) is_2x: bool,
-    /// As programs of GL_NV_vertex_program2 see it: NaN and infinities count everywhere, -0 equals +0.
+    /// Rules of GL_NV_vertex_program2: NaN and infinities are not ignored, and -0 equals +0.
     pub(super) modern: bool,
     pub(super) tables: &'static Tables<64, 1>,
 }
 
 impl Nv {
-    /// A result of any exponent; the significand has its leading one at bit 23.
+    /// Packs a result of any exponent; the significand has its leading one at bit 23.
     fn packed(self, sign: u32, exponent: i32, significand: u32) -> u32 {
         let magnitude = match exponent {
             ..=0 => 0,
@@ -69,15 +67,15 @@ impl Nv {
         if self.modern & is_zero(w) { 0 } else { key }
     }
 
-    /// The powers of two that make the last bit of an aligned addend 1, and 1 that bit.
+    /// Two powers of two: the first scales the last bit of an aligned addend to 1, the second undoes that.
     #[inline(always)]
     fn scales(largest: u32) -> [f32; 2] {
         let top = largest & FIELD;
         [(282u32 << 23).wrapping_sub(top), top.wrapping_sub(28 << 23)].map(f32::from_bits)
     }
 
-    /// The sum of addends in vector code: cut to integers in units of the last aligned bit, whose sum is exact in
-    /// doubles.
+    /// The sum of addends, vectorized: each is truncated to an integer in units of the last aligned bit, and the sum of
+    /// these is exact in doubles.
     #[inline(always)]
     fn quick_sum<const N: usize>(addends: [u32; N]) -> (u32, Met) {
         let mut largest = 0;
@@ -136,7 +134,7 @@ impl CardUnit for Nv {
         let (x, y) = (a & !SIGN, b & !SIGN);
         let (largest, least) = (x.max(y), x.min(y));
         let [up, down] = Self::scales(largest);
-        // Alignment cuts the lesser addend alone. The sum is a magnitude; the host's own tells the sign.
+        // Alignment truncates only the lesser addend. The sum is a magnitude; the host's sum has the sign.
         let aligned = (f32::from_bits(least) * up).trunc() * down;
         let other = f32::from_bits(aligned.to_bits() ^ (a ^ b) & SIGN);
         let sum = f32::from_bits(largest) + other;
@@ -204,7 +202,7 @@ impl CardUnit for Nv {
         if is_nan(x) { NAN } else { whole.to_bits() }
     }
 
-    /// The unit has none; of NaN it is 0, as in ideal formats.
+    /// The unit has no saturation; NaN gives 0, as in ideal formats.
     #[inline(always)]
     fn saturate(&self, x: u32) -> u32 {
         if (x & SIGN != 0) | is_nan(x) { 0 } else { flushed(x).min(ONE) }

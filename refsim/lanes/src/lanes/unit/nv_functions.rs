@@ -9,7 +9,7 @@ use crate::lanes::layout::pow2;
 use crate::num::NumberOperation as Op;
 use crate::num::unit::tables::{NV_EXP, NV_LOG, NV3X_EX2, NV3X_LG2};
 
-/// Doubles hold the integers of the steps of Newton's method exactly, except one product.
+/// Doubles represent the integers of Newton's method exactly, except one product.
 impl CardFunctions for Nv {
     type Entry = [f64; 1];
 
@@ -44,7 +44,7 @@ impl CardFunctions for Nv {
         let even = 1 - (e & 1);
         let g = f64::from((significand(x) << even).cast_signed());
         let a = halved((3.0 * pow2(37) - a * a * g) * a, 32);
-        // The product has 64 bits: the lower ones are added apart.
+        // The product has 64 bits: its low bits are added separately.
         let factor = 3.0 * pow2(49) - a * a * g;
         let high = halved(factor, 20);
         let low = halved((factor - high * pow2(20)) * a, 20);
@@ -83,7 +83,7 @@ fn normal(sign: u32, field: i32, mantissa: i64) -> u32 {
     if field <= 0 { sign } else { sign | field.cast_unsigned() << 23 | mantissa as u32 & MANTISSA }
 }
 
-/// An exponent as P of EXP and LIT: `x` in units of 2^-13, rounded down and held to 32 bits.
+/// Exponent p of EXP and LIT: `x` in units of 2^-13, rounded down and clamped to 32 bits.
 fn in_8192ths(x: u32) -> i64 {
     let (e, negative) = (field(x), x & SIGN != 0);
     match e {
@@ -156,7 +156,7 @@ impl Nv {
         if is_nan(x) { NAN } else { power(in_8192ths(x)) }
     }
 
-    /// The result of LOG if its operand is NaN, infinite or zero.
+    /// The result of LOG for NaN, infinity and zero; `None` for other operands.
     fn log_of_none(self, x: u32) -> Option<u32> {
         match (self.modern && x & SIGN != 0, is_nan(x)) {
             (true, _) => Some(NAN),
@@ -220,7 +220,6 @@ impl Nv {
         }
     }
 
-    /// LG2 of NV3x.
     fn log2(x: u32) -> u32 {
         match field(x) {
             0 => FIELD | SIGN,
@@ -234,7 +233,6 @@ impl Nv {
         }
     }
 
-    /// EX2 of NV3x.
     fn exp2(x: u32) -> u32 {
         let (e, negative) = (field(x), x & SIGN != 0);
         match e {
@@ -249,7 +247,7 @@ impl Nv {
             }
             _ => {
                 let f = i64::from(significand(x));
-                // Below 2^-24 nothing is left of it.
+                // Magnitudes below 2^-24 give 0.
                 let whole = if e >= 127 { f << (e - 127) } else { f >> (127 - e) };
                 let t = if negative { !whole } else { whole };
                 let mantissa = interpolated(&NV3X_EX2, (t & i64::from(MANTISSA)) as u32, true) >> 15;
@@ -264,7 +262,7 @@ fn half_up(v: i64, k: i32) -> i64 {
     (v + (1 << (k - 1))) >> k
 }
 
-/// The interpolator of LG2 and EX2: about `c0 + c1 r + c2 r r`, as its multipliers are built.
+/// The interpolator of LG2 and EX2: `c0 + c1 r + c2 r r`, with the errors of the chip's multipliers.
 fn interpolated(table: &[[i64; 3]], x: u32, is_exp2: bool) -> i64 {
     let (mut t, mut r) = ((x >> 16) as usize, i64::from(x & 0xffff));
     if t % 2 == 1 {
@@ -277,14 +275,14 @@ fn interpolated(table: &[[i64; 3]], x: u32, is_exp2: bool) -> i64 {
     if is_exp2 { linear + quadratic } else { linear - quadratic }
 }
 
-/// `r r / 2^14`, as the squarer has it.
+/// `r r / 2^14`, with the rounding of the chip's squarer.
 fn square(r: i64) -> i64 {
     let q = r >> 7;
     let first = q * q + if r >> 6 & 1 == 1 { q } else { 0 };
     first + (0..6).filter(|i| r >> i & 1 == 1).map(|i| half_up(r, 13 - i)).sum::<i64>()
 }
 
-/// `c r / 2^13`, digit by digit to the base 4.
+/// `c r / 2^13`, summed over the base-4 digits of `r`.
 fn product(c: i64, r: i64) -> i64 {
     let (mut sum, mut rest, mut place) = (0, 2 * c, -14);
     while rest > 0 {

@@ -1,4 +1,4 @@
-//! Tables of functions that are computed in vector code: as doubles, in arrays.
+//! Tables of vectorized functions, as arrays of doubles.
 
 use std::sync::LazyLock;
 

@@ -5,18 +5,18 @@ use crate::num::{
     Encoding, Flags, Format, FormatKind, Overflow, Rounding, Unpacked, from_f64, from_parts, to_f64, unpack,
 };
 
-/// A type of numbers.
+/// A number type of operands, addends, scales or results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Element {
-    /// Name, as the vectors and the command line write it.
+    /// Name in test vectors and on the command line.
     pub name: &'static str,
-    /// Its format; types of up to 8 bits saturate. `None` of fp64.
+    /// Its format; types of up to 8 bits saturate. `None` for fp64.
     pub format: Option<Format>,
     /// Bits below the format's that are ignored: 13 in tf32 and xf32, whose numbers are words of single precision.
     pub ignored_bits: u32,
 }
 
-/// A number as an adder sees it: nothing is normalized, and subnormal numbers and zeros have the least exponent.
+/// A number as an adder's input: nothing is normalized, and subnormal numbers and zeros have the least exponent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Value {
     Finite(Addend),
@@ -40,7 +40,7 @@ impl Element {
     pub const FP32: Self = element("fp32", 8, 23, Encoding::Ieee);
     /// NVIDIA's TF32: a word of single precision whose low 13 bits are ignored.
     pub const TF32: Self = Self { ignored_bits: 13, ..element("tf32", 8, 10, Encoding::Ieee) };
-    /// AMD's XF32, the same.
+    /// AMD's XF32: the layout of [`Self::TF32`].
     pub const XF32: Self = Self { name: "xf32", ..Self::TF32 };
     /// IEEE binary16.
     pub const FP16: Self = element("fp16", 5, 10, Encoding::Ieee);
@@ -91,14 +91,14 @@ impl Element {
         self.format.map_or(f64::from_bits(word), |format| to_f64(&format, (word >> self.ignored_bits) as u32))
     }
 
-    /// The pattern of a number, rounded to nearest even; `None` of NaN where the type has none.
+    /// The pattern of a number, rounded to nearest even; `None` for NaN if the type has no NaN.
     pub fn code(self, number: f64) -> Option<u64> {
         let Some(format) = self.format else { return Some(number.to_bits()) };
         let fits = !number.is_nan() || format.canonical_nan().is_some();
         fits.then(|| u64::from(from_f64(format, number).bits) << self.ignored_bits)
     }
 
-    /// Decodes a pattern; bits above its width are ignored. fp64 has no value here: its unit computes on words.
+    /// Decodes a pattern; bits above its width are ignored. fp64 cannot be decoded: its unit computes on words.
     pub(crate) fn decode(self, word: u64) -> Value {
         let word = (word >> self.ignored_bits) as u32;
         let word = if self == Self::UE4M3 { word & 0x7f } else { word };
@@ -115,7 +115,7 @@ impl Element {
 }
 
 impl Value {
-    /// The number, if it is one and not zero: zeros are left out of sums.
+    /// The number as an addend, if finite and nonzero: sums omit zeros.
     pub(crate) fn addend(self) -> Option<Addend> {
         match self {
             Self::Finite(addend) if addend.magnitude != 0 => Some(addend),
@@ -145,8 +145,8 @@ impl Value {
     }
 }
 
-/// The sum if an addend is NaN or infinite: NaN, also of infinities of both signs, or an infinity. `None` where all
-/// are.
+/// The sum if an addend is NaN or infinite: an infinity, or NaN if any addend is NaN or infinities have both signs.
+/// `None` if all addends are finite.
 pub(super) fn special(addends: impl IntoIterator<Item = Value>) -> Option<Value> {
     addends.into_iter().fold(None, |sum, addend| match (sum, addend) {
         (_, Value::Finite(_)) => sum,
@@ -159,14 +159,14 @@ pub(super) fn special(addends: impl IntoIterator<Item = Value>) -> Option<Value>
 /// Type and rounding of results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResultFormat {
-    /// In words.
+    /// Description.
     pub name: &'static str,
     /// Type of the word.
     pub element: Element,
-    /// The digits that are kept, from the top of the word, and their rounding. (Of fp64 none is used.)
+    /// Precision and rounding of results, which are stored in the top bits of the word. (Unused for fp64.)
     pub format: Format,
-    /// Results of NVIDIA's adders are never -0, and their NaN is 7fffffff or 7fff. The NaN of the others is not known;
-    /// here it is the positive quiet one.
+    /// Results of NVIDIA's adders are never -0, and their NaN is 7fffffff or 7fff. The NaN of other adders is not
+    /// known; here it is the positive quiet NaN.
     pub is_nvidia: bool,
 }
 
@@ -178,7 +178,7 @@ impl ResultFormat {
     /// Half precision, to nearest even. 65520 and more is infinity.
     pub const NEAREST16: Self =
         Self { name: "fp16, to nearest", element: Element::FP16, format: Format::FP16, is_nvidia: true };
-    /// Single precision, to nearest even. What rounds to zero keeps its sign.
+    /// Single precision, to nearest even. A result that rounds to zero keeps its sign.
     pub const NEAREST32: Self =
         Self { name: "fp32, to nearest", element: Element::FP32, format: Format::FP32, is_nvidia: false };
     /// Double precision, to nearest even.

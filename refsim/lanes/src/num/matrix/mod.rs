@@ -1,6 +1,6 @@
 //! Sums of products in the matrix units of GPUs, Volta to Blackwell and CDNA1 to CDNA3: `D = A B + C`, bit for bit.
 //!
-//! A [`MatrixUnit`] is a rule with its numbers. A dot product of any length goes through it in blocks, in order of k;
+//! A [`MatrixUnit`] is a rule with its parameters. A dot product of any length is computed in blocks, in order of k;
 //! the result of a block is the addend of the next. [`UNITS`] is the table of units with sources; docs/matrix_units.md
 //! has the rules and their confidence. Zeros are left out of sums, so padding to whole blocks changes nothing.
 //!
@@ -34,12 +34,13 @@ pub enum Rule {
         /// Least exponent that addends are aligned to.
         least: i32,
     },
-    /// Two such sums of 16 of a block's 32 products each; the addend is added to nearest even (`mma.sync` with FP8).
+    /// Two aligned sums of 16 products per block of 32; the addend is then added, rounded to nearest even (`mma.sync`
+    /// with FP8).
     Synchronous {
         /// Least exponent that products are aligned to.
         least: i32,
     },
-    /// Blocks of 64 in four groups of 16: the exact sums of the groups, times their scales, are aligned.
+    /// Blocks of 64 products in four groups of 16: the exact sums of the groups, times their scales, are aligned.
     Groups,
     /// The exact sum of a block, rounded once (CDNA1).
     Exact,
@@ -47,7 +48,7 @@ pub enum Rule {
     Pairs,
     /// Aligned products, then floors (CDNA3).
     Floored {
-        /// Products of even and of odd index are summed apart.
+        /// Products of even and of odd index are summed separately.
         halves: bool,
     },
     /// Fused multiply-adds, one after the other.
@@ -61,25 +62,26 @@ pub struct MatrixUnit {
     pub name: &'static str,
     /// Chips and instructions.
     pub chips: &'static str,
-    /// Types of a and b; any two may meet.
+    /// Types of a and b, in any combination.
     pub operands: &'static [Element],
     /// Type of c.
     pub addend: Element,
-    /// Products of one instruction.
+    /// Products per instruction.
     pub length: usize,
-    /// Products of a block.
+    /// Products per block.
     pub block: usize,
-    /// Bits of each addend that an aligned adder keeps below the largest exponent; `None` of other rules.
+    /// Bits of each addend that an aligned adder keeps below the largest exponent; `None` for other rules.
     pub bits: Option<u32>,
-    /// The sum.
+    /// Rule of summation.
     pub rule: Rule,
     /// Numbers per scale and the scale's type, if a and b have scales.
     pub scaling: Option<(usize, Element)>,
     /// Type and rounding of d.
     pub result: ResultFormat,
-    /// Evidence for the rule: measured (results of GPUs agree), two models or one model (that others made agree).
+    /// Confidence in the rule: measured (agrees with results of GPUs), two models or one model (agrees with published
+    /// models).
     pub evidence: &'static str,
-    /// The measured results, the chips, and the models that agree.
+    /// The sources: measured results, chips, and models that agree.
     pub source: &'static str,
 }
 
@@ -94,7 +96,7 @@ pub struct Operand<'a> {
     pub scales: &'a [u8],
 }
 
-/// Operands that a unit does not take, or no unit.
+/// Error for an unknown unit, or operands that a unit does not accept.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error("{what}: expected {expected}, found {found}")]
 #[diagnostic(
@@ -108,23 +110,23 @@ pub struct MatrixError {
 }
 
 impl MatrixError {
-    /// Creates the error of some `what`.
+    /// Creates an error about `what`.
     pub fn new(what: impl Into<String>, expected: impl Into<String>, found: impl Into<String>) -> Self {
         Self { what: what.into(), expected: expected.into(), found: found.into() }
     }
 }
 
 impl MatrixUnit {
-    /// This unit with another number of bits below the largest exponent, 1 to 60; `None` of units without an
-    /// aligned adder.
+    /// This unit with another number of bits below the largest exponent, 1 to 60; `None` for units without an aligned
+    /// adder.
     pub fn with_bits(self, kept: u32) -> Option<Self> {
         self.bits.filter(|_| (1..=60).contains(&kept)).map(|_| Self { bits: Some(kept), ..self })
     }
 
-    /// Checks that operands have types that the unit takes, one length, and their scales.
+    /// Checks that the operands have accepted types, equal lengths, and the required scales.
     ///
     /// # Errors
-    /// If they do not.
+    /// If they don't.
     pub fn check(&self, a: &Operand<'_>, b: &Operand<'_>) -> Result<(), MatrixError> {
         for (side, operand) in [("a", a), ("b", b)] {
             if !self.operands.contains(&operand.element) {
@@ -143,8 +145,8 @@ impl MatrixUnit {
         same.then_some(()).ok_or_else(|| MatrixError::new("length of b", format!("{long}, above 0"), other.to_string()))
     }
 
-    /// The dot product of operands that pass [`Self::check`], and `c`, a pattern of [`Self::addend`]: a word of
-    /// [`Self::result`].
+    /// The dot product of operands that pass [`Self::check`], plus `c`, a pattern of [`Self::addend`]; returns a word
+    /// of [`Self::result`].
     pub fn dot(&self, a: Operand<'_>, b: Operand<'_>, c: u64) -> u64 {
         let mut sum = (c, self.addend);
         for start in (0..a.codes.len()).step_by(self.block) {
@@ -153,7 +155,7 @@ impl MatrixUnit {
         sum.0
     }
 
-    /// The sum of the block that begins at `start`, and an addend of some type.
+    /// The sum of the block that begins at `start`, plus an addend of any type.
     pub fn block_sum(&self, a: Operand<'_>, b: Operand<'_>, start: usize, (c, element): (u64, Element)) -> u64 {
         let (addend, result, bits) = (element.decode(c), self.result, self.bits.unwrap_or(0));
         match self.rule {
@@ -174,8 +176,8 @@ impl MatrixUnit {
         }
     }
 
-    /// The addends of a block of an aligned adder, `c` last: exact, and as they are kept. `None` for other rules, and
-    /// if an addend is NaN or infinite.
+    /// The addends of a block of an aligned adder, `c` last: exact, and as truncated by the adder. `None` for other
+    /// rules, and if an addend is NaN or infinite.
     pub fn kept(
         &self,
         a: Operand<'_>,
@@ -208,7 +210,7 @@ impl MatrixUnit {
         self.values(a, start).into_iter().zip(self.values(b, start)).map(|(a, b)| a.times(b)).collect()
     }
 
-    /// Products with the exponents of the block's scales added, which are powers of two, and `c`.
+    /// Products, multiplied by the block's power-of-two scales, then `c`.
     fn addends(&self, a: Operand<'_>, b: Operand<'_>, start: usize, c: Value) -> Vec<Value> {
         let mut addends = self.products(a, b, start);
         if let Some([sa, sb]) = self.scales(a, b, start) {

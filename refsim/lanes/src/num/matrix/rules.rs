@@ -17,9 +17,9 @@ fn sum(addends: impl Iterator<Item = Addend> + Clone, bits: u32, least: i32, res
     result.round(sum.sum < 0, sum.sum.unsigned_abs(), sum.top - bits.cast_signed())
 }
 
-/// `mma.sync` with FP8 on Hopper and data-center Blackwell: two blocks of the products whose index modulo 4 is 0 or 1,
-/// then 2 or 3, the first with zero, the second with its result; `c` is added by an ordinary addition, to nearest even.
-/// NaN, infinities and zeros of this form have not been measured.
+/// `mma.sync` with FP8 on Hopper and data-center Blackwell: two aligned sums, first of zero and the products whose
+/// index modulo 4 is 0 or 1, then of that result and the other products; `c` is added by an ordinary addition, to
+/// nearest even. NaN, infinities and zeros have not been measured.
 pub(super) fn synchronous(products: &[Value], c: u64, bits: u32, least: i32, result: ResultFormat) -> u64 {
     let element = result.element;
     let half = |which: usize, sum: u64| {
@@ -31,13 +31,13 @@ pub(super) fn synchronous(products: &[Value], c: u64, bits: u32, least: i32, res
     if format.is_nan(total) { result.special(Value::Nan) } else { total.into() }
 }
 
-/// Products of a group.
+/// Products per group.
 pub(super) const GROUP: usize = 16;
 /// Least exponent of the sum of four groups.
 const GROUPS_LEAST: i32 = -139;
 
 /// One block of 64 products in four groups of 16, each with its pair of scales. The products of a group are added
-/// exactly; its exponent is that of its scales, and counts even if they cancel.
+/// exactly. The group's exponent is the exponent of its scales, and counts even if the products cancel.
 pub(super) fn groups(products: &[Value], scales: &[[Value; 2]], c: Value, bits: u32, result: ResultFormat) -> u64 {
     if let Some(value) = special(scales.iter().flatten().copied().chain([c])) {
         return result.special(value);
@@ -62,7 +62,7 @@ fn group(products: &[Value], [sa, sb]: [Value; 2]) -> Option<Addend> {
     })
 }
 
-/// A value as a word of single precision, which has all of them but fp64's.
+/// A value as a word of single precision, which represents every type except fp64.
 fn single(value: Value) -> u32 {
     let result = ResultFormat::NEAREST32;
     match value {
@@ -80,7 +80,7 @@ pub(super) fn exact(x: &[Value], y: &[Value], c: u64) -> u64 {
 }
 
 /// CDNA2: operations of single precision that flush subnormal results, in pairs. A zero keeps its sign between the
-/// blocks of an instruction, but not as the `c` of its first one.
+/// blocks of an instruction, but not as the `c` of the first block.
 pub(super) fn pairs(x: &[Value], y: &[Value], block: usize, c: Value, is_first: bool) -> u64 {
     let format = Format::FP32.with_denormals(Denormals::Flush);
     // Operands that are subnormal in their own type become +0, as zeros do.
@@ -100,25 +100,25 @@ pub(super) fn pairs(x: &[Value], y: &[Value], block: usize, c: Value, is_first: 
     add(if is_first { word(c) } else { single(c) }, sum).into()
 }
 
-/// `fma(a, b, c)`: the exact value, rounded once; the signs of zeros as IEEE has them.
+/// `fma(a, b, c)`: the exact value, rounded once; signs of zeros as in IEEE 754.
 #[expect(clippy::disallowed_methods, reason = "one rounding is what the unit has")]
 pub(super) fn fused(a: u64, b: u64, c: u64, element: Element) -> u64 {
     if element == Element::FP32 {
         return ops::fused_mad(Format::FP32, a as u32, b as u32, c as u32).bits.into();
     }
-    // IEEE's operation has one result, but for the bits of NaN.
+    // IEEE 754 defines the result, except for the bits of NaN.
     let [a, b, c] = [a, b, c].map(f64::from_bits);
     let sum = a.mul_add(b, c);
     if sum.is_nan() { 0x7ff8 << 48 } else { sum.to_bits() }
 }
 
-/// Bits below the largest exponent that CDNA3 keeps of products, and of `c` beside them.
+/// Bits below the largest exponent that CDNA3 keeps of products and of `c`.
 const KEPT: u32 = 24;
 /// Bits that CDNA3 keeps of the sum of products, below the larger exponent of this sum and `c`.
 const SUM_KEPT: i32 = 32;
 
-/// CDNA3: products are aligned and cut, their sum and `c` are brought together by floors. `halves` has those of even
-/// and of odd index apart (FP8).
+/// CDNA3: products are aligned and truncated; their sum and `c` are aligned and rounded down. With `halves` (FP8),
+/// products of even and of odd index are summed separately.
 pub(super) fn floored(products: &[Value], c: Value, halves: bool) -> u64 {
     let result = ResultFormat::NEAREST32;
     let limited = products.iter().map(|&product| if halves { product } else { overflowing(product) });

@@ -141,10 +141,10 @@ pub static UNITS: [MatrixUnit; 36] = [
 ];
 
 impl MatrixUnit {
-    /// The unit of a name; `-` counts as `_`, and a missing `_f32` is added.
+    /// Finds a unit by name; `-` counts as `_`, and a missing `_f32` is added.
     ///
     /// # Errors
-    /// If there is none.
+    /// If there is no such unit.
     pub fn find(name: &str) -> Result<Self, MatrixError> {
         let name = name.to_ascii_lowercase().replace('-', "_");
         let named = |name: &str| UNITS.iter().find(|unit| unit.name == name).copied();

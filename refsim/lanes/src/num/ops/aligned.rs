@@ -9,17 +9,15 @@ use crate::num::round::{from_parts, infinite, zero};
 use crate::num::sum::{Term, cancelled, sum};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// Most bits that an adder of four addends keeps below the largest exponent: their sum has 31 bits and a sign.
+/// The most bits below the largest exponent that a four-addend adder keeps: their sum has 31 bits and a sign.
 pub const MAX_ALIGNED_BITS: u8 = 28;
 
-/// The sum of numbers of a float format as one adder makes it: addends are aligned to the largest exponent, `bits` bits
-/// are kept below it and the rest of each magnitude is dropped, the kept magnitudes are added exactly, and that sum is
-/// rounded once. An exponent is that of the leading bit, of a subnormal number too. More than [`MAX_ALIGNED_BITS`] bits
-/// count as that many.
+/// Sums numbers of a float format in one adder: addends are aligned to the largest exponent and truncated to `bits`
+/// bits below it; the truncated addends are added exactly, and the sum is rounded once. The exponent is the exponent of
+/// the leading bit, also for subnormal numbers. `bits` is at most [`MAX_ALIGNED_BITS`]; more count as that many.
 ///
-/// Infinities and NaN come first: infinities of both signs are `INVALID`. Zeros are left out; the sum of zeros alone is
-/// theirs if they have one sign, and otherwise, as after cancellation, +0, or -0 when rounding down. `INEXACT` includes
-/// dropped bits.
+/// Infinities and NaN are handled first; infinities of both signs are `INVALID`. Zeros don't count as addends. A sum of
+/// zeros of one sign has that sign; other zero sums are +0, or -0 when rounding down. Dropped bits raise `INEXACT`.
 pub fn sum_aligned(env: impl Into<Env>, bits: u8, addends: &[u32]) -> Outcome {
     let env = env.into();
     let format = &env.format;
@@ -60,8 +58,8 @@ pub fn sum_aligned(env: impl Into<Env>, bits: u8, addends: &[u32]) -> Outcome {
     from_parts(env, total.sum < 0, total.sum.unsigned_abs(), unit, false).also(dropped)
 }
 
-/// `a * b + c` where the product is cut to the format's significand, with any exponent, and the exact sum of it and `c`
-/// is rounded once. Special values are as in [`super::fused_mad`]. Fixed point has [`mad`].
+/// `a * b + c`: the product is truncated to the format's significand, with an unlimited exponent, and the exact sum is
+/// rounded once. Special values are as in [`super::fused_mad`]. In fixed point this is [`mad`].
 pub fn product_cut_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     use Unpacked::Finite;
     let env = env.into();

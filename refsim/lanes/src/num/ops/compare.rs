@@ -7,7 +7,7 @@ use crate::num::flags::{Flags, Outcome};
 use crate::num::unit;
 use crate::num::unpack::{Unpacked, key, unpack};
 
-/// Compares two values: their order (`None` with a NaN), and `true` if one of them is a signalling NaN.
+/// Compares two values: returns their order (`None` with a NaN), and `true` if an operand is a signalling NaN.
 pub(crate) fn order(env: &Env, a: u32, b: u32) -> (Option<Ordering>, bool) {
     let format = &env.format;
     if format.unit.is_card() {

@@ -13,19 +13,18 @@ use crate::num::sum::{Term, cancelled};
 use crate::num::unit;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// Order in which the terms of a dot product are summed. The cards' documents leave it open; it is a switch of the
-/// device profile.
+/// Order in which the terms of a dot product are summed. The cards' documents leave the order open, so it is a switch
+/// of the device profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DotOrder {
     /// Each product is rounded, then `((x + y) + z) + w`, each sum rounded.
     Sequential,
     /// Each product is rounded, then neighbours are added in pairs: `(x + y) + (z + w)`, `(x + y) + z`.
     Tree,
-    /// One rounding of the exact sum of the exact products.
+    /// The exact sum of the exact products, rounded once.
     Exact,
-    /// Each product is rounded, then one adder adds all ([`sum_aligned`]) and keeps so many bits, at most
-    /// [`MAX_ALIGNED_BITS`], below the largest exponent. Fixed point has no exponents: there it is
-    /// [`Self::Sequential`].
+    /// Each product is rounded, then one adder sums all products, keeping this many bits (at most [`MAX_ALIGNED_BITS`])
+    /// below the largest exponent ([`sum_aligned`]). In fixed point this acts as [`Self::Sequential`].
     Aligned(u8),
 }
 
@@ -41,7 +40,7 @@ impl DotOrder {
     }
 }
 
-/// The bits of `aligned:F`, 0 to [`MAX_ALIGNED_BITS`].
+/// Parses the bits of `aligned:F`, 0 to [`MAX_ALIGNED_BITS`].
 pub fn aligned_bits(text: &str) -> Option<u8> {
     text.strip_prefix("aligned:")?.parse().ok().filter(|bits| *bits <= MAX_ALIGNED_BITS)
 }
@@ -53,12 +52,11 @@ pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcom
     accumulated(env, env, &env.format, order, terms)
 }
 
-/// [`dot`] with an accumulator of its own format: operands and result are numbers of `env`'s format; the exact
-/// products, and the sums in the given order, are rounded into the accumulator's format by its rules, and the last sum
-/// once more into the result's. With [`DotOrder::Exact`] the exact sum is rounded into the accumulator.
+/// [`dot`] with an accumulator in another format: operands and result are in `env`'s format. The exact products, and
+/// the sums in the given order, are rounded into the accumulator's format; the last sum is then rounded into the
+/// result's format. With [`DotOrder::Exact`] the exact sum is rounded into the accumulator.
 ///
-/// Where the accumulator has every number of the operands' format this is what an instruction does that has the
-/// accumulator's format as its own.
+/// If the accumulator represents every operand, this equals an instruction that computes in the accumulator's format.
 pub fn dot_accumulated(
     env: impl Into<Env>,
     accumulator: impl Into<Env>,
@@ -69,8 +67,8 @@ pub fn dot_accumulated(
     dot_of_products(env, accumulator, accumulator, order, terms)
 }
 
-/// [`dot_accumulated`] with products that are rounded by the rules of a format of their own, which has the layout of
-/// the accumulator. [`DotOrder::Exact`] has no rounded products.
+/// [`dot_accumulated`] with products rounded by the rules of another format with the accumulator's layout.
+/// [`DotOrder::Exact`] has no rounded products.
 pub fn dot_of_products(
     env: impl Into<Env>,
     products: impl Into<Env>,
@@ -83,10 +81,10 @@ pub fn dot_of_products(
     convert(&accumulator.format, env, sum.bits).also(sum.flags)
 }
 
-/// The sum of the products of numbers of a format, rounded into the accumulator.
+/// Sums the products of numbers of a format, rounded into the accumulator.
 fn accumulated(rounded: Env, env: Env, operands: &Format, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
     if env.format.unit.is_card() {
-        // Units know their own format alone.
+        // Units of cards only compute in their own format.
         let word = |bits| convert(operands, env, bits).bits;
         let terms: Vec<(u32, u32)> = terms.iter().map(|&(a, b)| (word(a), word(b))).collect();
         return unit::dot(&env.format, &terms).unwrap_or(Outcome::exact(0));

@@ -9,7 +9,7 @@ use crate::num::unit;
 use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// `a * b + c` with the product rounded first: the multiply-add of the cards.
+/// `a * b + c` with product and sum rounded: the multiply-add of the cards.
 pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Mad, &[a, b, c]) {
@@ -19,8 +19,8 @@ pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     add(env, product.bits, c).also(product.flags)
 }
 
-/// `a * b + c` rounded once: over a common denominator, that of the product. `0 * inf + c` is `INVALID` even for a
-/// quiet NaN `c`: IEEE 754 leaves it open, and SoftFloat and RISC-V decide the same.
+/// `a * b + c` rounded once, over the product's denominator. `0 * inf + c` is `INVALID` even for a quiet NaN `c`: IEEE
+/// 754 leaves this open; SoftFloat and RISC-V do the same.
 pub fn fused_mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     let env = env.into();

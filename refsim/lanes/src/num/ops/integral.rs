@@ -24,13 +24,13 @@ pub fn round_to_int(env: impl Into<Env>, x: u32) -> Outcome {
     round_to_int_with(env, x, env.format.rounding, false)
 }
 
-/// [`round_to_int`] that raises `INEXACT` when it changes the value (TestFloat's `-exact`).
+/// [`round_to_int`], but raises `INEXACT` if it changes the value (TestFloat's `-exact`).
 pub fn round_to_int_exact(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     round_to_int_with(env, x, env.format.rounding, true)
 }
 
-/// `x` rounded to an integer by the given rounding; `exact` asks for `INEXACT` when that changes the value.
+/// `x` rounded to an integer by the given rounding; with `exact`, a change of the value raises `INEXACT`.
 ///
 /// A zero result keeps the operand's sign. The integer may lie outside a short format's range (8 in `s3.12`); then the
 /// format's overflow rule applies.
@@ -58,9 +58,10 @@ pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact:
     outcome.also(if exact && rest != 0 { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// Splits `sig * 2^exp / den`, `exp` not positive, into integer part, remainder, and the remainder that would be one.
+/// Splits `sig * 2^exp / den`, with `exp` at most 0, into integer part, remainder, and the remainder that corresponds
+/// to 1.
 fn split(sig: u64, exp: i32, den: u32) -> (u64, u64, u64) {
-    // `sig` has at most 32 bits, so with 40 places dropped the remainder compares below one half as it should.
+    // `sig` has at most 32 bits, so after dropping 40 places the remainder still compares correctly with one half.
     let one = u64::from(den) << exp.unsigned_abs().min(40);
     (sig / one, sig % one, one)
 }

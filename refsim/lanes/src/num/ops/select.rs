@@ -1,7 +1,7 @@
 //! Minimum, maximum, and the two conditional selects of the shading languages.
 //!
 //! Selected values are normalised: NaNs become canonical, and subnormals are flushed where the format flushes. Units of
-//! cards compare by their own order, and the conditional selects pass words on unchanged.
+//! cards compare in their own order, and the conditional selects copy words unchanged.
 
 use std::cmp::Ordering;
 
@@ -14,8 +14,8 @@ use crate::num::unit;
 use crate::num::unit::UnitOperation;
 use crate::num::unpack::{key, nan_bits, pass};
 
-/// `a < b ? a : b` (Direct3D 9 `min`), so that a NaN on either side, and a pair of zeros, give `b`; with
-/// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
+/// `a < b ? a : b` (Direct3D 9 `min`), so a NaN on either side, and a pair of zeros, give `b`; with [`Specials::Nv`] a
+/// NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn min(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Min, &[a, b]) {
@@ -24,7 +24,7 @@ pub fn min(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     choose(env, a, b, Ordering::is_lt)
 }
 
-/// `a >= b ? a : b` (Direct3D 9 `max`), so that a NaN on either side gives `b` and a pair of zeros `a`; with
+/// `a >= b ? a : b` (Direct3D 9 `max`), so a NaN on either side gives `b`, and a pair of zeros gives `a`; with
 /// [`Specials::Nv`] a NaN on either side gives NaN, and -0 is less than +0. `INVALID` for signalling NaNs only.
 pub fn max(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     let env = env.into();
@@ -40,7 +40,7 @@ fn choose(env: Env, a: u32, b: u32, first: impl Fn(Ordering) -> bool) -> Outcome
     let nv = format.specials == Specials::Nv;
     let bits = match order {
         None if nv => nan_bits(format),
-        // Equal numbers differ in the sign of zeros alone: the maximum, which takes the first, is -0 if both are.
+        // Equal numbers differ only in the sign of zeros: the maximum is -0 only if both are -0.
         Some(Ordering::Equal) if nv && first(Ordering::Equal) => pass(format, a) & pass(format, b),
         Some(Ordering::Equal) if nv => pass(format, a) | pass(format, b),
         Some(order) if first(order) => pass(format, a),
@@ -74,12 +74,12 @@ pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
     Outcome::exact(pass(&format, if first { a } else { b }))
 }
 
-/// Returns `true` if a condition compares with a bound in the given way, by the unit of a card.
+/// Compares a condition with a bound, by the unit of a card.
 fn reaches(format: &crate::num::Format, condition: u32, bound: u32, holds: impl Fn(Ordering) -> bool) -> bool {
     unit::order(format.unit, condition, bound).is_some_and(holds)
 }
 
-/// The pattern of 0.5 in a float; all have it, those whose bias is 1 as a subnormal.
+/// The pattern of 0.5 in a float. Every float represents 0.5; with bias 1 it is subnormal.
 fn half(format: &crate::num::Format) -> u32 {
     match format.kind {
         FormatKind::Float { man_bits, .. } if format.one() == 1 << man_bits => 1 << (man_bits - 1),

@@ -18,7 +18,7 @@ pub fn sqrt(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => invalid(&env.format),
         Unpacked::Inf { sign: false } => infinite(&env.format, false),
         Unpacked::Finite { sig, exp, den, .. } => {
-            // In units, the root of s/d is the root of s d.
+            // In units of 1/d, the root of s/d is the root of s d.
             let (square, exp) = even(sig * u64::from(den), exp);
             let root = square.isqrt();
             in_units(&env, false, root, exp / 2, root * root != square)
@@ -28,10 +28,9 @@ pub fn sqrt(env: impl Into<Env>, x: u32) -> Outcome {
 
 /// `1 / sqrt(x)`, rounded once.
 ///
-/// Special values: with [`Specials::Ieee`] the operand's magnitude is taken, as Direct3D's pages have it, so
-/// `rsq(-4)` is 0.5 and both zeros give +inf with `DIVIDE_BY_ZERO`. With [`Specials::Nv`] `rsq(-0)` is -inf and
-/// negative operands are `INVALID`. In fixed point zero gives the largest number and negative operands are
-/// `INVALID`, result 0.
+/// Special values: with [`Specials::Ieee`] the operand's magnitude is taken, as in Direct3D, so `rsq(-4)` is 0.5 and
+/// both zeros give +inf with `DIVIDE_BY_ZERO`. With [`Specials::Nv`] `rsq(-0)` is -inf and negative operands are
+/// `INVALID`. In fixed point zero gives the largest number and negative operands are `INVALID`, result 0.
 pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Rsq, &[x]) {
@@ -47,8 +46,8 @@ pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Inf { .. } => zero(format, false),
         Unpacked::Finite { sig, exp, den, .. } => {
             // In units of 1/d, 1/sqrt(s/d * 2^e) = sqrt(d^3 2^p / s) * 2^(-e/2 - p/2) with s in [2^31, 2^33), p even
-            // and d^3 2^p of 126 bits or so: the floor of the root of a floor is the floor of the root, and the root is
-            // exact only if both steps are.
+            // and d^3 2^p of about 126 bits. The floor of the root of a floor is the floor of the root; the root is
+            // exact only if both steps are exact.
             let left =
                 sig.leading_zeros() - 32 + (exp - sig.leading_zeros().cast_signed()).rem_euclid(2).unsigned_abs();
             let (s, e) = (u128::from(sig) << left, exp - left.cast_signed());

@@ -10,10 +10,10 @@ const GUARD: u32 = 32;
 
 /// `cos x` or `sin x` for `x = (-1)^sign * sig * 2^exp / den`, in units of `2^-places`.
 ///
-/// The angle is reduced modulo `2 pi` into +-pi, with as many more bits of pi as the angle has before the point; then
-/// the power series is summed. Truncation error in units of `2^-(places + 32)`: one from `x`, below `2^9` from the
-/// multiple of `2 pi`, and four per term of the series. With fewer than `2^13` terms the total is below `2^20`, a small
-/// part of one unit of `2^-places`.
+/// The angle is reduced modulo `2 pi` into +-pi, with one extra bit of pi per integer bit of the angle; then the power
+/// series is summed. Truncation error in units of `2^-(places + 32)`: one from `x`, below `2^9` from the multiple of
+/// `2 pi`, and four per term of the series. With fewer than `2^13` terms the total is below `2^20`, a small part of one
+/// unit of `2^-places`.
 pub(super) fn circular(sine: bool, sign: bool, sig: u64, exp: i32, den: u32, places: u32) -> Enclosure<BigInt> {
     let whole = u32::try_from(exp + 64).unwrap_or(0);
     let bits = places + GUARD + whole;

@@ -1,4 +1,4 @@
-//! Enclosures of `2^f` and `log2 m`: fast ones in machine words, and ones of arbitrary precision.
+//! Enclosures of `2^f` and `log2 m`: fast in machine words, and with arbitrary precision.
 //!
 //! Every step truncates, so the lower end is a lower bound; the upper end adds the bound on the truncation error that
 //! each function states.
@@ -7,7 +7,7 @@ use num_bigint::{BigInt, BigUint};
 use num_traits::One;
 
 /// A value strictly between `low * 2^exp` and `high * 2^exp`, with `high - low` at least 2; or exactly `low * 2^exp`,
-/// where both are equal.
+/// if both are equal.
 #[derive(Clone, Debug)]
 pub(super) struct Enclosure<T> {
     pub(super) low: T,
@@ -24,8 +24,8 @@ fn high_half(a: u64, b: u64) -> u64 {
     ((u128::from(a) * u128::from(b)) >> 64) as u64
 }
 
-/// Encloses `2^(x - floor x)` for `x = (-1)^sign * sig * 2^exp / den`, no integer, `exp` 0 where `den` is not 1, in
-/// units of `2^-62`.
+/// Encloses `2^(x - floor x)` for a non-integer `x = (-1)^sign * sig * 2^exp / den`, in units of `2^-62`; `exp` is 0
+/// unless `den` is 1.
 ///
 /// Truncation error: one unit of `2^-64` in `f`, two more in `t = f ln 2`, and at most two of `2^-62` in each Horner
 /// step, which later steps shrink by `t/k`: below 8 units in all. The series' tail from `t^23/23!` on is below `2^-80`.
@@ -84,9 +84,9 @@ fn ln2(bits: u32) -> BigInt {
 
 /// `log2` of `sig` scaled into [1, 2), in units of `2^-60`.
 ///
-/// Squaring doubles a logarithm, so each squaring that passes 2 yields a binary digit. A relative error of `2^-62`
-/// in the squaring that yields digit j is one of `1.5 * 2^-62 * 2^-j` in the logarithm; with the digits never
-/// computed that is below 2 units.
+/// Squaring doubles a logarithm, so each squaring that passes 2 yields a binary digit. A relative error of `2^-62` in
+/// the squaring that yields digit j is an error of `1.5 * 2^-62 * 2^-j` in the logarithm; together with the digits that
+/// are not computed, the error is below 2 units.
 pub(super) fn log2_quick(sig: u64) -> Enclosure<i128> {
     if sig.is_power_of_two() {
         return Enclosure { low: 0, high: 0, exp: -60 };

@@ -8,13 +8,13 @@ use crate::num::format::Format;
 use crate::num::rules::{Rounding, Unit};
 use std::cmp::Ordering;
 
-/// The outcome of a card's operation: `INVALID` if it made a NaN of operands that are none.
+/// The outcome of a card's operation, with `INVALID` if the result is NaN and no operand is.
 fn outcome(bits: u32, operands: &[u32]) -> Outcome {
     let made = Word::of(bits).is_nan() && !operands.iter().any(|&operand| Word::of(operand).is_nan());
     Outcome::new(bits, if made { Flags::INVALID } else { Flags::empty() })
 }
 
-/// An operation by the unit of a format. `None` in ideal formats, and where the unit does not have the operation.
+/// Evaluates an operation by a format's unit. `None` in ideal formats, and if the unit lacks the operation.
 pub(in crate::num) fn evaluate(format: &Format, operation: UnitOperation, operands: &[u32]) -> Option<Outcome> {
     let mut all = [0; 3];
     for (place, &operand) in all.iter_mut().zip(operands) {
@@ -45,12 +45,12 @@ fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u
     Some(match (order(unit, a, b), unit) {
         (Some(order), _) => ONE * u32::from(holds(order)),
         (None, Unit::Nv3x) => NAN,
-        // As IEEE: unequal, and no other relation.
+        // IEEE 754: unequal, and no other relation.
         (None, _) => ONE * u32::from(operation == SetNotEqual),
     })
 }
 
-/// The order of two words by a unit, `None` if they have none; numbers are compared by their words in ideal formats.
+/// The order of two words by a unit, `None` if unordered; ideal formats compare words as sign and magnitude.
 pub(in crate::num) fn order(unit: Unit, a: u32, b: u32) -> Option<Ordering> {
     match unit {
         Unit::Gt200 | Unit::Gt200ZeroWins => gt200::compare(a, b),
@@ -58,7 +58,7 @@ pub(in crate::num) fn order(unit: Unit, a: u32, b: u32) -> Option<Ordering> {
     }
 }
 
-/// The sum of products by the unit of a format, `None` in ideal formats.
+/// The sum of products by a format's unit; `None` in ideal formats.
 pub(in crate::num) fn dot(format: &Format, terms: &[(u32, u32)]) -> Option<Outcome> {
     let bits = match format.unit {
         Unit::Ideal => return None,
@@ -109,7 +109,7 @@ fn gt200(unit: Unit, rounding: Rounding, operation: UnitOperation, [a, b, c]: [u
         Op::Min => gt200::min(a, b),
         Op::Max => gt200::max(a, b),
         Op::Floor => gt200_conversions::round_to_int(Rounding::Down, a),
-        // Drivers subtract; the chip has no such instruction.
+        // Drivers subtract, because the chip has no such instruction.
         Op::Frc => gt200::add(rounding, a, gt200_conversions::round_to_int(Rounding::Down, a) ^ SIGN),
         Op::Rcp => gt200_functions::rcp(a),
         Op::Rsq => gt200_functions::rsq(a),

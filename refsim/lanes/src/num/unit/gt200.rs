@@ -1,4 +1,4 @@
-//! Sums, products and comparisons of GT200. Subnormal operands are zeros of their sign everywhere.
+//! Sums, products and comparisons of GT200. Subnormal operands always count as zeros of their sign.
 
 use std::cmp::Ordering;
 
@@ -28,8 +28,8 @@ impl Exact {
         }
     }
 
-    /// The sum of numbers of at most 24 bits, `None` if it is zero. Bits more than 80 below the larger one count as one
-    /// bit there, which no rounding to 24 bits distinguishes from the exact sum.
+    /// The sum of numbers of at most 24 bits, `None` if it is zero. Bits more than 80 places below the larger number
+    /// are merged into one bit, which does not change any rounding to 24 bits.
     fn plus(self, other: Self) -> Option<Self> {
         const FAR: i32 = 80;
         let (high, low) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
@@ -43,7 +43,6 @@ impl Exact {
         (sum != 0).then_some(Self { negative: sum < 0, magnitude: sum.unsigned_abs(), exponent })
     }
 
-    /// The number cut to 24 bits.
     fn cut24(self) -> Self {
         let drop = self.magnitude.ilog2().saturating_sub(23);
         Self { magnitude: self.magnitude >> drop, exponent: self.exponent + drop.cast_signed(), ..self }
@@ -64,8 +63,8 @@ impl Exact {
         }
     }
 
-    /// Rounds a sum of MAD to the nearest. Below `2^-126` it is first cut to a multiple of `2^-153`, then rounded to
-    /// one of `2^-149`, and is `2^-126` or a zero of its sign.
+    /// Rounds a sum of MAD to nearest. A sum below `2^-126` is first truncated to a multiple of `2^-153`, then rounded
+    /// to a multiple of `2^-149`; the result is `2^-126` or a zero of its sign.
     fn round_mad(self) -> u32 {
         if self.magnitude.ilog2().cast_signed() + self.exponent >= -126 {
             return self.round(Rounding::NearestEven);
@@ -77,7 +76,7 @@ impl Exact {
     }
 }
 
-/// `magnitude / 2^drop`, to the nearest, ties to even.
+/// `magnitude / 2^drop`, to nearest, ties to even.
 pub(super) const fn nearest_even(magnitude: u128, drop: u32) -> u128 {
     if drop == 0 {
         return magnitude;
@@ -88,12 +87,12 @@ pub(super) const fn nearest_even(magnitude: u128, drop: u32) -> u128 {
     if rest > half || rest == half && kept % 2 == 1 { kept + 1 } else { kept }
 }
 
-/// `x`, with a zero of its sign for a subnormal.
+/// Replaces a subnormal number by a zero of its sign.
 pub(super) const fn flushed(x: u32) -> u32 {
     if Word::of(x).is_zero() { x & SIGN } else { x }
 }
 
-/// The result of NaN and infinities in a sum, if an addend is one.
+/// The result of a sum with a NaN or infinite addend; `None` for other sums.
 fn special_sum(x: Word, y: Word) -> Option<u32> {
     match (x.is_infinite(), y.is_infinite()) {
         _ if x.is_nan() || y.is_nan() => Some(NAN),
@@ -118,7 +117,7 @@ pub fn add(rounding: Rounding, a: u32, b: u32) -> u32 {
     }
 }
 
-/// The result of zeros, NaN and infinities in a product, if a factor is one.
+/// The result of a product with a zero, NaN or infinite factor; `None` for other products.
 fn special_product(unit: Unit, x: Word, y: Word) -> Option<u32> {
     let negative = x.negative != y.negative;
     let zero = x.is_zero() || y.is_zero();
@@ -138,14 +137,14 @@ pub fn mul(unit: Unit, rounding: Rounding, a: u32, b: u32) -> u32 {
     special_product(unit, x, y).unwrap_or_else(|| Exact::of(x).times(Exact::of(y)).round(rounding))
 }
 
-/// `a b + c`: the product cut to 24 bits, of any exponent, and the sum rounded to the nearest. Only where a number is
-/// zero it is a product and a sum, each rounded to the nearest. It has no other rounding.
+/// `a b + c`: the product truncated to 24 bits with an unlimited exponent, and the sum rounded to nearest. Only if an
+/// operand is zero are product and sum both rounded to nearest. MAD has no other rounding.
 pub fn mad(unit: Unit, a: u32, b: u32, c: u32) -> u32 {
     let (x, y, z) = (Word::of(a), Word::of(b), Word::of(c));
     let zero = x.is_zero() || y.is_zero();
     let finite = x.field < 255 && y.field < 255 && z.field < 255;
     if z.field == 255 && special_product(unit, x, y).is_none() {
-        // No finite product matters beside an infinity or NaN, not even one that would overflow.
+        // With an infinite or NaN addend the product does not matter, even if it would overflow.
         return add(Rounding::NearestEven, 0, c);
     }
     if zero || z.is_zero() || !finite {
@@ -155,13 +154,13 @@ pub fn mad(unit: Unit, a: u32, b: u32, c: u32) -> u32 {
     product.plus(Exact::of(z)).map_or(0, Exact::round_mad)
 }
 
-/// A dot product as drivers make it: MUL, then MAD for every further term. Without terms +0.
+/// A dot product as drivers compile it: MUL, then MAD for every further term. Without terms it is +0.
 pub fn dot(unit: Unit, rounding: Rounding, terms: &[(u32, u32)]) -> u32 {
     let Some((&(a, b), rest)) = terms.split_first() else { return 0 };
     rest.iter().fold(mul(unit, rounding, a, b), |sum, &(a, b)| mad(unit, a, b, sum))
 }
 
-/// `x 2^k`, exact, with the overflow and underflow of a product.
+/// `x 2^k`, exact except for the overflow and underflow of a product.
 pub fn scale(rounding: Rounding, x: u32, k: i32) -> u32 {
     let word = Word::of(x);
     match word.field {
@@ -185,7 +184,7 @@ pub fn compare(a: u32, b: u32) -> Option<Ordering> {
     ordered.then(|| key(a).cmp(&key(b)))
 }
 
-/// MIN, or MAX if `greater`: with a NaN the other operand; -0 is below +0.
+/// MIN, or MAX if `greater`: of a NaN and a number, the number; -0 is below +0.
 fn choose(a: u32, b: u32, greater: bool) -> u32 {
     match (Word::of(a).is_nan(), Word::of(b).is_nan()) {
         (true, true) => return NAN,

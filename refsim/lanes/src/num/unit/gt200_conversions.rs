@@ -1,5 +1,5 @@
-//! Conversions of GT200. Subnormal single floats are zeros; those of half floats count. Four roundings: to nearest
-//! even, down, up and toward zero; other roundings count as the first.
+//! Conversions of GT200. Subnormal single floats count as zeros; subnormal half floats keep their value. There are four
+//! roundings: to nearest even, down, up and toward zero; other roundings act as nearest even.
 
 use super::gt200::nearest_even;
 use super::word::{NAN, SIGN, Word, assemble, top24};
@@ -23,7 +23,8 @@ fn is_inward(rounding: Rounding, negative: bool) -> bool {
         || matches!(rounding, Rounding::Down | Rounding::Up) && !rounding.is_outward(negative)
 }
 
-/// To a half float of four hexadecimal digits. Numbers below `2^-33` become zero in every rounding; NaN is 7fff.
+/// Converts to a half float in four hexadecimal digits. Numbers below `2^-33` become zero in every rounding; NaN is
+/// 7fff.
 pub fn to_half(rounding: Rounding, x: u32) -> u32 {
     let word = Word::of(x);
     let half = match word.field {
@@ -35,7 +36,7 @@ pub fn to_half(rounding: Rounding, x: u32) -> u32 {
             let least = (field - 112).max(1);
             let drop = (least + 125 - field).cast_unsigned();
             let steps = divide(rounding, word.negative, word.significand().into(), drop) as u32;
-            // A carry, or the leading one of a normal number, goes into the field.
+            // A carry, or the leading one of a normal number, increments the field.
             let pattern = steps + ((least - 1).cast_unsigned() << 10);
             match pattern {
                 0x7c00.. if is_inward(rounding, word.negative) => 0x7bff,
@@ -46,7 +47,7 @@ pub fn to_half(rounding: Rounding, x: u32) -> u32 {
     if word.negative { half | 0x8000 } else { half }
 }
 
-/// To a whole number as a float; zeros keep their sign.
+/// Rounds to an integer, as a float; zeros keep their sign.
 pub fn round_to_int(rounding: Rounding, x: u32) -> u32 {
     let word = Word::of(x);
     match word.field {
@@ -66,7 +67,7 @@ pub fn round_to_int(rounding: Rounding, x: u32) -> u32 {
     }
 }
 
-/// The nearest integer by a rounding, `None` for NaN; clamped to 40 bits.
+/// Rounds to an integer, clamped to 40 bits; `None` for NaN.
 fn integer(rounding: Rounding, x: u32) -> Option<i64> {
     let word = Word::of(x);
     let magnitude = match word.field {
@@ -79,23 +80,23 @@ fn integer(rounding: Rounding, x: u32) -> Option<i64> {
     Some(if word.negative { -magnitude } else { magnitude })
 }
 
-/// To a signed integer, clamped to its range; NaN is 0.
+/// Converts to a signed integer, clamped to its range; NaN gives 0.
 pub fn to_signed(rounding: Rounding, x: u32) -> i32 {
     let value = integer(rounding, x).unwrap_or(0);
     value.clamp(i32::MIN.into(), i32::MAX.into()) as i32
 }
 
-/// To an unsigned integer, clamped to its range; NaN is 0.
+/// Converts to an unsigned integer, clamped to its range; NaN gives 0.
 pub fn to_unsigned(rounding: Rounding, x: u32) -> u32 {
     integer(rounding, x).unwrap_or(0).clamp(0, u32::MAX.into()) as u32
 }
 
-/// From a signed integer, rounded once.
+/// Converts from a signed integer, rounded once.
 pub fn from_signed(rounding: Rounding, value: i32) -> u32 {
     from_magnitude(rounding, value < 0, value.unsigned_abs())
 }
 
-/// From an unsigned integer, rounded once.
+/// Converts from an unsigned integer, rounded once.
 pub fn from_unsigned(rounding: Rounding, value: u32) -> u32 {
     from_magnitude(rounding, false, value)
 }

@@ -6,13 +6,13 @@ use super::word::{INFINITY, NAN, SIGN, Word, assemble, cut, cut_signed, signed};
 /// Bit 30 of a prepared word: set for NaN and infinity.
 const PREPARED_SPECIAL: u32 = 0x4000_0000;
 
-/// The square of 17 bits `y`, in units of `2^17`, from partial products that are cut one by one.
+/// The square of the 17-bit `y`, in units of `2^17`, from individually truncated partial products.
 fn square(y: u32) -> i64 {
     let sum: u32 = (0..17).filter(|i| y >> i & 1 != 0).map(|i| y >> (18 - i)).sum();
     i64::from(sum >> 1)
 }
 
-/// A result from its interpolated significand, 2^23 to 2^24.
+/// Assembles a result from its interpolated significand, 2^23 to 2^24.
 fn finish(negative: bool, field: i32, significand: i64) -> u32 {
     let (field, mantissa) = match significand {
         0x100_0000 => (field + 1, 0),
@@ -79,7 +79,8 @@ pub fn lg2(x: u32) -> u32 {
     cut_signed(fraction + (i64::from(word.field - 127) << 36), 36)
 }
 
-/// PRESIN: an angle in radians as sign, bit 30 for what has no sine, and quarter turns in units of `2^-23`.
+/// PRESIN: prepares an angle in radians as sign, bit 30 (set for NaN and infinity), and quarter turns in units of
+/// `2^-23`.
 pub fn presin(x: u32) -> u32 {
     let word = Word::of(x);
     match word.field {
@@ -108,7 +109,7 @@ pub fn cos_prepared(p: u32) -> u32 {
     circular(p, (p >> 23 & 0xff) + 1, false)
 }
 
-/// The sine of a quarter turn `quarter` and the fraction in the low 23 bits of `p`.
+/// The sine of `quarter` quarter turns plus the fraction in the low 23 bits of `p`.
 fn circular(p: u32, quarter: u32, negative: bool) -> u32 {
     if p & PREPARED_SPECIAL != 0 {
         return NAN;
@@ -131,7 +132,7 @@ pub fn cos(x: u32) -> u32 {
     cos_prepared(presin(x))
 }
 
-/// PREEX2: a number as sign, bit 30 for what is out of range, and a magnitude in units of `2^-23`.
+/// PREEX2: prepares a number as sign, bit 30 (set if out of range), and a magnitude in units of `2^-23`.
 pub fn preex2(x: u32) -> u32 {
     let word = Word::of(x);
     match word.field {

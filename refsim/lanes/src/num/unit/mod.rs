@@ -15,10 +15,9 @@
 //! | [`gt200_functions`] | GT200: RCP RSQRT LG2, PRESIN SIN COS, PREEX2 EX2 |
 //! | [`gt200_conversions`] | GT200: to and from half floats and integers, rounding to integers |
 //!
-//! Operands and results are 32-bit words. A NaN result is [`NAN`]; an instruction that passes an operand through keeps
-//! its word, NaN and subnormals included. [`super::ops`] dispatches to the units by [`super::Format::unit`]. An
-//! operation of a unit raises only the flag `INVALID`, if its result is NaN and no operand is; comparisons raise it as
-//! IEEE's do.
+//! Operands and results are 32-bit words. A NaN result is [`NAN`]; an instruction that copies an operand keeps its
+//! word, including NaN and subnormals. [`super::ops`] dispatches to the units by [`super::Format::unit`]. Operations of
+//! a unit raise only `INVALID`, if the result is NaN and no operand is; comparisons raise it as in IEEE 754.
 
 mod dispatch;
 pub mod gt200;

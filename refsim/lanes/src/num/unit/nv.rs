@@ -18,7 +18,7 @@ use crate::num::rules::Unit;
 /// Bits of a sum below the leading bit of its largest addend: the 23 of a mantissa and 5 more.
 const SUM_BITS: u32 = 28;
 
-/// A result with any exponent: underflow gives a zero of its sign, overflow what the unit has.
+/// Assembles a result of any exponent: underflow gives a zero of its sign, overflow infinity or the largest number.
 fn finish(unit: Unit, negative: bool, field: i32, mantissa: u32) -> u32 {
     match field {
         ..=0 => signed(negative, 0),
@@ -45,7 +45,8 @@ pub fn mul(unit: Unit, a: u32, b: u32) -> u32 {
     finish(unit, negative, x.field + y.field - 127 + place - 46, mantissa)
 }
 
-/// The sum of any number of addends: all at once, aligned to the largest, cut, and the sum cut to 24 bits.
+/// The sum of any number of addends in one adder: aligned to the largest and truncated; the sum is truncated to 24
+/// bits.
 pub fn sum(unit: Unit, addends: &[u32]) -> u32 {
     let words = || addends.iter().map(|&addend| Word::of(addend));
     let infinite = |negative| words().any(|word| word.is_infinite() && word.negative == negative);
@@ -60,12 +61,12 @@ pub fn sum(unit: Unit, addends: &[u32]) -> u32 {
     if aligned.sum == 0 {
         return 0;
     }
-    // Below 2^64: as many addends as an instruction has.
+    // An instruction has few addends, so the sum is below 2^64.
     let (place, mantissa) = top24(aligned.sum.unsigned_abs() as u64);
     finish(unit, aligned.sum < 0, aligned.top + place - SUM_BITS.cast_signed(), mantissa)
 }
 
-/// A finite word as an addend. Subnormals are left out by NV3x; NV2x adds them in units of field 0, half their value.
+/// A finite word as an addend. NV3x ignores subnormals; NV2x adds them with half their value.
 fn addend(unit: Unit, word: Word) -> Option<Addend> {
     let magnitude = match word.field {
         0 if unit == Unit::Nv2x => word.mantissa.into(),
@@ -85,7 +86,7 @@ pub fn mad(unit: Unit, a: u32, b: u32, c: u32) -> u32 {
     add(unit, mul(unit, a, b), c)
 }
 
-/// DP3 and DP4: products, then one sum. DPH is DP4 with 1.0 for the last operand of `a`.
+/// DP3 and DP4: products, then one sum. DPH is DP4 with 1.0 for the last component of `a`.
 pub fn dot(unit: Unit, terms: &[(u32, u32)]) -> u32 {
     let products: Vec<u32> = terms.iter().map(|&(a, b)| mul(unit, a, b)).collect();
     sum(unit, &products)
@@ -96,7 +97,7 @@ pub fn dst(unit: Unit, a: [u32; 4], b: [u32; 4]) -> [u32; 4] {
     [ONE, mul(unit, a[1], b[1]), a[2], b[3]]
 }
 
-/// The order of two words, `None` if they have none: as sign and magnitude; modern without NaN and with one zero.
+/// The order of two words as sign and magnitude. In modern programs NaN is unordered (`None`) and the zeros are equal.
 pub fn compare(unit: Unit, a: u32, b: u32) -> Option<Ordering> {
     let modern = unit == Unit::Nv3x;
     if modern && (Word::of(a).is_nan() || Word::of(b).is_nan()) {
@@ -142,14 +143,14 @@ pub fn floor(x: u32) -> u32 {
         field => {
             // Units of the mantissa in 1: at least 2.
             let units = 1u32 << (150 - field);
-            // To the next larger magnitude below zero; a carry out of the mantissa goes into the field.
+            // Below zero, rounds to the next larger magnitude; a carry out of the mantissa increments the field.
             let up = if word.negative { x + (units - 1) } else { x };
             up & !(units - 1)
         }
     }
 }
 
-/// FRC: `x - floor(x)` by the adder, so that it can be 1.0, and NaN for infinities.
+/// FRC: `x - floor(x)`, rounded by the adder: the result can be 1.0, and is NaN for infinities.
 pub fn frc(unit: Unit, x: u32) -> u32 {
     add(unit, x, floor(x) ^ SIGN)
 }

@@ -54,7 +54,7 @@ pub fn rcc(x: u32) -> u32 {
     }
 }
 
-/// RSQ: `1 / sqrt(x)`; legacy programs' of the magnitude.
+/// RSQ: `1 / sqrt(x)`; in legacy programs, of the magnitude.
 pub fn rsq(unit: Unit, x: u32) -> u32 {
     let word = Word::of(x);
     let negative = word.negative && unit == Unit::Nv3x;
@@ -116,7 +116,7 @@ pub fn exp_floor(x: u32) -> u32 {
     power13(fixed13(Word::of(x)) & !0x1fff)
 }
 
-/// y of EXP: `x - floor(x)`, exact except for small negative numbers; the word itself for NaN.
+/// y of EXP: `x - floor(x)`, exact except for small negative numbers; a NaN is returned unchanged.
 pub fn exp_fraction(x: u32) -> u32 {
     let word = Word::of(x);
     match word.field {
@@ -142,7 +142,7 @@ pub fn exp_power(x: u32) -> u32 {
     if word.is_nan() { NAN } else { power13(fixed13(word)) }
 }
 
-/// All components of LOG for NaN and, in modern programs, negative operands.
+/// The components of LOG for NaN and, in modern programs, for negative operands.
 fn log_special(unit: Unit, x: u32) -> Option<u32> {
     let word = Word::of(x);
     match unit {
@@ -212,19 +212,19 @@ pub fn lit_specular(x: u32, y: u32, w: u32) -> u32 {
     }
 }
 
-/// `v / 2^k`, to the nearest, halves up; `k` at least 1.
+/// `v / 2^k`, to nearest, halves up; `k` is at least 1.
 const fn half_up(v: i64, k: u32) -> i64 {
     (v + (1 << (k - 1))) >> k
 }
 
-/// The square of the interpolator: `r^2 / 2^14`, from products that are rounded one by one.
+/// The interpolator's square `r^2 / 2^14`, from individually rounded partial products.
 fn square(r: i64) -> i64 {
     let q = r >> 7;
     let first = q * q + if r >> 6 & 1 != 0 { q } else { 0 };
     (0..6).filter(|i| r >> i & 1 != 0).map(|i| half_up(r, 13 - i)).sum::<i64>() + first
 }
 
-/// The product of the interpolator: `c r / 2^13`, from partial products of Booth's recoding, rounded one by one.
+/// The interpolator's product `c r / 2^13`, from individually rounded partial products of Booth's recoding.
 fn product(c: i64, r: i64) -> i64 {
     const DIGITS: [i64; 8] = [0, 1, 1, 2, -2, -1, -1, 0];
     let (mut value, mut rest, mut place) = (0, 2 * c, -14);
@@ -239,7 +239,7 @@ fn product(c: i64, r: i64) -> i64 {
     value
 }
 
-/// The parts of the interpolator at 23 bits `x`: row, product with its slope, and square.
+/// The interpolator's parts for a 23-bit `x`: row, product with its slope, and square.
 fn interpolate(table: &[[i64; 3]], x: u32) -> ([i64; 3], i64, i64) {
     let (mut t, mut r) = (x >> 16, i64::from(x & 0xffff));
     if t % 2 == 1 {
@@ -312,9 +312,9 @@ pub fn cos(x: u32) -> u32 {
     }
 }
 
-/// An angle in units of `2^-25` turns, one's complement below zero.
+/// An angle in units of `2^-25` turns, in one's complement below zero.
 fn angle(x: Word) -> i64 {
-    // 2^32 / (2 pi) in units of 2^-4: of the leading one; the table has that of the other bits.
+    // 2^32 / (2 pi) in units of 2^-4, for the leading one; the table has the values for the other bits.
     let bits = (0..23).filter(|bit| x.mantissa >> bit & 1 != 0).map(|bit| NV3X_SINCOS_MULTIPLIER[bit][0]);
     let turns = (10_937_044_408 + bits.sum::<i64>()) >> 8;
     let shift = match x.field {

@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 /// A table of `N` columns.
 pub type Table<const N: usize> = LazyLock<Vec<[i64; N]>>;
 
-/// Parses a table. The files are part of the program, and their tests read every row: a cell that is not a number would
-/// read as 0.
+/// Parses a table. A cell that is not a number would read as 0; the files are part of the program, and tests read every
+/// row.
 fn parse<const N: usize>(text: &str) -> Vec<[i64; N]> {
     let row = |line: &str| {
         let mut row = [0; N];

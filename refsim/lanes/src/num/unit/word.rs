@@ -1,18 +1,15 @@
-//! Single floats as the units see them: sign, exponent field, mantissa.
+//! Fields of single floats: sign, exponent field, mantissa.
 
 /// The NaN that the units make.
 pub const NAN: u32 = 0x7fff_ffff;
 
-/// 1.0.
 pub(super) const ONE: u32 = 0x3f80_0000;
-/// Positive infinity.
 pub(super) const INFINITY: u32 = 0x7f80_0000;
 /// The largest finite number.
 pub(super) const LARGEST: u32 = 0x7f7f_ffff;
-/// The sign bit.
 pub(super) const SIGN: u32 = 0x8000_0000;
 
-/// A word, taken apart.
+/// The fields of a word.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Word {
     /// Bit 31.
@@ -36,7 +33,6 @@ impl Word {
         self.field == 255 && self.mantissa == 0
     }
 
-    /// Returns `true` for zeros and subnormals.
     pub(super) const fn is_zero(self) -> bool {
         self.field == 0
     }
@@ -62,14 +58,14 @@ pub(super) const fn assemble(negative: bool, field: i32, mantissa: u32) -> u32 {
     signed(negative, field.cast_unsigned() << 23 | mantissa)
 }
 
-/// The top 24 bits of an integer above 0, cut: the place of its leading one, and the 23 bits below that.
+/// The top 24 bits of an integer above 0, truncated: the place of the leading one, and the 23 bits below it.
 pub(super) const fn top24(magnitude: u64) -> (i32, u32) {
     let place = magnitude.ilog2();
     let kept = if place > 23 { magnitude >> (place - 23) } else { magnitude << (23 - place) };
     (place.cast_signed(), kept as u32 & 0x7f_ffff)
 }
 
-/// The float of `magnitude * 2^-fraction` below `2^127`, top 24 bits cut; 0 is a zero of the sign.
+/// Truncates `magnitude * 2^-fraction`, below `2^127`, to a float of 24 bits; 0 becomes a zero with the sign.
 pub(super) const fn cut(negative: bool, magnitude: u64, fraction: i32) -> u32 {
     if magnitude == 0 {
         return signed(negative, 0);
@@ -78,7 +74,7 @@ pub(super) const fn cut(negative: bool, magnitude: u64, fraction: i32) -> u32 {
     assemble(negative, 127 + place - fraction, mantissa)
 }
 
-/// [`cut`] of a number in two's complement as the units have it: one's complement below zero, and 0 is +0.
+/// [`cut`] with a sign: as in the units, a negative number is represented by its one's complement; 0 gives +0.
 pub(super) const fn cut_signed(value: i64, fraction: i32) -> u32 {
     let magnitude = if value < 0 { !value } else { value };
     cut(value < 0, magnitude.cast_unsigned(), fraction)

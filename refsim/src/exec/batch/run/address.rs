@@ -5,7 +5,7 @@ use refsim_lanes::{LANES, LaneRow};
 
 use crate::texture::{AddressMode, WeightRounding};
 
-/// Coordinates from here on are even integers that address alike, so they are clamped to it.
+/// Larger coordinates are even integers with the same address, so they are clamped to this one.
 const FAR: f64 = 16_777_216.0;
 
 /// An axis of a mip level.
@@ -25,8 +25,8 @@ pub(crate) struct Weights {
     pub(crate) rounding: WeightRounding,
 }
 
-/// The two texels of linear filtering along an axis (-1 for the border), and the weight of the second in units of the
-/// filter's fraction.
+/// The two texels of linear filtering along an axis (-1 for the border), and the weight of the second texel in units of
+/// the filter's fraction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisTaps {
     pub(crate) texels: [[i32; LANES]; 2],
@@ -39,8 +39,8 @@ impl AxisTaps {
 
 /// Texel indices along an axis with nearest filtering; -1 for the border.
 ///
-/// Exact in double precision: the product has 24 + 15 bits, and a position below 2^39 divided by a size below 2^15
-/// can't be rounded up to an integer that it doesn't reach.
+/// Exact in double precision: the product has 24 + 15 bits, and the quotient of a position below 2^39 and a size below
+/// 2^15 is never rounded up to an integer.
 #[inline(always)]
 pub(crate) fn nearest(coordinate: &LaneRow, axis: TexelAxis, out: &mut [i32; LANES]) {
     let (n, scale) = (f64::from(axis.size), axis.scale);
@@ -54,16 +54,16 @@ pub(crate) fn nearest(coordinate: &LaneRow, axis: TexelAxis, out: &mut [i32; LAN
 }
 
 /// Texels and weight of linear filtering along an axis, with at most 12 fraction bits of the weight. Without fraction
-/// bits the first texel is the nearest one, and all weights are 0.
+/// bits the first texel is the nearest texel, and all weights are 0.
 ///
 /// The position in units of the filter is `floor(p + 1/2) - 2^(bits-1)`, `p = coordinate scale 2^bits`; without the 1/2
-/// if weights are cut. In double precision:
+/// if weights are truncated. In double precision:
 ///
 /// - p has 24 + 15 bits and is at most 2^(24 + 14 + 12): the product is exact.
 /// - From 2^-13 on the last bit of p is at least 2^-52, and below 2^51 one half is no less than the last bit of the
-///   sum's double: `p + 1/2` is exact. A smaller p is added to one half with an error of at most 2^-54, and neither
-///   sum reaches 0 or 1, so that the floor is 0 in both.
-/// - The rest is made of integers of at most 2^51 and powers of two; [`nearest`] says why the address modes are exact.
+///   sum's double: `p + 1/2` is exact. For a smaller p the sum has an error of at most 2^-54; both it and the exact sum
+///   are between 0 and 1, so both floors are 0.
+/// - The other operands are integers of at most 2^51 and powers of two. For the address modes see [`nearest`].
 #[inline(always)]
 pub(crate) fn linear(coordinate: &LaneRow, axis: TexelAxis, weights: Weights, out: &mut AxisTaps) {
     let n = f64::from(axis.size);
@@ -114,7 +114,7 @@ fn each_tap(coordinate: &LaneRow, scale: f64, weights: Weights, out: &mut AxisTa
     }
 }
 
-/// Replaces a coordinate by an equivalent one in a bounded range; NaN and infinities address as 0.
+/// Replaces a coordinate by a bounded one with the same address; NaN and infinities address as 0.
 #[inline(always)]
 fn tamed(coordinate: u32) -> f64 {
     let c = f64::from(f32::from_bits(coordinate));
@@ -155,7 +155,7 @@ pub(crate) fn cube([x, y, z]: [&LaneRow; 3], face: &mut LaneRow, [u, v]: [&mut L
     for i in 0..LANES {
         let [x, y, z] = [finite(x[i]), finite(y[i]), finite(z[i])];
         let below = |c: u32| c >> 31;
-        // Among equal magnitudes the last one wins.
+        // Of equal magnitudes, the last is selected.
         let of_x = (below(x), if below(x) == 1 { z } else { flip(z) }, flip(y), size(x));
         let of_y = (2 + below(y), x, if below(y) == 1 { flip(z) } else { z }, size(y));
         let of_z = (4 + below(z), if below(z) == 1 { flip(x) } else { x }, flip(y), size(z));

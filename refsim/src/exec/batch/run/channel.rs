@@ -24,8 +24,8 @@ pub(crate) fn ratios(lane: &AnyLane, simd: SimdLevel, values: &[f64; LANES], div
 
 /// Converts a half-precision pattern to single precision; exact, including subnormals.
 ///
-/// Exponent and fraction, shifted to their positions in a single, are the number times 2^-112; a product with a power
-/// of two whose result is normal, or zero, is exact.
+/// Exponent and fraction, shifted to their positions in a single, represent the number times 2^-112. Multiplying by a
+/// power of two is exact if the result is normal or zero.
 #[inline(always)]
 pub(crate) fn half_to_single(bits: u32) -> u32 {
     let (sign, rest) = ((bits & 0x8000) << 16, bits & 0x7fff);
@@ -34,7 +34,7 @@ pub(crate) fn half_to_single(bits: u32) -> u32 {
     sign | if rest & 0x7c00 == 0x7c00 { special } else { finite }
 }
 
-/// Returns `true` if decoding each code of a channel once is less work than decoding this number of texels one by one.
+/// Returns `true` if decoding every code of a channel is less work than decoding this number of texels.
 pub(super) const fn pays_by_code(channel: Channel, texels: usize) -> bool {
     channel.bits <= 8 && texels > 1024
 }

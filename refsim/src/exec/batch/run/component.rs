@@ -14,11 +14,11 @@ const WIDEST: u8 = 16;
 /// Source of a result component.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum FilteredComponent {
-    /// A raw constant, of texels and border.
+    /// A raw constant, for texels and border.
     Constant(u32),
-    /// A sum of numerators, and their denominator.
+    /// A sum of numerators, and its denominator.
     Ratio(SampledSource, f64),
-    /// A byte that is interpolated; `true` if signed.
+    /// An interpolated byte; `true` if signed.
     Byte(SampledSource, bool),
     Single(SampledSource),
 }
@@ -52,7 +52,7 @@ impl FilteredComponent {
         }
     }
 
-    /// The fixed-point channel that is read, if one is.
+    /// The fixed-point channel that is read, if any.
     pub(super) const fn fixed_point_channel(self) -> Option<Channel> {
         match self {
             Self::Ratio(SampledSource::Stored(channel), _) | Self::Byte(SampledSource::Stored(channel), _) => {
@@ -62,7 +62,7 @@ impl FilteredComponent {
         }
     }
 
-    /// Numerator or byte of each code of a channel.
+    /// The numerator or byte for each code of a channel.
     pub(super) fn codes(self, channel: Channel, rules: &SampleRules) -> Vec<u32> {
         (0..1 << channel.bits).map(|bits| self.decoded(|_| bits, rules)).collect()
     }
@@ -81,7 +81,7 @@ impl FilteredComponent {
         }
     }
 
-    /// Numerator, byte or single-precision value of a component.
+    /// The numerator, byte or single-precision value of a component.
     pub(super) fn kept(self, component: SampledComponent, rules: &SampleRules) -> u32 {
         match (self, component, component.value(rules)) {
             (Self::Byte(..), SampledComponent::Byte { byte, .. }, _) => byte.cast_unsigned(),

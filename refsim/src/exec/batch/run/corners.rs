@@ -50,8 +50,8 @@ pub(super) fn corner_weights<const AXES: usize, const CORNERS: usize>(
     }
 }
 
-/// Adds weight times numerator, in units of `unit`, a power of two. Weights sum to at most 2^36 and numerators have 16
-/// bits and a sign, so products and sums are integers of at most 2^52, exact in doubles, times a power of two.
+/// Adds weights times numerators, in units of `unit`, a power of two. Weights sum to at most 2^36 and numerators have
+/// 16 bits and a sign, so products and sums are integers of at most 2^52, exact in doubles, times a power of two.
 #[inline(always)]
 pub(super) fn add_weighted(numerators: &LaneRow, weights: &[f64; LANES], unit: f64, sum: &mut [f64; LANES]) {
     for i in 0..LANES {
@@ -110,7 +110,7 @@ pub(super) fn combine_bytes<const AXES: usize, const CORNERS: usize>(
     }
 }
 
-/// The byte between two bytes, nearest with halves up, at a weight in units of `2^-bits`.
+/// Interpolates two bytes, to the nearest byte, halves up; the weight is in units of `2^-bits`.
 #[inline(always)]
 pub(super) fn byte_between(a: i32, b: i32, weight: i32, bits: u8) -> i32 {
     a + (((b - a) * weight + ((1 << bits) >> 1)) >> bits)

@@ -1,8 +1,8 @@
 //! Level of detail in rows: the levels that each lane reads, and the filter within them.
 //!
-//! Derivatives, their lengths and biases are computed in single precision, rounded after each step, as
-//! [`crate::texture::lod_from_derivatives`] defines. The logarithm is the exponent plus a table lookup by the leading
-//! bits of the fraction.
+//! Derivatives, their lengths and biases are computed in single precision, rounded after each step as defined by
+//! [`crate::texture::lod_from_derivatives`]. The logarithm is the exponent plus a table lookup by the leading fraction
+//! bits.
 
 use refsim_lanes::{LANES, LaneRow, SimdLevel, Slots};
 

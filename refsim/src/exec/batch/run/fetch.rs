@@ -1,6 +1,5 @@
-//! Texture reads of a batch: in whole rows where that is exact, else lane by lane with the functions of
-//! [`crate::texture`] (level of detail on cube maps, channels of more than 16 bits, three axes with the finest
-//! weights).
+//! Texture reads of a batch: in whole rows where that is exact, else lane by lane by [`crate::texture`] (level of
+//! detail on cube maps, channels of more than 16 bits, three axes with the finest weights).
 
 use std::sync::Arc;
 
@@ -26,7 +25,7 @@ pub(crate) struct BatchTexture<'a> {
     table: Option<Arc<TextureTable>>,
 }
 
-/// Key of a table: stamp of the texture's contents, sampler state, sampling rules.
+/// Key of a table: version stamp of the texture's contents, sampler state, sampling rules.
 pub(crate) type TableKey = (u64, SamplerState, SampleRules);
 
 /// Cache of tables, for textures whose contents have a stamp.
@@ -57,7 +56,7 @@ impl TextureTable {
         match self {
             Self::Nearest(table) => !table.large,
             Self::Filtered(level) => !level.is_large(),
-            // Contains tables of small levels only, built on first use.
+            // It contains tables of small levels only, built on first use.
             Self::Leveled(_) => true,
         }
     }

@@ -1,8 +1,8 @@
 //! Filtered reads in rows, from one level of a texture of any kind, nearest or linear.
 //!
-//! First the texels and weights of every lane are computed (`address`), then, component by component, their
-//! combination: fixed-point texels as an exact sum that is rounded once, or bytes in rounded steps, floats in the
-//! single-precision steps defined by [`crate::texture`].
+//! First the texels and weights of every lane are computed (`address`), then each component is combined: fixed point as
+//! an exact sum that is rounded once, bytes in rounded steps, floats in the single-precision steps defined by
+//! [`crate::texture`].
 
 use std::sync::OnceLock;
 
@@ -31,8 +31,8 @@ pub(crate) struct FilteredLevel {
     /// Linear filter weights.
     weights: Weights,
     components: [FilteredComponent; 4],
-    /// By texel and component: the numerator, byte, or single-precision value. Built on first use; never for a large
-    /// level.
+    /// The numerator, byte, or single-precision value by texel and component. Built on first use, but never for large
+    /// levels.
     texels: OnceLock<Vec<[u32; 4]>>,
     border: [u32; 4],
     codes: Box<DecodedCodes>,
@@ -44,7 +44,7 @@ pub(crate) struct FilteredLevel {
 /// Tables by code, built on first use.
 #[derive(Debug, Default)]
 struct DecodedCodes {
-    /// By component: the numerator or byte of each code of a narrow channel; never for few texels.
+    /// The numerator or byte for each code of a narrow channel, by component; not built for few texels.
     narrow: [OnceLock<Vec<u32>>; 4],
     /// Raw values of unsigned and signed bytes, by the byte's bits.
     bytes: [OnceLock<Vec<u32>>; 2],
@@ -53,7 +53,7 @@ struct DecodedCodes {
 /// Unrounded results of all lanes, by component: sums of numerators, bytes, or single-precision values.
 pub(super) type FilteredRows = [[f64; LANES]; 4];
 
-/// Image and rules of a read, and the lanes to be read from a large image.
+/// Image and rules of a read, and the lanes that read a large image.
 #[derive(Clone, Copy)]
 pub(super) struct TexelSource<'t> {
     pub(super) image: &'t Image,
@@ -62,7 +62,7 @@ pub(super) struct TexelSource<'t> {
 }
 
 impl FilteredLevel {
-    /// Prepares the single level that a binding reads; `None` if it depends on the level of detail.
+    /// Prepares the only level that a binding reads; `None` if it depends on the level of detail.
     pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
         let SamplerBinding { image, state } = binding;
         if binding.needs_detail() {
@@ -137,7 +137,7 @@ impl FilteredLevel {
         Some(self.texels.get_or_init(decoded))
     }
 
-    /// Decodes a component of a stored texel, by its code where all codes are fewer than the texels.
+    /// Decodes a component of a stored texel, by a table of codes if there are fewer codes than texels.
     fn decoder<'l>(&'l self, component: usize, rules: &'l SampleRules) -> impl Fn(&[u8]) -> u32 + 'l {
         let read = self.components[component];
         let narrow = read.fixed_point_channel().filter(|&channel| pays_by_code(channel, self.count));
@@ -240,7 +240,7 @@ impl FilteredLevel {
         let mut numbers = [[0; LANES]; CORNERS];
         let at = Weights { bits, ..self.weights };
         self.place(step.coordinates.map(|slot| slots.row(slot)), (simd, at), &mut taps, &mut numbers);
-        // Unit of the weights of all axes; a power of two, and so is its reciprocal.
+        // Unit of the product of all axes' weights; it and its reciprocal are powers of two.
         let unit = 1.0 / (1u64 << (usize::from(bits) * AXES)) as f64;
         let mut weights = [[1.0; LANES]; CORNERS];
         let integers = self.components.iter().any(|c| matches!(c, FilteredComponent::Ratio(..)));

@@ -9,7 +9,6 @@ use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::exec::lower::{ACTIVE, COUNTER, DECIDED, KILLED, TRUE};
 use crate::isa::{Opcode, OpcodeClass};
 
-/// State of an open block.
 enum OpenBlock {
     If { restore: Box<LaneRow>, otherwise: Box<LaneRow> },
     Loop { live: Box<LaneRow>, restore: Box<LaneRow>, left: i32, step: i32, outer: i32 },
@@ -111,7 +110,7 @@ impl<'p> FlowRun<'p> {
     fn charge(&mut self, at: usize, slots: &mut Slots) {
         let (Some(steps), Some(budget)) = (&mut self.steps, self.plan.budget) else { return };
         let mut cut = [0; LANES];
-        // The mask of an active lane is all ones, i.e. -1: subtracting it adds one.
+        // The mask of an active lane is all ones, or -1: subtracting it adds one.
         for ((count, &active), cut) in steps.iter_mut().zip(slots.row(ACTIVE)).zip(&mut cut) {
             *cut = if *count == budget { active } else { 0 };
             *count = count.wrapping_sub(active & !*cut);

@@ -1,7 +1,7 @@
-//! Filtered reads in rows that depend on the level of detail: every level needed by some lane is read for all lanes,
-//! and each lane selects its own.
+//! Filtered reads in rows that depend on the level of detail: each level that some lane needs is read for all lanes,
+//! and each lane selects its level.
 //!
-//! Most tiles need one level, or two adjacent ones. Values stay unrounded until levels are combined: exact sums for
+//! Most tiles need one level or two adjacent levels. Values stay unrounded until levels are combined: exact sums for
 //! fixed point, bytes where the device interpolates them, singles for floats.
 
 use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel, Slots};
@@ -16,7 +16,7 @@ use crate::exec::batch::schedule::FetchStep;
 use crate::texture::{Image, MipFilter, SampleRules, TextureKind};
 
 /// Maximum total fraction bits of weights, along all axes and between levels, for which sums are exact: numerators have
-/// 16 bits and a sign, their differences one more, a double 53.
+/// 16 bits and a sign, their differences one bit more, and doubles 53 bits.
 const EXACT_BITS: usize = 35;
 
 /// The levels of a texture, and their selection.
@@ -133,7 +133,7 @@ fn key(picked: &PickedLevels, lane: usize) -> (usize, bool) {
     (picked.first[lane] as usize, picked.smaller[lane] != 0)
 }
 
-/// Sets of occurring keys: bit 2 level + filter. A texture has at most 32 levels.
+/// Sets of occurring keys, as bits `2 level + filter`. A texture has at most 32 levels.
 struct LevelSets {
     first: u64,
     /// Keys of lanes that also read the next level.

@@ -2,16 +2,15 @@
 
 /// Fraction bits of a single.
 const FRACTION: u32 = 23;
-/// Leading fraction bits that index the table. Intervals are narrower than the steps of 2^(1/256), so that none
-/// contains two.
+/// Leading fraction bits that index the table. An interval is narrower than a step of 2^(1/256), so it contains at most
+/// one step.
 const LEADING: u32 = 9;
 
 /// Table of `floor(2^bits log2 m)` for significands `m` from 1 to 2.
 #[derive(Debug)]
 pub(super) struct LogTable {
     pub(super) bits: u8,
-    /// By leading bits of the fraction: the value at the start of the interval, and the fraction at which it increases
-    /// by one.
+    /// The value at the start of an interval, and the fraction at which it increases by one; by leading fraction bits.
     entries: Vec<(i32, u32)>,
 }
 

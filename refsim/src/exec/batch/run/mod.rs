@@ -1,9 +1,9 @@
 //! Execution of scheduled steps, 256 lanes at a time.
 //!
 //! - `steps`: execution of blocks.
-//! - Texture reads: `fetch`: entry point; `table`, `stored`: nearest; `filter`: one level, nearest or linear; `detail`,
-//!   `log_table`: level selection; `leveled`: several levels; `address`: coordinates to texels; `corners`: weighted sums
-//!   and interpolation; `component`: sources of components; `channel`: texel values.
+//! - Texture reads: `fetch`: entry point; `table`, `stored`: nearest; `filter`: one level; `detail`, `log_table`: level
+//!   selection; `leveled`: several levels; `address`: coordinates to texels; `corners`: weighted sums and
+//!   interpolation; `component`: sources of components; `channel`: texel values.
 //! - `flow`: programs with flow control.
 
 mod address;

@@ -8,11 +8,11 @@ use crate::exec::batch::schedule::{BatchStep, StepBlock};
 use crate::exec::lower::{Arith, Slot};
 use crate::num::ops as definition;
 
-/// Inputs of steps besides slots.
+/// Inputs of steps other than slots.
 #[derive(Debug)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) formats: &'a LaneFormats,
-    /// By sampler.
+    /// Textures by sampler.
     pub(crate) textures: &'a [Option<BatchTexture<'a>>],
     /// Raw float constants.
     pub(crate) constants: &'a [[u32; 4]],
@@ -27,7 +27,7 @@ pub(crate) fn fill_constants(block: &StepBlock, slots: &mut Slots) {
     }
 }
 
-/// Executes steps. Texture reads that can't be made in rows are made for the lanes enabled in `run`.
+/// Executes steps. Texture reads that are not possible in rows are made for the lanes enabled in `run`.
 pub(crate) fn run_steps(steps: &[BatchStep], around: &Surroundings<'_>, run: &LaneRow, slots: &mut Slots) {
     for step in steps {
         match step {
@@ -56,7 +56,7 @@ pub(crate) fn run_steps(steps: &[BatchStep], around: &Surroundings<'_>, run: &La
     }
 }
 
-/// Cosines or sines, computed by [`crate::num`]: a vectorised version would not be worth its proof.
+/// Computes cosines or sines with [`crate::num`]: a vectorised version would not be worth its proof.
 fn circle(formats: &LaneFormats, arith: Arith, sine: bool, (from, to): (Slot, Slot), slots: &mut Slots) {
     let (format, lane) = (formats.format(arith), formats.lane(arith));
     let value = |bits| if sine { definition::sin(format, bits).bits } else { definition::cos(format, bits).bits };
@@ -83,7 +83,7 @@ fn to_steps(steps: u32, from: u16, slots: &mut Slots) {
     }
 }
 
-/// Float constants as raw values.
+/// Converts float constants to raw values.
 pub(crate) fn raw_constants(constants: &[[u32; 4]], formats: &LaneFormats) -> Vec<[u32; 4]> {
     let lane = formats.lane(Arith::Main);
     constants.iter().map(|c| c.map(|bits| lane.decode(bits))).collect()

@@ -23,7 +23,7 @@ pub(crate) struct Stored<'a> {
 #[derive(Clone, Copy, PartialEq)]
 enum Component {
     Constant(ChannelValue),
-    /// Single-precision float at this byte offset.
+    /// A single-precision float at this byte offset.
     Single(usize),
     /// Half-precision float at this byte offset.
     Half(usize),
@@ -45,7 +45,7 @@ impl Component {
         }
     }
 
-    /// Intermediate value of a stored texel until whole rows are rounded: a single, or a numerator.
+    /// The intermediate value of a stored texel, to be rounded in whole rows: a single, or a numerator.
     #[inline(always)]
     fn kept(self, texel: &[u8], rules: &SampleRules) -> u32 {
         match self {
@@ -78,8 +78,7 @@ impl<'a> Stored<'a> {
         Self { bytes, texels, size: image.format().bytes(), components, rules }
     }
 
-    /// Reads the texels with these indices; the index after the last one is the border, if there is one. Disabled lanes
-    /// are 0.
+    /// Reads the texels with these indices; the index after the last texel is the border, if any. Disabled lanes are 0.
     pub(crate) fn read(
         &self,
         index: &LaneRow,

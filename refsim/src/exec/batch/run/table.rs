@@ -43,7 +43,7 @@ impl TexelTable {
             _ => [state.address_u, state.address_v],
         };
         if modes.contains(&AddressMode::Border) {
-            // NaN addresses as 0: a read far outside gets the border colour.
+            // NaN would address as 0, so the coordinates that read the border colour are finite and far outside.
             let outside = [0x4b80_0000, 0x4b80_0000, 0, 0];
             let bordered = SamplerState {
                 address_u: AddressMode::Border,
@@ -117,8 +117,8 @@ fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4
     texels
 }
 
-/// Decodes one channel of up to 256 texels: fixed point of up to 24 bits and single precision in rows, others one by
-/// one.
+/// Decodes one channel of up to 256 texels: in rows for fixed point of up to 24 bits and for single precision, else one
+/// by one.
 fn decode_block<'t>(
     (channel, value): (Channel, &impl Fn(u32) -> ChannelValue),
     texels: impl Iterator<Item = &'t [u8]>,

@@ -13,7 +13,7 @@ pub(crate) struct FetchStep {
     pub(crate) sampler: usize,
     pub(crate) coordinates: [Slot; 4],
     pub(crate) detail: FetchDetail,
-    /// Slots of the components that are needed.
+    /// Slots of the needed components.
     pub(crate) to: [Option<Slot>; 4],
 }
 
@@ -37,39 +37,31 @@ pub(crate) enum BatchStep {
         /// The values.
         from: Slot,
     },
-    /// A sum that one adder makes.
+    /// A sum computed by one adder.
     Sum {
-        /// Format.
         arith: Arith,
-        /// Order of its additions.
+        /// Kind of sum.
         sum: RowSum,
-        /// The numbers; surplus ones are ignored.
+        /// The operands; surplus operands are ignored.
         from: [Slot; 4],
-        /// Results.
         to: Slot,
     },
     /// A texture read.
     Fetch(FetchStep),
     /// Cosines or sines.
     Circle {
-        /// Format.
         arith: Arith,
         /// `true` for sines.
         sine: bool,
-        /// Angles.
         from: Slot,
-        /// Results.
         to: Slot,
     },
     /// Relatively addressed constants.
     Relative {
-        /// Index without the address.
+        /// Index without the address register.
         base: i32,
-        /// Component.
         component: usize,
-        /// Addresses.
         address: Slot,
-        /// Results.
         to: Slot,
     },
 }
@@ -92,10 +84,10 @@ pub(crate) struct StepBlock {
     pub(crate) without_row: Vec<Slot>,
 }
 
-/// Schedules the nodes that `roots` depend on, except those that are `given`, in the order of their creation.
+/// Schedules the nodes that `roots` depend on, except `given` nodes, in the order of their creation.
 ///
-/// Slots below `first_slot` belong to the caller, who has stored the nodes of `placed` there. Slots of temporaries are
-/// reused after the last read; constants, inputs, given values and roots keep theirs.
+/// Slots below `first_slot` belong to the caller, which has stored the nodes of `placed` there. Slots of temporaries
+/// are reused after the last read; constants, inputs, given values and roots keep their slots.
 pub(crate) fn schedule(
     graph: &Graph,
     roots: &[NodeId],
@@ -142,7 +134,7 @@ pub(crate) fn schedule(
     maker.block
 }
 
-/// Last user of each node (roots live forever), and the nodes needed, in order.
+/// The last user of each node (roots stay live), and the needed nodes in order.
 fn uses(
     graph: &Graph,
     fusion: &Fusion<'_>,
@@ -175,11 +167,11 @@ struct Scheduler<'g> {
     place: BTreeMap<NodeId, Slot>,
     last_use: BTreeMap<NodeId, u32>,
     free: Vec<Slot>,
-    /// Slots below belong to the caller and keep their contents.
+    /// The first free slot: lower slots belong to the caller.
     first: usize,
     next: usize,
     texels: BTreeMap<NodeId, Vec<(u8, NodeId)>>,
-    /// Slots that some step reads as a row.
+    /// Slots whose rows some step reads.
     read: BTreeSet<Slot>,
 }
 
@@ -213,8 +205,8 @@ impl Scheduler<'_> {
         self.place.insert(node, slot);
     }
 
-    /// Allocates the slot of a result, after the slots of operands that it reads last were freed. A lane operation may
-    /// write a slot that it reads, because results are computed in the scratch row.
+    /// Allocates the slot of a result, after freeing the slots of operands that have no later reader. A lane operation
+    /// may write a slot that it reads, because results are computed in the scratch row.
     fn result(&mut self) -> Slot {
         match self.free.pop() {
             Some(slot) => slot,
@@ -247,7 +239,7 @@ impl Scheduler<'_> {
         }
     }
 
-    /// Slot of a value that is read as a row.
+    /// The slot of a value whose row is read.
     fn at(&mut self, node: NodeId) -> Slot {
         let slot = self.place.get(&node).copied().unwrap_or_default();
         self.read.insert(slot);
@@ -264,7 +256,7 @@ impl Scheduler<'_> {
                 self.at(operand)
             };
         }
-        // Missing operands read the first one: a slot that exists.
+        // Missing operands read the slot of the first operand.
         for i in fused.operands().len()..OPERANDS {
             args[i] = args[0];
         }
@@ -346,7 +338,7 @@ impl Scheduler<'_> {
                 self.release(node);
                 self.block.steps.push(BatchStep::Fetch(FetchStep { sampler: sampler.into(), coordinates, detail, to }));
             }
-            // Leaves were assigned earlier, texels together with their read.
+            // Leaves got their slots earlier, texels together with their read.
             NodeKind::Compute(..)
             | NodeKind::Difference(..)
             | NodeKind::Dot(..)
@@ -361,11 +353,10 @@ impl Scheduler<'_> {
 /// Slots of a program's results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ResultSlots {
-    /// Colour components.
     pub(crate) colors: [Option<[Slot; 4]>; 4],
     /// Mask of killed lanes.
     pub(crate) killed: Option<Slot>,
-    /// Depth written by the program: format, slot, and the mask of lanes that have one, unless all do.
+    /// Depth written by the program: format, slot, and the mask of lanes that write depth, unless all do.
     pub(crate) depth: Option<(Arith, Slot, Option<Slot>)>,
 }
 

@@ -1,8 +1,8 @@
 //! Programs with flow control, and vertex programs: executed one instruction at a time under lane masks.
 //!
-//! Each register component has its own slot. An instruction is a small block whose results are merged into registers
-//! under the mask of active lanes and the predicate. Jumps are taken by the batch as a whole: a branch is executed if
-//! any lane takes it.
+//! Each register component has its own slot. An instruction is a small block; its results are merged into registers
+//! under the mask of active lanes and the predicate. The whole batch jumps together: a branch is executed if any lane
+//! takes it.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ pub(crate) struct PlannedInstruction {
     pub(crate) to: Vec<Slot>,
     /// Sampler read by a texture instruction.
     pub(crate) sampler: Option<usize>,
-    /// Instruction slots that it counts for.
+    /// Number of instruction slots.
     pub(crate) cost: u64,
     /// Integer constant of a loop: count, start, step.
     pub(crate) counter: [i32; 4],
@@ -47,7 +47,6 @@ pub(crate) struct FlowPlan {
 }
 
 impl FlowPlan {
-    /// Decodes a pixel program.
     pub(crate) fn pixel(
         program: &Program,
         rules: &Rules,
@@ -60,7 +59,6 @@ impl FlowPlan {
         Self::new(program, constants, translator, budget)
     }
 
-    /// Decodes a vertex program.
     pub(crate) fn vertex(
         program: &Program,
         rules: &Rules,
@@ -74,7 +72,7 @@ impl FlowPlan {
     fn new(program: &Program, constants: &ResolvedConstants, mut t: Translator<'_>, budget: u32) -> Self {
         let MaskedProgram { parts, registers, first_free } = MaskedProgram::new(program, &mut t);
         let mut next = first_free;
-        // Constants and inputs live as long as the program.
+        // Constants and inputs keep their slots for the whole program.
         let (mut constant_slots, mut inputs, mut placed) = (Vec::new(), Vec::new(), BTreeMap::new());
         let results = results(program, &registers, &mut next, &mut constant_slots);
         for i in 0..t.make.graph.len() as u32 {

@@ -13,9 +13,9 @@ use crate::num::NumberOperation as Op;
 pub(crate) struct Fused {
     pub(crate) arith: Arith,
     pub(crate) code: LaneCode,
-    /// Operands, as many as the code's arity.
+    /// The operands; their number is the code's arity.
     pub(crate) args: [NodeId; OPERANDS],
-    /// `true` if a product with a zero factor is zero, for any other factor.
+    /// `true` if a product with a zero factor is always zero.
     pub(crate) zero_wins: bool,
 }
 
@@ -44,8 +44,8 @@ pub(crate) struct Fusion<'g> {
 }
 
 impl<'g> Fusion<'g> {
-    /// Fuses the nodes that `roots` depend on. Nodes that are `given` are not computed here; those that are `shared`,
-    /// and constants, are uniform.
+    /// Fuses the nodes that `roots` depend on. `given` nodes are not computed here; `shared` nodes and constants are
+    /// uniform.
     pub(crate) fn new(
         graph: &'g Graph,
         roots: &[NodeId],
@@ -54,7 +54,7 @@ impl<'g> Fusion<'g> {
     ) -> Self {
         let mut readers = vec![0u32; graph.len()];
         for root in roots {
-            // Two readers, so that roots are never fused.
+            // Counted as two readers, so that roots are never fused.
             readers[root.0 as usize] += 2;
         }
         for i in (0..graph.len() as u32).rev() {
@@ -75,7 +75,7 @@ impl<'g> Fusion<'g> {
         fusion
     }
 
-    /// The operation that computes a node, if it is a lane operation.
+    /// The fused operation that computes a node, if it is a lane operation.
     pub(crate) fn operation(&self, node: NodeId) -> Option<&Fused> {
         self.fused.get(&node)
     }
@@ -108,13 +108,13 @@ impl<'g> Fusion<'g> {
             }
             _ => return,
         };
-        // The unit of a card has its own multiply-add, and its sums are none of products and sums.
+        // Units of cards have their own multiply-add, and sum products by their own rules.
         let whole = self.graph.is_card(plain.arith);
         let fused = if whole { plain } else { self.longer(&plain, given).unwrap_or(plain) };
         self.fused.insert(node, fused);
     }
 
-    /// The operands of a product whose factors are `Factor` nodes of each other.
+    /// The operands of a product whose factors are a pair of `Factor` nodes.
     fn factors(&self, k: Arith, a: NodeId, b: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<(NodeId, NodeId)> {
         let factor = |n: NodeId| match self.graph.kind(n) {
             NodeKind::Compute(arith, Op::Factor, [x, y, _]) if arith == k && !given(n) => Some((x, y)),
@@ -132,7 +132,7 @@ impl<'g> Fusion<'g> {
         }
     }
 
-    /// Fuses one of the operands into the operation.
+    /// Fuses an operand into the operation.
     fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
         // Products that are fused must have the same rule for zeros.
@@ -198,7 +198,7 @@ fn sum(products: &Fused, last: &[NodeId]) -> Option<Fused> {
     fits.then(|| Fused { zero_wins: products.zero_wins, ..Fused::new(products.arith, code, &all) })
 }
 
-/// Replaces shared operands by uniform ones, if there is such an operation.
+/// Replaces shared operands by uniform operands, if such an operation exists.
 fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
     let (k, args) = (fused.arith, fused.args);
     let of = |code, operands: &[NodeId]| Fused { zero_wins: fused.zero_wins, ..Fused::new(k, code, operands) };

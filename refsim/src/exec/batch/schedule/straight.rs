@@ -1,10 +1,10 @@
 //! Pixel programs without flow control: one graph, scheduled as four blocks by frequency of evaluation.
 //!
 //! - Values that depend on constants only, including texels at constant coordinates: once per draw.
-//! - Values that are constant over a triangle (constant attributes and what follows from them): for 256 triangles at a
-//!   time, one lane per triangle.
+//! - Values that are constant over a triangle (computed from constant attributes): for 256 triangles at a time, one
+//!   lane per triangle.
 //! - Values that depend only on the position in the tile (varying coordinates, and texels at them): for 256 fragments,
-//!   reused as long as triangles have the same planes there. So the crossbar reads its rays once per tile, not per
+//!   reused while triangles have the same planes there. So the Ray Engine reads its rays once per tile, not once per
 //!   quad.
 //! - The rest: for 256 fragments of each triangle.
 
@@ -25,7 +25,7 @@ pub(crate) struct StraightProgram {
     ends: Ends,
     /// Sampler of each texture read of a fragment.
     pub(crate) fetches: Vec<usize>,
-    /// `true` if no lane depends on another, so that lanes of different triangles can be executed together.
+    /// `true` if lanes are independent, so that lanes of different triangles can be executed together.
     pub(crate) lanes_apart: bool,
     /// Samplers that derive the level of detail from neighbouring lanes, unless the program gives it.
     detailed: [bool; SAMPLERS],
@@ -34,14 +34,14 @@ pub(crate) struct StraightProgram {
 /// A straight-line program scheduled for triangles with certain constant components.
 #[derive(Debug)]
 pub(crate) struct StraightPlan {
-    /// Evaluated per draw: no inputs; roots are the values given to `invariant`, uniform.
+    /// Evaluated per draw, without inputs; its roots are the uniform values given to `invariant`.
     pub(crate) fixed: StepBlock,
-    /// Evaluated per 256 triangles: inputs are constant components; roots are the values given to `varying`.
+    /// Evaluated per 256 triangles, on constant components; its roots are the values given to `varying`.
     pub(crate) uniform: StepBlock,
-    /// Evaluated per tile: depends on varying components only. Its roots keep their slots while `varying` runs; `given`
-    /// slots in the order of `fixed.roots`.
+    /// Evaluated per tile: depends on varying components only. Its roots keep their slots while `varying` runs; its
+    /// `given` slots are in the order of `fixed.roots`.
     pub(crate) invariant: StepBlock,
-    /// Evaluated per triangle and tile, in slots above those of `invariant`; `given` slots in the order of
+    /// Evaluated per triangle and tile, in slots above the slots of `invariant`; its `given` slots are in the order of
     /// `uniform.roots`.
     pub(crate) varying: StepBlock,
     pub(crate) results: ResultSlots,
@@ -64,7 +64,7 @@ impl StraightProgram {
         Self { ends, fetches: t.fetches, lanes_apart, detailed, graph }
     }
 
-    /// Returns `true` if there are enough slots for all values at once, as a plan may need.
+    /// Returns `true` if there are enough slots for all values at once, the most that a plan needs.
     pub(crate) fn fits_slots(&self) -> bool {
         self.graph.len() <= usize::from(Slot::MAX)
     }
@@ -142,7 +142,7 @@ fn looks_at_neighbours(kind: &NodeKind, detailed: &[bool; SAMPLERS]) -> bool {
 }
 
 impl Ends {
-    /// Result slots, given the slots of [`Self::roots`] in order.
+    /// Result slots, from the slots of [`Self::roots`] in order.
     pub(crate) fn results(&self, roots: &[Slot]) -> ResultSlots {
         let mut slots = roots.iter().copied();
         let mut next = || slots.next().unwrap_or_default();

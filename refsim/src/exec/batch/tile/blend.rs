@@ -1,5 +1,5 @@
-//! Blending of targets in rows: fixed-point channels of equal width in integers, floats in the host's single precision.
-//! Signed channels and channels of different widths are blended by [`crate::output`].
+//! Blending of targets in rows: fixed-point channels of equal width in integers, floats in single precision. Signed
+//! channels and channels of different widths are blended by [`crate::output`].
 
 use std::ops::Sub;
 
@@ -48,7 +48,7 @@ enum StoredComponent {
 }
 
 impl Blender {
-    /// Creates a blender; `None` if [`crate::output`] has to blend.
+    /// Creates a blender; `None` if only [`crate::output`] can blend.
     pub(crate) fn new(format: TexelFormat, state: &BlendState, rounding: TargetRounding) -> Option<Self> {
         let record = format.record();
         let first = record.stored().first()?;
@@ -105,7 +105,7 @@ impl Blender {
             }
             BlendValues::Floats(lane) => {
                 let source = color.map(|raw| main.to_f64(raw) as f32);
-                // The pattern of 0 is 0 in every format; that of 1 depends on the format.
+                // The pattern of 0 is 0 in every format; the pattern of 1 depends on the format.
                 let encoded = |value: f64| lane.encode(lane.round(value));
                 let destination = stored(0, encoded(1.0)).map(|bits| f32::from_bits(lane.decode(bits)));
                 for channel in channels {
@@ -121,7 +121,7 @@ impl Blender {
         if component == 3 { &self.state.alpha } else { &self.state.color }
     }
 
-    /// Blends in units of 1 / one; with a common denominator of its square, everything is exact.
+    /// Blends in units of `1 / one`; over the common denominator `one^2` every step is exact.
     fn steps(&self, (one, nearest): (i64, bool), source: [i64; 4], destination: [i64; 4], component: usize) -> u32 {
         let equation = self.equation(component);
         let (s, d) = (source[component], destination[component]);
@@ -162,7 +162,7 @@ impl Blender {
     }
 }
 
-/// Value of a factor of a component.
+/// The value of a blend factor for a component.
 fn factor<T: Copy + PartialOrd + Sub<Output = T>>(
     factor: BlendFactor,
     source: [T; 4],

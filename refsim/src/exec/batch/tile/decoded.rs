@@ -18,7 +18,7 @@ use crate::isa::Program;
 use crate::raster::ComponentMask;
 use crate::texture::TextureKind;
 
-/// A decoded program, and idle buffers of workers, by the constant components of their plan.
+/// A decoded program, and idle worker buffers by the constant components of their plan.
 #[derive(Debug)]
 pub(crate) struct DecodedPixel {
     pub(crate) code: PixelCode,

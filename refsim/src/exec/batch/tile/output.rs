@@ -22,11 +22,10 @@ pub(crate) struct Shaded<'a> {
     pub(crate) formats: &'a LaneFormats,
     pub(crate) slots: &'a Slots,
     pub(crate) covered: &'a LaneRow,
-    /// Interpolated depth.
     pub(crate) depth: &'a LaneRow,
     /// Pixels of the lanes, if they are packed.
     pub(crate) packed: Option<&'a PackedLanes>,
-    /// `true` if the depth test was made early.
+    /// `true` if the early depth test was made.
     pub(crate) tested: bool,
 }
 
@@ -36,7 +35,6 @@ pub(crate) struct Fragment {
     lane: u8,
     /// Depth, as stored in the depth buffer.
     depth: u32,
-    /// Raw colours.
     colors: [[u32; 4]; MAX_TARGETS],
 }
 
@@ -106,7 +104,7 @@ impl OutputStage {
         }
     }
 
-    /// Recounts the surviving lanes; returns how many were removed.
+    /// Recounts the surviving lanes; returns the number removed.
     pub(super) fn recount(&self, simd: SimdLevel, out: &mut Survivors) -> u64 {
         let left = simd.run(
             #[inline(always)]
@@ -165,7 +163,7 @@ impl OutputStage {
         }
     }
 
-    /// Colours that are written and whose targets are not in rows.
+    /// Written colours whose targets are not in rows.
     fn written_elsewhere(&self, targets: &Targets<'_>) -> u8 {
         let here = (0..MAX_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
         here.fold(0, |bits, i| bits | (self.written & 1 << i))
@@ -239,7 +237,7 @@ pub(super) fn population(row: &LaneRow) -> u32 {
     row.iter().map(|&m| m & 1).sum()
 }
 
-/// Takes the lanes of a mask out of `alive`; returns how many are left.
+/// Removes the lanes of a mask from `alive`; returns the number left.
 #[inline(always)]
 fn and_not(alive: &mut LaneRow, mask: &LaneRow) -> u32 {
     let mut left = 0;
@@ -250,7 +248,7 @@ fn and_not(alive: &mut LaneRow, mask: &LaneRow) -> u32 {
     left
 }
 
-/// Takes the lanes that fail the alpha test out of `alive`; returns how many are left.
+/// Removes lanes that fail the alpha test from `alive`; returns the number left.
 fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, alive: &mut LaneRow) -> u32 {
     let formats = shaded.formats;
     let main = formats.lane(Arith::Main);
@@ -271,7 +269,7 @@ fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, alive: &mut LaneRow) -> u32 {
     )
 }
 
-/// Takes the lanes whose value fails a comparison with the reference out of `alive`; returns how many are left. NaN is
+/// Removes lanes whose value fails a comparison with the reference from `alive`; returns the number left. NaN is
 /// unordered.
 #[inline(always)]
 fn compare<T: PartialOrd>(
@@ -295,7 +293,7 @@ fn compare<T: PartialOrd>(
     left
 }
 
-/// Removes failing lanes from `alive`; if `write`, stores the depths of the others.
+/// Removes failing lanes from `alive`; if `write`, stores the depths of the other lanes.
 #[inline(always)]
 pub(super) fn depth_test(
     function: CompareFunction,

@@ -1,7 +1,7 @@
-//! Packing of small triangles: their fragments share the lanes of a batch, as hardware packs quads, so that a triangle
-//! of a few pixels costs a few lanes and not a whole tile.
+//! Packing of small triangles: their fragments share the lanes of a batch, as hardware packs quads. A triangle of a few
+//! pixels then costs a few lanes instead of a whole tile.
 //!
-//! A lane holds a pixel of some triangle, with the values of that triangle. The same pixel may be in several lanes, so
+//! A lane holds a pixel of some triangle, with the values of that triangle. Several lanes may hold the same pixel, so
 //! the output stage processes fragments in order of submission. For programs that read neighbouring lanes, whole quads
 //! are packed, including helper lanes.
 
@@ -20,7 +20,7 @@ const MIN_TRIANGLES: usize = 4;
 /// Number of used lanes above which a batch is shaded once no more triangles fit.
 const WORTH: usize = 3 * LANES / 4;
 
-/// Pixel of a lane.
+/// A lane's pixel and inputs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PackedFragment {
     pub(crate) x: u32,
@@ -42,10 +42,10 @@ pub(crate) struct PackedFragment {
 #[derive(Debug)]
 pub(crate) struct PackedLanes {
     pub(super) simd: SimdLevel,
-    /// `true` if lanes are in quads: bits 0 (across) and 4 (down) of their indices, as in a tile.
+    /// `true` if lanes form quads, by bits 0 (across) and 4 (down) of their indices, as in a tile.
     quads: bool,
     fragments: Vec<PackedFragment>,
-    /// Number of leading fragments that have passed the depth test.
+    /// Number of leading fragments that passed the early depth test.
     pub(crate) tested: usize,
     pub(crate) covered: LaneRow,
     /// Lanes in use.
@@ -91,7 +91,6 @@ impl PackedLanes {
         }
     }
 
-    /// Empties the batch.
     pub(crate) fn clear(&mut self, quads: bool) {
         self.quads = quads;
         self.tested = 0;
@@ -169,7 +168,7 @@ impl PackedLanes {
         count
     }
 
-    /// Keeps those untested fragments for which `passes` returns `true`, given the index among them.
+    /// Keeps the untested fragments for which `passes` returns `true`, given their index among the untested.
     pub(crate) fn retain(&mut self, mut passes: impl FnMut(usize, &PackedFragment) -> bool) {
         let mut kept = self.tested;
         for at in self.tested..self.fragments.len() {

@@ -6,8 +6,8 @@ use std::sync::{Mutex, PoisonError};
 /// Triangles per piece, the unit of work if several workers share a tile.
 pub(super) const PIECE: usize = 16;
 
-/// The triangles of a tile in pieces, which threads take from both ends, so that a late thread takes fewer. All pieces
-/// taken from the front precede all those taken from the back.
+/// The triangles of a tile in pieces. Threads take pieces from both ends, so that a late thread takes fewer. All pieces
+/// taken from the front precede all pieces taken from the back.
 pub(super) struct Pieces<'o> {
     order: &'o [u32],
     size: usize,

@@ -1,5 +1,5 @@
-//! Rasterisation of a triangle within a tile: coverage by exact edge functions, interpolation in the host's single
-//! precision with the steps defined by [`crate::raster`].
+//! Rasterisation of a triangle within a tile: coverage by exact edge functions, interpolation in single precision with
+//! the steps defined by [`crate::raster`].
 
 use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel};
 
@@ -99,7 +99,7 @@ pub(crate) fn cover(
         out.fill(TRUE);
         return LANES as u64;
     }
-    // Covered means value >= bias: with the bias subtracted only the sign is left to test.
+    // A pixel is covered if value >= bias: after subtracting the bias, only the sign is left to test.
     let edges = setup.edges.map(|e| [e.a, e.b, e.at(origin.0, origin.1) - e.bias]);
     let columns = (inside.x - origin.0, inside.x - origin.0 + inside.width);
     let rows = (inside.y - origin.1, inside.y - origin.1 + inside.height);
@@ -155,7 +155,7 @@ impl TileWeights {
         Self { simd, linear: [[0.0; LANES]; 2], perspective: [[0.0; LANES]; 2], made_from: None }
     }
 
-    /// Computes the weights of a triangle, unless they equal those of the previous one.
+    /// Computes the weights of a triangle, unless they equal the previous triangle's.
     pub(crate) fn make(&mut self, setup: &TriangleSetup, frame: TileFrame) {
         let edges = [1, 2].map(|i: usize| [setup.edges[i].a, setup.edges[i].b, setup.edges[i].c]);
         let w = (!setup.affine).then_some(setup.reciprocal_w);

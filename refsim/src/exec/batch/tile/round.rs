@@ -1,4 +1,4 @@
-//! Preparation of a round of triangles: their plan, and values that are constant over each.
+//! Preparation of a round of triangles: their plan, and values that are constant over each triangle.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub struct TileRound<'s> {
     /// Components that are constant over every triangle.
     pub(super) constant: u64,
     pub(super) code: RoundCode<'s>,
-    /// A row of values by triangle, for each value given to the plan's varying block.
+    /// One row, by triangle, per value given to the plan's varying block.
     pub(super) given: Vec<Vec<u32>>,
     /// Values given to the plan's invariant block.
     fixed: Vec<u32>,
@@ -38,7 +38,7 @@ pub(super) enum RoundCode<'s> {
 }
 
 impl<'s> TileRound<'s> {
-    /// Prepares triangles: selects a plan, and computes the values constant over each, one lane per triangle.
+    /// Prepares triangles: selects a plan, and computes per-triangle constants, one lane per triangle.
     pub(super) fn new(
         program: &'s DecodedPixel,
         surfaces: &'s Surfaces,
@@ -118,7 +118,7 @@ fn fixed_values(block: &StepBlock, around: &Surroundings<'_>) -> Vec<u32> {
     block.roots.iter().map(|&root| slots.row(root)[0]).collect()
 }
 
-/// Computes values that are constant over each triangle: a row by triangle for each root of the block.
+/// Computes per-triangle constants: one row, by triangle, per root of the block.
 fn uniforms(
     idle: &Pool<(u64, Slots)>,
     constant: u64,

@@ -1,9 +1,10 @@
-//! Shading of one tile: disjoint triangles are processed together, and rows left by previous triangles are reused where
-//! still valid.
+//! Shading of one tile: disjoint triangles are processed together, and rows of previous triangles are reused while
+//! valid.
 //!
-//! A *part* is a run of triangles that share their constant components and cover disjoint pixels of the tile: the two
+//! A *part* is a sequence of triangles with equal constant components that cover disjoint pixels of the tile: the two
 //! halves of a quad, or neighbours in a mesh. Lanes are independent, so one pass of the program processes all of them,
-//! each lane with the components of its triangle. Bits and counts equal those of processing the triangles one by one.
+//! each lane with the components of its triangle. Bits and counts are the same as for processing the triangles one by
+//! one.
 
 use refsim_lanes::{LANES, LaneRow, SimdLevel, Slots};
 
@@ -37,13 +38,12 @@ pub(crate) struct TileShader {
     members: Vec<Member>,
     /// Number of members in the part.
     used: usize,
-    /// Shape that would be the next member but overlaps pixels of the part.
+    /// Shape of the next triangle if it did not fit, because it overlaps pixels of the part.
     closed_by: Option<u32>,
     /// Pixels of the part, their number, and the lanes of quads that contain one.
     pub(crate) covered: LaneRow,
     pub(crate) covered_count: u64,
     pub(crate) run: LaneRow,
-    /// Interpolated depth, if needed.
     pub(crate) depth: LaneRow,
     /// `true` if the rows of varying components are valid for the part.
     inputs_hold: bool,
@@ -54,7 +54,7 @@ pub(crate) struct TileShader {
 /// Slots of the varying inputs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct InputSlots {
-    /// Components: row of the surfaces, slot.
+    /// Components: row in the surfaces, slot.
     pub(crate) rows: Vec<(usize, Slot)>,
     /// Window position: its component, slot.
     pub(crate) position: Vec<(usize, Slot)>,
@@ -67,7 +67,7 @@ pub(crate) struct PartMode {
     pub(crate) together: bool,
     /// `true` if the interpolated depth is needed.
     pub(crate) depth: bool,
-    /// Components that are constant over every triangle and are passed to the program per triangle.
+    /// Components that are constant over every triangle, passed to the program per triangle.
     pub(crate) given: u64,
 }
 
@@ -90,17 +90,15 @@ impl TileShader {
         }
     }
 
-    /// The SIMD level in use.
     pub(crate) fn simd(&self) -> SimdLevel {
         self.simd
     }
 
-    /// Position of the lanes.
     pub(crate) fn frame(&self) -> TileFrame {
         self.frame
     }
 
-    /// Moves to a tile. Nothing computed for another tile, or for other surfaces, is reused.
+    /// Starts a tile; discards results for other tiles and other surfaces.
     pub(crate) fn start(&mut self, region: Region) {
         self.frame = TileFrame::around(region);
         self.region = region;
@@ -108,7 +106,7 @@ impl TileShader {
         self.inputs_hold = false;
     }
 
-    /// Takes the next triangles of `order`, at least one; returns their number.
+    /// Takes triangles from the start of `order`, at least one; returns their number.
     pub(crate) fn take(&mut self, surfaces: &Surfaces, order: &[u32], manner: PartMode) -> usize {
         let most = if manner.together { joined(surfaces, order) } else { order.len().min(1) };
         let shape = |i: usize| surfaces.triangles.get(order[i] as usize).map_or(0, |t| t.shape);
@@ -243,8 +241,8 @@ fn plane(surfaces: &Surfaces, row: usize, planes: u32) -> (Plane, bool) {
     (row.plane(planes), constant)
 }
 
-/// Returns `true` if two triangles of one shape have the same components, except for those that are `given`. Components
-/// that are constant over both, but not over all triangles, are in rows like varying ones, and must be equal too.
+/// Returns `true` if two triangles of one shape have the same components, except `given` ones. Components that are
+/// constant over both but not over all triangles are stored in rows like varying components, and must be equal too.
 fn same_inputs(surfaces: &Surfaces, (a, b): (u32, u32), given: u64) -> bool {
     let constant = |planes: u32| surfaces.constant.get(planes as usize).copied().unwrap_or_default();
     constant(a) == constant(b)

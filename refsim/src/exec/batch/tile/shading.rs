@@ -19,7 +19,7 @@ use crate::texture::Region;
 
 /// Receiver of shaded fragments.
 pub(super) trait FragmentSink {
-    /// The tile's depths, if fragments are written as soon as they are shaded.
+    /// The tile's depths, if fragments are written immediately.
     fn stored_depths(&mut self) -> Option<&mut LaneRow>;
 
     /// Receives fragments that passed the tests before the depth test, or all tests if the depth test was made early.
@@ -42,7 +42,7 @@ impl FragmentSink for IntoTargets<'_, '_> {
     }
 }
 
-/// Collects fragments for later.
+/// Collects fragments to be written later.
 #[derive(Default)]
 pub(super) struct KeptFragments(pub(super) Vec<Fragment>);
 
@@ -72,7 +72,7 @@ pub(super) struct TileShading<'r> {
 }
 
 impl<'r> TileShading<'r> {
-    /// Starts with the buffers of `shader`, which is at the tile already.
+    /// Starts shading with the buffers of `shader`, which has started the tile.
     pub(super) fn new(
         around: Surroundings<'r>,
         (output, program): (&'r OutputStage, &'r DecodedPixel),
@@ -125,7 +125,7 @@ impl<'r> TileShading<'r> {
     ) -> Result<(), Overrun> {
         let Self { around, round, shader, output, survivors, .. } = self;
         round.count(shader.covered_count, counts);
-        // The early test needs the depths left by previous triangles, so only the sink that writes immediately has it.
+        // The early test needs the depths of previous triangles, which only the sink that writes immediately has.
         let stored = self.early.and_then(|buffer| Some((buffer, sink.stored_depths()?)));
         let tested = stored.is_some();
         if let Some((buffer, stored)) = stored {
@@ -193,7 +193,8 @@ impl<'r> TileShading<'r> {
         self.shade_batch(order[0], true, counts, sink)
     }
 
-    /// Shades the packed fragments. If the early depth test leaves few, waits for more unless they are the last.
+    /// Shades the packed fragments. If the early depth test leaves few fragments, waits for more triangles unless these
+    /// were the last.
     fn shade_batch(
         &mut self,
         first: u32,

@@ -22,7 +22,7 @@ impl Survivors {
         Self { alive: [0; LANES], count: 0, depth: [0; LANES] }
     }
 
-    /// Sets the number of surviving lanes; returns how many fewer that is.
+    /// Sets the number of surviving lanes; returns the decrease.
     pub(crate) fn keep(&mut self, left: u32) -> u64 {
         let gone = self.count - left;
         self.count = left;
@@ -30,7 +30,7 @@ impl Survivors {
     }
 }
 
-/// Number of fragments up to which writing them one by one is faster than encoding whole rows.
+/// Up to this number of fragments, writing them one by one is faster than encoding whole rows.
 const FEW: u32 = 24;
 
 /// Writes one texel.
@@ -104,8 +104,8 @@ pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors:
 
 /// Encodes values, clamped to [0, 1], as depth patterns.
 ///
-/// In double precision a value with at most 24 significant bits times 2^24 - 1 is exact, and so is adding one half near
-/// a rounding boundary. Values with more bits and other depth formats are encoded by [`crate::output`].
+/// In double precision, a value with at most 24 significant bits times 2^24 - 1 is exact, and so is the addition of one
+/// half near a rounding boundary. Values with more bits and other depth formats are encoded by [`crate::output`].
 pub(crate) fn quantise(
     (formats, arith): (&LaneFormats, Arith),
     depth: DepthFormat,
@@ -153,7 +153,7 @@ pub(crate) fn quantise(
 }
 
 /// A fixed-point value `k / 2^F` in [0, 1] equals `k 2^(n-F)` minus `k / 2^F` steps of `1 / (2^n - 1)`; the fraction
-/// subtracts one step if it exceeds what rounding restores.
+/// subtracts one step if it is more than the rounding adds.
 #[inline(always)]
 fn fixed_to_steps(row: &LaneRow, frac: u32, bits: u32, nearest: bool, out: &mut LaneRow) {
     let one = 1i32 << frac;
@@ -172,7 +172,7 @@ fn fixed_to_single(row: &LaneRow, frac: u32, out: &mut LaneRow) {
     }
 }
 
-/// Numbers of every float format are stored as host singles.
+/// Slots store the numbers of every float format as host singles.
 #[inline(always)]
 fn float_to_single(row: &LaneRow, out: &mut LaneRow) {
     for i in 0..LANES {

@@ -1,5 +1,5 @@
 //! Targets of one tile as rows in lane order: depth patterns, and texels of colour targets in 32-bit words. They stay
-//! in the first-level cache while all triangles of the tile are drawn, and are copied back once.
+//! in the L1 cache while all triangles of the tile are drawn, and are copied back once.
 
 use refsim_lanes::{LANES, LaneRow};
 
@@ -13,7 +13,7 @@ use crate::texture::{ChannelClass, Region, TargetRounding, TexelFormat};
 pub(crate) enum Coding {
     /// Clamped to [0, 1], times the first number, plus the second, truncated: exact in doubles for 24 bits times 24.
     Steps(f64, f64),
-    /// Single precision.
+    /// A single.
     Single,
     /// Encoded by the blender.
     Blended,
@@ -36,8 +36,8 @@ pub(crate) struct Packing {
 }
 
 impl Packing {
-    /// Creates the encoding; `None` if [`crate::output`] has to do it: signed channels, small floats without blending,
-    /// and unsupported blending.
+    /// Creates the encoding; `None` if only [`crate::output`] can encode: signed channels, small floats without
+    /// blending, and unsupported blending.
     pub(crate) fn new(
         format: TexelFormat,
         mask: WriteMask,
@@ -88,7 +88,7 @@ pub(crate) struct Targets<'t> {
     pub(crate) frame: TileFrame,
     /// Depths of the lanes within the tile's region.
     pub(crate) depth: Option<Box<LaneRow>>,
-    /// Targets that are written in rows; the others are written in the tile.
+    /// Targets that are written in rows; other targets are written in the tile.
     pub(crate) colors: [Option<ColorRows>; MAX_TARGETS],
 }
 

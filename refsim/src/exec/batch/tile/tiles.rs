@@ -1,4 +1,4 @@
-//! The batch executor for tiles: part by part, all 256 fragments at once.
+//! The batch executor for tiles: shades all 256 fragments of a part at once.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -34,9 +34,9 @@ pub struct BatchTiles<'a> {
 }
 
 impl<'a> BatchTiles<'a> {
-    /// Prepares a draw: decodes the program and the textures, or takes them from the caches. `None` if the program has
-    /// more values than there are slots, or if every fragment exceeds the step budget, because only the scalar executor
-    /// counts the steps of programs without flow control.
+    /// Prepares a draw: decodes the program and the textures, or takes them from the caches. Returns `None` if the
+    /// program has more values than there are slots, or if every fragment exceeds the step budget: only the scalar
+    /// executor counts the steps of programs without flow control.
     pub(crate) fn new(
         draw: &TileDraw<'a>,
         (programs, tables): (&PixelPrograms, &TextureTables),
@@ -98,13 +98,13 @@ impl<'a> BatchTiles<'a> {
     }
 
     /// Draws the triangles `order` of a round, in order of submission, into a tile. The order is preserved per pixel.
-    /// Up to `workers` threads shade in parallel, which affects the speed only.
+    /// Up to `workers` threads shade in parallel, which only affects the speed.
     ///
     /// Returns the fragment counts, without helper lanes.
     ///
     /// # Errors
-    /// The first fragment, in the order of [`Overrun`], that exceeds the step budget. The tile's contents are invalid
-    /// then.
+    /// The first fragment, in the order of [`Overrun`], that exceeds the step budget. The tile's contents are then
+    /// invalid.
     pub fn draw(
         &self,
         round: &TileRound<'_>,

@@ -1,4 +1,4 @@
-//! Construction of [`Surfaces`] from vertex rows: shapes are set up by [`crate::raster`], once for triangles of equal
+//! Construction of [`Surfaces`] from vertex rows: [`crate::raster`] sets up shapes, once for triangles with equal
 //! positions; planes are computed in rows.
 
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use crate::event::PrimitiveCounts;
 use crate::num::Format;
 use crate::raster::{ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, shape};
 
-/// Triangles whose shapes a worker sets up at a time.
+/// Number of triangles whose shapes a worker sets up at a time.
 const CHUNK: usize = 1024;
 /// Number of recent triangles whose positions are compared with a new one's.
 const RECENT: usize = 4;
@@ -30,7 +30,7 @@ pub struct Instances<'a> {
 /// Outcome of setting up a triangle's shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ShapeOutcome {
-    /// Index into the chunk's shapes.
+    /// An index into the chunk's shapes.
     Shape(usize),
     Dropped,
     /// Clipped: the remaining triangles depend on its components.
@@ -42,7 +42,7 @@ impl Instances<'_> {
         self.triangles[triangle].map(|vertex| vertex * self.count + instance)
     }
 
-    /// For each instance, `true` if all its positions equal those of the previous instance.
+    /// For each instance, `true` if the previous instance has the same positions.
     fn repeats(&self) -> Vec<bool> {
         let mut repeats = vec![true; self.count];
         if let Some(first) = repeats.first_mut() {
@@ -105,7 +105,7 @@ impl Surfaces {
                     }
                     let shape = numbers[i];
                     let placed = Triangle { shape, planes: planes as u32 };
-                    // `joined` compares with the previous triangle of the instance, which must also be the last one
+                    // `joined` compares with the previous triangle of the instance, which must also be the last
                     // emitted.
                     if triangle > 0 && last == Some(index - 1) {
                         out.push_joined(placed, joined[planes]);
@@ -140,8 +140,8 @@ impl Surfaces {
         report.emitted
     }
 
-    /// Computes the planes of all triangles, grouped by triangle of the list, then instance. For each, returns `true`
-    /// if its constant components equal those of the previous triangle of the same instance.
+    /// Computes the planes of all triangles, grouped by triangle of the list, then instance. Returns, per triangle,
+    /// `true` if the previous triangle of the same instance has the same constant components.
     fn planes(&mut self, instances: &Instances<'_>, simd: SimdLevel) -> Vec<bool> {
         let (count, total) = (instances.count, instances.count * instances.triangles.len());
         let format = self.iterator_format;
@@ -182,7 +182,7 @@ impl Surfaces {
             }
             Some(constant)
         };
-        // By row: 1 for each triangle over which the component is constant; empty if all are.
+        // Per row, 1 for each triangle over which the component is constant; empty if it is constant over all.
         let flags: Vec<Option<Vec<u8>>> = if total <= CHUNK {
             self.rows.iter_mut().map(work).collect()
         } else {
@@ -264,7 +264,7 @@ fn shapes(
     (outcomes, shapes)
 }
 
-/// Outcome of a triangle that a clip plane cuts; does not depend on its components.
+/// Outcome of a triangle that a clip plane cuts, independent of its components.
 fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRules) -> ShapeOutcome {
     let [a, b, c] = positions.map(|position| Vertex { position, ..Vertex::default() });
     if setup([&a, &b, &c], state, rules, &mut Vec::new()).emitted == 0 {

@@ -24,7 +24,7 @@ use crate::isa::{Instruction, Program, RegisterFile};
 use crate::num::{Format, NumberOperation};
 use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT};
 
-/// Vertices per task; up to this number run on the calling thread.
+/// Vertices per task; a single task runs on the calling thread.
 const SPAN: usize = 16 * LANES;
 
 /// Source of attributes: `fill(register, component, first, row)` writes the single-precision patterns of `v#register`
@@ -52,7 +52,7 @@ pub(crate) struct DecodedVertex {
 /// A program without or with flow control.
 #[derive(Debug)]
 enum VertexCode {
-    /// Block whose roots are the single-precision results, and instruction slots per execution.
+    /// A block with the single-precision results as roots, and its instruction slots per execution.
     Straight(StepBlock, u64),
     Flow(Box<FlowPlan>),
 }
@@ -62,7 +62,7 @@ enum VertexCode {
 pub(crate) struct VertexKey {
     program: Program,
     rules: Rules,
-    /// `None` if constants are inputs.
+    /// `None` if constants are inputs of the program.
     constants: Option<ResolvedConstants>,
     needed: ComponentMask,
     budget: u32,
@@ -71,8 +71,8 @@ pub(crate) struct VertexKey {
 /// Cache of vertex programs.
 pub(crate) type VertexPrograms = Cache<VertexKey, DecodedVertex>;
 
-/// Returns a decoded program, from the cache if possible. The first constants of a program are folded into it. When
-/// other constants follow, it is decoded once more with constants as inputs, which serves all later ones.
+/// Returns a decoded program, from the cache if possible. The first constants of a program are folded into it. For
+/// other constants it is decoded once more, with constants as inputs.
 fn decoded(
     programs: &VertexPrograms,
     program: &Program,
@@ -109,8 +109,8 @@ fn decoded(
 }
 
 impl BatchVertices {
-    /// Prepares a vertex program that computes the position and the `needed` components. `None` if every vertex exceeds
-    /// the step budget, because only the scalar executor counts the steps of programs without flow control.
+    /// Prepares a vertex program that computes the position and the `needed` components. Returns `None` if every vertex
+    /// exceeds the step budget: only the scalar executor counts the steps of programs without flow control.
     pub(crate) fn new(
         (program, constants): (&Program, &Constants),
         rules: &Rules,
@@ -252,7 +252,7 @@ impl BatchVertices {
         slots.row(slot)[..count].iter().map(value).collect()
     }
 
-    /// Returns `true` if the program computes in the unit of a card, whose outputs are words as they are.
+    /// Returns `true` if a card's unit computes the program: its output words are passed on unchanged.
     fn hands_on_words(&self) -> bool {
         self.formats.format(Arith::Main).unit.is_card()
     }

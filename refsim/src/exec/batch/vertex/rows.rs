@@ -6,11 +6,11 @@ use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, V
 #[derive(Clone, Debug, Default)]
 pub struct VertexRows {
     pub(crate) position: [Vec<u32>; 4],
-    /// By component, as in [`ComponentMask`]; empty if not requested.
+    /// Rows by component, as in [`ComponentMask`]; empty if not requested.
     pub(crate) components: Vec<Vec<u32>>,
     /// Instruction slots executed, in total over the vertices.
     pub executed: u64,
-    /// Vertices that exceeded the step budget, and the first instruction beyond it.
+    /// Vertices that exceeded the step budget, each with the first instruction beyond it.
     pub(crate) cut: Vec<(usize, usize)>,
 }
 
@@ -37,7 +37,7 @@ impl VertexRows {
         colors.flatten().for_each(|color| *color = clamped_color(*color));
     }
 
-    /// A vertex with the components in the rows; the others are zero.
+    /// A vertex with the components that have rows; other components are zero.
     pub(crate) fn vertex(&self, index: usize) -> Vertex {
         let at = |row: &Vec<u32>| row.get(index).copied().unwrap_or_default();
         let component = |i: usize| self.components.get(i).map_or(0, at);

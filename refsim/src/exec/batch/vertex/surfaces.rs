@@ -1,13 +1,13 @@
 //! Triangles in structure-of-arrays layout: each distinct shape once, and one row per component that the pixel program
 //! reads.
 //!
-//! The crossbar draws thousands of quads with the same corners: they have only two shapes, and differ in components
+//! The Ray Engine draws thousands of quads with the same corners: these have only two shapes, and differ in components
 //! that are constant over each triangle.
 
 use crate::num::Format;
 use crate::raster::{ComponentMask, Plane, TriangleSetup};
 
-/// Number of recent shapes that a new one is compared with.
+/// Number of recent shapes that are compared with a new shape.
 const RECENT: usize = 4;
 
 /// A triangle: indices of its shape and of its planes in the rows of components.
@@ -50,10 +50,9 @@ pub struct Surfaces {
     pub(crate) shapes: Vec<TriangleSetup>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) rows: Vec<PlaneRows>,
-    /// By planes: components of `rows` that are constant over the triangle.
+    /// Components of `rows` that are constant over a triangle, by index of its planes.
     pub(crate) constant: Vec<u64>,
-    /// By triangle: `true` if its constant components are the same, with the same values, as those of the previous
-    /// triangle.
+    /// By triangle, `true` if the previous triangle has the same constant components with the same values.
     pub(crate) joins: Vec<bool>,
     pub(crate) iterator_format: Format,
 }
@@ -87,7 +86,7 @@ impl Surfaces {
         out
     }
 
-    /// Index of a shape: that of an equal one among the most recent, or of a new one.
+    /// Returns the index of an equal shape among the most recent, or adds the shape.
     pub(crate) fn shape(&mut self, setup: &TriangleSetup) -> u32 {
         let first = self.shapes.len().saturating_sub(RECENT);
         if let Some(i) = self.shapes[first..].iter().position(|known| same_shape(known, setup)) {

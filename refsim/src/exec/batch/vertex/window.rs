@@ -1,4 +1,4 @@
-//! Viewport transform and clip tests of vertices in rows, in the host's single precision with the steps defined by
+//! Viewport transform and clip tests of vertices in rows, in single precision with the steps defined by
 //! [`crate::raster`].
 
 use rayon::prelude::*;
@@ -62,9 +62,9 @@ struct Snap {
     /// Grid lines per pixel, and the farthest grid line.
     grid: f64,
     far: f64,
-    /// Added in front of the floor, in grid units.
+    /// Added before the floor, in grid units.
     half: f64,
-    /// Positions below are rounded up.
+    /// Positions below this are rounded up.
     origin: f64,
 }
 
@@ -171,7 +171,7 @@ fn is_finite(x: f32) -> bool {
     x.abs() < f32::INFINITY
 }
 
-/// The grid line of a position. In double precision the sum is exact near a rounding boundary.
+/// The grid line of a position. Near a rounding boundary the sum is exact in double precision.
 #[inline(always)]
 fn snapped(x: f32, Snap { grid, far, half, origin }: Snap) -> i32 {
     let x = f64::from(x);

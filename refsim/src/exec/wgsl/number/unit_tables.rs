@@ -1,4 +1,4 @@
-//! Tables of cards' units as WGSL functions: a row each, packed into one word or two.
+//! Tables of cards' units as WGSL functions, which return rows packed into one or two words.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ fn function(name: &str, width: usize, rows: impl Iterator<Item = Vec<u32>>) -> S
     };
     let rows: Vec<String> = rows.map(row).collect();
     let mut text = format!("\nfn {name}(i: u32) -> {of} {{\n");
-    // No error is possible: the target is a string.
+    // Writing to a string cannot fail.
     let _ = writeln!(text, "    var rows = array<{of}, {}>({});", rows.len(), rows.join(", "));
     text + "    return rows[i];\n}\n"
 }
@@ -26,11 +26,11 @@ fn word(cell: i64) -> u32 {
 /// Tables of the vertex units.
 pub(super) fn vertex() -> String {
     let single = |name, table: &[[i64; 1]]| function(name, 1, table.iter().map(|row| vec![word(row[0])]));
-    // A base, and the slope above so many bits.
+    // A base in the low `bits`, the slope above.
     let linear = |name, table: &[[i64; 2]], bits: u32| {
         function(name, 1, table.iter().map(|row| vec![word(row[0]) | word(row[1]) << bits]))
     };
-    // A base and a slope of 24 bits, above them halves of the curvature.
+    // A base and a slope of 24 bits, each with half of the curvature above.
     let quadratic = |name, table: &[[i64; 3]]| {
         let pack = |&[base, slope, curve]: &[i64; 3]| {
             vec![word(base) | (word(curve) & 0xff) << 24, word(slope) | (word(curve) >> 8) << 24]
@@ -47,7 +47,7 @@ pub(super) fn vertex() -> String {
         + &single("v_angle_row", &data::NV3X_SINCOS_MULTIPLIER)
 }
 
-/// Tables of GT200. Signs of slopes and curvatures are those of the functions.
+/// Tables of GT200. The functions know the signs of slopes and curvatures.
 pub(super) fn gt200() -> String {
     let rows = |name, table: &[[i64; 3]]| {
         let pack = |&[base, slope, curve]: &[i64; 3]| vec![word(base), word(slope) | word(curve) << 16];

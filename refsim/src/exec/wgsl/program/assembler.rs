@@ -10,7 +10,7 @@ use crate::num::{Format, NumberOperation};
 use refsim_lanes::RowSum;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Operand ranges: slots, then constants, then words of a triangle's set-up, then input and output rows.
+/// First operand of each range: slots are below, then constants, words of a triangle's set-up, input and output rows.
 pub(super) const FIRST_CONSTANT: usize = 0x8000;
 pub(super) const SETUP: u16 = 0xfe00;
 pub(super) const INPUT: u16 = 0xff00;
@@ -21,7 +21,7 @@ pub(super) const DEPTH: u16 = KILLED + 1;
 pub(super) const DEPTH_IS_MAIN: u16 = DEPTH + 1;
 /// Number of input and output rows.
 pub(crate) const IN_OUT_ROWS: usize = (DEPTH_IS_MAIN - INPUT) as usize + 1;
-/// Code for no operand.
+/// Code for a missing operand.
 pub(super) const NONE: u16 = 0xffff;
 /// Loop iterations per instruction, by the class in bits 14 and 15 of its word.
 pub(super) const PASSES: [u32; 4] = [20, 600, 1000, 8000];
@@ -183,7 +183,7 @@ impl Assembler<'_> {
     }
 
     /// Allocates the slot of a result, after its operands' last reads. Lanes are computed one after the other, so only
-    /// operations that read no other lane may overwrite an operand.
+    /// operations that do not read other lanes may overwrite an operand.
     fn result(&mut self, node: NodeId, places: &mut Places) -> u16 {
         self.release_operands(node, places);
         let to = places.fresh();
@@ -397,7 +397,7 @@ impl Assembler<'_> {
     }
 }
 
-/// Returns `true` if a conversion hands the word on: of single floats into the unit of a card.
+/// Returns `true` if a conversion keeps the word: from single floats to the unit of a card.
 fn takes_words(from: &Format, into: &Format) -> bool {
     into.unit.is_card() && from.kind == into.kind && from.encoding == into.encoding
 }

@@ -22,7 +22,7 @@ pub(super) enum SinkKind {
     Killed,
     /// Output of depth and of the mask of lanes that have it.
     Depth(Arith),
-    /// Trace record of an instruction: up to four values and as many masks; the mask selects the components.
+    /// Trace record of an instruction: up to four values, as many lane masks, and the mask of their components.
     Trace(usize, Mask),
     /// Merge into the slot of a register under a mask: value, mask.
     Merge(Slot),
@@ -51,7 +51,7 @@ pub(super) struct MaskedStep {
     pub(super) opcode: Opcode,
     /// Jump target, as in [`FlowMap::target`].
     pub(super) target: usize,
-    /// Uses of its results. A condition has only one use.
+    /// Uses of the instruction's results. A condition has only one use.
     pub(super) sinks: Vec<Sink>,
     /// The sampler read.
     pub(super) sampler: Option<usize>,

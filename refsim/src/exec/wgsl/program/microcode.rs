@@ -31,12 +31,12 @@ pub enum ProgramError {
         /// Number of constants.
         constants: usize,
     },
-    /// More number formats than the shader's table holds: those of instructions, storages, sums and products.
+    /// More number formats of instructions, storages, sums and products than the shader's table holds.
     #[error("the program has {formats} number formats, the table of shaders holds {most}; use another executor")]
     TooManyFormats {
         /// Number of formats.
         formats: usize,
-        /// Most formats.
+        /// Maximum number of formats.
         most: usize,
     },
 }
@@ -56,7 +56,6 @@ pub struct Microcode {
     pub passes: u32,
 }
 
-/// Encodes a program.
 pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>) -> Result<Microcode, ProgramError> {
     let formats = program.formats.own().len();
     if formats > MAX_PROGRAM_FORMATS {

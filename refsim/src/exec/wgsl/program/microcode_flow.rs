@@ -72,7 +72,7 @@ impl Assembler<'_> {
             }
             Opcode::Call | Opcode::CallNz => {
                 emit(op::CALL);
-                // A call that leads backward, or nowhere, is skipped.
+                // A backward call, or a call without a label, is skipped.
                 let forward = step.target > at && step.target < count;
                 return forward.then_some((target_word, step.target + 1));
             }
@@ -96,7 +96,7 @@ fn is_flow(opcode: Opcode) -> bool {
 
 /// Maximum number of simultaneously open blocks and calls.
 pub(super) fn deepest(steps: &[MaskedStep]) -> usize {
-    // Calls lead forward, so a subroutine's depth is known before that of its callers.
+    // Calls lead forward, so going backward, a subroutine's depth is known before its callers'.
     let mut needs = vec![0; steps.len() + 1];
     let mut most = 0;
     for start in (0..=steps.len()).rev() {

@@ -18,7 +18,7 @@ operations! {
     SUM
 }
 
-/// Operations below this are always included: they are cheap to compile.
+/// Operations with lower numbers are always included: they are cheap to compile.
 const FIRST_COSTLY: u32 = DOT;
 /// Operations from here on, except [`SUM`], are included together.
 const FIRST_FLOW: u32 = STEP;

@@ -8,8 +8,8 @@ use crate::exec::{CheckedProgram, Step, program};
 use crate::isa::{Mask, Register, RegisterFile};
 use crate::num::{Flags, ops};
 
-/// Words per executed instruction: its index, the components written, four raw values. Input registers come first, with
-/// indices after those of the instructions.
+/// Words per executed instruction: its index, the components written, four raw values. Records of input registers come
+/// first, with indices after those of the instructions.
 pub const TRACE_WORDS: usize = 6;
 
 /// Decodes the steps of a lane (0 to 3) from the `q_traced` words recorded by a traced shader
