@@ -1,4 +1,4 @@
-//! Operands of the table of operations, made by a counter-based generator, in the page's script as here.
+//! Operands of the table of operations, from a counter-based generator that the page's script repeats.
 
 use refsim::num::{Format, FormatKind};
 use serde::Serialize;

@@ -61,7 +61,7 @@ impl Paper {
 }
 
 impl ReproduceEntry {
-    /// An entry with a record, which represents a run at full size by default.
+    /// An entry with a record, whose values replace a run at full size by default.
     pub(super) const fn recorded(self, record: &'static str) -> Self {
         Self { record: Some(record), ..self }
     }
@@ -79,8 +79,8 @@ impl ReproduceEntry {
         self.run(&Shared::new(ModelSize::Printed).keeping(Some(kept)))
     }
 
-    /// Computes the entry alone on reduced models, which judge nothing: a test that a run at full size ends. Errors:
-    /// those of the entry.
+    /// Computes the entry alone on reduced models, without judging it: tests that a run at full size would end. Fails
+    /// as the entry does.
     pub fn on_reduced_models(&self) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Reduced))
     }

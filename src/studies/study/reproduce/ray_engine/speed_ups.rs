@@ -15,8 +15,8 @@ use crate::report::{Cell, Table};
 /// Passes in flight in the asynchronous run.
 const IN_FLIGHT: usize = 4;
 
-/// Line of Tables 3 to 5 with its run. That of 5 to 15 triangles and 64 rays is printed in all three and is one figure,
-/// whose row is in Table 3.
+/// Line of Tables 3 to 5 with its run. The line of 5 to 15 triangles and 64 rays is printed in all three tables; it is
+/// one figure, with its row in Table 3.
 pub(super) struct SpeedUpRun {
     /// Name in its table.
     pub(super) name: &'static str,

@@ -9,8 +9,8 @@ pub enum Bound {
     Print,
     /// Within this fraction of the paper's value.
     Relative(f64),
-    /// Within this fraction of the gain of the paper's value over another one that calibrated the model. Predicting
-    /// only that other value is outside.
+    /// Within this fraction of the gain of the paper's value over a value that calibrated the model. A prediction of no
+    /// gain is outside the bound.
     Gain {
         /// Fraction of the gain.
         share: f64,

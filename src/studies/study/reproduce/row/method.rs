@@ -23,8 +23,8 @@ pub enum Method {
     Solver,
 }
 
-/// Method of a modelled frame rate. A host that is busy all of the frame decides the rate alone: the work that follows
-/// from printed sizes, at a calibrated rate.
+/// Method of a modelled frame rate. A host that is busy for the whole frame decides the rate alone, so the method is an
+/// equation: work from printed sizes, at a calibrated rate.
 impl From<&FrameTime> for Method {
     fn from(time: &FrameTime) -> Self {
         if time.host >= time.frame { Self::Equation } else { Self::Pipeline }
