@@ -20,7 +20,7 @@ Examples:
 
 Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
 
-/// Distances that are shown, in mean free paths of the longest.
+/// Distances that are shown, in units of the longest mean free path.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 /// Fractions of the light whose radii are shown.
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
