@@ -28,7 +28,7 @@ impl Written {
 /// Position of an instruction in the program.
 #[derive(Clone, Copy)]
 struct Place {
-    /// Behind `phase`, or in a program without one.
+    /// After `phase`, or in a program without one.
     second: bool,
     /// The second instruction of a pair.
     partner: bool,

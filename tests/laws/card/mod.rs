@@ -20,8 +20,8 @@ pub(crate) fn exits(clustering: &Clustering, light: &HarmonicLight) -> Vec<[Vec<
     (0..clustering.of_point().len()).map(&mut of_vertex).collect()
 }
 
-/// The radiance that a pixel shows towards an eye, of coefficients and view vectors interpolated in f64. Maps end at the
-/// horizon, so grazing views of glossy surfaces have none.
+/// The radiance that a pixel shows towards an eye, from coefficients and view vectors interpolated in f64; none for
+/// grazing views of glossy surfaces, since maps end at the horizon.
 pub(crate) fn interpolated(
     vertices: &Vertices,
     basis: &ExitBasis,
