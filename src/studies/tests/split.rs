@@ -134,7 +134,7 @@ fn a_folder_that_cannot_be_made_is_said() {
     assert!(error.starts_with("cannot write into the folder "), "{error}");
 }
 
-/// A run that continues from another's segments, or takes its model, finds the same as a run without pieces.
+/// A run that reuses another run's segments, or its model, gives the same result as a run without pieces.
 #[test]
 fn pieces_make_the_same_model() {
     let folder = tempfile::tempdir().expect("a folder");

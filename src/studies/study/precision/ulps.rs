@@ -54,7 +54,7 @@ fn unit(bits: FormatBits, value: f64) -> f64 {
     }
 }
 
-/// Errors of results in a format against exact ones, over results that both have.
+/// Errors of results in a format against exact results, where both exist.
 ///
 /// A finite result that should be infinite or NaN, or the reverse, has an infinite error.
 pub(super) fn errors_of<'r>(

@@ -73,8 +73,8 @@ impl ReproduceEntry {
         Ok(EntryFindings { rows, ..found })
     }
 
-    /// Computes the entry at full size, alone. Finished pieces of entries that take hours are kept, and taken. Errors:
-    /// those of the entry, and of a folder in which pieces cannot be kept.
+    /// Computes the entry at full size, alone. Entries that take hours keep finished pieces, and reuse them. Fails as
+    /// the entry does, and if pieces cannot be kept.
     pub fn at_full_size(&self, kept: Rc<KeptResults>) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Printed).keeping(Some(kept)))
     }

@@ -96,7 +96,7 @@ fn judged(rows: &[&PaperRow]) -> Option<String> {
     (!rows.is_empty()).then(|| format!("Of {all} to which no constant was fitted, {parts}"))
 }
 
-/// Formats the tally of [`chose_none`], and how many of these rows are recorded.
+/// Formats the tally of the rows whose printed value determined no constant, and how many of them are recorded.
 pub fn evidence_line(found: &Reproduced) -> String {
     let rows = chose_none(found);
     format!("{}; recorded at full size: {}", judged(&rows).unwrap_or_default(), count(&rows, is_recorded))

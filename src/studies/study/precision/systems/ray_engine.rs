@@ -78,7 +78,7 @@ impl RayEngineSubject {
         Ok(Self { profile, executors, mesh, views, programs })
     }
 
-    /// Measures a view.
+    /// Traces a view on a device, and measures its errors.
     fn measured(
         &self,
         (view, judged): &(RayBatch, JudgedRays),

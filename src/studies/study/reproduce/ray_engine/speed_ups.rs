@@ -20,7 +20,7 @@ const IN_FLIGHT: usize = 4;
 pub(super) struct SpeedUpRun {
     /// Name in its table.
     pub(super) name: &'static str,
-    /// Table of the line.
+    /// Name of the table that prints the line.
     pub(super) place: &'static str,
     pub(super) row: PaperRow,
     pub(super) run: Rc<Run>,
@@ -51,7 +51,7 @@ impl SpeedUps {
         self.lines.iter().filter(|line| line.place == place).collect()
     }
 
-    /// Rows of the figures that are printed first in this table.
+    /// Rows of the figures that this table is the first to print.
     pub(super) fn rows(&self, place: &'static str) -> Vec<PaperRow> {
         self.lines_of(place)
             .into_iter()

@@ -18,7 +18,7 @@ struct PrintedScene {
     polygons: &'static str,
     tick: &'static str,
     job: Option<Job>,
-    /// `R_min`.
+    /// Minimum number of rays per pass, `R_min`.
     rays: usize,
 }
 

@@ -43,7 +43,7 @@ pub enum Dependence {
     /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so agreement is
     /// not evidence.
     Calibrated {
-        /// Printed values that determined it.
+        /// Printed values that determined the constant.
         on: &'static str,
     },
     /// Count: from a run that uses no time and no printed value.

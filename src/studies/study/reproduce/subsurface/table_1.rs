@@ -41,7 +41,7 @@ impl PrintedFrame {
         (DISPLAY / self.rate).round()
     }
 
-    /// Milliseconds of a pass, counted from 1.
+    /// Milliseconds of pass number `pass`, from 1.
     pub(super) fn milliseconds(&self, pass: usize) -> f64 {
         1e3 / self.rate * self.shares[pass - 1] / 100.0
     }
