@@ -47,7 +47,7 @@ fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "coefficients are per mm; `crossbar materials` shows published ones")
 }
 
-/// The published medium of a name.
+/// Looks up a published medium by name.
 pub(super) fn published(name: &str) -> Result<&'static PublishedMaterial, Problem> {
     named(name).ok_or_else(|| {
         let names = MATERIALS.map(|material| material.name);

@@ -16,7 +16,7 @@ const PICTURE_DEPTH: f64 = 0.1;
 /// Reflectance of `plain` and of patches from a file.
 const COLOR: [f64; 3] = [0.5; 3];
 
-/// The patch with a name, or of a file of heights.
+/// Loads a patch by its name, or from a file of heights.
 pub(super) fn patch_of(source: &Path) -> miette::Result<MesoPatch> {
     let name = source.to_str().unwrap_or_default();
     if let Ok(kind) = name.parse::<PatchKind>() {
