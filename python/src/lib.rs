@@ -4,8 +4,8 @@
 //! take C-order arrays of one type, and return arrays, or documents as JSON.
 //!
 //! - `operand`: arrays of the shape of a result, block by block; `signals`: work without the interpreter's lock that
-//! Ctrl-C ends; `error`: errors of the library as Python's. `numbers`: number formats; `matrix`: matrix units;
-//! `oracle`: exact hits; `cases`: cases on cards; `studies`: studies and pictures.
+//!   Ctrl-C ends; `error`: errors of the library as Python's. `numbers`: number formats; `matrix`: matrix units;
+//!   `oracle`: exact hits; `cases`: cases on cards; `studies`: studies and pictures.
 
 mod cases;
 mod error;
