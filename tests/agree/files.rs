@@ -22,7 +22,7 @@ use std::sync::LazyLock;
 /// Ideal devices that programs are tried on, besides the cards.
 const IDEALS: [&str; 6] = ["ideal-s3.12", "ideal-fp16", "ideal-fp24", "ideal-fp32", "ideal-s7.16", "ideal-e8m10"];
 
-/// A program of a file and the devices that accept it.
+/// A program from a file, with the devices that accept it.
 pub(crate) struct Program {
     pub(crate) file: String,
     lines: Vec<String>,

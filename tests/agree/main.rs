@@ -34,7 +34,7 @@ mod suite;
 mod system;
 mod traces;
 
-/// Runs the suite that a test is named after: its path without the crate.
+/// Runs the suite with a test's name: the test's path without the crate.
 fn suite(module: &str, test: &str) {
     let path = module.split_once("::").map_or(String::new(), |(_, path)| format!("{path}::"));
     let name = format!("{path}{test}");

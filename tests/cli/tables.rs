@@ -50,7 +50,7 @@ fn tables_fit_the_terminal() {
     }
 }
 
-/// Commands without a page print titled tables, and a line per file that they wrote; JSON names the same files.
+/// Commands without a page print titled tables, and a line per written file; JSON names the same files.
 #[test]
 fn findings_without_a_page_are_text_or_fields() {
     type Fields<'a> = &'a [(&'a str, Option<&'a str>)];

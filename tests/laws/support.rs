@@ -41,7 +41,7 @@ pub(crate) fn soup(corners: Vec<[f32; 3]>) -> Mesh {
     Mesh::new(corners, triangles).expect("a mesh")
 }
 
-/// A mesh as [`soup`], with the normals of its triangles.
+/// A mesh of triangles that keep their own corners, with the normals of the triangles.
 pub(crate) fn flat(corners: Vec<[f32; 3]>) -> Mesh {
     let normals = corners.chunks(3).flat_map(|triangle| {
         let [a, b, c] = [0, 1, 2].map(|at| wide(triangle[at]));

@@ -4,7 +4,7 @@ use super::ps_1::MODIFIERS;
 use super::{Layout, values};
 use crate::random::Random;
 
-/// The registers whose components are written: red to blue, and all four.
+/// Registers with written components: red to blue, or all four.
 #[derive(Clone, Copy, Default)]
 struct Written {
     rgb: [bool; 6],

@@ -9,7 +9,7 @@ use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::brdf::ExitBasis;
 
-/// Exit radiance coefficients of all vertices under light of order 3 and half its radiance: rows of red, green and blue.
+/// Exit radiance coefficients of all vertices, for light of order 3 and half its radiance: red, green and blue rows.
 pub(crate) fn exits(clustering: &Clustering, light: &HarmonicLight) -> Vec<[Vec<f64>; 3]> {
     let mut matrix = vec![0.0; clustering.dimension()];
     let mut of_vertex = |vertex| {
