@@ -154,7 +154,7 @@ fn cut_products_lose_bits_below_the_significand_and_nothing_else() {
     });
 }
 
-/// Numbers that a reader can check.
+/// Examples that can be checked by hand.
 #[test]
 fn examples_of_cut_bits() {
     let f = Format::FP24.with_rounding(Rounding::TowardZero);

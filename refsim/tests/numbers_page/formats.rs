@@ -10,7 +10,7 @@ pub(crate) struct Words {
     fixed: bool,
     /// Fixed point in units of `1 / (2^F - 1)`.
     normalized: bool,
-    /// Nothing, `fn` or `fnuz`.
+    /// Suffix of the encoding: empty, `fn` or `fnuz`.
     encoding: &'static str,
     rounding: &'static str,
     overflow: &'static str,
