@@ -1,4 +1,4 @@
-//! Archives of arrays with members changed: hostile files whose checksums are right.
+//! Archives of arrays with changed members: hostile files with valid checksums.
 
 use std::io::{Cursor, Read as _, Write as _};
 
@@ -25,7 +25,7 @@ pub(crate) fn archive(members: &[(String, Vec<u8>)]) -> Vec<u8> {
     zip.finish().expect("written").into_inner()
 }
 
-/// The archive with another member in place of the one of this name, which `change` gets.
+/// The archive with the member of this name replaced; `change` gets the old contents.
 pub(crate) fn with_member(bytes: &[u8], name: &str, change: impl FnOnce(&[u8]) -> Vec<u8>) -> Vec<u8> {
     let mut members = members(bytes);
     let member = members.iter_mut().find(|(other, _)| other == name).expect("a member of this name");
@@ -33,7 +33,7 @@ pub(crate) fn with_member(bytes: &[u8], name: &str, change: impl FnOnce(&[u8]) -
     archive(&members)
 }
 
-/// The archive with other metadata.
+/// The archive with changed metadata.
 pub(crate) fn with_metadata(bytes: &[u8], change: impl FnOnce(&str) -> String) -> Vec<u8> {
     with_member(bytes, "metadata.npy", |array| text_array(&change(text_of(array))))
 }

@@ -18,7 +18,7 @@ const SIZE: f64 = 1.37;
 /// Mesh, rays, and report on a triangle test.
 type Examined = (Mesh, Vec<HardRay>, Report);
 
-/// Reports that several tests look at, each with the oracle's nearby rays.
+/// Reports that several tests use, each with the oracle's nearby rays.
 static WOOP: LazyLock<Examined> = LazyLock::new(|| examined(woop, 8));
 static MOELLER_TRUMBORE: LazyLock<Examined> = LazyLock::new(|| examined(moeller_trumbore, 8));
 
@@ -48,9 +48,9 @@ fn a_watertight_test_passes() {
     }
 }
 
-/// Expects no leaks and no false hits. Unless the oracle accepts triangles that tie at a vertex of the outline, 27 of
-/// Woop's answers count as false hits at any `nearby_ulps`. Rays in the planes of triangles are left out: for one of
-/// them the first surface is missed, as beside an outline, and a neighbour of the second is returned.
+/// Expects no leaks and no false hits. The oracle accepts triangles that tie at a vertex of the outline; otherwise 27
+/// of Woop's answers would be false hits at any `nearby_ulps`. Rays in the planes of triangles are left out: one of
+/// them misses the first surface, as beside an outline, and returns a neighbour of the second.
 #[test]
 fn a_watertight_test_is_faithful() {
     for (size, each, seed) in [(SIZE, 984, 1), (77.7, 240, 3)] {
@@ -185,7 +185,7 @@ fn a_hole_is_a_hole_though_a_neighbour_shows_through() {
     assert_eq!(miss(start), DisagreementKind::Start);
 }
 
-/// The page quotes the last digits: they come from additions and multiplications in f32, the same on every CPU.
+/// The page quotes all digits: they come from additions and multiplications in f32, equal on every CPU.
 #[test]
 fn the_page_says_what_is_measured() {
     let page = include_str!("../docs/examples/foreign_intersector.md").replace('\r', "");

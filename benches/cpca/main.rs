@@ -1,8 +1,8 @@
-//! How fast signals are compressed: a signal of order-5 diffuse transfer (25 numbers per point) beside plain loops, and
-//! one of glossy transfer (24 x 25 numbers).
+//! Host speed of compressing signals: order-5 diffuse transfer (25 numbers per point) versus plain loops, and glossy
+//! transfer (24 x 25 numbers).
 //!
-//! Figure to beat: ten times as fast as the plain loops on two threads. Ratios are of one run. One element is
-//! one point.
+//! Figure to beat: ten times the speed of the plain loops on two threads. Ratios are within one run. An element is one
+//! point.
 //!
 //! `cargo bench -p crossbar-benches --bench cpca`
 

@@ -1,8 +1,8 @@
-//! Real cards, and formats with other rules than the ideal devices', beside the ideal device of their format.
+//! Speed of real cards, and of formats with other rules, relative to the ideal device of the same format.
 //!
-//! On a shared machine the quickest of many short runs is more reliable than a median of long ones. So the devices draw
-//! alternately, on one thread, many times; the result of each is its quickest draw. To beat: 1.5 times the time of the
-//! ideal device of the format.
+//! On a shared machine, the fastest of many short runs is more reliable than a median of long ones. So the devices draw
+//! alternately, on one thread, many times; the fastest draw of each counts. To beat: 1.5 times the time of the ideal
+//! device of the format.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -13,24 +13,24 @@ use crossbar::ray_engine::Crossbar;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
-/// Cards that run the engine, each beside the format that its own is a variant of.
+/// Cards that run the engine, each with the ideal format that its own format varies.
 const CARDS: [(&str, &str); 6] =
     [("r200", "s3.12"), ("r300", "fp24"), ("r350", "fp24"), ("nv30", "fp32"), ("nv35", "fp32"), ("gt200", "fp32")];
-/// Formats with each of their other rules.
+/// Formats, each with its other rules.
 const RULES: [(&str, &[&str]); 4] = [
     ("s3.12", &["rna", "rtz", "rdn", "wrap"]),
     ("fp32", &["rna", "rtz", "rdn", "ftz", "sat", "nvovf", "nv"]),
     ("fp16", &["rna", "rtz", "rdn", "ftz", "sat", "nvovf", "nv"]),
     ("fp24", &["rna", "rtz", "rdn", "ftz", "sat", "nvovf", "nv"]),
 ];
-/// Rays a side of the picture: 4,096 in all, 16 tiles.
+/// Rays per side of the picture: 4,096 in all, 16 tiles.
 const SIDE: u32 = 64;
-/// Draws of each device.
+/// Number of draws per device.
 const ROUNDS: usize = 25;
-/// Times of the ideal format that a card or a rule may take.
+/// Maximum time of a card or a rule, relative to the ideal device.
 const MOST: f64 = 1.5;
 
-/// The cards and formats, each with the format of its ideal device; and these ideal devices.
+/// The cards and formats, each with the format of its ideal device, and then these ideal devices.
 fn all() -> Vec<(String, &'static str)> {
     let ideal = |format: &str| format!("ideal-{format}");
     let of_rules = RULES.iter().flat_map(|&(format, rules)| {
@@ -40,7 +40,7 @@ fn all() -> Vec<(String, &'static str)> {
     CARDS.map(|(card, format)| (card.to_owned(), format)).into_iter().chain(of_rules).collect()
 }
 
-/// Measures, and gives the table.
+/// Measures, and returns the table.
 pub(crate) fn table() -> String {
     let (mesh, rays) = (crate::mesh(), crate::rays(SIDE));
     let devices = all();

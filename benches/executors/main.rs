@@ -1,15 +1,13 @@
-//! Speed of the executors on the host: the Ray Engine's own programs, 256 rays against 256 triangles; draws with one
-//! bottleneck each; and ray-triangle tests of other people's crates.
+//! Speed of the executors on the host: the Ray Engine's programs, 256 rays against 256 triangles; draws with one
+//! bottleneck each; and ray-triangle tests of other crates.
 //!
-//! `cargo bench -p crossbar-benches --bench executors` measures, on two threads;
-//! `cargo bench -p crossbar-benches --bench executors -- --table` writes what was measured last into
-//! docs/performance.md.
+//! `cargo bench -p crossbar-benches --bench executors` measures, on two threads; `cargo bench -p crossbar-benches
+//! --bench executors -- --table` writes the last measurement into docs/performance.md.
 //!
-//! One element is one fragment that the pixel program ran for (an intersection, in the crossbar's draws), one vertex
-//! where the vertex program is measured, one test of the yardsticks. Everything that a draw needs is in the time:
-//! textures, vertices, set-up, attributes, depth and colour, read-back; `resident` draws with the same textures,
-//! streams and targets again, cleared before. With `--table`, cards, and formats with other rules than the ideal
-//! devices', are measured besides, by turns (`devices`).
+//! An element is one fragment of the pixel program (an intersection, in the crossbar's draws), one vertex where the
+//! vertex program is measured, one test of the other crates. The time includes everything that a draw needs: textures,
+//! vertices, set-up, attributes, depth and colour, read-back. `resident` draws reuse textures, streams and targets,
+//! which are cleared before. `--table` also measures cards, and formats with other rules (`devices`).
 
 mod devices;
 mod scenes;
@@ -33,8 +31,8 @@ const RESIDENT: &str = ", resident";
 /// Threads of the figures.
 const THREADS: usize = 2;
 
-/// 256 triangles of the teapot that show the camera their front, from all over it: the vertex program for rays of one
-/// origin moves the quads of the others off the screen.
+/// 256 triangles of the teapot that face the camera, from all over it: the vertex program for rays of one origin moves
+/// the quads of back faces off the screen.
 fn mesh() -> Mesh {
     let whole = teapot(6).expect("the teapot tessellates");
     let eye = camera(1).eye().map(f64::from);
@@ -45,7 +43,7 @@ fn mesh() -> Mesh {
         let normal = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
         let dot: f64 = normal.iter().zip(to_eye).map(|(n, o)| n * o).sum();
         let squares = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
-        // Not from the side, where a narrow format may see it otherwise.
+        // Not edge-on, since a narrow format may turn such a triangle away.
         dot > 0.0 && dot * dot > 0.01 * squares(normal) * squares(to_eye)
     };
     let facing: Vec<[u32; 3]> = whole.triangles().iter().copied().filter(faces_the_eye).collect();
@@ -115,7 +113,7 @@ fn main() -> std::io::Result<()> {
     if std::env::args().any(|argument| argument == "--table") {
         return pool(1)?.install(table::write);
     }
-    // From within, as the workers of a renderer call it: a call from outside would wait for one of them to wake up.
+    // Calls from a thread of the pool, as a renderer's worker does: other callers wait for a worker to wake up.
     pool(THREADS)?.install(|| {
         let mut criterion = Criterion::default().configure_from_args();
         executors(&mut criterion);

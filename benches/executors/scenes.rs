@@ -1,6 +1,6 @@
 //! Draws with one bottleneck each.
 //!
-//! `texture reads: 8 dependent, linear` and `triangles: 2 pixels each, blended` stand for a glossy frame of 512 x 512
+//! `texture reads: 8 dependent, linear` and `triangles: 2 pixels each, blended` model a glossy frame of 512 x 512
 //! pixels on a mesh of 50,000 vertices. To beat: 1 s elapsed of `crossbar cpca card` on two threads.
 
 use std::fmt::Write as _;
@@ -26,20 +26,20 @@ pub(crate) struct Scene {
     pixel: CheckedProgram,
     geometry: Geometry,
     filter: Filter,
-    /// Whether fragments are added to the target.
+    /// `true` to blend fragments additively.
     blended: bool,
-    /// Whether vertices are counted instead of fragments.
+    /// `true` to count vertices instead of fragments.
     counts_vertices: bool,
 }
 
 enum Geometry {
-    /// Vertices of triangles, transformed.
+    /// Transformed vertices of triangles.
     Triangles(Vec<Vertex>),
-    /// Vertices of triangles, for a program.
+    /// Vertices of triangles, for a vertex program.
     Program(Box<CheckedProgram>, Vec<[u32; 4]>),
 }
 
-/// All of them, smaller for the executor that needs milliseconds where the other needs microseconds.
+/// All scenes, smaller ones for the executor that needs milliseconds instead of microseconds.
 pub(crate) fn all(kind: ExecutorKind) -> Vec<Scene> {
     let (side, vertices) = match kind {
         ExecutorKind::Scalar => (32, 3 * 1024),
@@ -86,7 +86,7 @@ fn program(text: &str) -> CheckedProgram {
     check(assemble(text).expect("the program assembles"), &profile()).expect("an ideal device takes it")
 }
 
-/// Each read's result is the next one's coordinates.
+/// A program in which each read's result is the coordinates of the next read.
 fn dependent_reads() -> String {
     let mut text = "ps_2_a\ndcl t0.xy\ndcl_2d s0\ntexld r0, t0, s0\n".to_owned();
     for _ in 1..8 {
@@ -96,7 +96,7 @@ fn dependent_reads() -> String {
     text
 }
 
-/// 1024 of them, each needing the one before.
+/// A program of 1024 instructions, each dependent on the previous one.
 fn long_program() -> String {
     let mut text =
         "ps_2_a\ndef c0, 0.5, -0.25, 0.125, 0.75\ndef c1, 0.25, 1, -0.5, 0.125\ndcl t0\nmov r1, t0\n".to_owned();
@@ -108,7 +108,7 @@ fn long_program() -> String {
     text
 }
 
-/// Four vectors out of a position.
+/// A vertex program that computes four vectors from a position.
 fn vertex_program() -> String {
     let mut text = "vs_1_1\ndef c8, 0.5, 0.25, 0.125, 1\ndcl_position v0\n".to_owned();
     for i in 0..26 {
@@ -140,7 +140,7 @@ fn screen() -> Vec<Vertex> {
     vec![a, b, c, a, c, d]
 }
 
-/// Triangles in squares of so many pixels, two per square.
+/// Triangles in squares of `pixels` pixels, two per square.
 fn carpet(side: u32, pixels: f32) -> Vec<Vertex> {
     let count = (side as f32 / pixels) as u32;
     let at = |i: u32| 2.0 * i as f32 / count as f32 - 1.0;
@@ -178,7 +178,7 @@ impl Card {
         let mut machine = Machine::new(profile(), kind);
         let target = machine.create_target(TexelFormat::Rgba8, scene.side, scene.side).expect("a target");
         let depth = machine.create_depth(DepthFormat::Unorm24, scene.side, scene.side).expect("a depth buffer");
-        // Neighbours lead far apart.
+        // Neighbouring texels point to distant ones.
         let bytes = (0..256 * 256u32).flat_map(|i| i.wrapping_mul(0x9e37_79b9).to_le_bytes()).collect();
         let image = Image::from_bytes(TexelFormat::Rgba8, refsim::texture::TextureKind::D2, [256, 256, 1], 1, bytes)
             .expect("a texture of its size");
@@ -186,7 +186,7 @@ impl Card {
         Self { machine, target, depth, texture }
     }
 
-    /// Draws; gives fragments and vertices.
+    /// Draws, and returns the numbers of fragments and vertices.
     pub(crate) fn draw(&mut self, scene: &Scene) -> (u64, u64) {
         let constants = Constants::default();
         let streams = |data| VertexStreams {

@@ -10,13 +10,13 @@ use crate::devices;
 const BEGIN: &str = "<!-- measured: begin -->";
 const END: &str = "<!-- measured: end -->";
 
-/// Figures to beat: millions of elements a second, and whose they are.
+/// Figures to beat, in millions of elements per second.
 const GOALS: [(&str, f64); 8] = [
     ("256 rays x 256 triangles, resident s3.12", 450.0),
     ("256 rays x 256 triangles, resident fp32", 390.0),
     ("256 rays x 256 triangles, resident fp16", 150.0),
     ("256 rays x 256 triangles, resident fp24", 100.0),
-    // Not goals for draws with uploads, but shown for comparison.
+    // No goal for draws with uploads, but shown for comparison.
     ("256 rays x 256 triangles s3.12", 450.0),
     ("256 rays x 256 triangles fp32", 390.0),
     ("256 rays x 256 triangles fp16", 150.0),
@@ -26,7 +26,7 @@ const GOALS: [(&str, f64); 8] = [
 /// Elements per second by benchmark and implementation.
 type Figures = BTreeMap<String, BTreeMap<String, f64>>;
 
-/// Puts the figures into the document, between its two marks.
+/// Writes the figures into the document, between its two markers.
 pub(crate) fn write() -> io::Result<()> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);

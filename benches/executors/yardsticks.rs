@@ -1,5 +1,4 @@
-//! Ray-triangle tests of other people's crates on one thread of the same machine: f32, scalar, every ray against every
-//! triangle.
+//! Ray-triangle tests of other crates on one thread of the same machine: f32, scalar, every ray against every triangle.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use crossbar::geom::Mesh;

@@ -15,7 +15,7 @@ pub(crate) struct Room {
     pub(crate) mesh: Mesh,
     /// Rays through every pixel of the scene's first view.
     pub(crate) primary: Vec<Ray>,
-    /// Rays from their hits to a light, which is at t = 1.
+    /// Rays from these hits to a light, which is at t = 1.
     pub(crate) shadow: Vec<Ray>,
 }
 

@@ -1,4 +1,4 @@
-//! Measures the table of docs/performance.md. On a shared machine the fastest of many short runs is more reliable than
+//! Measures the table of docs/performance.md. On a shared machine, the fastest of many short runs is more reliable than
 //! a median of long ones. So rays are traced in small parts, by each tracer in turn, repeatedly; the fastest times of
 //! each tracer are summed over the parts.
 

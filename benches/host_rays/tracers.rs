@@ -50,8 +50,8 @@ pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
     ]
 }
 
-/// Asserts that all ray casters see about the same. `bvh` treats triangles below an absolute bound as edge-on, and so
-/// misses small ones.
+/// Asserts that all ray casters find about the same number of hits. `bvh` treats triangles below an absolute size as
+/// edge-on, and so misses small ones.
 pub(crate) fn compare(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room) {
     let counts = |tracer: &dyn Tracer| [tracer.nearest(&room.primary), tracer.occluded(&room.shadow)];
     let ours = counts(tracers[0].1.as_ref());
@@ -138,7 +138,7 @@ impl BvhTracer {
             Traversal::Heap => {
                 let mut best = f32::INFINITY;
                 for shape in self.tree.nearest_traverse_iterator(&ray, &self.shapes) {
-                    // Boxes come in the order of their entry.
+                    // Boxes are sorted by entry distance.
                     if ray.intersection_slice_for_aabb(&shape.aabb()).is_some_and(|(entry, _)| entry > best) {
                         break;
                     }

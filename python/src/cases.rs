@@ -21,7 +21,7 @@ use crate::signals;
 /// Case bound to a device, with the inputs that replace its own.
 #[pyclass(frozen, module = "crossbar_gi._native")]
 pub(crate) struct Case {
-    /// Shared with draws that go on after Ctrl-C.
+    /// Shared with draws that continue after Ctrl-C.
     pub(crate) setup: Arc<Setup>,
     pub(crate) name: String,
 }
@@ -80,7 +80,7 @@ impl Case {
                 return Err(value_error(format!("expected a constant from c0 to c255, found c{index}")));
             }
             float.resize(float.len().max(index + 1), [0; 4]);
-            // To nearest even, as a case's numbers.
+            // Rounds to nearest even, as the numbers of a case are.
             float[index] = value.map(|number| (number as f32).to_bits());
         }
         for (slot, texels) in textures {
@@ -107,7 +107,7 @@ impl Case {
         Ok((document, targets, depth.map(|depth| depth.into_pyarray(py))))
     }
 
-    /// Trace of a pixel, as JSON.
+    /// Traces a pixel; returns JSON.
     fn trace(&self, py: Python<'_>, x: u32, y: u32, executor_name: &str) -> PyResult<String> {
         let kind = executor(executor_name)?;
         let [width, height] = self.setup.size;
@@ -149,7 +149,7 @@ fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseErr
     Ok((document.to_string(), targets, depth))
 }
 
-/// A texture's picture replaced by an array of its size: red, green, blue, alpha as singles.
+/// A texture's picture, replaced by an array of equal size: red, green, blue, alpha in single precision.
 fn image(old: &Image, slot: usize, texels: &PyReadonlyArray3<'_, f32>) -> PyResult<Image> {
     if !matches!(old.kind(), TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle) || old.levels().len() > 1 {
         let sentence = format!("t{slot}: arrays replace 1d, 2d and rectangle textures of one level, not this one");
@@ -168,7 +168,7 @@ fn image(old: &Image, slot: usize, texels: &PyReadonlyArray3<'_, f32>) -> PyResu
         .map_err(|error| value_error(format!("t{slot}: {error}")))
 }
 
-/// Time on the card in microseconds by model; null where the device lacks a figure.
+/// Modelled time on the card in microseconds; null if the device lacks a figure.
 fn modelled(setup: &Setup, log: &[Event]) -> Value {
     let time = |level: Level| {
         let model = Model::new(level, &setup.profile).ok()?;
@@ -178,7 +178,7 @@ fn modelled(setup: &Setup, log: &[Event]) -> Value {
     json!({ "rates_us": time(Level::Rates), "pipeline_us": time(Level::Pipeline) })
 }
 
-/// One case on two sides, as JSON: `pixel` is followed whether or not it differs, `registers` follows all.
+/// Compares one case on two sides; returns JSON. `pixel` traces one pixel in any case, `registers` traces all pixels.
 #[pyfunction]
 #[pyo3(signature = (left, right, executors, pixel, registers))]
 pub(crate) fn compare(

@@ -1,4 +1,4 @@
-//! Errors of the library as `ValueError`: the sentence, what caused it, and what to do.
+//! Library errors as `ValueError`: the sentence, its causes, and advice.
 
 use std::error::Error;
 

@@ -56,7 +56,7 @@ impl Numbers<'_> {
         MatrixInput { name: name.to_owned(), data }
     }
 
-    /// Patterns of a type, in the order of C.
+    /// Patterns of a type, in C order.
     fn codes(self, name: &str, element: Element) -> PyResult<Vec<u64>> {
         match self.named(name).data {
             NumbersOrCodes::Codes(array) => match array.values.iter().find(|&&x| u128::from(x) >> element.width() != 0)
@@ -91,8 +91,8 @@ fn unit_with_types(name: &str, types: [Option<String>; 2]) -> PyResult<(MatrixUn
 /// Words of a result, and their width in bits.
 type Words<'py> = (Bound<'py, PyArray1<u64>>, u32);
 
-/// A matrix product, row by row. `bits_promote` holds the bits that are kept, in place of the unit's, and the products
-/// of a promotion.
+/// A matrix product, row by row. `bits_promote` holds the kept bits, which replace the unit's, and the number of
+/// products between promotions.
 #[pyfunction]
 pub(crate) fn matmul<'py>(
     py: Python<'py>,

@@ -35,8 +35,8 @@ fn parse(text: &str) -> PyResult<Format> {
     text.parse().map_err(|error: FormatError| refused(&error))
 }
 
-/// An operation in a format, or the rounding alone, in the vector code of the emulator where the format has it, else by
-/// the definition, one number after the other.
+/// An operation in a format, or rounding alone: in the emulator's vector code if the format has it, otherwise number by
+/// number by the definition.
 #[derive(Clone)]
 enum Computation {
     Rows(Box<ArrayOperation>),
@@ -57,7 +57,7 @@ impl Computation {
         Ok(rows.map_or(Self::Single { format, operation, seed }, |rows| Self::Rows(Box::new(rows))))
     }
 
-    /// Numbers to numbers.
+    /// Computes numbers from numbers.
     fn doubles(&mut self, operands: [&[f64]; 3], out: &mut [f64], start: usize) {
         match self {
             Self::Rows(rows) => rows.doubles(operands, out),
@@ -75,8 +75,8 @@ impl Computation {
         }
     }
 
-    /// By the definition; operands are rounded to nearest even under stochastic rounding, whose word is that of the
-    /// result's place.
+    /// Computes by the definition. Under stochastic rounding, operands are rounded to nearest even, and the random word
+    /// is that of the result's index.
     fn each<T: Copy + Default>(
         &self,
         operands: [&[T]; 3],
@@ -126,7 +126,7 @@ fn over<T: Element + Copy + Sync + Send, R: Element + Send, C: Clone + Sync>(
     })
 }
 
-/// Tells if a number is NaN. Without a branch per number.
+/// Tells if a number is NaN, without a branch per number.
 fn has_nan(numbers: &[f64]) -> bool {
     numbers.chunks(1 << 12).any(|some| some.iter().fold(false, |found, x| found | x.is_nan()))
 }
@@ -142,7 +142,7 @@ fn refuse_nan(format: &Format, operands: &[PyReadonlyArrayDyn<'_, f64>]) -> PyRe
             Some(all) => has_nan(all),
             None => view.iter().any(|x| x.is_nan()),
         };
-        // The search for its place is slow, for the message alone.
+        // The search for the index is slow, and needed only for the message.
         if let Some((place, _)) = found.then(|| view.indexed_iter().find(|(_, x)| x.is_nan())).flatten() {
             let place: Vec<String> = place.slice().iter().map(usize::to_string).collect();
             let at = if place.is_empty() { String::new() } else { format!("[{}]", place.join(", ")) };
@@ -283,7 +283,7 @@ pub(crate) fn format_facts<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'
     facts.set_item("min", number(format.min_finite()))?;
     facts.set_item("has_nan", format.canonical_nan().is_some())?;
     facts.set_item("has_infinity", format.infinity(false).is_some())?;
-    // Patterns of positive numbers rise with them: the smallest is the first above zero; scales have no zero.
+    // Positive patterns are ordered as their numbers: the smallest is the first above zero; scales have no zero.
     let smallest = if format.is_signed() { 1 } else { 0 };
     facts.set_item("smallest", number(smallest))?;
     let one = format.one();

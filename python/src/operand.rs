@@ -1,4 +1,4 @@
-//! Arrays of the shape of a result, element by element in the order of C.
+//! Operands with the shape of a result, element by element in C order.
 
 use numpy::ndarray::{ArrayViewD, Axis};
 use numpy::{Element, PyReadonlyArrayDyn};
@@ -14,7 +14,7 @@ impl<'a, T: Element + Copy> Operand<'a, T> {
     /// An array of the result's shape, or of one element.
     pub(crate) fn new(array: &'a PyReadonlyArrayDyn<'_, T>) -> Self {
         let view = array.as_array();
-        // Not the array's own slice, which it has in the order of Fortran, too.
+        // Not `array.as_slice()`, which also succeeds in Fortran order.
         match (view.to_slice(), view.first()) {
             (_, Some(&one)) if view.len() == 1 => Self::One([one]),
             (Some(all), _) => Self::All(all),
@@ -43,7 +43,7 @@ fn collect<T: Copy>(view: &ArrayViewD<'_, T>, start: usize, length: usize, buffe
     for row in start / columns.. {
         let mut line = view.view();
         let mut rest = row;
-        // The last but one axis counts fastest.
+        // The next axis to the left varies fastest among the remaining ones.
         while line.ndim() > 1 {
             let axis = line.ndim() - 2;
             let side = line.len_of(Axis(axis)).max(1);

@@ -1,4 +1,4 @@
-//! Exact first hits, and hits held against them.
+//! Exact first hits, and the comparison of hits with them.
 
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
 use crossbar::oracle::{self as library, Aim, Disagreement, DisagreementKind, JudgedRay, Tolerance};
@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 use crate::error::value_error;
 use crate::signals::fill;
 
-/// Rays of one task of a thread, and tasks at a time.
+/// Rays per task of a thread, and tasks at a time.
 const TASKS: (usize, usize) = (256, 64);
 
-/// Names of the kinds of a verdict, in the order of their codes; 0 is right.
+/// Names of the kinds of verdicts, in the order of their codes; 0 is correct.
 #[pyfunction]
 pub(crate) fn kinds() -> Vec<&'static str> {
     ["right"].into_iter().chain(DisagreementKind::ALL.map(DisagreementKind::name)).collect()
@@ -246,7 +246,7 @@ impl Oracle {
         Ok((kinds, aims, rounding, hit_columns(py, &verdicts), column(py, &verdicts, |v| v.ulps)))
     }
 
-    /// Report in words: counts, and the ten worst rays as source.
+    /// Report as text: counts, and the ten worst rays as source code.
     fn report(
         &self,
         py: Python<'_>,
@@ -275,13 +275,13 @@ fn verdict(nearest: Option<&crossbar::geom::NearestHit>, wrong: Option<&Disagree
     }
 }
 
-/// Steps of f32 between the t found and the exact one, -1 where one is missing or not finite.
+/// ULPs of f32 between the found and the exact t; -1 if one is missing or not finite.
 fn t_ulps(nearest: Option<&crossbar::geom::NearestHit>, hit: Option<Hit>) -> i64 {
     let steps = nearest.zip(hit).and_then(|(nearest, hit)| crossbar::compare::f32_ulps(nearest.t.to_f32(), hit.t));
     steps.map_or(-1, |steps| steps.cast_signed())
 }
 
-/// Origins, directions and codes of aims of at most `each` hard rays of each aim.
+/// Origins, directions and aim codes of at most `each` hard rays per aim.
 #[pyfunction]
 pub(crate) fn hard_rays<'py>(
     py: Python<'py>,

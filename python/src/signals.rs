@@ -1,4 +1,4 @@
-//! Long work without the interpreter's lock, which Ctrl-C ends.
+//! Long work without the interpreter's lock, which Ctrl-C interrupts.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -12,11 +12,11 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-/// Elements of one task of a thread.
+/// Elements per task of a thread.
 const TASK: usize = 1 << 14;
 
-/// Fills an array in tasks of at most `task` elements, `together` of them in parallel at a time; signals are handled in
-/// between. `work` takes its state, the place of the first element and a part of the array.
+/// Fills an array in tasks of at most `task` elements, `together` of them in parallel; signals are handled in between.
+/// `work` takes its state, the index of the first element and a part of the array.
 pub(crate) fn fill<T: Send, S>(
     py: Python<'_>,
     out: &mut [T],
@@ -25,7 +25,7 @@ pub(crate) fn fill<T: Send, S>(
     work: impl Fn(&mut S, usize, &mut [T]) + Sync,
 ) -> PyResult<()> {
     if out.len() <= task {
-        // Quicker than to give the lock away.
+        // Faster than releasing the lock.
         work(&mut state(), 0, out);
         return Ok(());
     }
@@ -53,7 +53,7 @@ pub(crate) fn fill_quickly<T: Send, S>(
 /// Maximum delay of Ctrl-C.
 const POLL: Duration = Duration::from_millis(20);
 
-/// Runs a study on a thread of its own, without the lock. Ctrl-C returns at once, and ends the study at its next step.
+/// Runs a study on its own thread, without the lock. Ctrl-C returns at once, and ends the study at its next step.
 pub(crate) fn study<R: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&mut ProgressFn<'_>) -> R + Send + 'static,
@@ -73,8 +73,8 @@ pub(crate) fn study<R: Send + 'static>(
     result
 }
 
-/// Runs work on a thread of its own, without the lock. Ctrl-C returns at once; the work continues to its end, and its
-/// result is discarded.
+/// Runs work on its own thread, without the lock. Ctrl-C returns at once; the work continues to its end, and its result
+/// is discarded.
 pub(crate) fn aside<R: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> R + Send + 'static) -> PyResult<R> {
     let (sender, mut receiver) = mpsc::channel();
     thread::Builder::new().name("crossbar".to_owned()).spawn(move || {

@@ -1,4 +1,4 @@
-//! Studies as documents, and how two pictures differ.
+//! Studies as documents, and the difference of two pictures.
 
 use std::str::FromStr;
 
@@ -68,7 +68,7 @@ pub(crate) fn precision(
     found.map_err(|error: StudyError| refused(&error))
 }
 
-/// SSIM (none of pictures smaller than its window), mean and largest FLIP, and FLIP of each pixel.
+/// SSIM (none for pictures smaller than its window), mean and largest FLIP, and FLIP of each pixel.
 type Difference<'py> = (Option<f64>, f64, f64, Bound<'py, PyArray2<f64>>);
 
 /// Compares two pictures of shape (height, width, 3) as an observer sees them.

@@ -116,7 +116,7 @@ fn copy(profile: &Profile) -> CheckedProgram {
     checked("ps_2_0\ndcl t0\nmov oC0, t0", profile)
 }
 
-/// Rules for products and sums; every format of the list twice.
+/// Rules for products and sums, with every format of the list twice.
 fn products_and_sums_agree(gpu: &Arc<Gpu>) {
     // Each draw has its own shader, which a driver compiles for seconds. Formats alternate.
     for seed in (0..24).step_by(by_form(5, 1)) {
@@ -153,7 +153,7 @@ fn memory_follows(gpu: &Arc<Gpu>) {
     pair.device.update_texture(first, &image).unwrap_err();
     let released = [pair.reference.release_texture(first), pair.device.release_texture(first)];
     assert_eq!(released[0], released[1], "what is released is what was drawn");
-    // Reuses the first one's memory on the GPU.
+    // Reuses the memory of the first on the GPU.
     let third = pair.target(TexelFormat::Rgba16f, 33, 17, bits([0.125; 4]));
     draw(&mut pair, third);
     pair.same(&[second, third], None, "a new target");
@@ -264,7 +264,7 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
             assert_eq!((a, parts), (b, None), "{pixel:?}");
         }
     }
-    // Nothing was drawn, and a draw gives what the trace found.
+    // The trace drew nothing, and a draw equals the trace's results.
     pair.same(&[target], Some(depth), "before");
     pair.draw(&call, "after a trace");
     pair.same(&[target], Some(depth), "after");
@@ -272,7 +272,7 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
     assert_eq!(traced(&pair.device), traced(&pair.reference));
 }
 
-/// The buffers of a trace give the first fragment of each pixel, in more than one dispatch if it takes long.
+/// The buffers of a trace give the first fragment of each pixel, in several dispatches if it takes long.
 fn buffers_of_a_trace_run_elsewhere(gpu: &Arc<Gpu>) {
     let profile = Profile::named("r300").unwrap();
     let reads = "texld r1, r0, s0\nmad r0, r1, c0, r0\n".repeat(3);

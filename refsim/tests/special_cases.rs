@@ -33,7 +33,7 @@ struct Row {
     device: &'static str,
     opcode: &'static str,
     operands: Vec<&'static str>,
-    /// The result that the project gives: the specification's, or the one that the row states instead.
+    /// The project's expected result: the specification's, or the row's exception.
     expected: &'static str,
 }
 
@@ -54,7 +54,7 @@ fn rows() -> Vec<Row> {
     lines.collect()
 }
 
-/// The number of a word; `nan` is a NaN.
+/// The number of a word; `nan` gives a NaN.
 fn number(word: &str) -> u32 {
     word.parse::<f32>().unwrap_or_else(|e| panic!("{word}: {e}")).to_bits()
 }
@@ -80,7 +80,7 @@ fn agrees(found: u32, word: &str) -> bool {
     }
 }
 
-/// Every language has rows, and every word is a number or one of the others.
+/// Every language has rows, and every word is a number or a keyword.
 fn the_table_is_sound() {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for row in rows() {
@@ -100,14 +100,14 @@ fn with_unit(row: &Row) -> Profile {
     if row.language != "VP1.0" {
         return named(row.device);
     }
-    // Its vertex unit, in front of pixels that pass every number on.
+    // The vertex unit, followed by pixels that pass every number on.
     let (mut profile, card) = (named("ideal-fp32"), named(row.device));
     profile.rules.vertex_format = card.rules.vertex_format;
     profile.rules.vertex_zero_times_anything = card.rules.vertex_zero_times_anything;
     profile
 }
 
-/// The device of a row with vertex programs as the specifications have them: exact results, rounded once.
+/// The device of a row with vertex programs by the specifications: exact results, rounded once.
 fn profile(row: &Row) -> Profile {
     let mut profile = with_unit(row);
     profile.rules.vertex_format = match (row.language, profile.rules.vertex_format.unit) {
@@ -121,7 +121,7 @@ fn profile(row: &Row) -> Profile {
 const SCALAR: [&str; 14] =
     ["COS", "SIN", "EX2", "LG2", "RCP", "RSQ", "POW", "rcp", "rsq", "exp", "log", "expp", "logp", "pow"];
 
-/// The vertex program, if the row is of one, and the pixel program.
+/// The vertex program, if the row has one, and the pixel program.
 fn programs(row: &Row) -> (Option<String>, String) {
     let op = row.opcode;
     let list = |register: &str| {
@@ -215,7 +215,7 @@ fn draw(machine: &mut Machine, row: &Row, programs: &(Option<CheckedProgram>, Ch
     [0, 32, 64, 96].map(|shift| (raw >> shift) as u32)
 }
 
-/// Draws all rows; returns a line for each whose result is another than expected.
+/// Draws all rows; returns a line for each unexpected result.
 fn departures(profile: impl Fn(&Row) -> Profile, machine: impl Fn(&Profile) -> Machine) -> String {
     let (mut machines, mut assembled) = (BTreeMap::new(), BTreeMap::new());
     let mut wrong = String::new();
@@ -259,8 +259,8 @@ fn run(machine: impl Fn(&Profile) -> Machine) {
     assert!(wrong.is_empty(), "{} rows:\n{wrong}", wrong.lines().count());
 }
 
-/// Lines of the table that the vertex units of NV20 and of NV30's family, as they were measured, compute otherwise: 0 to
-/// the power 0, powers and logarithms from tables, NaN in comparisons, and signs of zeros.
+/// Lines of the table on which the measured vertex units of NV20 and of NV30's family differ: 0 to the power 0, powers
+/// and logarithms from tables, NaN in comparisons, and signs of zeros.
 const MEASURED_OTHERWISE: &[usize] = &[
     576, 577, 578, 579, 583, 584, 597, 598, 604, 608, 609, 610, 624, 625, 626, 627, 631, 632, 645, 646, 652, 656, 657,
     658, 676, 677, 679, 682, 685, 686, 687, 693, 702, 703, 708, 709, 712, 715, 724, 728, 729, 732, 733, 739, 740,

@@ -1,4 +1,4 @@
-//! The texts of the pixel kernel and of the trace kernel are valid modules; images as their words.
+//! The texts of the pixel kernel and of the trace kernel are valid modules; images as words.
 
 #[path = "common/valid_wgsl.rs"]
 mod valid_wgsl;

@@ -28,7 +28,7 @@ impl CardArgs {
         switch::device(self.device.as_deref().unwrap_or(of_paper), &self.switch)
     }
 
-    /// The options that choose the card, each with whether it was given.
+    /// The options that choose the card, each with `true` if it was given.
     pub(super) fn given(&self) -> [(&'static str, bool); 2] {
         [("--device", self.device.is_some()), ("--switch", !self.switch.is_empty())]
     }

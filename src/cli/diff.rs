@@ -1,4 +1,4 @@
-//! `crossbar diff`: how far two pictures are from each other.
+//! `crossbar diff`: the difference of two pictures.
 
 use std::path::{Path, PathBuf};
 

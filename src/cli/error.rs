@@ -1,4 +1,4 @@
-//! How errors look on the terminal, in a log and to a machine.
+//! Errors on the terminal, in a log and as JSON.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -17,7 +17,7 @@ use crate::error::InputError;
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
 
-/// Columns of tables and errors that go to a file or pipe, so that their text does not depend on a terminal.
+/// Width of tables and errors that go to a file or pipe, so that their text does not depend on a terminal.
 pub(super) const PLAIN_WIDTH: usize = 100;
 
 /// Standard output could not be written.
@@ -26,19 +26,19 @@ pub(super) const PLAIN_WIDTH: usize = 100;
 #[diagnostic(code(crossbar::output))]
 pub struct OutputError(#[from] io::Error);
 
-/// Bad input that a command found itself, or its end by a signal; modules bring their own errors.
+/// Bad input found by a command, or termination by a signal; modules have their own errors.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum Problem {
-    /// A file or folder that cannot be written; nothing of it was left behind.
+    /// A file or folder that cannot be written; no incomplete file remains.
     #[error(transparent)]
     #[diagnostic(code(crossbar::unwritable))]
     Unwritable(#[from] WriteError),
-    /// Input that a room cannot use.
+    /// Input that a module refuses.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Input(#[from] InputError),
-    /// A signal ended the work before its files were there.
+    /// A signal ended the work before its files were written.
     #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
     #[diagnostic(
         code(crossbar::interrupted),
@@ -63,7 +63,7 @@ impl Problem {
     }
 }
 
-/// An error about a device, with the name that was meant in its help.
+/// An error about a device, with a suggested name in its help.
 #[derive(Debug, thiserror::Error)]
 #[error(transparent)]
 struct Suggestion {
@@ -83,13 +83,13 @@ impl Diagnostic for Suggestion {
     }
 }
 
-/// The report, with the name that was meant if it is about a device: the emulator only lists the names.
+/// The report, with a suggested name if it is about a device: the emulator only lists the names.
 fn suggested(report: Report) -> Report {
     let error = match (report.downcast_ref::<DeviceError>(), report.downcast_ref::<CaseError>()) {
         (Some(error), _) | (_, Some(CaseError::Device(error))) => error.clone(),
         _ => return report,
     };
-    // Wrappers of the error stay around it.
+    // Keeps the contexts around the error.
     let (outer, inner) = (report.to_string(), error.to_string());
     let suggestion = Report::from(Suggestion { error });
     if outer == inner { suggestion } else { suggestion.wrap_err(outer) }
@@ -105,7 +105,7 @@ fn handler(terminal: bool) -> Box<dyn ReportHandler> {
     }
 }
 
-/// A diagnostic as text for a terminal or a log: of each list of errors the first few.
+/// Formats a diagnostic as text for a terminal or a log, with the first few errors of each list.
 fn render(diagnostic: &dyn Diagnostic, terminal: bool) -> String {
     struct Rendered(ShownError, Box<dyn ReportHandler>);
     impl fmt::Display for Rendered {
@@ -152,7 +152,7 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
     }
 }
 
-/// A usage error for machines: clap's sentence and its help.
+/// A usage error as JSON: clap's sentence and its help.
 pub(super) fn usage_problem(error: &clap::Error) -> Problem {
     let text = visible(&error.render().to_string()).into_owned();
     let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
@@ -179,7 +179,7 @@ pub(super) fn print_usage(
     }
     match parse(safe.into_iter().map(OsString::from).collect()) {
         Some(same) => same.print().ok(),
-        // The safe arguments are fine: the message is shown plain.
+        // The escaped arguments parse: the message is shown plain.
         None => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
     };
 }

@@ -2,7 +2,7 @@
 
 use super::Problem;
 
-/// Refuses the first option that was given: each stands with whether it was. `only_for` completes "is for". Fails with
+/// Refuses the first option that was given; each has `true` if it was. `only_for` completes "is for". Fails with
 /// [`Problem::Usage`].
 pub(super) fn refuse<'a>(
     options: impl IntoIterator<Item = (&'a str, bool)>,

@@ -3,13 +3,13 @@
 #[cfg(unix)]
 use super::{Problem, error};
 
-/// Time that the program waits for a reader of its last message.
+/// Maximum time that the program waits for its last message to be read.
 #[cfg(unix)]
 const LAST_WORDS: std::time::Duration = std::time::Duration::from_millis(500);
 
-/// On SIGINT, SIGTERM and SIGHUP from here on: removes half-written files, reports that the work is lost, then ends as
-/// the signal would have ended the program, which shells report as 130, 143 and 129. A signal that the caller ignores,
-/// as `nohup` does SIGHUP, stays ignored.
+/// From now on, SIGINT, SIGTERM and SIGHUP remove half-written files, report that the work is lost, and end the program
+/// as the signal would have: shells report 130, 143 and 129. A signal that the caller ignores, as `nohup` does SIGHUP,
+/// stays ignored.
 #[cfg(unix)]
 pub(super) fn clean_up_on_signals(json: bool) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -47,7 +47,7 @@ fn say_what_is_lost(json: bool) {
 #[cfg(not(unix))]
 pub(super) const fn clean_up_on_signals(_json: bool) {}
 
-/// The signals that the process was started to ignore, signal n as bit n - 1; none if the system does not report them.
+/// Signals that the process inherited as ignored, signal n as bit n - 1; 0 if the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

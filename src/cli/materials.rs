@@ -20,7 +20,7 @@ Examples:
 
 Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
 
-/// Distances that are shown, in mean free paths of the longest.
+/// Distances that are shown, in units of the longest mean free path.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
 /// Fractions of the light whose radii are shown.
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
@@ -47,7 +47,7 @@ fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "coefficients are per mm; `crossbar materials` shows published ones")
 }
 
-/// The published medium of a name.
+/// Looks up a published medium by name.
 pub(super) fn published(name: &str) -> Result<&'static PublishedMaterial, Problem> {
     named(name).ok_or_else(|| {
         let names = MATERIALS.map(|material| material.name);

@@ -70,7 +70,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-/// What errors are against.
+/// The reference of errors: a unit; `None` for the exact product.
 #[derive(Clone, Debug)]
 struct MatmulReference(Option<MatrixUnit>);
 

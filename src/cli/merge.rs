@@ -46,7 +46,7 @@ impl Args {
         std::iter::once(OsString::from("crossbar")).chain(words).chain([out]).collect()
     }
 
-    /// Refuses a command without `--part`: its parts were not written by this program.
+    /// Refuses a command without `--part`: this program did not write its parts.
     pub(super) fn require_divisible(&self, program: &clap::Command, parts: &PartSet) -> Result<(), InputError> {
         let mut command = program;
         for word in &parts.command().arguments {

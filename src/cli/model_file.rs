@@ -13,7 +13,7 @@ use crate::io::{ModelNote, ModelOptions, UpAxis, load_mesh_with, scene_file};
 use crate::report::visible::visible_line;
 use crate::scene::Scene;
 
-/// The arguments that name a model, the first of a command that counts.
+/// Names of arguments that name a model; the first that a command has counts.
 const NAMED_BY: [&str; 3] = ["mesh", "scene", "model"];
 const UP: &str = "model_up";
 const STRICT: &str = "strict";
@@ -51,7 +51,7 @@ fn named_by(command: &Command) -> Option<&'static str> {
 /// report that if a model excludes the option given instead.
 pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
-    // Matches cannot be asked which arguments exist: clap keeps the list with debug assertions only.
+    // clap keeps the list of a command's arguments only with debug assertions.
     let Some(named_by) = named_by(command) else { return Ok(()) };
     let up = matches.get_one::<String>(UP).map(|axis| if axis == "y" { UpAxis::Y } else { UpAxis::Z });
     let strict = matches.get_flag(STRICT);
@@ -59,7 +59,7 @@ pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Prob
         let options = [("--model-up", up.is_some()), ("--strict", strict)];
         given::refuse(options, "a model's file, found none", "name a model, or leave it out")?;
     }
-    // Set once: one command reads models, that of the line or that whose parts are merged.
+    // Set once: one command reads models, either the command line's or the parts' command.
     OPTIONS.set(ModelOptions { up, strict }).ok();
     Ok(())
 }
@@ -88,14 +88,14 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
     Ok(mesh)
 }
 
-/// A scene from one of these, or from a scene file that names one.
+/// A scene from a model file, or from a scene file that names one.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     let (scene, notes) = scene_file::load_with(path, options())?;
     tell(path, &notes);
     Ok(scene)
 }
 
-/// Reports the repairs and defects of a model on standard error, once each.
+/// Reports the repairs and defects of a model on standard error, each once.
 fn tell(path: &Path, notes: &[ModelNote]) {
     static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);

@@ -9,10 +9,10 @@ use crate::scene::built::flat_models::MaterialMesh;
 use crate::scene::built::{self, meshes};
 use crate::scene::{Material, Scene};
 
-/// The material of models that have none: reflectance a half.
+/// The material of models without one: reflectance 0.5.
 const PLAIN: [f32; 3] = [0.5; 3];
 
-/// A mesh with the normals that it has, and a material per triangle.
+/// A mesh with its own normals, and a material per triangle.
 pub(super) struct Model {
     pub(super) mesh: Mesh,
     pub(super) materials: Vec<Material>,
@@ -41,17 +41,17 @@ pub(super) fn transfer_model_help() -> String {
     )
 }
 
-/// The path, unless it is the name of a mesh or of a scene of the project.
+/// The path, unless it names a mesh or scene of the project.
 pub(super) fn named_file(path: &Path) -> Vec<&Path> {
     if meshes::names().any(|name| path == Path::new(name)) { Vec::new() } else { scene_name::named_file(path) }
 }
 
-/// The mesh of the project by its name, of a scene by its name, or of a file, with the normals that it has.
+/// A mesh of the project, the mesh of a scene of the project, or of a file, with its own normals.
 pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
     Ok(model(path)?.mesh)
 }
 
-/// The model, with materials, of a name or a file, as [`mesh`].
+/// The model, with materials, found by [`mesh`]'s rules.
 pub(super) fn model(path: &Path) -> miette::Result<Model> {
     let name = path.to_str().unwrap_or_default();
     if let Some(MaterialMesh { mesh, materials, material_of }) = meshes::build_with_materials(name) {

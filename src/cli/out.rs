@@ -15,7 +15,7 @@ use crate::report::visible::{visible, visible_json, visible_line};
 pub struct Out {
     stdout: BufWriter<Stdout>,
     json: bool,
-    /// The reader is gone, but the command continues for its exit code.
+    /// `true` after the output was closed, when the command continues only for its exit code.
     deaf: bool,
     outlive_reader: bool,
 }
@@ -27,7 +27,7 @@ impl Out {
         Self { stdout, json, deaf: false, outlive_reader: false }
     }
 
-    /// Returns `true` if the output is for machines.
+    /// Returns `true` if the output is JSON.
     pub const fn json(&self) -> bool {
         self.json
     }
@@ -40,7 +40,7 @@ impl Out {
         said.or_else(terminal).unwrap_or(error::PLAIN_WIDTH)
     }
 
-    /// From here on a closed pipe does not end the command: it runs to its verdict.
+    /// From now on a closed pipe does not end the command: it runs to its verdict.
     pub const fn outlive_reader(&mut self) {
         self.outlive_reader = true;
     }
@@ -56,8 +56,8 @@ impl Out {
         self.line(wrapped(&visible_line(&text.to_string()), Self::width(), "  ").join("\n"))
     }
 
-    /// Writes a table without its title, no wider than the terminal, and which rows were folded in it. Fails if
-    /// standard output cannot be written.
+    /// Writes a table without its title, within the terminal's width, and notes on folded rows. Fails if standard
+    /// output cannot be written.
     pub fn table(&mut self, table: &Table) -> Result<(), OutputError> {
         self.line(table.text_within(Self::width()))?;
         table.notes().into_iter().try_for_each(|note| self.sentence(note))
@@ -69,7 +69,7 @@ impl Out {
         self.table(table)
     }
 
-    /// Writes what a check found, in the form of an error. Fails if standard output cannot be written.
+    /// Writes a check's finding in the form of an error. Fails if standard output cannot be written.
     pub fn finding(&mut self, finding: &dyn Diagnostic) -> Result<(), OutputError> {
         let text = error::render_finding(finding);
         Ok(writeln!(self, "{text}")?)

@@ -7,10 +7,10 @@ use clap::{ArgMatches, Command};
 
 use super::Problem;
 
-/// The options whose value is the path of a file or folder that is written.
+/// The options whose value is the path of an output.
 const OUTPUTS: [&str; 5] = ["out", "csv", "matrix", "sheet", "perfetto"];
 
-/// Refuses two outputs with one path: one would overwrite the other. Fails with [`Problem::Usage`].
+/// Refuses two outputs with one path, since one would overwrite the other. Fails with [`Problem::Usage`].
 pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = obeyed(program, matches);
     let mut seen: Vec<(&str, PathBuf)> = Vec::new();
@@ -32,7 +32,7 @@ pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Resu
     Ok(())
 }
 
-/// The requested command of a line, below the program and its subcommands, with its matches.
+/// The command that runs, below the program and its subcommands, with its matches.
 pub(super) fn obeyed<'a>(program: &'a Command, matches: &'a ArgMatches) -> (&'a Command, &'a ArgMatches) {
     let inner = matches.subcommand().and_then(|(name, inner)| Some((program.find_subcommand(name)?, inner)));
     inner.map_or((program, matches), |(command, inner)| obeyed(command, inner))
@@ -59,7 +59,7 @@ pub(super) fn with_common_settings(program: Command) -> Command {
         let short = SHORT.into_iter().find(|(long, _)| arg.get_long() == Some(long));
         let arg = short.map_or(arg.clone(), |(_, short)| arg.short(short));
         match arg.get_action().takes_values() && !arg.is_positional() {
-            // One that takes all that begins with a hyphen takes numbers too.
+            // An option that takes everything after a hyphen takes numbers too.
             true if !arg.is_allow_hyphen_values_set() => arg.allow_negative_numbers(true),
             _ => arg,
         }

@@ -35,7 +35,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    // Before the work, so that a folder that cannot be written is found out at once.
+    // Checked before the work, so that an unwritable folder is found at once.
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let emulator = args.emulator.as_deref().map(read_emulator).transpose()?;
     let bar = ProgressBar::new("", 1);

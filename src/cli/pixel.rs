@@ -10,7 +10,7 @@ pub(super) fn parse(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| format!("expected a pixel as `3,4`, column and row from 0; found `{text}`"))
 }
 
-/// The pixel, if a surface of this size has it.
+/// The pixel, if it lies within a surface of this size.
 pub(super) fn within([x, y]: [u32; 2], [width, height]: [u32; 2]) -> Result<[u32; 2], Problem> {
     if x < width && y < height {
         return Ok([x, y]);

@@ -1,5 +1,5 @@
-//! Progress of long work, on standard error: a bar on a terminal, a plain line now and then anywhere else. Long work
-//! announces itself once, with the options that make it quicker.
+//! Progress of long work, on standard error: a bar on a terminal, otherwise a plain line from time to time. Long work
+//! announces itself once, with the options that make it faster.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,14 +11,14 @@ use indicatif::{ProgressDrawTarget, ProgressStyle};
 use crate::report::digits::count;
 use crate::report::visible::visible_line;
 
-/// Work that ends earlier writes no plain lines.
+/// Time before the first plain line.
 const FIRST: Duration = Duration::from_secs(2);
-/// From one plain line to the next.
+/// Time between plain lines.
 const EVERY: Duration = Duration::from_secs(10);
-/// Work that will take longer than this from now announces itself.
+/// Remaining time above which work announces itself.
 const LONG: Duration = Duration::from_secs(45);
 
-/// True with `--quiet`, and where errors are JSON for machines, which other lines would disturb.
+/// `true` with `--quiet`, and if errors are JSON, which other lines would disturb.
 static SILENT: AtomicBool = AtomicBool::new(false);
 
 /// Shows no progress from here on.
@@ -26,15 +26,15 @@ pub(super) fn silence() {
     SILENT.store(true, Ordering::Relaxed);
 }
 
-/// Shows how much of some work is done, until it is dropped.
+/// Shows the progress of some work until it is dropped.
 #[derive(Debug)]
 pub struct ProgressBar {
-    /// It draws to standard error and hides itself if that is not a terminal.
+    /// The bar on standard error, hidden unless that is a terminal.
     bar: indicatif::ProgressBar,
     /// True if standard error is not a terminal.
     is_plain: bool,
     pace: Mutex<Pace>,
-    /// Options that make the work quicker; empty if there are none.
+    /// Options that make the work faster; empty if there are none.
     quicker: &'static str,
 }
 
@@ -49,7 +49,7 @@ impl ProgressBar {
         Self { bar, is_plain, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
     }
 
-    /// Names options that make the work quicker, if it will take long: options, as in "a smaller `--size`".
+    /// Sets the options that make long work faster, as in "a smaller `--size`".
     #[must_use]
     pub fn quicker(mut self, quicker: &'static str) -> Self {
         self.quicker = quicker;
@@ -77,10 +77,10 @@ impl ProgressBar {
         self.say();
     }
 
-    /// Writes the due messages: that the work will take long, and without a bar a plain line.
+    /// Writes the due messages: that the work will take long, and, without a bar, a plain line.
     fn say(&self) {
         let (now, done, total) = (Instant::now(), self.bar.position(), self.bar.length().unwrap_or(0));
-        // A panic elsewhere leaves nothing here that is wrong.
+        // A panic elsewhere leaves this data valid.
         let mut pace = self.pace.lock().unwrap_or_else(PoisonError::into_inner);
         let ((left, is_news), is_due) = (pace.left(now, done, total), self.is_plain && pace.is_line_due(now));
         drop(pace);
@@ -119,15 +119,15 @@ impl Drop for ProgressBar {
     }
 }
 
-/// How fast steps are done: work in several stages counts anew from stage to stage.
+/// Speed of steps: each stage of the work is measured anew.
 #[derive(Debug)]
 struct Pace {
     start: Instant,
-    /// When this stage began, steps done then, and steps of the stage.
+    /// Start of this stage, steps done at that time, and steps of the stage.
     stage: (Instant, u64, u64),
     done: u64,
     is_announced: bool,
-    /// When the next plain line is due.
+    /// Time of the next plain line.
     next_line: Instant,
 }
 
@@ -136,7 +136,7 @@ impl Pace {
         Self { start, stage: (start, 0, total), done: 0, is_announced: false, next_line: start + FIRST }
     }
 
-    /// Returns `true` if a plain line is due; if so, the next one is put off.
+    /// Returns `true` if a plain line is due, and then schedules the next one.
     fn is_line_due(&mut self, now: Instant) -> bool {
         let is_due = now >= self.next_line;
         if is_due {
@@ -145,7 +145,7 @@ impl Pace {
         is_due
     }
 
-    /// The time that the rest of a stage takes at its pace, once there is one; and if it is long for the first time.
+    /// Estimated remaining time of a stage, once known; and `true` the first time that it is long.
     fn left(&mut self, now: Instant, done: u64, total: u64) -> (Option<Duration>, bool) {
         if total != self.stage.2 || done < self.done {
             self.stage = (now, done, total);

@@ -105,13 +105,13 @@ fn list(out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// Records the entries that are asked for, or all that have a record; a file that is there stays.
+/// Records the requested entries, or all that have a record; existing files stay.
 fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> {
     let mut entries = choose(&args.entries)?;
     if args.entries.is_empty() {
         entries.retain(|entry| recorded(entry).is_ok_and(|record| record.is_some()));
     }
-    // Before the long work, so that a folder that cannot be written is found out at once.
+    // Checked before the long work, so that an unwritable folder is found at once.
     drop(FileSet::new(folder).map_err(Problem::from)?);
     let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
     let mut table = Table::of("Records", "entry record processor_s wall_s");
@@ -133,7 +133,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     study::show(&found, out)
 }
 
-/// Runs an entry at full size, and writes its record. Intermediate results of an earlier run are beside the record.
+/// Runs an entry at full size, and writes its record. Intermediate results of an interrupted run are beside the record.
 fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
     let arguments = ["reproduce", entry.id, "--record"].map(str::to_owned).to_vec();
     let command = SplitCommand { program: version::program()?, arguments };
@@ -167,7 +167,7 @@ fn clock() -> SpentTime {
 /// Processor time of all threads so far, in seconds; `None` if the system does not report it.
 fn processor_time() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // Behind the name, which may have blanks: state, ten numbers, then ticks in the program and in the system.
+    // After the name, which may have blanks: state, ten numbers, then ticks in the program and in the system.
     let (_, rest) = stat.rsplit_once(')')?;
     let ticks = |at: usize| rest.split_whitespace().nth(at)?.parse::<u64>().ok();
     Some((ticks(11)? + ticks(12)?) as f64 / ticks_per_second() as f64)

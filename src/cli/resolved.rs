@@ -18,12 +18,12 @@ pub(super) struct CommandLine {
     pub(super) text: String,
     /// Arguments with the same meaning for the parser.
     pub(super) arguments: Vec<OsString>,
-    /// Parts that were computed before, if the command is obeyed by `crossbar merge`.
+    /// Parts that were computed before, if `crossbar merge` runs the command.
     pub(super) parts: Option<PartSet>,
 }
 
-/// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. A
-/// default that a given option replaces is left out.
+/// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. Omits a
+/// default that a given option replaces.
 pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLine {
     let mut line = CommandLine { text: program.get_name().to_owned(), arguments: Vec::new(), parts: None };
     let (mut command, mut matches) = (program, matches);
@@ -59,7 +59,7 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
             }
         }
     }
-    // The parser takes them for options anywhere else.
+    // Elsewhere, the parser would take them for options.
     if !last.is_empty() {
         line.arguments.push("--".into());
         line.arguments.extend(last);
@@ -67,7 +67,7 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
     line
 }
 
-/// A value as a POSIX shell reads it.
+/// Quotes a value for a POSIX shell.
 fn quoted(value: &OsStr) -> String {
     let text = value.to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-+=:,./@%".contains(c);
@@ -84,14 +84,14 @@ fn joined(before: &str, value: &OsStr) -> OsString {
     joined
 }
 
-/// Returns `true` if the argument has its default only, and another one that was given excludes it.
+/// Returns `true` if the argument only has its default, and a given argument excludes it.
 fn replaced(command: &Command, arg: &Arg, matches: &ArgMatches) -> bool {
     let given = |other: &&Arg| matches.value_source(other.get_id().as_str()) == Some(ValueSource::CommandLine);
     let default = matches.value_source(arg.get_id().as_str()) == Some(ValueSource::DefaultValue);
     default && command.get_arguments().filter(given).any(|other| command.get_arg_conflicts_with(other).contains(&arg))
 }
 
-/// The values of each occurrence; of a flag that was given `None`, once.
+/// The values of each occurrence; `None`, once, for a given flag.
 fn values(arg: &Arg, matches: &ArgMatches) -> Vec<Option<OsString>> {
     let id = arg.get_id().as_str();
     if matches!(arg.get_action(), ArgAction::SetTrue) {

@@ -64,7 +64,7 @@ impl EyeArgs {
         eye.is_none() && target.is_none() && tan_half_height.is_none()
     }
 
-    /// A camera there; without an eye, one that sees all of the mesh. Up is z, or y for an eye straight above or below.
+    /// A camera; without an eye, it sees all of the mesh. Up is z, or y if the eye is straight above or below.
     pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
         let is_upright = self.eye.zip(self.target).is_some_and(|(eye, target)| eye[..2] == target[..2]);
         let up = if is_upright { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
@@ -90,7 +90,7 @@ pub(super) struct Viewpoint<'a> {
 }
 
 impl Viewpoint<'_> {
-    /// The requested view, else the requested eye, else the scene's first view, else one that shows everything.
+    /// The requested view, else the requested eye, else the scene's first view, else a view of the whole scene.
     pub(super) fn camera(&self, scene: &Scene) -> miette::Result<Camera> {
         let aimed = self.eye.eye.is_some() || self.eye.target.is_some();
         let view = match self.view {

@@ -1,4 +1,4 @@
-//! A diagnostic as people are shown it: hidden characters escaped, long lines cut, no more errors than are read.
+//! A diagnostic for display: hidden characters escaped, long lines truncated, a limited number of errors.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
 use crate::report::Excerpt;
 use crate::report::visible::visible;
 
-/// Most errors of one list that are shown.
+/// Maximum number of errors shown per list.
 pub(super) const MAX_SHOWN: usize = 20;
 
 /// A copy of a diagnostic that any renderer may write to a terminal unchanged.
@@ -21,7 +21,7 @@ pub(super) struct ShownError {
     excerpt: Option<Excerpt>,
     labels: Vec<LabeledSpan>,
     related: Vec<Self>,
-    /// Related diagnostics that were left out.
+    /// Number of omitted related diagnostics.
     more: usize,
     cause: Option<Box<Self>>,
     /// True if a cause is a diagnostic, so that its code and help are shown.
@@ -29,12 +29,12 @@ pub(super) struct ShownError {
 }
 
 impl ShownError {
-    /// The copy; of each list of related diagnostics the first `most`.
+    /// Copies a diagnostic with the first `most` related diagnostics of each list.
     pub(super) fn new(diagnostic: &dyn Diagnostic, most: usize) -> Self {
         Self::within(diagnostic, None, most)
     }
 
-    /// Text of `outer` applies to its causes, unless these have their own text.
+    /// Text of `outer` applies to causes without text of their own.
     fn within(diagnostic: &dyn Diagnostic, outer: Option<&dyn SourceCode>, most: usize) -> Self {
         let source = diagnostic.source_code().or(outer);
         let labels: Vec<LabeledSpan> = diagnostic.labels().map(Iterator::collect).unwrap_or_default();
@@ -69,7 +69,7 @@ impl ShownError {
         Self { message: visible(text).into_owned(), ..Self::default() }
     }
 
-    /// Errors of all lists that were left out.
+    /// Number of omitted errors over all lists.
     pub(super) fn left_out(&self) -> usize {
         self.more + self.related.iter().chain(self.cause.as_deref()).map(Self::left_out).sum::<usize>()
     }

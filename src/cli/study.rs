@@ -1,5 +1,5 @@
-//! The one runner of studies: progress, an output folder that appears at once, tables on standard output, the
-//! exit code. Commands that write no page [`show`] what they found in the same form.
+//! The runner of all studies: progress, an output folder written at once, tables on standard output, the exit code.
+//! Commands that write no page [`show`] their findings in the same form.
 //!
 //! A study's command declares its options and converts them to parameters; [`run`] does the rest.
 
@@ -20,23 +20,23 @@ pub(super) trait StudyArgs {
     /// The study with these options.
     type Study: Study;
 
-    /// Options that make it quicker, shown for long work; empty if there are none.
+    /// Options that make the study faster, shown for long work; empty if there are none.
     const QUICKER: &'static str = "";
 
-    /// The files that it writes and reads.
+    /// The files that the study writes and reads.
     fn files(&self) -> StudyFiles<'_>;
 
-    /// The study, with everything looked up and read.
+    /// Creates the study, with all names looked up and files read.
     fn study(&self) -> miette::Result<Self::Study>;
 }
 
 /// Files of a study's command.
 pub(super) struct StudyFiles<'a> {
-    /// Where its files go; `None` if there are to be none.
+    /// Output folder; `None` for no files.
     folder: Option<&'a Path>,
-    /// Its `--part`, if its work can be split.
+    /// The `--part` option, if the work can be split.
     part: Option<PartArgs>,
-    /// The files that it reads.
+    /// The files that the study reads.
     inputs: Vec<&'a Path>,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut 
         (Some(part), Some(out)) => part.split(command_line, out)?,
         _ => SplitRun::Whole,
     };
-    // Before the long work, so that a folder that cannot be written is found out at once.
+    // Checked before the long work, so that an unwritable folder is found at once.
     let folder = out_folder.filter(|_| !split.is_part());
     let folder = folder.map(FileSet::new).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
@@ -98,7 +98,7 @@ pub(super) fn written<'a>(found: &mut Findings, files: impl IntoIterator<Item = 
     }
 }
 
-/// Prints the introduction, each table, and the other lines with the page of a folder; empty lines part them.
+/// Prints the introduction, each table, and the other lines with the page of a folder, separated by empty lines.
 fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Result<()> {
     let mut is_first = found.introduction().is_empty();
     let mut apart = |out: &mut Out| if std::mem::take(&mut is_first) { Ok(()) } else { out.line("") };

@@ -12,7 +12,7 @@ pub(super) fn device(name: &str, switches: &[(String, String)]) -> Result<Profil
     Ok(profile)
 }
 
-/// The two sides of the first `=`.
+/// Splits at the first `=`.
 pub(super) fn parse(text: &str) -> Result<(String, String), String> {
     text.split_once('=')
         .filter(|(name, value)| !name.is_empty() && !value.is_empty())

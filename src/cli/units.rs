@@ -1,4 +1,4 @@
-//! `crossbar units`: matrix units of GPUs, and how each rule is known.
+//! `crossbar units`: matrix units of GPUs, and the evidence for each rule.
 
 use refsim::num::matrix::{MatrixUnit, UNITS};
 use serde_json::json;

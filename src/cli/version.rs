@@ -22,14 +22,14 @@ pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
     format!("{} ({COMMIT}, features {features})", env!("CARGO_PKG_VERSION"))
 });
 
-/// The program that computes a part: version and commit; or, if these do not identify its sources (a development build,
-/// modified sources), the SHA-256 of its file. Fails if the program's own file cannot be read.
+/// Identifies the program that computes a part: version and commit, or, for a development build or modified sources,
+/// the SHA-256 of its file. Fails if the program's own file cannot be read.
 pub(super) fn program() -> Result<String, InputError> {
     let version = env!("CARGO_PKG_VERSION");
     if !COMMIT.is_empty() && COMMIT.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         return Ok(format!("{version} ({COMMIT})"));
     }
-    // There the file can be read even if it has been replaced since.
+    // On Linux, the running program's file can be read even if it has been replaced.
     let path = if cfg!(target_os = "linux") { Ok("/proc/self/exe".into()) } else { std::env::current_exe() };
     let path: PathBuf = path.map_err(|source| unreadable(Path::new("the program"), source))?;
     let digest = File::open(&path).and_then(sha256).map_err(|source| unreadable(&path, source))?;

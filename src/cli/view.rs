@@ -15,10 +15,10 @@ use crate::options::Size;
 use crate::picture::Picture;
 use crate::scene::Camera;
 
-/// The card where none is named.
+/// The default card.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
 
-/// For `map_err` on parsing a number format.
+/// Converts an error of parsing a number format.
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
     Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`")
         .into()
@@ -27,8 +27,8 @@ pub(super) fn bad_format(error: FormatError) -> miette::Report {
 /// Position of a camera, its target, and its up vector.
 pub(super) type Placement = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
 
-/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh. Without a target
-/// too, the mesh fills the picture.
+/// A camera. Without an eye, it looks down a little from the front and sees all of the mesh; without a target too, the
+/// mesh fills the picture.
 pub(super) fn framing(
     mesh: &Mesh,
     size: Size,
@@ -55,7 +55,7 @@ pub(super) fn framing(
     }
     let target = target.unwrap_or(middle);
     let eye = eye.unwrap_or_else(|| {
-        // The sphere around the mesh touches the edges of the picture where the sine of half the view is radius /
+        // The sphere around the mesh touches the edges of the picture if the sine of half the view is radius /
         // distance.
         let distance = 1.05 * radius * (1.0 + 1.0 / (tangent * tangent)).sqrt();
         [0, 1, 2].map(|i| (f64::from(target[i]) + distance * FRONT[i]) as f32)
@@ -66,11 +66,11 @@ pub(super) fn framing(
 /// Default direction from the target to the eye: from the front, and a little from above.
 const FRONT: [f64; 3] = [0.3, -0.8, 0.52];
 
-/// The part of half a picture's width or height that a model fills.
+/// The fraction of half a picture's width or height that a model fills.
 const FILLED: f64 = 0.92;
 
-/// The nearest eye that looks along [`FRONT`] and sees every vertex, and a target beside `middle`; `None` without such
-/// a picture, where up is along the line of sight.
+/// The nearest eye that looks along [`FRONT`] and sees every vertex, and a target beside `middle`; `None` if there is
+/// no such picture, since up is along the line of sight.
 ///
 /// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at
 /// (e, d). So e lies between max(x + t w) - t d and min(x - t w) + t d, and the least d has the two equal.
@@ -83,7 +83,7 @@ fn filling(
     let exact = |point: [f32; 3]| DVec3::from(point.map(f64::from));
     let toward = DVec3::from(FRONT).normalize();
     let right = exact(up).cross(toward).try_normalize()?;
-    // Along the picture's right, along its up, and towards the eye.
+    // To the right and up in the picture, and towards the eye.
     let axes = [right, toward.cross(right), toward];
     let points = || mesh.iter_corners().flatten().map(|v| axes.map(|axis| axis.dot(exact(v))));
     let extreme = |of: &dyn Fn([f64; 3]) -> f64| points().map(of).fold(f64::NEG_INFINITY, f64::max);
@@ -99,14 +99,14 @@ fn filling(
     Some((point(w), point(toward.dot(exact(middle)).min(w - w.abs() * 1e-3))))
 }
 
-/// First hits by exact arithmetic, triangle and t as `rounded`; the exact numbers are dropped some rays at a time.
+/// First hits by exact arithmetic, converted by `rounded`; exact numbers of only some rays are kept at a time.
 pub(super) fn exact_hits<T>(
     tracer: &Tracer<'_>,
     rays: &[Ray],
     sides: Sides,
     rounded: fn(&ExactT) -> T,
 ) -> Vec<Option<(u32, T)>> {
-    /// Rays whose exact numbers are in memory at once.
+    /// Number of rays whose exact numbers are in memory at once.
     const AT_ONCE: usize = 1 << 16;
     let mut hits = Vec::with_capacity(rays.len());
     for some in rays.chunks(AT_ONCE) {
@@ -117,12 +117,12 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Reads a picture. Errors: the defect of the file.
+/// Reads a picture. Fails with the defect of the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
 }
 
-/// Writes all files of a result together, and prints their places.
+/// Writes all files of a result together, and prints their paths.
 pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, Problem> {
     for (name, bytes) in files {
         set.write(Path::new(name), |out| out.write_all(bytes))?;

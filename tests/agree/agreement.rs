@@ -1,5 +1,5 @@
-//! The body of all agreement tests: draw a case with every executor, compare, shrink a difference, print how to repeat
-//! it.
+//! The body of all agreement tests: draw a case with every executor, compare, shrink a difference, print how to
+//! reproduce it.
 
 use crate::blame::{Side, blame};
 use crate::environment::seeds;
@@ -61,9 +61,9 @@ pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
     differs(&expected, draw(case, &programs, executor), executor)
 }
 
-/// The seeds of a run, and those drawn too if these cover nothing. In the short form half of a suite's own, the first or
-/// the last by its name, so that neighbouring suites have both, and the other half; of the project's files all, in the
-/// full form 105 times as many as its own.
+/// The seeds of a run, and further seeds to draw if these cover nothing. The short form takes half of a suite's seeds,
+/// the first or the second half by the suite's name, and all seeds of the project's files. The full form takes 105
+/// times as many seeds.
 fn seeds_of(suite: &Suite) -> [Range<u64>; 2] {
     let all = seeds(suite.seeds, 105);
     if all != (0..suite.seeds) || matches!(suite.kind, Kind::Kernels | Kind::Shaders | Kind::Cases) {
@@ -91,7 +91,7 @@ pub(crate) fn run(suite: &Suite) {
     assert!(covers(seeds) || covers(others) || one, "the scenes of {} cover nothing", suite.name);
 }
 
-/// A report of a difference: how to repeat it, and the smallest case that shows it.
+/// A report of a difference: how to reproduce it, and the smallest case that shows it.
 pub(crate) fn report(suite: &Suite, seed: u64, difference: &Difference) -> String {
     let case = suite.case(seed);
     let executor = &EXECUTORS[difference.executor];

@@ -38,7 +38,7 @@ fn products_are_the_same_everywhere_and_the_hosts() {
     ] {
         all_find(&format!("{device}, {format}"), |what, executor| {
             let mut profile = profile(device);
-            // Sums that go on from pass to pass.
+            // Sums that continue from pass to pass.
             profile.limits.instructions = Some(60);
             let mut card = GatherCard::new(profile, executor, &found, format).unwrap_or_else(|e| panic!("{what}: {e}"));
             let local = card.multiply(&light).unwrap_or_else(|e| panic!("{what}: {e}"));

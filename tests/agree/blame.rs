@@ -43,7 +43,7 @@ impl Followed {
     }
 }
 
-/// In words where the ways of two sides part at the first pixel at which they do.
+/// Describes the first difference of two sides at the first pixel that differs.
 pub(crate) fn blame(left: Side<'_>, right: Side<'_>) -> String {
     let (a, b) = match (left.follow(), right.follow()) {
         (Ok(a), Ok(b)) => (a, b),
@@ -61,7 +61,7 @@ pub(crate) fn blame(left: Side<'_>, right: Side<'_>) -> String {
     "followed pixel by pixel the sides are equal: the draw differs from its own trace".to_owned()
 }
 
-/// A difference with the line of the program that it belongs to.
+/// Describes a difference, with its line of the program.
 fn words(difference: &TraceDifference, lines: &[String], program: &Program) -> String {
     let at = difference.pass;
     let mut text = format!("pass {} (instance {}, triangle {}): ", at.index, at.instance, at.triangle);

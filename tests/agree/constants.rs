@@ -1,13 +1,13 @@
-//! The same vertex program with one set of constants after the other: decoding for the first must not affect the rest.
+//! One vertex program with several sets of constants in turn: decoding for the first must not affect the others.
 
 use crate::agreement::compare;
 use crate::random::Random;
 use crate::suite;
 
-/// Cases of each suite, and sets of constants of each.
+/// Cases per suite, and sets of constants per case.
 const SEEDS: u64 = 3;
 const SETS: usize = 4;
-/// The turn of the executors that draw every case.
+/// The turn of executors that draw every case.
 const QUICK: u64 = 1;
 
 #[test]

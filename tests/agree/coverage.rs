@@ -242,7 +242,7 @@ fn wanted_state() -> Vec<String> {
     ];
     let mut out = each("state", kinds);
     out.extend(each("fog", FogMode::ALL.map(Some).into_iter().chain([None])));
-    // Executors treat a matrix row as any constant, so combinations of matrix, form and row need not all occur.
+    // Executors treat a matrix row as any constant, so not all combinations of matrix, form and row must occur.
     out.extend(each("matrix", ["ModelView", "Projection", "Mvp", "Texture", "Program"]));
     let forms = [MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans];
     out.extend(each("form", forms));
@@ -333,7 +333,7 @@ fn devices_reach_every_switch_value() {
     for suite in suite::all() {
         let Kind::Card(card, _) = suite.kind else { continue };
         for seed in 0..suite.seeds {
-            // The same random stream as in `Suite::case`, up to the device.
+            // Repeats the random stream of `Suite::case`, up to the device.
             let mut r = Random::named(&suite.name, seed);
             suite::first_throws(&mut r);
             for switch in rules::card(card, &mut r).switches() {

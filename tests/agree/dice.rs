@@ -103,7 +103,7 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
     }
 }
 
-/// OpenGL's state. It has a random stream of its own, so that the caller's stream does not depend on it.
+/// OpenGL's state, from a separate random stream, so that the caller's stream does not depend on it.
 fn state(mut r: Random) -> FixedFunctionState {
     let mut state = FixedFunctionState::default();
     let matrix = |r: &mut Random| std::array::from_fn(|_| r.vector());

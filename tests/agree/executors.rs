@@ -18,7 +18,7 @@ pub(crate) struct Executor {
     simd: Option<SimdLevel>,
     /// True if a texel observer is attached, which makes it draw in the order of the hardware.
     watched: bool,
-    /// Draws one case in this many: slow executors need not see all.
+    /// Draws one case in this many: slow executors may skip cases.
     pub(crate) every: u64,
 }
 
@@ -77,7 +77,7 @@ pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
 pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     let mut all = Vec::new();
     for level in SimdLevel::available() {
-        // Threads share out tiles, whatever the level: in the short form they draw one case in three.
+        // Threads divide tiles at every SIMD level: in the short form they draw one case in three.
         for (threads, every) in [(1, 1), (3, crate::environment::by_form(3, 1))] {
             let name = format!("batch/{}/{threads}", level.name());
             let kind = ExecutorKind::Batch;
@@ -97,7 +97,7 @@ fn on_gpu() -> Option<Executor> {
     Some(Executor { name: "wgpu".to_owned(), kind: ExecutorKind::Wgpu, every: every_gpu(), ..REFERENCE.clone() })
 }
 
-/// On the GPU one case in this many: software drivers take milliseconds where the batch executor takes microseconds.
+/// The GPU draws one case in this many: software drivers take milliseconds where the batch executor takes microseconds.
 #[cfg(feature = "wgpu")]
 fn every_gpu() -> u64 {
     crate::environment::by_form(8, 4)

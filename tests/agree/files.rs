@@ -19,10 +19,10 @@ use refsim::texture::TextureKind;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// Ideal devices that programs are tried on, beside the cards.
+/// Ideal devices that programs are tried on, besides the cards.
 const IDEALS: [&str; 6] = ["ideal-s3.12", "ideal-fp16", "ideal-fp24", "ideal-fp32", "ideal-s7.16", "ideal-e8m10"];
 
-/// A program of a file and the devices that accept it.
+/// A program from a file, with the devices that accept it.
 pub(crate) struct Program {
     pub(crate) file: String,
     lines: Vec<String>,
@@ -33,7 +33,7 @@ pub(crate) struct Program {
 /// Programs of some folders.
 pub(crate) struct Programs(pub(crate) Vec<Program>);
 
-/// All kernels of the project, walked from their folders, and those that the project writes itself.
+/// All kernels of the project: files in their folders, and kernels that code generates.
 pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
     let rooms = walk(&root().join("src"), &["psa", "vsa", "fp"]);
     let mut all = Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))));
@@ -89,7 +89,7 @@ impl Program {
 impl Programs {
     fn read(files: impl IntoIterator<Item = PathBuf>) -> Self {
         let read = |path: PathBuf| {
-            // Executors do not get fixtures that are wrong on purpose.
+            // Fixtures that are wrong on purpose have no case.
             let text = std::fs::read_to_string(&path).ok()?;
             Program::new(path.strip_prefix(root()).unwrap_or(&path).display().to_string(), &text)
         };
@@ -101,12 +101,12 @@ impl Programs {
         self.0.iter().map(|p| p.devices.len() as u64).sum()
     }
 
-    /// Pairs that the short form takes: every fourth, so that no program is left out that four devices accept.
+    /// Number of pairs in the short form: every fourth pair, so that a program that four devices accept is included.
     pub(crate) fn short(&self) -> u64 {
         self.pairs().div_ceil(4)
     }
 
-    /// Pair number `seed`, over and over: first those of the short form, then the others.
+    /// Pair number `seed`, modulo their number: the pairs of the short form first.
     fn pair(&self, seed: u64) -> (&Program, &str) {
         let number = seed % self.pairs().max(1);
         let others = |at: u64| 4 * (at / 3) + 1 + at % 3;
@@ -121,7 +121,7 @@ impl Programs {
     }
 }
 
-/// The kinds of texture that a program's samplers want.
+/// The kinds of texture that a program's samplers need.
 fn kinds(program: &CheckedProgram, r: &mut Random) -> Vec<(usize, TextureKind)> {
     let facts = program.facts();
     let bound = (0..16).filter(|n| facts.samplers >> n & 1 == 1);
@@ -171,7 +171,7 @@ pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Ca
     Case { scene, pixel: program.lines.clone(), vertex }
 }
 
-/// A run case; beyond the last, again with other constants.
+/// A run case; after the last case, the cases again with other constants.
 pub(crate) fn run_case(seed: u64, r: &mut Random) -> Case {
     let count = CASES.len() as u64;
     assert!(count > 0, "no run case among the fixtures can be read");

@@ -1,5 +1,5 @@
 //! The long form: `CROSSBAR_FUZZ=1h` (or `30m`, or seconds) runs all suites in turn, with its own seeds, until the time
-//! is up, and reports how much it has compared.
+//! is up, and reports the number of comparisons.
 
 use crate::agreement::{compare, report};
 use crate::executors::EXECUTORS;
@@ -20,7 +20,7 @@ struct Counts {
     cases: u64,
     draws: u64,
     fragments: u64,
-    /// For each executor: draws, fragments, cases that differ.
+    /// Per executor: draws, fragments, cases that differ.
     executors: Vec<(u64, u64, u64)>,
     reports: Vec<String>,
     illegal: Vec<String>,

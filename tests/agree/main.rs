@@ -1,9 +1,9 @@
 //! Every executor gives the same bits.
 //!
-//! A suite draws cases from a seed: a program, a device, a scene. Each case is drawn by the scalar executor and by
-//! every other one at every SIMD level and thread count, and all targets, the depth buffer and every counter are
-//! compared. A failing case is cut down and printed with the command that shows it again: the suite's name and
-//! `CROSSBAR_SEED`. `CROSSBAR_FULL=1` runs 105 times as many, `CROSSBAR_FUZZ=10m` continues for ten minutes.
+//! A suite draws cases from a seed: a program, a device, a scene. The scalar executor and every other executor, at
+//! every SIMD level and thread count, draw each case, and all targets, the depth buffer and every counter are compared.
+//! A failing case is shrunk, and printed with the command that reproduces it: the suite's name and `CROSSBAR_SEED`.
+//! `CROSSBAR_FULL=1` runs 105 times as many cases, `CROSSBAR_FUZZ=10m` runs for ten minutes.
 
 mod agreement;
 mod all_frequency;
@@ -34,7 +34,7 @@ mod suite;
 mod system;
 mod traces;
 
-/// Runs the suite that a test is named after: its path without the crate.
+/// Runs the suite with a test's name: the test's path without the crate.
 fn suite(module: &str, test: &str) {
     let path = module.split_once("::").map_or(String::new(), |(_, path)| format!("{path}::"));
     let name = format!("{path}{test}");
@@ -43,7 +43,7 @@ fn suite(module: &str, test: &str) {
     agreement::run(suite);
 }
 
-/// One test a suite.
+/// One test per suite.
 macro_rules! suites {
     ($($test:ident)*) => {
         $(#[test] fn $test() { crate::suite(module_path!(), stringify!($test)); })*

@@ -77,7 +77,7 @@ impl Fixture {
             let call = DrawCall::new(VertexSource::Transformed(vertices), Primitive::QuadList, program, &host, target);
             DrawCall { center: PixelCenter::OpenGl, ..call }
         };
-        // Twice: the second time the levels are made anew from another level 0, and the card has read the first.
+        // Twice: the second time, the levels are generated anew, after the card has read the first ones.
         for vertices in [&self.painted, &self.read] {
             machine.draw(&call(vertices, &paint, map))?;
             machine.generate_mipmaps(map)?;
@@ -99,7 +99,7 @@ fn log(machine: &mut Machine) -> Vec<Event> {
     log
 }
 
-/// A quad over the target with coordinates up to `scale`: TEX1, the derivatives, from nothing to a whole texture.
+/// A quad over the target with coordinates up to `scale`; the derivatives in TEX1 range from zero to a whole texture.
 fn quad(scale: f32, r: &mut Random) -> [Vertex; 4] {
     [[-1.0_f32, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| {
         let mut number = |scale: f32| ((r.below(2001) as f32 - 1000.0) / 1000.0 * scale).to_bits();

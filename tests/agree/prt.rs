@@ -1,5 +1,5 @@
-//! Compressed transfer: pictures of every kind of card on every executor. That the vertex programs give the host's sums
-//! is proved beside them.
+//! Compressed transfer: pictures of every kind of card on every executor. Other tests compare the vertex programs' sums
+//! with the host's.
 
 use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};

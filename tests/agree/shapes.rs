@@ -24,18 +24,18 @@ pub(crate) enum Shape {
     Degenerate,
     /// Positions and values that are NaN or infinite.
     Special,
-    /// Many triangles of a few pixels, beside and over one another.
+    /// Many triangles of a few pixels, side by side and overlapping.
     Fine,
 }
 
-/// Vertices and how they make triangles.
+/// Vertices, and the primitives that they form.
 pub(crate) struct Geometry {
     pub(crate) vertices: Vec<Vertex>,
     pub(crate) indices: Option<Vec<u32>>,
     pub(crate) primitive: Primitive,
 }
 
-/// A shape for programs that are to be seen: mostly ordinary ones.
+/// A shape for programs whose results must be visible: mostly ordinary.
 pub(crate) fn ordinary(r: &mut Random) -> Shape {
     if r.one_in(3) { r.of(Shape::VARIANTS) } else { Shape::Ordinary }
 }
@@ -89,8 +89,8 @@ pub(crate) fn geometry(shape: Shape, size: [u32; 2], r: &mut Random) -> Geometry
     Geometry { vertices, indices, primitive }
 }
 
-/// Vertices of 10 to 120 primitives of a few pixels each, some of them far larger. Some share everything that they do
-/// not vary with the previous ones, some vary nothing but their position.
+/// Vertices of 10 to 120 primitives of a few pixels each, some far larger. Some share everything that they do not vary
+/// with the previous primitives; some vary only their position.
 fn fine(size: [u32; 2], each: usize, r: &mut Random) -> Vec<Vertex> {
     let (flat, plane) = (r.one_in(2), r.one_in(2));
     let mut shared = Vertex::default();
@@ -125,7 +125,7 @@ fn fine(size: [u32; 2], each: usize, r: &mut Random) -> Vec<Vertex> {
     out
 }
 
-/// One primitive's vertices: they share the components that do not vary.
+/// The vertices of one primitive, which share the components that do not vary.
 fn group(shape: Shape, size: [u32; 2], each: usize, r: &mut Random, out: &mut Vec<Vertex>) {
     let whole = matches!(shape, Shape::Flat | Shape::Layers);
     let flat = if whole { !r.one_in(4) } else { r.one_in(3) };
@@ -209,7 +209,7 @@ fn position(shape: Shape, size: [u32; 2], plane: bool, r: &mut Random) -> [u32; 
     }
 }
 
-/// Attributes `v0` to `v7` for a vertex program: some a vertex, some an instance, some not fed at all.
+/// Attributes `v0` to `v7` for a vertex program: some per vertex, some per instance, some without a stream.
 pub(crate) fn streams(scene: &mut Scene, r: &mut Random) {
     let count = scene.vertices.len();
     scene.vertex_count = count;

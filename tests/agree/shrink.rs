@@ -1,4 +1,4 @@
-//! Makes a case that shows a difference smaller, as long as it still shows one.
+//! Shrinks a case that shows a difference, as long as it still shows one.
 
 use crate::rules;
 use crate::scene::{Case, Scene};
@@ -8,7 +8,7 @@ use refsim::texture::SamplerState;
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-/// No longer than this: a half small case is better than none.
+/// Time limit; a partly shrunk case is useful too.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// The smallest case found that still `shows` the difference.
@@ -19,7 +19,7 @@ pub(crate) fn shrink(case: &Case, shows: impl Fn(&Case) -> bool) -> Case {
     while again {
         again = false;
         let mut n = 0;
-        // After a step that helped the same number names the next candidate.
+        // After a successful step, candidate `n` of the smaller case is a new one.
         while let Some(smaller) = candidate(&best, n) {
             if Instant::now() > end {
                 return best;
@@ -40,7 +40,7 @@ fn differs(a: &Case, b: &Case) -> bool {
     describe(&a.scene) != describe(&b.scene) || a.scene.textures.len() != b.scene.textures.len()
 }
 
-/// Candidate `n`: first the scene's parts, then instructions, the last ones first, then their dependencies.
+/// Candidate `n`: parts of the scene first, then instructions from the last on, then their dependencies.
 fn candidate(case: &Case, n: usize) -> Option<Case> {
     let mut out = case.clone();
     let parts = PARTS.len();
@@ -71,7 +71,7 @@ fn candidate(case: &Case, n: usize) -> Option<Case> {
     None
 }
 
-/// Candidate `n` of fewer lines: without one (a block without its ends), or with one simplified.
+/// Candidate `n` of fewer lines: without one line (of a block, its two ends), or with one line simplified.
 fn fewer(lines: &[String], n: usize) -> Option<Vec<String>> {
     let mut out = lines.to_vec();
     let places = lines.len() - 1;
@@ -117,7 +117,7 @@ fn plainer(line: &str) -> String {
     out
 }
 
-/// Takes some vertices away.
+/// Removes some vertices.
 fn without(scene: &mut Scene, first: usize, count: usize) {
     let end = (first + count).min(scene.vertices.len());
     if first < end && end - first < scene.vertices.len() {
@@ -163,7 +163,7 @@ const PARTS: [fn(&mut Scene); 28] = [
     },
 ];
 
-/// A scene in words.
+/// Describes a scene.
 pub(crate) fn describe(scene: &Scene) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "device {}, {:?}", scene.profile.name, scene.profile.rules);

@@ -1,4 +1,4 @@
-//! Step budgets: executors agree on programs within a budget, and on the instruction that exceeds it.
+//! Step budgets: executors agree on programs within a budget, and on the instruction that exceeds one.
 
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
@@ -6,7 +6,7 @@ use crate::scene::{Case, Outcome, Programs};
 use crate::suite;
 use refsim::machine::MachineError;
 
-/// The programs: those with flow control, and some without.
+/// The programs: most with flow control.
 const SUITES: [&str; 7] = [
     "geometry::fine",
     "programs::ps_2_a::",
@@ -16,7 +16,7 @@ const SUITES: [&str; 7] = [
     "programs::ps_1_4::",
     "programs::fp_1_0::",
 ];
-/// Above the steps of every random program.
+/// More than the steps of any random program.
 const PLENTY: u32 = 1 << 16;
 
 fn case(n: u64) -> Case {
@@ -33,7 +33,7 @@ fn draw(case: &mut Case, programs: &Programs, executor: &Executor, budget: u32) 
     case.scene.draw(executor, programs)
 }
 
-/// The least budget with which the reference draws.
+/// The smallest budget with which the reference draws.
 fn least(case: &mut Case, programs: &Programs) -> u32 {
     let (mut fails, mut fits) = (0, PLENTY);
     while fits - fails > 1 {

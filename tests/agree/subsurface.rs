@@ -1,4 +1,4 @@
-//! The three passes of system 3: the same bits by every executor.
+//! The three passes of system 3: identical bits on every executor.
 
 use crate::environment::is_full;
 use crossbar::atlas::Atlas;
@@ -30,12 +30,12 @@ fn random_texels(random: &mut Random, texel: impl Fn(&mut Random) -> [f32; 4]) -
     Texels { width: side, height: side, texels: (0..side * side).map(|_| texel(random)).collect() }
 }
 
-/// Random factor: 0 with a probability of 1/16, else a number in [0, 1/8).
+/// Random factor: 0 with a probability of 1/16, otherwise a number in [0, 1/8).
 fn factor(random: &mut Random) -> f32 {
     if random.below(16) == 0 { 0.0 } else { random.below(1 << 16) as f32 / (1 << 19) as f32 }
 }
 
-/// Links with random factors, and random places if `level` is `None`.
+/// Links with random factors, and random clusters if `level` is `None`.
 fn links(level: Option<u32>, rgb: bool, count: usize) -> LinkTextures {
     let mut random = Random::named("subsurface", count as u64);
     let four = |r: &mut Random| [factor(r), factor(r), factor(r), factor(r)];
@@ -72,8 +72,8 @@ fn view(kernel: ViewKernel, format: TexelFormat) -> View {
     View { kernel, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, ..scattered }
 }
 
-/// Maps and pictures of a card on every executor, against the scalar one's. In the short
-/// form one case in five is drawn on a GPU: all that the loops of the tests choose turns up among these.
+/// Compares maps and pictures of every executor with the scalar executor's. In the short form a GPU draws one case in
+/// five; every option that the tests vary occurs among these.
 fn agrees(
     case: usize,
     name: &str,

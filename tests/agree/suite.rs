@@ -49,7 +49,7 @@ pub(crate) enum Kind {
 pub(crate) struct Suite {
     pub(crate) name: String,
     pub(crate) kind: Kind,
-    /// Its own seeds are 0 up to this number: all that the dice can throw is among them.
+    /// The suite's own seeds are 0 up to this number; they cover every random choice.
     pub(crate) seeds: u64,
 }
 
@@ -61,7 +61,7 @@ impl Suite {
         Self { name: name.into(), kind, seeds }
     }
 
-    /// A random number by which executors that draw only some cases choose them, evenly over suites and seeds.
+    /// A random number by which executors that skip cases choose theirs, evenly over suites and seeds.
     pub(crate) fn turn(&self, seed: u64) -> u64 {
         Random::named(&self.name, seed).next()
     }
@@ -193,8 +193,8 @@ fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
     Case { scene, pixel, vertex: Some(vertex) }
 }
 
-/// The case with formats of their own for two in three instructions of the program of this version, and for a third of
-/// the storages and accumulators of pixel programs.
+/// The case with separate formats for two in three instructions of the program of this version, and for a third of the
+/// storages and accumulators of pixel programs.
 fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     let any = |r: &mut Random| {
         let formats = r.of(Family::VARIANTS).formats();
@@ -202,7 +202,7 @@ fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     };
     for storage in Storage::ALL.into_iter().filter(|_| version.stage() == Stage::Pixel) {
         if r.one_in(3) {
-            // Most formats have numbers that most registers lack.
+            // Several tries, as registers of most formats cannot hold every format.
             let _ = (0..8).any(|_| case.scene.profile.set_storage_format(storage, Some(any(r))).is_ok());
         }
     }
@@ -215,7 +215,7 @@ fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
         if r.one_in(3) {
             continue;
         }
-        // Some instructions take none.
+        // Some instructions accept no format.
         case.scene.profile.set_instruction_format(&program, index, Some(any(r)));
     }
     case

@@ -32,7 +32,7 @@ pub(crate) fn bits(texels: &Texels) -> Vec<[u32; 4]> {
     texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
 }
 
-/// Panics if the results of executors differ from those of the scalar one.
+/// Panics if the results of executors differ from the scalar executor's.
 pub(crate) fn all_find<T: PartialEq>(what: &str, mut found: impl FnMut(&str, Executor) -> T) {
     let mut reference = None;
     for (name, executor) in executors() {
@@ -45,8 +45,8 @@ pub(crate) fn all_find<T: PartialEq>(what: &str, mut found: impl FnMut(&str, Exe
     }
 }
 
-/// Pictures from above and at a grazing angle, where hills hide each other and reads of maps leave the rim: the same of
-/// every executor's card, and lit.
+/// Compares lit pictures of all executors' cards, from above and at a grazing angle, where hills hide each other and
+/// reads of maps cross their edge.
 pub(crate) fn pictures_agree<C>(
     what: &str,
     format: TexelFormat,

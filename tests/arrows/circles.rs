@@ -1,4 +1,4 @@
-//! No circles of files within a room: of two files that need each other, one has a type that belongs elsewhere.
+//! No circular dependencies of files within a room: if two files need each other, a type is in the wrong file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ pub(crate) fn room(file: &Path) -> String {
     file.with_extension("").iter().next().expect("a component").to_string_lossy().into_owned()
 }
 
-/// For each file the files of its room that it needs, with the names.
+/// Per file: the files of its room that it needs, with the names.
 fn graph(source: &Crate) -> Graph {
     let mut graph = Graph::new();
     for (module, it) in source.modules.iter().filter(|(_, it)| !it.is_test) {
@@ -38,7 +38,7 @@ fn reachable<'a>(graph: &'a Graph, from: &'a Path) -> BTreeSet<&'a Path> {
     found
 }
 
-/// The circles of a crate: their files, each with the names that it needs of the others.
+/// The circular dependencies of a crate: their files, each with the names that it needs of the others.
 fn circles(source: &Crate) -> Vec<String> {
     let graph = graph(source);
     let reached: BTreeMap<&Path, BTreeSet<&Path>> =

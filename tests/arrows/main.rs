@@ -95,7 +95,7 @@ const CROSSBAR: Law = (
     ],
 );
 
-/// The executors: `scalar` shares nothing; the others share a middle. Files of `exec` itself are to the left of all.
+/// The executors: `scalar` is separate; the others share `lower`. Files of `exec` itself precede all of them.
 const EXEC: Law =
     ("refsim/src", &["exec"], &[("scalar", ""), ("lower", ""), ("batch", "lower"), ("wgsl", "lower"), ("gpu", "wgsl")]);
 
@@ -117,8 +117,8 @@ const BATCH: Law = (
 const SPEAKS_REFSIM: &str = "card tracer case compare shader radiosity subsurface clustering transfer cpca all_frequency bi_scale \
      ray_engine study cli";
 
-/// The uses that a law forbids, one line each. A file outside the table's rooms is a violation, or, where the rooms
-/// share files (`below` is not empty), may name no room.
+/// The uses that a law forbids, one line each. A file outside the table's rooms is a violation; if the rooms share
+/// files (`below` is not empty), it may name no room.
 fn violations((crate_folder, below, law): Law) -> Vec<String> {
     let source = Crate::read(crate_folder);
     let rooms: BTreeSet<&str> = law.iter().map(|(room, _)| *room).collect();
@@ -187,7 +187,7 @@ fn the_emulator_depends_on_nothing_heavy() {
     for banned in ["crossbar", "nalgebra", "image", "clap"] {
         assert!(!dependencies.contains(banned), "refsim depends on `{banned}`");
     }
-    // Only the feature `wgpu` brings the dependency on a GPU driver.
+    // Only the feature `wgpu` brings the dependency on GPU drivers.
     let gpu = dependencies.lines().find(|line| line.starts_with("wgpu = {")).expect("wgpu, by feature");
     assert!(gpu.contains("optional = true"), "refsim depends on `wgpu` without being asked");
     assert!(!dependencies.contains("default = ["), "refsim has default features");
@@ -203,7 +203,7 @@ fn only_linalg_names_nalgebra() {
     let manifests = ["", "src/base/", "src/ground/", "src/systems/", "src/studies/"];
     for manifest in manifests.map(|folder| root().join(folder).join("Cargo.toml")) {
         let text = fs::read_to_string(manifest).expect("a manifest");
-        // Dependencies of the program only; the root's profiles name crates that only the benches compile.
+        // Dependencies of the program only; the root's profiles name crates of the benches.
         let dependencies = text.split("[profile.").next().unwrap_or_default();
         for comparison in ["bvh", "parry3d", "obvhs"] {
             assert!(!dependencies.contains(comparison), "`{comparison}` belongs into benches/Cargo.toml");

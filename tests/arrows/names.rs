@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::circles::room;
 use crate::source::{Crate, SOURCES};
 
-/// In how many rooms a type name may be defined.
+/// Maximum number of rooms that define a type name.
 const MAX_ROOMS: usize = 2;
 
 #[test]

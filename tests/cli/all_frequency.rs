@@ -40,7 +40,7 @@ fn finished_segments_are_kept() {
         format!("all-frequency compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --resume {kept}");
     let in_all = document(&format!("{options} --out {out}"));
     assert_eq!(in_all["segments_kept"], 0);
-    // As if interrupted before segment 9: missing segments are computed, present ones are read.
+    // As after an interruption before segment 9: missing segments are computed, existing ones are read.
     for segment in 9..24 {
         fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.part"))).expect("a finished segment");
     }
@@ -82,7 +82,7 @@ fn errors_are_those_of_compression() {
     assert!(fs::metadata(folder.path().join("page/index.html")).is_ok());
 }
 
-/// Glossy transfer by the factors that another command wrote; all terms of the rank compared with few.
+/// Glossy transfer by factors that another command wrote; all terms of the rank versus few terms.
 #[test]
 fn factors_go_from_one_command_to_the_next() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -126,7 +126,7 @@ fn a_model_stands_on_a_ground() {
     );
     let sees = |found: &Value| number(&found["directions_visible"]);
     assert!(sees(&made) <= sees(&alone), "a ground hides light");
-    // Half of all directions, less those that the model blocks.
+    // Half of all directions, minus those that the model blocks.
     assert!(sees(&made["ground"]) < 64.0 * 49_152.0 && sees(&made["ground"]) > 32.0 * 49_152.0);
     document(&format!(
         "all-frequency compress {ground} --model {ground_model} --points-per-cluster 16 --vectors 3 --out {small}"
@@ -146,7 +146,7 @@ fn a_model_stands_on_a_ground() {
     assert_eq!(other.code, Some(2), "its model is beside a ground's file: {}", other.stderr);
 }
 
-/// Light alone: its energy is that of kept and dropped coefficients.
+/// Decomposition of light: its energy is the sum over kept and dropped coefficients.
 #[test]
 fn light_is_taken_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -161,8 +161,8 @@ fn light_is_taken_apart() {
     assert_eq!((&few["kept"], &few["segments"]), (&Value::from(20), &Value::from(6)));
 }
 
-/// Light truncated on six faces has negative texels, and is drawn: the picture differs by the dropped part, whose red
-/// is that of the table.
+/// Light truncated on six faces has negative texels, and is drawn: the picture differs by the dropped part, and its red
+/// is the table's.
 #[test]
 fn truncated_light_is_drawn() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -182,7 +182,7 @@ fn truncated_light_is_drawn() {
     let apart = squares(&mut whole.as_flattened().iter().zip(of_six.as_flattened()).map(|(a, b)| a - b));
     let share = (apart / squares(&mut whole.as_flattened().iter().copied())).sqrt();
     assert!(share > 1e-4 && share < 0.2, "{share}");
-    // All of its coefficients in 24 segments are the same light.
+    // All coefficients in 24 segments are equal light.
     assert_eq!(picture(&light, "--keep 6144"), of_six);
 }
 

@@ -65,7 +65,7 @@ fn cards_draw_what_the_host_draws() {
         let row = rows.iter().find(|row| row["step"].as_str().is_some_and(|step| step.contains(what)));
         number(&row.unwrap_or_else(|| panic!("{what}"))["rms_255ths"])
     };
-    // Both methods lose highlights between vertices equally: the same two pictures are compared.
+    // Both methods lose highlights between vertices equally: this step compares equal pictures.
     assert_eq!(step(&colors, "interpolated, not products"), step(&r350, "interpolated, not products"));
     assert!(step(&r350, "single precision") < 1e-3);
     let diffuse = drawn(CODED, &out, &["--original", SIGHT, "--keep", "40"]);
@@ -89,8 +89,8 @@ fn a_sweep_says_what_shows() {
         number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms_255ths"])
     };
     for what in ["representatives", "weights"] {
-        // Four bits reduce the error 16 times on average; in one small picture under a sun, whose few coefficients
-        // matter, at least by half.
+        // Four bits reduce the error 16 times on average. In one small picture under a sun, with few relevant
+        // coefficients, the error is at least halved.
         for [coarse, fine] in [["8 bits", "12 bits"], ["10 bits", "14 bits"]] {
             assert!(of(what, coarse) > 2.0 * of(what, fine), "{what}: {coarse} against {fine}");
         }
@@ -101,7 +101,7 @@ fn a_sweep_says_what_shows() {
     for name in ["index.html", "precision.csv", "blame.csv", "card.exr", "timeline.json", "card.png"] {
         assert!(folder.path().join("out").join(name).exists(), "{name}");
     }
-    // Raw transfer is drawn too; it has no code to quantise.
+    // Raw transfer is drawn too; there is no code to quantise.
     let raw = drawn(&sight, &out, &["--sweep"]);
     assert!(raw["precision"].as_array().expect("a sweep").iter().all(|row| row["what"] != "weights"));
 }

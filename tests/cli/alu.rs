@@ -9,7 +9,7 @@ fn alu(arguments: &str, input: &str) -> ProgramOutput {
     crossbar(&all, input)
 }
 
-/// Expects success and one line of output an input line.
+/// Expects success, with one line of output per line of input.
 fn results(arguments: &str, input: &str) -> Vec<String> {
     let ran = alu(arguments, input);
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "alu {arguments}");
@@ -38,7 +38,7 @@ fn suffixes_choose_rounding_and_overflow() {
     assert_eq!(results("add --format s3.12 --flags", "7FFF 0001"), ["7FFF 05"]);
 }
 
-/// 448, 464 and the next single; special values that a format lacks.
+/// 448, 464 and the next single; special values of formats without them.
 #[test]
 fn floats_without_infinity() {
     let numbers = "43E00000\n43E80000\n43E80001\n7F800000";
@@ -75,11 +75,11 @@ fn lines_of_many_numbers() {
     let back = results("dequantize --format fp32 --block mxfp4 --json --flags", block);
     assert_eq!(back, [r#"{"flags":"00","results":["00000000","80000000","42C00000","42000000"]}"#]);
     let terms = "6800 3C00 3C00 3C00 3C00 3C00\n\n3C00 3C00";
-    // 2048 + 1 + 1 in fp16: a half more is lost twice, in single precision neither is.
+    // 2048 + 1 + 1 in fp16: each 1, half a step, is lost; in single precision neither is.
     assert_eq!(results("dot --format fp16 --flags", terms), ["6800 01", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --accumulator fp32 --flags", terms), ["6801 00", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --summation exact", terms), ["6801", "3C00"]);
-    // Ten bits below 2048 end at 2, eleven at 1.
+    // With ten bits below 2048 the last is 2, with eleven 1.
     assert_eq!(results("dot --format fp16 --summation aligned:10 --flags", terms), ["6800 01", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --summation aligned:11 --flags", terms), ["6801 00", "3C00 00"]);
     let many = "0 ".repeat(33);
@@ -108,7 +108,7 @@ fn lines_of_many_numbers() {
 
 #[test]
 fn units_of_cards() {
-    // Cut, aligned to the largest; two zeros and an overflow.
+    // Truncated, and aligned to the largest addend; two zeros and an overflow.
     assert_eq!(results("add --device nv20", "c0151eb8 c2c80000\n3f800000,b3800000"), ["C2CCA8F5", "3F7FFFFF"]);
     let products = "80000000, 7f800000\n7f000000 c0000000";
     assert_eq!(results("mul --device nv25", products), ["00000000", "FF7FFFFF"]);
@@ -139,7 +139,7 @@ fn devices_without_a_measured_unit_compute_by_their_rules() {
     assert_eq!(results("sge --format fp16", "3C00 3C00\n7E00 3C00"), ["3C00", "0000"]);
     assert_eq!(results("sne --format fp16", "3C00 3C00\n7E00 3C00"), ["0000", "3C00"]);
     assert_eq!(results("dph --format fp16", "3C00 0 0 7C00 3C00 0 0 3C00"), ["4000"]);
-    // Pixels of NV20 are fixed point.
+    // NV20's pixel stage is in fixed point.
     assert_eq!(results("mov --device nv20 --stage pixel", "0FF"), ["0FF"]);
     for (arguments, expected) in [
         ("ex2 --device nv20", "the vertex unit of NV20 and NV25 has no `ex2`"),
@@ -161,7 +161,7 @@ fn devices_without_a_measured_unit_compute_by_their_rules() {
     }
 }
 
-/// Formats of `alu` alone.
+/// Formats that only `alu` accepts.
 #[test]
 fn devices_refuse_scales_and_chance() {
     for (format, reason) in [("e8m0", "neither zero nor negative"), ("fp16:rst", "number no operations")] {
@@ -228,7 +228,7 @@ fn mismatches_are_printed_and_counted() {
     let lines = "3C00 3C00 4000 00\n3C00 3C00 4001 00\n\n3C00 3C00 4000 01\n7E00 3C00 FDFF 00\n";
     let ran = alu("add --format fp16 --verify --flags", lines);
     insta::assert_snapshot!(ran.transcript());
-    // Without --flags the third line is good, and flags may be missing.
+    // Without --flags the third line passes, and flags may be missing.
     let ran = alu("add --format fp16 --verify", "3C00 3C00 4000 01\n3C00 3C00 4000\n3C00 3C00 7E00\n");
     assert!(ran.stdout.ends_with("2 passed, 1 failed\n"), "{}", ran.stdout);
     assert_eq!(ran.code, Some(1));
@@ -281,7 +281,7 @@ fn a_bad_line_comes_after_the_results_before_it() {
     assert!(ran.stderr.contains("line 10001"), "{}", ran.stderr);
 }
 
-/// A reader that goes away early ends the program quietly; a verdict is still reached.
+/// A reader that closes the pipe early ends the program quietly; a verdict is still reached.
 #[test]
 #[cfg(unix)]
 fn a_closed_pipe_is_no_error() {

@@ -1,4 +1,4 @@
-//! Answers of the program, in the forms in which tests look at them.
+//! Output of the program, in the forms that tests use.
 
 use std::fmt::Debug;
 use std::path::Path;
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::{ProgramOutput, crossbar, crossbar_in};
 
-/// Text in one line: its words, without the line breaks and frames of its layout.
+/// Text as one line of words, without line breaks and frames.
 pub(crate) fn words(text: &str) -> String {
     text.replace(['|', '│'], " ").split_whitespace().collect::<Vec<_>>().join(" ")
 }

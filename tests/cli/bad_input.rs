@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::answers::listed;
 use crate::{ProgramOutput, crossbar, crossbar_in};
 
-/// Runs in a fresh folder that must be as empty afterwards as before, and expects an error in one piece.
+/// Runs in an empty folder, which must stay empty, and expects a single error.
 fn refused(arguments: &[&str], input: &str) -> ProgramOutput {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let ran = crossbar_in(folder.path(), arguments, input);

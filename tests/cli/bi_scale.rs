@@ -21,8 +21,8 @@ fn values(path: &str) -> Vec<[f64; 3]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// From the model to the light in its local directions: by rows, by the same from text, by biclusters; the same bits in
-/// any number of threads.
+/// From the model to the light in its local directions: by rows, by rows read from text, by biclusters; identical bits
+/// with any number of threads.
 #[test]
 fn light_takes_every_way() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -114,7 +114,7 @@ fn what_cannot_be_done_is_said() {
 const COURT: &str = "docs/examples/court.obj";
 const COURT_BICLUSTERS: &str = "docs/examples/court_biclusters.npz";
 
-/// Fields of the JSON document of a picture of the court.
+/// Fields of the JSON document of a picture of the court scene.
 fn drawn(options: &str, out: &str) -> Value {
     document(&format!("bi-scale render {COURT_BICLUSTERS} --model {COURT} --size 24x18 {options} --out {out}"))
 }
@@ -124,7 +124,7 @@ fn picture(folder: &str, name: &str) -> Vec<[f32; 3]> {
     crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
 }
 
-/// The example of the pictures.
+/// The example files of the pictures.
 #[test]
 fn the_court_has_its_transfer() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -133,7 +133,7 @@ fn the_court_has_its_transfer() {
     document(&format!("bi-scale precompute {COURT} {options} --out {matrix}"));
     document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
     hold_bytes(COURT_BICLUSTERS.as_ref(), &fs::read(&biclusters).expect("written"));
-    // The matrix is drawn as its biclusters are, up to single precision.
+    // The matrix and its biclusters give equal pictures, up to single precision.
     let [one, other] = [&matrix, COURT_BICLUSTERS].map(|file| {
         let out = place(folder.path(), "p");
         let options = "--texture mail --texture-size 8 --texture-views 3 --repeat 2 --size 24x18";
@@ -145,7 +145,7 @@ fn the_court_has_its_transfer() {
     }
 }
 
-/// From a patch to a file to a picture: the same picture as with the patch itself; the same bits in any number of
+/// From a patch to a file to a picture: equal to the picture with the patch itself; identical bits with any number of
 /// threads.
 #[test]
 fn textures_take_every_way() {
@@ -170,15 +170,15 @@ fn textures_take_every_way() {
     let (_, of_file) = before.expect("a picture");
     drawn("--texture tiles --texture-size 8 --texture-views 3 --repeat 2", &out);
     assert_eq!(picture(&out, "picture"), of_file);
-    // Another texture on the wall changes the wall's pixels alone.
+    // Another texture on the wall changes only the wall's pixels.
     drawn(&format!("--texture {file} --texture wall=bricks --texture-size 8 --texture-views 3 --repeat 2"), &out);
     let both = picture(&out, "picture");
     let changed = both.iter().zip(&of_file).filter(|(a, b)| a != b).count();
     assert!((20..200).contains(&changed), "{changed}");
 }
 
-/// Under light from everywhere its texels and the numbers' precision cost nothing; more views and texels of a texture
-/// cost less than few; the last step is the difference of both pictures.
+/// Under uniform light, the light's texels and single precision cause no error; more views and texels of a texture have
+/// a smaller error than few; the last step is the difference of both pictures.
 #[test]
 fn errors_are_told_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -192,7 +192,7 @@ fn errors_are_told_apart() {
     let causes = causes("--texture-size 32 --texture-views 12");
     assert_eq!((causes.len(), of_coarse.len()), (7, 7));
     let step = |cause: &Value| number(&cause["step_percent"]);
-    // Light from everywhere is the same in any texels.
+    // Uniform light does not depend on texels.
     assert!(step(&causes[0]) < 1e-6 && step(&causes[6]) < 1e-3, "{causes:?}");
     for at in [3, 4] {
         assert!(step(&causes[at]) < 0.6 * step(&of_coarse[at]), "{causes:?}, {of_coarse:?}");
@@ -257,8 +257,8 @@ fn textures_that_do_not_fit_are_refused() {
     }
 }
 
-/// The card's picture is the host's except for the rounding of its target; coarser formats have a larger error, and do
-/// not combine with other kinds of transfer.
+/// The card's picture equals the host's except for the rounding of its target; coarser formats have a larger error, and
+/// other kinds of transfer do not accept them.
 #[test]
 fn the_card_draws_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -299,7 +299,7 @@ fn the_card_draws_what_the_host_draws() {
     }
 }
 
-/// Where floor and wall meet, a crease angle below a right angle keeps their vertices apart; a picture needs the same.
+/// A crease angle below a right angle separates the vertices of floor and wall; a picture needs the same angle.
 #[test]
 fn creases_keep_vertices_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -1,4 +1,4 @@
-//! `crossbar check`: legal, illegal, no program at all.
+//! `crossbar check`: legal and illegal programs, and text that is not a program.
 
 use std::fs;
 
@@ -43,7 +43,7 @@ fn violations_for_machines() {
     assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
 }
 
-/// The runtime takes a constant beyond -1 to 1 and clamps it: a warning, and exit code 0.
+/// The runtime clamps constants beyond -1 to 1: a warning, and exit code 0.
 #[test]
 fn warnings() {
     let clamped = b"ps_1_4\ndef c2, -0.5, 1.25, 2, 1\nmov r0, c2\n";
@@ -60,7 +60,7 @@ fn warnings() {
     assert_eq!((illegal.code, &report["warnings"][0]["code"]), (Some(1), &"W01".into()));
 }
 
-/// Fog and points are not drawn. The fog coordinate has a reader in OpenGL's pixel programs.
+/// Fog and points are not drawn; OpenGL's pixel programs can read the fog coordinate.
 #[test]
 fn outputs_that_change_no_pixel() {
     let vertex = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmov oFog, v0.z\nmov oPts, v0.w\nmov oFog.x, v0.w\n";
@@ -125,7 +125,7 @@ fn opengl_programs() {
 
 #[test]
 fn more_slots_than_sixteen_bits_count() {
-    // Three slots each.
+    // Each instruction takes three slots.
     let text = format!("ps_2_a\nmov r0, c0\n{}mov oC0, r0\n", "nrm r1, r0\n".repeat(30_000));
     let ran = check(text.as_bytes(), &["--device", "ideal-fp32", "--json"]);
     let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");

@@ -1,4 +1,4 @@
-//! Files that claim 2^32 of something: all readers refuse them, and none takes memory on their word.
+//! Files that claim 2^32 elements: every reader refuses them without allocating that much.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -14,11 +14,11 @@ use crossbar::transfer::file::parse_prt;
 
 use crate::archive::{members, text_of, with_member, with_metadata};
 
-/// Set in the process whose addresses are limited.
+/// Set in the process with a limited address space.
 const LIMITED: &str = "CROSSBAR_TEST_LIMITED";
-/// Bytes of a binary file in which every place is claimed over.
+/// Bytes at the head of a binary file of which each is replaced in turn.
 const HEAD: usize = 320;
-/// The last number of 32 bits.
+/// The largest number of 32 bits.
 const CLAIM: &str = "4294967295";
 
 /// A reader, and a good file for it.
@@ -28,7 +28,7 @@ struct GoodFile {
     read: fn(&[u8], &Path),
 }
 
-/// 2^32 of the smallest elements are 4 GiB; the readers have 1.5 GiB of address space, the program's own among them.
+/// 2^32 of the smallest elements are 4 GiB; the readers have an address space of 1.5 GiB, including the program itself.
 #[test]
 fn no_reader_takes_memory_on_the_word_of_a_file() {
     if std::env::var_os(LIMITED).is_some() {
@@ -52,13 +52,13 @@ fn read_claims(good: &GoodFile) {
     }
 }
 
-/// The file with each of its numbers in turn replaced by a large one, checksums right.
+/// The file with each of its numbers in turn replaced by a large one, with valid checksums.
 fn claims(good: &[u8]) -> Vec<Vec<u8>> {
     if let Some(text) = std::str::from_utf8(good).ok().filter(|text| !text.contains('\0')) {
         return text_claims(text).into_iter().map(String::into_bytes).collect();
     }
     let is_archive = good.starts_with(io::npz::MAGIC);
-    // Sizes of an archive are repeated at its end.
+    // An archive repeats sizes at its end.
     let last = if is_archive { good.len().saturating_sub(HEAD)..good.len() - 3 } else { 0..0 };
     let mut all = if is_archive { claims_of_members(good) } else { Vec::new() };
     for at in (0..good.len().min(HEAD).saturating_sub(3)).chain(last) {

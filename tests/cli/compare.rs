@@ -68,7 +68,7 @@ format = "rgba32f"
 
 const TWO_ROUNDINGS: &str = include_str!("two_roundings.toml");
 
-/// Half of three units in the last place of s3.12 lies between two and one: ties round to the even one, or toward zero.
+/// 1.5 units in the last place of s3.12 are a tie: 2 rounded to even, 1 toward zero.
 #[test]
 fn two_roundings() {
     let first = difference(TWO_ROUNDINGS, &["--right-format", "s3.12:rtz"]);
@@ -90,7 +90,7 @@ fn two_roundings() {
     );
 }
 
-/// 0.1 is another number in each format, so the instruction that reads it is the first to differ, and its operand does.
+/// 0.1 differs between the formats, so the instruction that reads it is the first to differ, and so is its operand.
 #[test]
 fn an_operand_that_differs_already() {
     let text = PLAIN.replace("PROGRAM", "mov r0, t0\nadd r0, r0, c0\nmov oC0, r0");
@@ -103,11 +103,11 @@ fn an_operand_that_differs_already() {
     assert_eq!((&constant["name"], &constant["left"]), (&json!("c0.x"), &json!("0.0999755859375")));
     // 0.1 * 4096 = 409.6: 410 units.
     assert_eq!((&constant["right"], &constant["right_bits"]), (&json!("0.10009765625"), &json!("0x019a")));
-    // The difference, 2^-13, is half of the last place of s3.12.
+    // The difference, 2^-13, is half a unit in the last place of s3.12.
     assert_eq!((&constant["ulps"], &constant["unit"]), (&json!(0.5), &json!("s3.12")));
 }
 
-/// The coordinate is 0.1 rounded to fp16. In fp16 it is not below the constant 0.1, in fp32 it is.
+/// The coordinate is 0.1 rounded to fp16: not below the constant 0.1 in fp16, but below it in fp32.
 #[test]
 fn a_branch() {
     let text = PLAIN
@@ -147,7 +147,7 @@ fn the_alpha_test() {
     assert_eq!(found["values"][0]["name"], "target 0 red");
 }
 
-/// The coordinate is rounded on its way into a register: the stage is that, and the instruction that reads it is named
+/// The coordinate is rounded when it enters a register: the stage says so, and the instruction that reads it is named
 /// too.
 #[test]
 fn an_input_register() {
@@ -183,8 +183,8 @@ fn the_output_merge() {
     assert_eq!(found["values"][0]["right_bits"], "0x3fffff");
 }
 
-/// An edge at column 3.02: on a grid of sixteenths it is rounded to 3, and the centre of column 3 lies on it, to the
-/// right of the quad; on a grid of 256ths the centre lies inside.
+/// An edge at column 3.02: a grid of sixteenths rounds it to 3, so the centre of column 3 lies on it, to the right of
+/// the quad; on a grid of 256ths the centre lies inside.
 #[test]
 fn the_coverage() {
     let text = r#"device = "r300"
@@ -245,8 +245,8 @@ fn a_trace() {
     insta::assert_snapshot!(trace);
 }
 
-/// 2 * 0.7 in s3.12: 0.7 is 2867 of 4096 parts, its double 5734; c1 is an eighth, its product 716.75 parts rounds to
-/// 717.
+/// 2 * 0.7 in s3.12: 0.7 is 2867 parts of 4096, its double 5734; c1 is an eighth, and the product of 716.75 parts
+/// rounds to 717.
 #[test]
 fn a_trace_for_machines() {
     let text = r#"shader_model = "ps_1_4"

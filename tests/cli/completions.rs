@@ -20,7 +20,7 @@ fn scripts_for_five_shells_name_every_command() {
     assert_eq!(crossbar(&["completions", "abacus"], "").code, Some(2));
 }
 
-/// A shell completes with the script; `program` names the one under test.
+/// A shell completes by the script; `program` is the program under test.
 #[cfg(target_os = "linux")]
 #[test]
 fn bash_completes() {

@@ -51,7 +51,7 @@ fn what_does_not_go_together_is_refused() {
     }
 }
 
-/// The card's picture is the host's up to rounding: almost equal on an ideal device, less so on real cards.
+/// The card's picture is the host's up to rounding: almost equal on an ideal device, less on real cards.
 #[test]
 fn a_card_draws_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -103,7 +103,7 @@ fn pictures_that_are_no_lights_are_refused() {
     let [model, transfer, _] = STEP.map(|path| place(Path::new(env!("CARGO_MANIFEST_DIR")), path));
     let mut pixels = [[1.0; 3]; 32];
     pixels[19] = [1.0, f32::NAN, 1.0];
-    // White scanlines of 8 pixels, per channel one run; the second ends in its second run.
+    // White scanlines of 8 pixels, one run per channel; the second scanline ends within its second run.
     let row = [2, 2, 0, 8, 136, 128, 136, 128, 136, 128, 136, 129];
     let broken = [&b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n"[..], &row, &row[..7], b"\0"].concat();
     for (name, bytes, words) in [
@@ -153,12 +153,12 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
     for words in ["expected transfer of a mesh with 4 vertices", "tangents from texture coordinates", "along 0,1,0"] {
         assert!(said.contains(words), "{words}: {said}");
     }
-    // The same square without texture coordinates is another mesh.
+    // A square without texture coordinates is another mesh.
     let square = ["cpca", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
     refused(&square);
 }
 
-/// An array of NumPy's and a table of the same numbers are one signal.
+/// A NumPy array and a table with equal numbers are one signal.
 #[test]
 fn arrays_of_numpy_are_compressed() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -182,8 +182,8 @@ fn arrays_of_numpy_are_compressed() {
     assert!(said.to_lowercase().contains("fortran"), "{said}");
 }
 
-/// Reclassification draws fewer triangles within its budget; superclusters cost no error; the file records both, and
-/// the card draws by the file.
+/// Reclassification draws fewer triangles within its budget; superclusters add no error; the file records both, and the
+/// card draws accordingly.
 #[test]
 fn clusters_are_made_coherent_on_their_mesh() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -220,7 +220,7 @@ fn clusters_are_made_coherent_on_their_mesh() {
     assert_eq!(card(&[]).to_string().trim_matches('"'), grouped["coherence"]["superclusters"].to_string());
 }
 
-/// Options without effect beside others are refused by name.
+/// Options that other options make useless are refused by name.
 #[test]
 fn idle_options_of_compression_are_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

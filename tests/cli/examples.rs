@@ -39,7 +39,7 @@ fn reflectance() -> String {
     table.values().rows().map(line).collect()
 }
 
-/// A sparse matrix of quarters that forms blocks, with some values off.
+/// A sparse matrix of quarters in blocks, with some values changed.
 fn quarters() -> String {
     let value = |row: usize, column: usize| {
         let in_block = (7 * (row / 8) + 3 * column) % 5 < 2;

@@ -82,7 +82,7 @@ fn bad_input_is_refused() {
     insta::assert_snapshot!(said);
 }
 
-/// Options that the subject has no use for are refused before its file is looked for.
+/// Options that do not apply to the subject are refused before its file is read.
 #[test]
 fn options_of_another_subject_are_refused() {
     let of_model = "--roughness=0.3 --fresnel=0.5 --denominators=product --fresnel-form=constant --shadowing=none";

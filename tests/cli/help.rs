@@ -2,12 +2,12 @@
 
 use crate::{crossbar, tree};
 
-/// All commands, by the alphabet.
+/// All commands, in alphabetical order.
 pub(crate) const COMMANDS: &str = "all-frequency alu atlas bi-scale check compare completions cpca devices diff \
                         intersect leaky-teapot man materials matmul measure merge page precision radiosity render \
                         reproduce run scene subsurface timeline tour units";
 
-/// The verbs of the commands that have some.
+/// The verbs of all commands.
 fn verbs() -> Vec<String> {
     tree::commands().into_iter().map(|(name, _)| name).filter(|name| name.contains(' ')).collect()
 }
@@ -28,7 +28,7 @@ fn every_command_is_listed_here() {
     assert_eq!(listed.join(" "), COMMANDS);
 }
 
-/// `-o`, `-d` and `-f` are short for the options that most commands have.
+/// `-o`, `-d` and `-f` are short for the most common options.
 #[test]
 fn short_options() {
     let long = crossbar(&["alu", "add", "--format", "fp16"], "3C00 4000\n");

@@ -8,8 +8,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A command with no signal ignored. If the tests themselves run with one ignored (by `nohup`, or by a script in the
-/// background), the program would inherit that, and minutes of work would run to their end.
+/// A command that ignores no signal. If the tests themselves run with a signal ignored (by `nohup`, or by a script in
+/// the background), the program would inherit that, and minutes of work would run to their end.
 fn unignoring(program: &str) -> Command {
     if cfg!(target_os = "linux") {
         let mut command = Command::new("env");
@@ -141,7 +141,7 @@ fn a_full_pipe_does_not_keep_the_program() {
 fn shells_see_130_and_143() {
     for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let folder = tempfile::tempdir().expect("a folder for the test");
-        // A shell without job control starts background jobs with SIGINT ignored, so the program runs in its
+        // A shell without job control starts background jobs with SIGINT ignored, so the program runs in the
         // foreground.
         let script = format!(
             "(until ls -d .crossbar-* > /dev/null 2>&1; do sleep 0.02; done; kill -s {name} $(cat pid)) & \

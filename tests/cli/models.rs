@@ -49,7 +49,7 @@ fn a_model_with_y_up_stands_up() {
     let folder = folder();
     let stl = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/square.stl");
     fs::copy(stl, folder.path().join("square.stl")).expect("copied");
-    // The square lies in z = 0 of its file; with y up it stands in y = 0.
+    // The square lies in z = 0 of its file; with y up it lies in y = 0.
     let hits = |options: &str| {
         let ran =
             run(folder.path(), &format!("intersect --mesh square.stl --rays r.csv --sides both{options} --out h.csv"));
@@ -67,7 +67,7 @@ fn a_model_with_y_up_stands_up() {
     }
 }
 
-/// Every command reports faces that are not flat.
+/// Every command reports faces that are not planar.
 #[test]
 fn faces_with_a_fault_are_said() {
     let folder = folder();
@@ -99,7 +99,7 @@ fn a_hit_beyond_f32_has_its_distance() {
     }
 }
 
-/// Leaks of a user's model and rays, with classes, map and page as for the teapot.
+/// Leaks of a user's model and rays, with verdicts, map and page as for the teapot.
 #[test]
 fn leaks_of_any_model() {
     let folder = folder();
@@ -131,7 +131,7 @@ fn leaks_of_any_model() {
     }
 }
 
-/// Rays of any origin at small triangles leave no significant bits of t on a 16-bit card, and the program reports that.
+/// Rays with separate origins at small triangles leave no significant bits of t on a 16-bit card; the program says so.
 #[test]
 fn a_format_without_bits_is_said() {
     let folder = folder();

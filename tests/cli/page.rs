@@ -42,7 +42,7 @@ fn the_page_stands_alone() {
     assert!(digests[0] != digests[1] && digests[1] != digests[2]);
 }
 
-/// The traces in the page are those of `run --trace` on the cases in it.
+/// The page's traces equal `run --trace` on its cases.
 #[test]
 fn stored_traces_are_those_of_the_cases() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -75,7 +75,7 @@ fn stored_traces_are_those_of_the_cases() {
     }
 }
 
-/// Names and bits that the page has stored for a pixel.
+/// Names and bits that the page stores for a pixel.
 fn stored(variant: &Value, pixel: usize) -> Vec<[String; 2]> {
     let bytes = STANDARD.decode(variant["values"].as_str().expect("values")).expect("base64");
     let mut bytes = bytes.into_iter();

@@ -1,4 +1,4 @@
-//! Parts of a run, on any machine and in any order: merged, they are the files of one run.
+//! Parts of a run, in any order: merged, they equal the files of one run.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,7 +10,7 @@ use crate::commands::copy_of_the_repository;
 use crate::random::Random;
 use crate::{crossbar_in, start};
 
-/// Commands that split, on small input. The result is written to `out`, with an extension if it is a file.
+/// Commands that split, on small input. The result goes to `out`, with an extension if it is a file.
 const COMMANDS: &[&str] = &[
     "cpca precompute docs/examples/court.obj --order 3 --out out.npz",
     "cpca precompute docs/examples/step.obj --kind glossy --rows 9 --order 2 --degree 18 --brdf phong:0.2,0.6,9 \
@@ -90,7 +90,7 @@ fn merged_parts_are_the_files_of_one_run() {
         let said = run(folder, &words(command));
         let whole = written(folder);
         assert!(!whole.is_empty(), "{command}");
-        // One with more parts than it has vertices.
+        // One command with more parts than vertices.
         let many = if command.contains("--order 3") { Some(47) } else { None };
         for of in [1 + random.below(6)].into_iter().chain(many) {
             let mut files: Vec<String> = (1..=of).map(|number| format!("{number}.part")).collect();
@@ -113,7 +113,7 @@ fn merged_parts_are_the_files_of_one_run() {
     }
 }
 
-/// Parts that are killed at any moment leave a whole file or none, and are made again.
+/// Parts that are killed at any moment leave a complete file or none, and are computed again.
 #[test]
 fn parts_that_were_killed_are_made_again() {
     let mut random = Random::new(11);
@@ -140,7 +140,7 @@ fn parts_that_were_killed_are_made_again() {
         assert!(first.is_none_or(|first| fs::read(folder.join(name)).expect("a part") == first), "{name}");
     }
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    // Two merges at once into one file.
+    // Two simultaneous merges into one file.
     let merge = [&["merge"], &names[..], &["--out", "out.npz"]].concat();
     let children = [start(folder, &merge), start(folder, &merge)];
     for mut child in children {
@@ -149,7 +149,7 @@ fn parts_that_were_killed_are_made_again() {
     assert!(written(folder) == whole, "both write the same");
 }
 
-/// The parts 1 and 2 of two of a small command.
+/// Both parts of a small command.
 fn two_parts() -> tempfile::TempDir {
     let folder = copy_of_the_repository();
     for number in ["1", "2"] {
@@ -178,7 +178,7 @@ fn refusal(folder: &Path, line: &str) -> String {
     shown
 }
 
-/// Each with its reason, and nothing is written.
+/// Each refusal has a reason, and nothing is written.
 #[test]
 fn parts_that_do_not_fit_are_refused() {
     let folder = two_parts();
@@ -219,7 +219,7 @@ fn parts_that_do_not_fit_are_refused() {
     run(folder, &["merge", "1.part", "2.part", "--out", "out.npz"]);
 }
 
-/// A part with a right digest, but of another program or of a command that does not split.
+/// A part with a valid digest, but from another program, or of a command that does not split.
 #[test]
 fn parts_of_other_programs_are_refused() {
     let folder = two_parts();
@@ -265,7 +265,7 @@ fn parts_of_other_programs_are_refused() {
     insta::assert_snapshot!(said);
 }
 
-/// A disk that is full in the middle of a part, or of a merge, leaves nothing half-written.
+/// A disk that fills up during a part or a merge leaves no incomplete file.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk_leaves_nothing() {

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::LazyLock;
 
-/// The path of the program under test: that of `CROSSBAR_PROGRAM`, a release for example, or of the one that this test
-/// was built with.
+/// Path of the program under test: `CROSSBAR_PROGRAM`, for example a release, or the program that was built with this
+/// test.
 pub(crate) fn path() -> &'static str {
     static PATH: LazyLock<String> = LazyLock::new(|| match std::env::var("CROSSBAR_PROGRAM") {
         Ok(program) => std::path::absolute(&program).expect("a path").display().to_string(),
@@ -24,7 +24,7 @@ pub(crate) struct ProgramOutput {
 }
 
 impl ProgramOutput {
-    /// The three in one text, for snapshots.
+    /// Exit code and both streams as one text, for snapshots.
     pub(crate) fn transcript(&self) -> String {
         let code = self.code.map_or_else(|| "none".to_owned(), |code| code.to_string());
         format!("exit code: {code}\n--- stdout\n{}--- stderr\n{}", self.stdout, self.stderr)
@@ -47,7 +47,7 @@ pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Pro
         .expect("the program under test");
     let mut stdin = child.stdin.take().expect("a pipe was asked for");
     let input = input.to_owned();
-    // The program may write before it has read everything, or never read: neither may block or fail the test.
+    // The program may write before it has read everything, or never read: neither must block or fail the test.
     let writer = std::thread::spawn(move || stdin.write_all(input.as_bytes()).ok());
     let output = child.wait_with_output().expect("the program runs to its end");
     writer.join().expect("writing does not panic");

@@ -38,7 +38,7 @@ fn what_it_says_and_writes() {
     );
 }
 
-/// Radiosities between patches: the corners of the model by their numbers, each value a mean of its patches'.
+/// Radiosities at the model's vertices, by vertex number, each a mean over its patches.
 #[test]
 fn vertices_have_radiosities() {
     let (ran, folder) = radiosity(&["white-box", "--patches", "24", "--size", "8x8", "--solver", "direct"]);
@@ -50,7 +50,7 @@ fn vertices_have_radiosities() {
     let (vertices, patches) = (rows("vertices.csv"), rows("patches.csv"));
     let names = ["vertex", "x", "y", "z", "of_model", "material", "patches", "direct_r", "direct_g", "direct_b"];
     assert_eq!(vertices[0], names);
-    // 9 per side of a box whose edges are sharp.
+    // 9 vertices per side of a box with sharp edges.
     assert_eq!(vertices.len() - 1, 6 * 9);
     let of_model: BTreeSet<&str> =
         vertices[1..].iter().map(|row| row[4].as_str()).filter(|row| !row.is_empty()).collect();
@@ -63,7 +63,7 @@ fn vertices_have_radiosities() {
     assert!(vertices[1..].iter().any(|row| row[6] == "4") && vertices[1..].iter().any(|row| row[6] == "1"));
 }
 
-/// If no patch sees another, every solver is done at once, without a curve to draw.
+/// If no patch sees another, every solver ends at once, without a curve to draw.
 #[test]
 fn a_flat_scene_has_no_residuals_to_draw() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -156,7 +156,7 @@ fn a_sweep_over_patches_and_switches() {
     assert!(dark(&turned, many, "as it is") > 1.5 * dark(&turned, few, "as it is"), "{turned:?}");
 }
 
-/// An open sheet, a sheet with a triangle without area, a triangle too thin, a mirror, and nothing.
+/// An open sheet, a sheet with a triangle without area, a triangle that is too thin, a mirror, and nothing.
 const FILES: [(&str, &str); 9] = [
     ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
     ("flat.obj", "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nusemtl lamp\nf 1 2 4\nf 1 2 3\n"),

@@ -10,10 +10,10 @@ fn render(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     (crossbar_in(folder.path(), &all, ""), folder)
 }
 
-/// A square, seen head on by the default camera well enough.
+/// A square that the default camera sees nearly head on.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
 
-/// A scene file with a slip in the name of a field.
+/// A scene file with a misspelt field.
 const FIELD: &str = "mesh = \"square.obj\"\n[[point_ligth]]\nposition = [0, 0, 1]\nintensity = [1, 1, 1]\n";
 
 /// A model whose face names a vertex that is not there.
@@ -39,7 +39,7 @@ fn every_renderer_makes_the_same_picture_twice() {
     }
 }
 
-/// A long box far from the origin, wide, high or deep, fills its picture on one side and is cut off on none.
+/// A long box far from the origin, wide, high or deep, touches an edge of its picture and is not cut off.
 #[test]
 fn a_model_fills_the_picture() {
     for (axis, size) in [(0, [256, 256]), (1, [256, 256]), (2, [256, 256]), (0, [120, 360]), (2, [480, 160])] {

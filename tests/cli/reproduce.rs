@@ -17,7 +17,7 @@ fn an_unknown_entry_is_refused_before_anything_is_written() {
     assert!(slip.stderr.contains("did you mean `cpca-figure-7`?"), "{}", slip.stderr);
 }
 
-/// Snapshot of the figures: a change of the model shows here.
+/// Snapshot of the figures, which shows a change of the model.
 #[test]
 fn the_rows_are_these() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -38,7 +38,7 @@ fn the_rows_are_these() {
     insta::assert_snapshot!(file("rows.csv") + &file("tally.csv"));
 }
 
-/// A paper is all its entries.
+/// The name of a paper selects all its entries.
 #[test]
 fn a_paper_is_reproduced_by_name() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -76,7 +76,7 @@ fn what_is_recorded_stays() {
     assert!(new.contains("command = \"crossbar reproduce cpca-section-6 --full-size\""), "{new}");
 }
 
-/// Each row names its run: recorded ones in the table, in CSV and in JSON, and the page how they were made.
+/// Each row names its run: the table, CSV and JSON mark recorded rows, and the page says how they were recorded.
 #[test]
 fn recorded_rows_say_so() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! The command line that findings come from: defaults are filled in, and options without effect are left out.
+//! The command line in findings: with defaults, without options that have no effect.
 
 use crate::commands::copy_of_the_repository;
 use crate::crossbar_in;
@@ -26,7 +26,7 @@ fn defaults_are_filled_in_and_what_changes_nothing_is_left_out() {
     );
     let line = "reproduce ray-engine-figure-7 ray-engine-equation-11";
     assert_eq!(resolved_line(line), format!("crossbar {line}"));
-    // A default that the subject has no use for is not written.
+    // A default that does not apply to the subject is omitted.
     let line = "all-frequency factor --table docs/examples/reflectance.csv --terms 3";
     assert_eq!(resolved_line(line), format!("crossbar {line}"));
 }

@@ -1,4 +1,4 @@
-//! Text from outside on a terminal: no control sequences, no endless lines, no endless lists.
+//! External text on a terminal: no control sequences, no endless lines, no endless lists.
 
 use std::fs;
 use std::path::Path;
@@ -117,8 +117,8 @@ fn lists_of_errors_are_cut_but_for_machines() {
     assert!(ran.stderr.ends_with("... and 10 more: `--json` has every one\n"), "{}", ran.stderr);
 }
 
-/// Processor time of the program alone, so that other load does not matter: eight times the errors may cost eight times
-/// the time, where a renderer that scans the text for each error would take 64 times.
+/// Processor time of the program alone, so that other load does not matter: eight times the errors may take eight times
+/// the time; a renderer that scans the text for each error would take 64 times.
 #[test]
 fn a_report_costs_as_much_as_its_errors() {
     let seconds = |count: usize, more: &[&str]| {

@@ -97,8 +97,8 @@ fn angles() -> &'static str {
      --links 64 --link-format fp32 --map fp32 --light directional:0,0,1:1,1,1 --all-pairs yes"
 }
 
-/// docs/studies/subsurface.md states for each choice of links at which angles from the light it is nearer: its table
-/// and its sentence are the study's, and this test runs the command that it names.
+/// docs/studies/subsurface.md states for each choice of links at which angles from the light it is more accurate: its
+/// table and sentence are the study's, and this test runs the command that the page names.
 #[test]
 fn the_page_says_where_each_choice_of_links_is_nearer() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -113,7 +113,7 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     assert_eq!(rows.len(), 2 * 12, "twelve bins of each way");
     let of = |choice: &str| rows.iter().filter(|row| row["way"].starts_with(choice)).collect::<Vec<_>>();
     let (fixed, adaptive) = (of("fixed"), of("adaptive"));
-    // Each choice is better somewhere, which a mean over the sphere hides.
+    // Each choice is better at some angles, which a mean over the sphere hides.
     let nearer = |(one, other): (&&BTreeMap<String, String>, &&BTreeMap<String, String>)| {
         number(one, "links_rms_percent") < number(other, "links_rms_percent")
     };
@@ -143,7 +143,7 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     hold_on_page("angles", angles(), &expected);
 }
 
-/// Requires that docs/studies/subsurface.md names the command, and what it found between the marks; or writes it.
+/// Checks that docs/studies/subsurface.md names the command, and has its results between the markers; or writes them.
 fn hold_on_page(name: &str, command: &str, expected: &str) {
     // Tests that write the page do so one after another.
     static PAGE: Mutex<()> = Mutex::new(());
@@ -198,7 +198,7 @@ fn the_page_says_how_errors_grow_with_the_model() {
         let [one, two, four] = [0, 1, 2].map(|size| format!("{:.1} ({:.1})", errors[size], seams[size]));
         text += &format!("| {name} | {single:.2} | {half:.2} | {one} | {two} | {four} |\n");
     }
-    // Section 4.3: 16 adaptive links show seams where as many fixed ones do not, and fewer with more links.
+    // Section 4.3: 16 adaptive links show seams where as many fixed links do not, and fewer seams with more links.
     for size in &sizes {
         let [fixed, adaptive, more] = [2, 8, 10].map(|row: usize| number(&size[row], "links_seams_percent"));
         assert!(adaptive > 1.5 * fixed && more < 0.5 * adaptive, "{fixed}, {adaptive}, {more}");
@@ -230,8 +230,7 @@ fn flat_tetrahedron() -> String {
     places + &normals + "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 1//3 4//3 3//3\nf 2//4 3//4 4//4\n"
 }
 
-/// A map of the same radiance everywhere is a sky, for a convex body; one with half of the sphere dark is not. Beside
-/// other lights a map is refused.
+/// A uniform map is a sky, for a convex body; a map with a dark half is not. A map beside other lights is refused.
 #[test]
 fn environment_maps_shine() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -255,7 +254,7 @@ fn environment_maps_shine() {
     refused(&["--light", "nowhere.exr"], "nowhere.exr");
 }
 
-/// Help, page and program agree on the atlases up to which all pairs are gathered unasked.
+/// Help, page and program agree on the largest atlas for which all pairs are gathered by default.
 #[test]
 fn all_pairs_are_gathered_up_to_the_side_that_help_and_page_say() {
     let help = crossbar_in(Path::new("."), &["subsurface", "--help"], "");
@@ -288,7 +287,7 @@ fn a_face_that_stands_twice_is_said() {
     assert!(text.contains(said), "{text}");
 }
 
-/// A corner at 1e12 makes texels whose areas differ by 1e20: factors over such ratios are infinite in half precision.
+/// A corner at 1e12 makes texels whose areas differ by 1e20: factors over such ratios overflow half precision.
 #[test]
 fn factors_beyond_their_format_are_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

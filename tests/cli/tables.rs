@@ -50,7 +50,7 @@ fn tables_fit_the_terminal() {
     }
 }
 
-/// Commands without a page print titled tables, and a line per file that they wrote; JSON names the same files.
+/// Commands without a page print titled tables, and a line per written file; JSON names the same files.
 #[test]
 fn findings_without_a_page_are_text_or_fields() {
     type Fields<'a> = &'a [(&'a str, Option<&'a str>)];
@@ -79,7 +79,7 @@ fn findings_without_a_page_are_text_or_fields() {
     }
 }
 
-/// In the main study, switches that change nothing are folded, on its page too; files for programs have every row.
+/// The main study folds switches that change nothing, on its page too; CSV and JSON have every row.
 #[test]
 fn rows_of_the_same_bits_are_folded() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -94,7 +94,7 @@ fn rows_of_the_same_bits_are_folded() {
     assert_eq!(csv.lines().count(), 1 + rows, "{csv}");
 }
 
-/// Without a terminal the output does not depend on one: tables are at most 100 columns wide, progress has no control
+/// Without a terminal the output has a fixed form: tables at most 100 columns wide, progress without control
 /// characters.
 #[test]
 fn off_a_terminal_the_width_is_fixed() {

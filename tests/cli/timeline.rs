@@ -42,7 +42,7 @@ fn check(document: &Value, models: &[&str]) {
 
 #[test]
 fn a_case_by_its_rates() {
-    // The model without guesses of the two: its tables change with the tables of the device, not with a guess.
+    // The rates model reads no guess: its tables change with the tables of the device, not with a guess.
     let ran = crossbar(&["timeline", "fixtures/cases/modulate.toml", "--timing", "rates", "--sensitivity"], "");
     insta::assert_snapshot!(ran.transcript());
 }
@@ -116,7 +116,7 @@ fn the_texture_cache_on_request() {
         assert!(texels > 0 && texels >= half, "{row}");
         assert!(half >= same && same >= double && double >= distinct && distinct > 0, "{row}");
     }
-    // The same work under either model of cache misses.
+    // The work is equal under both models of cache misses.
     assert_eq!(sum(&estimated["models"][0]["draws"], "fragments"), sum(&simulated["models"][0]["draws"], "fragments"));
 }
 

@@ -1,4 +1,4 @@
-//! The program's tree of commands, verbs and options, as clap has it.
+//! The program's tree of commands, verbs and options, read from clap.
 
 use clap::{Arg, ArgAction};
 

@@ -1,8 +1,8 @@
-//! Values of options with their own syntax: good ones are accepted, bad ones refused.
+//! Values of options with their own syntax: valid ones are accepted, invalid ones refused.
 
 use clap::error::ErrorKind;
 
-/// Whether the program's parser takes a command line whose last word is `value`.
+/// Returns whether the program's parser accepts a command line whose last word is `value`.
 fn takes(command: &str, value: &str) -> bool {
     let words = command.split(' ').chain([value]);
     match crossbar::cli::program().try_get_matches_from(["crossbar"].into_iter().chain(words)) {

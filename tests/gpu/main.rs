@@ -1,7 +1,7 @@
-//! Tests that need a GPU adapter, beside the emulator's own (`refsim/tests/gpu_*`, `wgsl_*`): the same bits as by the
-//! batch executor. Without an adapter every test here is counted as ignored.
+//! Tests that need a GPU adapter, besides the emulator's own (`refsim/tests/gpu_*`, `wgsl_*`): bits must equal the
+//! batch executor's. Without an adapter every test here is counted as ignored.
 //!
-//! `tests/agree` draws one case in four on the adapter too, and compares the other executors where there is none.
+//! `tests/agree` also draws one case in four on the adapter, if there is one.
 
 #[path = "../../refsim/tests/common/adapter.rs"]
 mod adapter;

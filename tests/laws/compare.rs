@@ -120,7 +120,7 @@ type Change = fn(&mut Vec<FragmentTrace>);
 #[test]
 fn every_stage_in_its_order() {
     let setup = example("two_triangles.toml");
-    // Each change alone, from the latest stage to the earliest; then together with all later ones, which it must hide.
+    // Each change alone, from the latest stage to the earliest, and together with all later ones, which it must hide.
     let changes: [(&str, Change); 7] = [
         ("merge", |t| t[1].after.colors[0] = Some(7)),
         ("test", |t| t[1].shading.fate = FragmentFate::AlphaFailed),

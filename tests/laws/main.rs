@@ -1,4 +1,4 @@
-//! Laws: properties of every input, by property tests and by formula.
+//! Laws: properties of every input, by property tests and by formulas.
 
 mod all_frequency;
 #[path = "../archive.rs"]

@@ -21,7 +21,7 @@ pub(crate) fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// Result of work on so many threads.
+/// Result of work on `threads` threads.
 pub(crate) fn in_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }
@@ -41,7 +41,7 @@ pub(crate) fn soup(corners: Vec<[f32; 3]>) -> Mesh {
     Mesh::new(corners, triangles).expect("a mesh")
 }
 
-/// Such a mesh with the normals of its triangles.
+/// A mesh of triangles that keep their own corners, with the normals of the triangles.
 pub(crate) fn flat(corners: Vec<[f32; 3]>) -> Mesh {
     let normals = corners.chunks(3).flat_map(|triangle| {
         let [a, b, c] = [0, 1, 2].map(|at| wide(triangle[at]));
@@ -57,7 +57,7 @@ pub(crate) fn plate(length: f32, width: f32) -> Mesh {
     Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh")
 }
 
-/// A box from corner to corner, fronts outwards, of 8 vertices.
+/// A box between two corners, fronts outwards, of 8 vertices.
 pub(crate) fn cuboid(low: [f32; 3], high: [f32; 3]) -> Mesh {
     let corner = |at: u32| [0, 1, 2].map(|axis| if at >> axis & 1 == 1 { high[axis] } else { low[axis] });
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -65,7 +65,7 @@ pub(crate) fn cuboid(low: [f32; 3], high: [f32; 3]) -> Mesh {
     Mesh::new((0..8).map(corner).collect(), triangles).expect("a box")
 }
 
-/// Affine clusters by as many iterations of both kinds, from start points of a seed.
+/// Affine clusters, with as many iterations of both kinds, from start points by the seed.
 pub(crate) fn cluster_options(clusters: usize, vectors: usize, iterations: usize, seed: u64) -> CpcaOptions {
     CpcaOptions {
         clusters,
@@ -78,8 +78,8 @@ pub(crate) fn cluster_options(clusters: usize, vectors: usize, iterations: usize
     }
 }
 
-/// Cuts of a file are refused; a flipped bit, one of each byte or more, is refused or changes nothing that a reader looks
-/// at, as in the date of a member.
+/// A truncated file is refused; a flipped bit, one per byte or more, is refused or changes nothing that a reader uses,
+/// such as the date of a member.
 pub(crate) fn damage_is_seen<T: PartialEq>(
     file: &T,
     whole: &[u8],
@@ -96,7 +96,7 @@ pub(crate) fn damage_is_seen<T: PartialEq>(
     }
 }
 
-/// A byte of a member changed and its checksum made right again: refused, or read, written and read again.
+/// A byte of a member is changed and its checksum corrected: the file is refused, or read, written and read again.
 pub(crate) fn forgery_does_no_harm<T: PartialEq + Debug>(
     whole: &[u8],
     (which, at, byte): (Index, Index, u8),

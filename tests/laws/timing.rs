@@ -1,4 +1,4 @@
-//! Time and values are apart: no clock changes a pixel. (`tests/agree` checks that the log depends on no executor.)
+//! Time and values are separate: no clock changes a pixel. (`tests/agree` checks that the log depends on no executor.)
 
 use crate::support::file;
 use crossbar::case::{self, Setup};
@@ -16,7 +16,7 @@ fn cases() -> Vec<(PathBuf, Setup)> {
     paths.into_iter().map(|p| (p.clone(), Setup::read(&p).unwrap_or_else(|e| panic!("{}: {e}", p.display())))).collect()
 }
 
-/// The device with every figure that the timing model reads a thousand times as large, or as small.
+/// The device with every figure of the timing model a thousand times as large, or as small.
 fn absurd(profile: &Profile, up: bool) -> Profile {
     let mut out = profile.clone();
     for row in profile.figures() {

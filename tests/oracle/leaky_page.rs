@@ -1,4 +1,4 @@
-//! Checks that pages quote the program's figures on the leaky teapot: the blocks between marks are generated here.
+//! Checks that pages quote the program's figures on the leaky teapot: this test generates the blocks between marks.
 //! `INSTA_UPDATE=always` writes them.
 
 use crate::environment::{is_full, writes_files};
@@ -61,7 +61,7 @@ fn alike(a: &TeapotRow, b: &TeapotRow) -> bool {
     (&a.triangle, a.edges, a.vertices) == (&b.triangle, b.edges, b.vertices) && bits(a) == bits(b)
 }
 
-/// The rows that the program runs with shared edges, too, when run without options.
+/// The rows that the program also runs with shared edges when run without options.
 const CURED: [&str; 5] = ["r200", "r200-rounding-rne", "fp16", "fp24", "fp32"];
 
 /// A configuration with both programs: leaks inside the surface, and what an intersection costs.
@@ -156,7 +156,7 @@ fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
 }
 
 /// The figures at full size. Rows that the page lists as bit-identical to the first are checked on a smaller picture;
-/// in the full form, and when the page is written, they too are computed at full size.
+/// in the full form, and when the page is written, they are computed at full size too.
 #[test]
 fn the_pages_say_what_the_program_prints() {
     let text = read(PAGES[0]);
@@ -193,8 +193,8 @@ fn the_pages_say_what_the_program_prints() {
     }
 }
 
-/// Every figure of README.md is checked: its numbers are between marks, or they are years, names, or one of these,
-/// each with its test.
+/// Every figure of README.md is checked: its numbers are between marks, or they are years, names, or in this list, each
+/// with its test.
 #[test]
 fn every_figure_of_the_front_page_is_held() {
     let years_and_names = ["2002", "2003", "2004", "2011", "4", "8500"];

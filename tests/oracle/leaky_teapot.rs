@@ -1,4 +1,4 @@
-//! The leaky teapot: assertions about the paper's Figure 4; the same bits on every executor and thread count.
+//! The leaky teapot: assertions about the paper's Figure 4; identical bits on every executor and thread count.
 
 use crate::environment::by_form;
 use crossbar::geom::exact::Sides;
@@ -67,7 +67,7 @@ fn cards_of_2003_trace_the_teapot_as_their_formats_do() {
     }
 }
 
-/// Both faces cost the Radeon nothing where rays have one origin: the vertex program turns the triangles round.
+/// Both faces cost the Radeon nothing if rays have one origin: the vertex program reverses the triangles.
 #[test]
 fn a_radeon_8500_sees_both_faces() {
     let mut card = Configuration::device("r200").expect("a card");
@@ -106,8 +106,8 @@ fn digest(outcome: &TeapotOutcome) -> u64 {
     h
 }
 
-/// Golden: the same in debug and release, on every CPU. If a change of the arithmetic is meant, say why in the commit
-/// and replace the number by the one that the failing test prints.
+/// Golden bits: equal in debug and release, on every CPU. If a change of the arithmetic is intended, say why in the
+/// commit and replace the number by the one that the failing test prints.
 #[test]
 fn golden_bits_whatever_the_number_of_threads() {
     let mut configurations = Configuration::device_under_each_switch("r200").expect("a card");

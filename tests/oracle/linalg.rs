@@ -1,5 +1,5 @@
-//! Bits of the factorisations. CI runs this with and without nalgebra's `std` feature, which other people's crates turn
-//! on in builds of the whole workspace: its kernels, chosen by the processor, must not show.
+//! Bits of the factorisations. CI runs this with and without nalgebra's `std` feature, which other crates enable in
+//! builds of the whole workspace: its kernels, chosen by the processor, must not affect results.
 
 use crossbar::geom::random::CounterRng;
 use crossbar::linalg::{Lu, Matrix, SymmetricEigen, dot};

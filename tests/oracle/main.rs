@@ -1,4 +1,4 @@
-//! Stored bits: they fail when they change.
+//! Stored bits: these tests fail when they change.
 
 #[path = "../../refsim/tests/common/environment.rs"]
 mod environment;

@@ -1,4 +1,4 @@
-//! fixtures/probes: operations of pixel programs and the colours that real cards, or their documents, make of them.
+//! fixtures/probes: operations of pixel programs, with their colours on real cards or in documents.
 
 use std::{fmt::Write as _, path::Path};
 
@@ -25,7 +25,7 @@ struct Probe {
     expected: Vec<Vec<String>>,
     /// Allowed error of a channel.
     slop: u8,
-    /// Pixels to a colour, each way.
+    /// Width and height of a colour's cell, in pixels.
     #[serde(default = "one")]
     cell: u32,
     #[serde(default)]
@@ -106,8 +106,8 @@ fn cards_make_the_colours_of_the_table() {
     assert!(wrong.is_empty(), "{} colours are off:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// GL_NV_texture_shader gives 1.0 of a combiner register as code 255. Units of 1/256 are not units of 1/255: the
-/// difference in the products of all pairs of 8-bit texels, against exact products of 255ths rounded once.
+/// GL_NV_texture_shader gives 1.0 of a combiner register as code 255, but a unit of 1/256 is not 1/255: compares the
+/// products of all pairs of 8-bit texels with exact products of 255ths rounded once.
 #[test]
 fn units_of_256_cost_products_one_code_at_most() {
     use refsim::num::{Format, from_ratio, ops};
@@ -116,7 +116,7 @@ fn units_of_256_cost_products_one_code_at_most() {
     for a in 0..=255_u32 {
         for b in 0..=255_u32 {
             let [x, y] = [a, b].map(|code| from_ratio(format, false, code.into(), 255).bits);
-            // Out of the register as targets round: to the nearest 255th, halves up.
+            // Converts the register as targets round: to the nearest 255th, halves up.
             let found = (ops::mul(format, x, y).bits * 255 * 2 + 256) / 512;
             let exact = (a * b * 2 + 255) / 510;
             off += u32::from(found != exact);

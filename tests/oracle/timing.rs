@@ -1,5 +1,4 @@
-//! Golden clocks: the cost of every kernel on every card that runs it. A change of a figure or of a formula shows here
-//! first.
+//! Golden clocks: the cost of every kernel on every card that runs it. Changed figures and formulas fail here first.
 
 use crate::pages::hold;
 use crossbar::ray_engine::kernels;
@@ -25,7 +24,7 @@ const SIDE: u32 = 64;
 /// Quads of the draw.
 const QUADS: usize = 3;
 
-/// A quad over the screen with coordinates from 0 to 1, in every attribute that could want them.
+/// A quad over the screen with coordinates from 0 to 1 in every attribute that kernels read.
 fn corners() -> [[f32; 4]; 4] {
     [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]]
 }
@@ -82,7 +81,7 @@ fn pixel(profile: &Profile, program: &CheckedProgram) -> DrawRecord {
     finish(call, &mut machine)
 }
 
-/// A vertex kernel that draws as many quads, with the plainest pixel program.
+/// A vertex kernel that draws as many quads, with a minimal pixel program.
 fn vertex(profile: &Profile, program: &CheckedProgram) -> DrawRecord {
     let mut machine = machine(profile);
     let plain = check(assemble(kernels::ID.text).expect("assembles"), profile).expect("every card runs it");

@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-/// Longest wait for the page's next step.
+/// Maximum time to wait for the page's next step.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// The program, under the names that it has.
+/// The program's possible names.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// A Chromium with one page.
@@ -20,9 +20,9 @@ pub(crate) struct Browser {
     from: BufReader<ChildStdout>,
     session: String,
     last_id: u64,
-    /// Events that came before the answers that were waited for.
+    /// Events that came before awaited answers.
     pub(crate) events: Vec<Value>,
-    // Removed when the browser is gone.
+    // Deleted with the browser.
     _profile: tempfile::TempDir,
 }
 

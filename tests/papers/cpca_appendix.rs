@@ -1,4 +1,4 @@
-//! The appendix of "Clustered Principal Components" (2003): every printed digit, and the fractions behind them.
+//! The appendix of "Clustered Principal Components" (2003): every printed digit, and the exact fractions.
 
 use crossbar::linalg::SymmetricEigen;
 use crossbar::sphere::{
@@ -95,7 +95,7 @@ fn reflections_have_the_printed_errors() {
     }
 }
 
-/// The paper's ranking of the projections. With "odd" and "even" as printed, which are exchanged, it would be wrong.
+/// The paper's ranking of the projections. As printed, with "odd" and "even" exchanged, it would be wrong.
 #[test]
 fn even_reflection_is_best_and_odd_reflection_worst() {
     let [zero, odd] = [error(Projection::ZeroHemisphere, 5), error(Projection::OddReflection, 8)];

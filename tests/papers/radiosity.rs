@@ -5,7 +5,7 @@ use crossbar::radiosity::solve::{Options, Solver};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
 use crossbar::scene::Material;
 
-/// The unit cube in the Cornell box's colours, `n` patches a side, light from the middle of the ceiling.
+/// The unit cube in the Cornell box's colours, `n` patches per side, light from the middle of the ceiling.
 fn closed_box(n: u32) -> System {
     let paint = |name: &str, albedo| Material::diffuse(name, albedo);
     let [white, red, green] = [[0.725, 0.71, 0.68], [0.63, 0.065, 0.05], [0.14, 0.45, 0.091]];

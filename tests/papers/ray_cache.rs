@@ -13,7 +13,7 @@ use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::timing::{Level, Model};
 
-/// The ray that a hit reflects, a little disturbed.
+/// The reflected ray of a hit, slightly perturbed.
 fn reflected(mesh: &Mesh, ray: &Ray, hit: &Hit, random: CounterRng, i: u64) -> Option<Ray> {
     let [a, b, c] = mesh.corners(hit.triangle)?.map(Vec3::from);
     let (n, d) = ((b - a).cross(c - a), Vec3::from(ray.direction()));
@@ -23,7 +23,7 @@ fn reflected(mesh: &Mesh, ray: &Ray, hit: &Hit, random: CounterRng, i: u64) -> O
     Ray::new(start.into(), (d - by * n + rough).into()).ok()
 }
 
-/// Eye rays and the rays that their hits reflect.
+/// Eye rays and the reflected rays of their hits.
 fn rays(mesh: &Mesh, side: u32) -> Vec<Ray> {
     let mut rays = Camera::teapot(side, side).expect("a camera").rays();
     let hits = HostTracer::new(mesh, Sides::Front).nearest_all(&rays).0;
@@ -41,13 +41,13 @@ fn engine<'a>(mesh: &'a Mesh, device: &str, parameters: EngineParameters) -> Ray
     RayEngine::new(mesh, profile, ExecutorKind::Batch, parameters).expect("an engine")
 }
 
-/// Size of a tree, at its fullest and over time.
+/// Fill of a tree, at its fullest and over time.
 struct Cache {
-    /// The mean fill of its buckets, in [0, 1], with all rays in it.
+    /// The mean fill of the tree's buckets, in [0, 1], with all rays in it.
     full: f64,
-    /// The mean fill of the batches that left it, in [0, 1].
+    /// The mean fill of the batches that left the tree, in [0, 1].
     batches: f64,
-    /// Levels that went, for each batch after which any did.
+    /// Number of levels removed per batch that removed any.
     levels: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The Ray Engine: the sign of equation 8, and how the kernels fit the cards.
+//! The Ray Engine: the sign of equation 8, and the size of the kernels on the cards.
 
 use approx::abs_diff_eq;
 use crossbar::geom::exact::Sides;
@@ -14,7 +14,7 @@ use refsim::device::Profile;
 use refsim::isa::{OpcodeClass, Program, RegisterFile};
 use refsim::machine::ExecutorKind;
 
-/// Random triangles, and rays through their insides.
+/// Random triangles, and rays through their interiors.
 fn interior_hits(count: u64) -> impl Iterator<Item = (DVec3, DVec3, [DVec3; 3])> {
     let random = CounterRng::new(8);
     (0..count).map(move |i| {
@@ -43,7 +43,7 @@ fn equation_8_as_printed_has_the_wrong_sign() {
     assert!((8_000..12_000).contains(&front), "about half of them face the origin, found {front}");
 }
 
-/// On whole numbers of this size f64 makes no error, so the identities hold to the last bit or not at all.
+/// On integers of this size f64 is exact, so the identities hold to the bit or not at all.
 #[test]
 fn the_three_areas_add_up_so_the_second_cross_product_can_go() {
     let random = CounterRng::new(9);
@@ -58,7 +58,7 @@ fn the_three_areas_add_up_so_the_second_cross_product_can_go() {
     }
 }
 
-/// Slots that each phase of a ps_1_4 program takes: (texture, arithmetic).
+/// Slots of each phase of a ps_1_4 program: (texture, arithmetic).
 fn slots(program: &Program) -> [(u32, u32); 2] {
     let marker = program.phase_marker().expect("two phases");
     let mut slots = [(0, 0); 2];

@@ -45,7 +45,7 @@ fn printed_reflectances_are_totals_but_for_those_named() {
     assert_eq!(found, DIFFERENT);
 }
 
-/// Half a unit of the last of so many significant digits.
+/// Half a unit of the last of `digits` significant digits.
 fn half_a_unit(value: f64, digits: i32) -> f64 {
     if value == 0.0 {
         return 0.0;
@@ -60,7 +60,7 @@ fn half_a_unit(value: f64, digits: i32) -> f64 {
 
 #[test]
 fn rounded_coefficients_explain_no_more_than_these_differences() {
-    // Two digits of each coefficient are sure; the others move the total by this much.
+    // Two digits of each coefficient are reliable; the others change the total by this much.
     let mut unexplained = Vec::new();
     for material in MATERIALS.iter().filter(|material| material.reflectance.is_some()) {
         for (c, s, a, printed, _) in channels(material) {

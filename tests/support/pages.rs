@@ -1,4 +1,4 @@
-//! Files and blocks of pages that the program generates: compared with it, or written by `INSTA_UPDATE=always`.
+//! Files and blocks of pages that the program generates: compared, or written by `INSTA_UPDATE=always`.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use std::fs;

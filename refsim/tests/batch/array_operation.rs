@@ -1,5 +1,5 @@
 //! Operations on arrays against `num`: doubles of any size and patterns, in every layout under every rule, for arrays
-//! of lengths that fill no row.
+//! whose length is no multiple of a row.
 
 use crate::lanes::{layout, variants};
 use crate::random::Random;
@@ -10,7 +10,7 @@ const LAYOUTS: &str = "s3.12 s0.1 s0.15 s31.0 s0.31 s15.16 n3.8 n0.8 n2.7 e5m10 
                        e4m3fn e2m1fn e2m3fn e5m2fnuz e7m23fn e7m16fnuz";
 
 impl Random {
-    /// A double: of any bits, at the ends of the format or at a tie with a bit more or less, or of a plain size.
+    /// A double: any bits, near the ends of the format, at a tie or one bit beside it, or of ordinary size.
     fn double(&mut self, f: &Format) -> f64 {
         let (kind, bits, near) = (self.next() >> 8 & 7, self.next(), self.next() >> 8 & 3);
         let number = num::to_f64(f, (bits >> 11) as u32 & f.mask());
@@ -29,7 +29,7 @@ impl Random {
     }
 }
 
-/// Equal, where every NaN is one.
+/// Returns `true` if two doubles are equal; all NaNs are.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }

@@ -1,5 +1,5 @@
-//! Rows with lanes that leave the range of their format or come from its ends: the batch executor, which computes whole
-//! rows without checks and then repairs infinite results, against the scalar one.
+//! Rows with lanes that leave the range of their format, or start at its ends: compares the batch executor, which
+//! computes whole rows without checks and then repairs infinite results, with the scalar one.
 
 use crate::random::Random;
 use refsim::asm::assemble;
@@ -14,7 +14,7 @@ use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureK
 /// Lanes of a row, as a square of fragments.
 const SIDE: u32 = 16;
 
-/// Operations on `r0` and `r1`, single ones and those that rows carry out in one pass.
+/// Operations on `r0` and `r1`: single ones, and combinations that rows compute in one pass.
 const OPERATIONS: [&str; 11] = [
     "add r2, r0, r1",
     "sub r2, r0, r1",
@@ -52,7 +52,7 @@ const FORMATS: [&str; 20] = [
     "s3.12:wrap",
 ];
 
-/// Texels of ordinary numbers, with now and then one from the ends of the range.
+/// Texels of ordinary numbers, with occasional ones from the ends of the range.
 fn texels(f: Format, random: &mut Random) -> Vec<[u32; 4]> {
     let ends = [0, 1, 2, f.one(), f.max_finite(), f.max_finite() - 1, f.max_finite() / 2, f.min_finite()];
     let mut number = || {

@@ -203,7 +203,7 @@ fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
     }
 }
 
-/// All pairs of the registers of NV2x in the full form; every thirteenth first operand in the short one.
+/// All pairs of NV2x register values in the full form; every thirteenth first operand in the short one.
 #[test]
 fn normalized_registers_agree_on_pairs() {
     let step = by_form(13, 1);
@@ -282,7 +282,7 @@ fn edges(exp_bits: u32, man_bits: u32) -> Vec<u32> {
     patterns
 }
 
-/// The short form takes every fifth second operand, different ones for each rule.
+/// The short form takes every fifth second operand, with a different start for each rule.
 #[test]
 fn wide_floats_agree_at_their_edges() {
     for (exp_bits, man_bits) in [(8, 23), (7, 16), (8, 10), (8, 7), (7, 22), (6, 10), (8, 22), (5, 10)] {

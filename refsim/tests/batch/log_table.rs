@@ -8,8 +8,8 @@ use table::LogTable;
 
 use crate::environment::by_form;
 
-/// Compares with `texture`: derivatives of every magnitude, along the single axis of a one-texel texture. Squares
-/// of singles cover few singles; the next test covers every significand.
+/// Compares with `texture`: derivatives of every magnitude, along the only axis of a one-texel texture. Squares of
+/// singles reach few singles; the next test covers every significand.
 #[test]
 fn levels_are_those_of_the_texture_room() {
     let image = Image::new(TexelFormat::L8, TextureKind::D1, [1, 1, 1], 1).unwrap();

@@ -4,7 +4,7 @@
 use std::env;
 use std::ops::Range;
 
-/// Returns `true` if tests walk their whole ranges: `CROSSBAR_FULL=1`.
+/// Returns `true` if tests cover their whole ranges: `CROSSBAR_FULL=1`.
 pub(crate) fn is_full() -> bool {
     env::var_os("CROSSBAR_FULL").is_some_and(|value| !value.is_empty())
 }
@@ -14,14 +14,13 @@ pub(crate) fn by_form<T>(short: T, full: T) -> T {
     if is_full() { full } else { short }
 }
 
-/// Seeds from 0, in the full form `times` as many; or only that in `CROSSBAR_SEED`.
+/// Seeds from 0, `times` as many in the full form; or only the seed in `CROSSBAR_SEED`.
 pub(crate) fn seeds(short: u64, times: u64) -> Range<u64> {
     let one: Option<u64> = env::var("CROSSBAR_SEED").ok().and_then(|seed| seed.parse().ok());
     one.map_or(0..by_form(short, times * short), |seed| seed..seed + 1)
 }
 
-/// Returns `true` if files and pages that the program makes are written anew, with the snapshots:
-/// `INSTA_UPDATE=always`.
+/// Returns `true` if generated files, pages and snapshots are rewritten: `INSTA_UPDATE=always`.
 pub(crate) fn writes_files() -> bool {
     env::var("INSTA_UPDATE").is_ok_and(|update| update == "always")
 }

@@ -9,7 +9,7 @@ use refsim::raster::FragmentInput;
 
 pub(crate) const PS_2: [Version; 3] = [Version::Ps2_0, Version::Ps2A, Version::Ps2B];
 
-/// Formats whose numbers are all numbers of fp32.
+/// Formats whose numbers all exist in fp32.
 pub(crate) const WITHIN_FP32: [&str; 8] =
     ["fp16:rup", "e5m2", "e4m3fn:sat", "fp24:ftz", "s3.12:rup", "s0.7:wrap", "e2m1fn", "e5m2fnuz"];
 
@@ -35,7 +35,7 @@ pub(crate) fn inputs(data: &[[u32; 4]]) -> [FragmentInput; 4] {
     })
 }
 
-/// The results of a program on a quad, without textures; `None` if the device does not take it.
+/// The results of a program on a quad, without textures; `None` if the device refuses the program.
 pub(crate) fn results(
     program: Program,
     profile: &Profile,

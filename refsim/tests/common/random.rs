@@ -1,10 +1,9 @@
-//! A stream of random numbers, by which a failing case is known by its seed.
+//! A stream of random numbers; its seed identifies a failing case.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use std::fmt::Debug;
 
-/// Stream of a seed, the same on every machine: the splitmix64 recurrence, which `fixtures/formats/make_tables.py` has,
-/// too.
+/// The stream of a seed, equal on every machine: the splitmix64 recurrence, as in `fixtures/formats/make_tables.py`.
 #[derive(Clone)]
 pub(crate) struct Random {
     state: u64,

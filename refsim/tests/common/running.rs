@@ -34,7 +34,7 @@ pub(crate) fn into(format: Format, v: [f32; 4]) -> [u32; 4] {
     bits(v).map(|x| ops::convert(&Format::FP32, format, x).bits)
 }
 
-/// Constants c0 on.
+/// Constants from c0 on.
 pub(crate) fn constants(values: &[[f32; 4]]) -> Constants {
     Constants { float: values.iter().map(|&v| bits(v)).collect(), ..Constants::default() }
 }

@@ -1,4 +1,4 @@
-//! The words of a program's text, set with other spaces between them.
+//! The words of a program's text, with changed spaces between them.
 
 use refsim::asm::assemble;
 
@@ -37,10 +37,10 @@ fn length(text: &[u8]) -> usize {
     }
 }
 
-/// The grammar is unambiguous: changed white space gives the same program, and a removed space the same program or an
-/// error. The first line, which names the language, stays as it is.
+/// The grammar is unambiguous: changed white space gives the same program; a removed space gives the same program or an
+/// error. The first line, which names the language, stays unchanged.
 ///
-/// `gaps` are spaces and comments; `choose` selects one per place, and one place without any.
+/// `gaps` are spaces and comments; `choose` selects a gap per place, and one place without a gap.
 pub(crate) fn has_one_reading(text: &str, gaps: &[&str], mut choose: impl FnMut(usize) -> usize) {
     let expected = assemble(text).unwrap_or_else(|errors| panic!("{text}\n{errors:?}"));
     let (header, body) = text.split_once('\n').unwrap_or((text, ""));

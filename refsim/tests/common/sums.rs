@@ -9,7 +9,7 @@ use refsim::num::{DotOrder, Format, Rounding};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Pixels of a row and a column.
+/// Pixels per row and per column.
 const SIDE: u32 = 24;
 
 const FORMATS: [&str; 12] = [
@@ -27,7 +27,7 @@ const FORMATS: [&str; 12] = [
     "n3.8:rna",
 ];
 
-/// A device with random rules for products and sums; every format takes its turn.
+/// A device with random rules for products and sums; formats by turns.
 pub(crate) fn profile(seed: u64) -> Profile {
     let mut random = Random::new(seed);
     let mut profile = ideal(FORMATS[seed as usize % FORMATS.len()]);
@@ -42,13 +42,13 @@ pub(crate) fn profile(seed: u64) -> Profile {
     if random.one_in(3) && !rules.format.is_fixed() {
         let accumulators = ["e8m13", "fp16:rtz", "fp32:rtz:ftz", "e6m9:rna:sat"];
         let accumulator = random.of(&accumulators).parse::<Format>().expect("a format");
-        // One that does not fit is left out.
+        // An accumulator that does not fit is ignored.
         let _ = profile.set_accumulator(Some(accumulator));
     }
     profile
 }
 
-/// Numbers of single precision, some alike in exponent, some with few bits, some special.
+/// Numbers in single precision: some with equal exponents, some with few bits, some special.
 fn numbers(random: &mut Random) -> Vec<[u32; 4]> {
     let mut number = || {
         let bits = random.bits();
@@ -71,7 +71,7 @@ const BODIES: [&str; 5] = [
     "crs r3.xyz, r0, r1\nnrm r4, r2\nmov r3.w, r4.x",
 ];
 
-/// The pixels that the programs draw, one after the other.
+/// The pixels that the programs draw, program by program.
 pub(crate) fn drawn(mut machine: Machine, profile: &Profile, seed: u64) -> Vec<u8> {
     let mut random = Random::new(seed ^ 0x5eed);
     let textures = [0; 3].map(|_: u32| numbers(&mut random));

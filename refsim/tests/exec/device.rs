@@ -35,7 +35,7 @@ fn every_profile_loads_and_every_value_of_every_switch_can_be_set() {
     }
 }
 
-/// A card is found by the words of its title; words that several cards share name none.
+/// A card is found by the words of its title; words that several cards share find none.
 #[test]
 fn cards_are_found_by_the_names_that_people_know() {
     for (name, card) in [
@@ -70,8 +70,8 @@ fn every_figure_has_a_source() {
     }
 }
 
-/// Every word is the confidence of some figure. NV2A is a sibling of two cards and of no other: nothing else that it
-/// drew is more than kin.
+/// Every word is the confidence of some figure. NV2A is a sibling of two cards only: for all other cards, its
+/// measurements are at most those of kin.
 #[test]
 fn words_of_confidence_say_on_which_chip() {
     let mut words = BTreeSet::new();
@@ -92,7 +92,7 @@ fn words_of_confidence_say_on_which_chip() {
     assert_eq!(open.collect::<Vec<_>>(), ["kin", "state", "report", "guess"]);
 }
 
-/// ROUND_PREC of R200 has 16ths and coarser grids; R300 has twelfths, too.
+/// ROUND_PREC of R200 has sixteenths and coarser grids; R300 has twelfths, too.
 #[test]
 fn the_radeons_have_the_grids_of_their_registers() {
     let mut r200 = Profile::named("r200").unwrap();
@@ -165,7 +165,7 @@ fn switches_reach_the_formats() {
     assert_eq!(r200.rules.format, Format::FP24);
 }
 
-/// A format that replaces the device's takes its default rules along, and not what was set for the device.
+/// Replacing the device's format replaces the format's default rules, and keeps other settings of the device.
 #[test]
 fn what_is_set_stays_when_the_format_is_replaced() {
     let with = |file: &str, format: &str| {
@@ -197,8 +197,8 @@ fn what_is_set_stays_when_the_format_is_replaced() {
     assert!(matches!(with(stored, "e5m8"), Err(DeviceError::StorageFormat { what: "temporaries", .. })));
 }
 
-/// GL_NV_register_combiners: results are clamped to [-1, 1], sums within an instruction are not. Another format has its
-/// own range.
+/// GL_NV_register_combiners: results are clamped to [-1, 1], sums within an instruction are not. Other formats have
+/// their own range.
 #[test]
 fn nv2x_clamps_results_and_not_sums() {
     for name in ["nv20", "nv25"] {
@@ -218,7 +218,7 @@ fn nv2x_clamps_results_and_not_sums() {
     }
 }
 
-/// Measurements on a sibling: the answers that hold, with their counts. Kin take some of them; other cards keep theirs.
+/// Measurements on a sibling apply to NV2x, with their counts. Kin take some of them; other cards keep their own rules.
 #[test]
 fn nv2x_obeys_what_nv2a_drew() {
     for name in ["nv20", "nv25"] {
@@ -266,7 +266,7 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }
 
-/// So tests of a card's arithmetic need not run on its variants.
+/// So tests of a card's arithmetic need not be repeated for its variants.
 #[test]
 fn variants_differ_from_their_card_in_rates_alone() {
     let variants = Profile::variant_names();

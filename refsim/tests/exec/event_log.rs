@@ -27,7 +27,7 @@ fn a_machine_that_was_not_asked_writes_nothing() {
     assert_eq!(machine.take_log(), []);
 }
 
-/// Reads the target back around each draw, and traces one of its pixels.
+/// Reads the target back before and after each draw, and traces one of its pixels.
 #[derive(Debug)]
 struct Looks;
 
@@ -189,7 +189,7 @@ fn registers_of_opengl_programs_weigh_two_halves_or_one() {
     assert_eq!(live("MOVR R0, f[TEX0];\nMOVH H0, p[0];\nADDR R1, R0, H0;\nMOVR o[COLR], R1;"), 3);
     // R2 is never written, but it is readable: zero.
     assert_eq!(live("MOVR R0, f[TEX0];\nADDR o[COLR], R0, R2;"), 4);
-    // A conditional write depends on the register's old value.
+    // A conditional write also reads the register's old value.
     assert_eq!(live("MOVR R1, p[0];\nMOVRC R0, f[TEX0];\nMOVR R1 (GT), R0;\nMOVR o[COLR], R1;"), 4);
     let arb = |lines: &str| work(&format!("!!ARBfp1.0\nTEMP a, b;\n{lines}\nEND"), &[], &[]).live_halves;
     assert_eq!(arb("MOV a, fragment.color;\nSWZ b, a, 0, 1, 0, 1;\nMOV result.color, b;"), 2, "SWZ reads nothing here");

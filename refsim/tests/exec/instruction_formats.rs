@@ -10,7 +10,7 @@ use refsim::exec::Constants;
 use refsim::isa::{Opcode, Program};
 use refsim::num::{Format, ops};
 
-/// Gives every instruction that takes one a format.
+/// Sets the format of every instruction that accepts one.
 fn assign(profile: &mut Profile, program: &Program, format: Format) {
     for (index, instruction) in program.instructions.iter().enumerate() {
         assert_eq!(profile.set_instruction_format(program, index, Some(format)), takes_format(instruction), "{index}");
@@ -31,7 +31,7 @@ fn without_texture(line: &str) -> String {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 600, ..ProptestConfig::default() })]
 
-    /// `_pp` on every instruction means what the format of `_pp` on every instruction means.
+    /// `_pp` on every instruction equals the format of `_pp` on every instruction.
     #[test]
     fn a_format_of_its_own_is_that_of_the_hint(
         version in select(&PS_2[..]),
@@ -57,7 +57,7 @@ proptest! {
         }
     }
 
-    /// All instructions in a format, on registers that hold all its numbers, are the device of that format.
+    /// One format for all instructions, on registers that hold all its numbers, equals a device of that format.
     #[test]
     fn one_format_for_all_is_the_device_of_that_format(
         version in select(&PS_2[..]),
@@ -138,7 +138,7 @@ fn each_instruction_rounds_to_its_own_format() {
     assert_eq!(run(&profile), 2f32.to_bits());
     assert!(profile.set_instruction_format(&program, 0, None));
     assert_eq!(run(&profile), 2.25f32.to_bits(), "1.21 and 1.1 are 1.25 and 1");
-    // Another program has none of it; comments and layout do not matter.
+    // The settings do not apply to other programs; comments and layout do not matter.
     assert_eq!(program.digest(), assemble(&text.replace("r0, t0", "r0,  t0")).unwrap().digest());
     assert_eq!(program.digest(), assemble(&text.replace("\nadd", " ; a comment\nadd")).unwrap().digest());
     assert_ne!(program.digest(), assemble(&text.replace("r0, t0, t0", "r0, t0, -t0")).unwrap().digest());
@@ -180,7 +180,7 @@ fn a_program_has_a_limited_number_of_formats() {
     assert!(profile.set_instruction_format(&program, 0, Some(Format::FP16)), "in place of another");
 }
 
-/// All formats at once are those given one by one; formats that cannot be given change nothing.
+/// Setting all formats at once equals setting them one by one; a refused format changes nothing.
 #[test]
 fn formats_of_a_program_are_replaced_together() {
     let program = assemble("ps_2_0\ndcl t0\ntexkill t0\nadd r0, t0, t0\nmul r0, r0, t0\nmov oC0, r0").unwrap();
@@ -204,7 +204,7 @@ fn formats_of_a_program_are_replaced_together() {
     assert_eq!(together, running::ideal("fp32"));
 }
 
-/// Formats of a device file that no program of a case has are found.
+/// Reports formats of a device file that apply to no program of a case.
 #[test]
 fn formats_that_change_nothing_are_found() {
     let program = assemble("ps_2_0\ndcl t0\ntexkill t0\nmov oC0, t0").unwrap();

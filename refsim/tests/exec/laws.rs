@@ -46,7 +46,7 @@ fn vectors(count: usize) -> impl Strategy<Value = Vec<[u32; 4]>> {
 }
 
 fn image(seed: u32) -> Image {
-    // Wide channels, narrow ones, signed bytes, and one that is alone.
+    // Wide channels, narrow ones, signed bytes, and a single channel.
     let formats = [TexelFormat::Rgba16, TexelFormat::Bgr565, TexelFormat::Rg8Snorm, TexelFormat::A8];
     let mut image = Image::new(formats[seed as usize % 4], TextureKind::D2, [4, 4, 1], 1).unwrap();
     for (i, byte) in image.bytes_mut().iter_mut().enumerate() {
@@ -67,7 +67,7 @@ fn inputs(data: &[[u32; 4]]) -> [FragmentInput; 4] {
     out
 }
 
-/// Checks a result: no bits above the width, and no NaN but the canonical one. Units of cards pass words on unchanged.
+/// Checks a result: no bits above the width, and only the canonical NaN. Units of cards pass words unchanged.
 fn well_formed(format: Format, value: [u32; 4]) -> bool {
     let any_nan = format.unit.is_card();
     value
@@ -96,11 +96,11 @@ fn run_pixel(
             prop_assert!(well_formed(profile.rules.format, color), "{color:x?} in {}", profile.rules.format);
         }
     }
-    // The set of covered lanes affects the counts only.
+    // The set of covered lanes affects only the counts.
     let mut fewer = [0; 16];
     prop_assert_eq!(all, prepared.run(&inputs, 0b0100, &mut fewer, &mut NoObserver).0);
     prop_assert!(fewer.iter().zip(fetches).all(|(&few, many)| few <= many));
-    // Without differences, lanes are independent: each has the result of a quad of copies of itself.
+    // Without derivatives, lanes are independent: each equals its lane in a quad of copies.
     if !program.instructions.iter().any(|i| matches!(i.opcode, Opcode::Dsx | Opcode::Dsy)) {
         for (lane, input) in inputs.iter().enumerate() {
             let alone = prepared.run(&[*input; 4], 0b1111, &mut [0; 16], &mut NoObserver).0;
@@ -152,7 +152,7 @@ proptest! {
         let text = generate::legal(version, seed);
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e:?}")))?;
         let Ok(program) = running::ready(program, profile) else {
-            // Rejected by a limit of this device; an ideal one accepts all, as tested below.
+            // A limit of this device rejects it; an ideal device accepts all, as tested below.
             return Ok(());
         };
         let host = Constants { float: constants, int: vec![[2, 0, 1, 0]; 16], boolean: vec![true, false], ..Constants::default() };

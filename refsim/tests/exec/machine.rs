@@ -127,7 +127,7 @@ fn random_quads(count: usize) -> Vec<Vertex> {
     out
 }
 
-/// Draws quads with depth test and blending, in one call or one call each.
+/// Draws quads with depth test and blending, in one call or in one call per quad.
 fn draw_quads(
     machine: &mut Machine,
     program: &CheckedProgram,
@@ -191,7 +191,7 @@ fn the_crossbar_draws_instances_in_order() {
     let depth = machine.create_depth(DepthFormat::Float32, 20, 20).unwrap();
     let corners =
         [[-1.05, 1.05, 0.0, 1.0], [0.95, 1.05, 0.0, 1.0], [0.95, -0.95, 0.0, 1.0], [-1.05, -0.95, 0.0, 1.0]].map(bits);
-    // The depth decreases and increases again; the nearest is instance 9000 of 12,000, and of equal ones the last drawn
+    // The depth decreases and increases again; instance 9000 of 12,000 is the nearest, and the last of equal depths
     // wins.
     let count = 12_000;
     let colors: Vec<[u32; 4]> = (0..count)

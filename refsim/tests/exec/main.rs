@@ -1,5 +1,4 @@
-//! Programs and draws on the scalar executor: instructions against the specification, formats, machines, and what is
-//! logged.
+//! Programs and draws on the scalar executor: instructions against the specification, formats, machines, and the log.
 
 mod arithmetic;
 mod device;

@@ -199,7 +199,7 @@ fn projection_divides_in_single_precision_with_one_for_a_zero_divisor() {
     assert_eq!(at([1.0, 3.0, 9.0, 0.0]), [0x1000, 0x1000]);
 }
 
-/// `max(min(result, 1), -1)` after the shift, also for texture instructions; `_sat` precedes it. A clamp raises
+/// `max(min(result, 1), -1)` after the shift, also for texture instructions; `_sat` precedes the clamp. A clamp raises
 /// overflow.
 #[test]
 fn results_of_nv2x_are_clamped_to_one() {
@@ -239,7 +239,7 @@ fn addresses_are_not_rounded_to_the_register_format() {
     let constants = Constants::default();
     let mut bindings = PixelBindings::new(&constants);
     bindings.samplers[0] = Some(SamplerBinding { image: &image, state: SamplerState::NEAREST_CLAMP });
-    // fp16's step at this coordinate is four texels: 6001.5/8192 is cut to 6000/8192.
+    // At this coordinate fp16's step is four texels: 6001.5/8192 is truncated to 6000/8192.
     let t = 6001.5 / 8192.0;
     let program = "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmov r1, t0\ntexld r1, r1, s0\nmov oC0, r0";
     let ran = run_quad(program, &ideal("e5m10:rtz"), &bindings, &[input(&[[t, 0.0, 0.0, 1.0]]); 4]);

@@ -74,7 +74,7 @@ fn nested(deep: usize) -> String {
     format!("ps_2_a\nmov r0, c0\n{open}add r0, r0, c0\n{close}mov oC0, r0")
 }
 
-/// Fifteen subroutines, each calling the next four times, and the main program calling the first: 4^15 calls.
+/// Fifteen subroutines: each calls the next four times, and the main program calls the first: 4^15 calls.
 fn call_tree() -> String {
     let mut text = String::from("ps_2_a\nmov r0, c0\ncall l0\nmov oC0, r0\nret\n");
     for label in 0..16 {
@@ -111,10 +111,10 @@ fn what_would_never_end_is_an_error_with_its_place() {
     assert_eq!(ideal("fp32").limits.step_budget(refsim::isa::Stage::Pixel), DEFAULT_STEP_BUDGET);
 }
 
-/// Steps counted manually.
+/// Steps counted by hand.
 #[test]
 fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
-    // `mov`, then three times three passes of `add` and `endrep` with `rep` and `endrep` around, `mov`.
+    // `mov`; three times `rep`, three passes of `add` and `endrep`, and `endrep`; `mov`.
     let steps = 1 + (1 + 3 * ((1 + 3 * 2) + 1)) + 1;
     let branches = "ps_2_a\nmov r0, c0\nif b0\nadd r0, r0, c0\nadd r0, r0, c0\nelse\nadd r0, r0, c0\nendif\nif b1\nadd \
                     r0, r0, c0\nelse\nadd r0, r0, c0\nendif\nmov oC0, r0";
@@ -123,7 +123,7 @@ fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
     let straight = "ps_1_4\ntexcrd r0.rgb, t0\nphase\nmov r0, c0\nmul r0.rgb, r0, c0\n+mov r0.a, c0\nmov r0, r0";
     let cases = [
         (nested(2).replace("i0", "i1"), steps),
-        // Through `b0`: `if`, two `add`, `else`; past `b1`: `if`, `add`, `endif`.
+        // With `b0` true: `if`, two `add`, `else`; with `b1` false: `if`, `add`, `endif`.
         (branches.to_owned(), 1 + 4 + 3 + 1),
         // Three passes of `call`, `add`, `callnz`, `ret`, `endrep`; the loop without passes is one step.
         (calls.to_owned(), 1 + 1 + 3 * 5 + 1 + 1 + 1),
@@ -142,8 +142,8 @@ fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
     }
 }
 
-/// Fragments need more steps the further down and right they are: the first one that exceeds the budget is reported,
-/// whichever the executor meets first.
+/// Fragments further down and to the right need more steps: the first one that exceeds the budget is reported, in
+/// whichever order the executor meets them.
 #[test]
 fn the_first_fragment_that_needs_too_much_is_named() {
     let text = "ps_2_a\ndef c1, 1, 0, 0, 0\ndef c2, 6, 11, 0, 0\ndcl t0\nmov r0, c1.y\nrep i0\nif_gt t0.x, c2.x\nif_gt \

@@ -1,5 +1,5 @@
-//! Formats of storages and of sums: laws over random programs, which express them by formats of instructions and
-//! rounded inputs; dot products of the executors against the arithmetic itself; refusals.
+//! Formats of storages and of sums: laws over random programs, expressed by formats of instructions and rounded inputs;
+//! dot products of the executors against `num`; refusals.
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
 use crate::random::Random;
@@ -44,7 +44,7 @@ fn rounding_move(line: &str) -> Option<String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// A format of temporaries is a move in that format behind every instruction that writes one.
+    /// A format of temporaries equals a move in that format after every instruction that writes one.
     #[test]
     fn temporaries_are_rounded_when_they_are_written(
         version in select(&PS_2[..]),
@@ -82,7 +82,7 @@ proptest! {
         }
     }
 
-    /// Formats of outputs and of texels are those of the instructions that write a color or read a texture.
+    /// Formats of outputs and texels equal formats of the instructions that write a color or read a texture.
     #[test]
     fn outputs_and_texels_are_rounded_by_their_instructions(
         version in select(&PS_2[..]),
@@ -108,7 +108,7 @@ proptest! {
         prop_assert_eq!(expected, results(program, &storing(storage, format(own)), &inputs, &host));
     }
 
-    /// Formats of constants, coordinates and colors are those of rounded inputs.
+    /// Formats of constants, coordinates and colors equal rounded inputs.
     #[test]
     fn inputs_are_rounded_on_their_way_in(
         version in select(&PS_2[..]),
@@ -172,11 +172,11 @@ proptest! {
     }
 }
 
-/// Pixels of a row and a column.
+/// Pixels per row and per column.
 const SIDE: u32 = 32;
 
-/// Numbers of single precision whose products lie near the middle between two numbers of an accumulator, or at the ends
-/// of the ranges.
+/// Numbers in single precision whose products lie near the midpoint of two numbers of an accumulator, or at the ends of
+/// the ranges.
 fn factors(seed: u64) -> Vec<[u32; 4]> {
     let mut random = Random::new(seed);
     let mut number = || {
@@ -202,7 +202,7 @@ fn dots(profile: &Profile, kind: ExecutorKind, textures: &[Vec<[u32; 4]>; 2]) ->
     pixels(&mut Machine::new(profile.clone(), kind), profile, text, textures)
 }
 
-/// Accumulators that lack numbers of the registers: every product is rounded into them once, in all executors.
+/// Accumulators that cannot hold all numbers of the registers: every executor rounds each product once.
 #[test]
 fn narrow_accumulators_round_products_once() {
     let accumulators = ["e8m13", "e5m10", "fp24:rtz", "e8m21:rna", "e6m9:ftz:sat", "e5m2:rup", "s7.12", "s3.8:rdn"];
@@ -268,7 +268,7 @@ fn formats_that_do_not_fit_are_refused() {
     }
 }
 
-/// A format holds another exactly if conversion there and back changes none of its numbers; of at most 8 bits.
+/// A format, of at most 8 bits, holds another exactly if conversion there and back changes none of its numbers.
 #[test]
 fn a_format_holds_what_conversion_there_and_back_keeps() {
     let texts = [
@@ -279,7 +279,7 @@ fn a_format_holds_what_conversion_there_and_back_keeps() {
     for wide in texts.iter().map(|text| format(text)) {
         for narrow in texts.iter().map(|text| format(text)) {
             let keeps = (0..=narrow.mask()).all(|bits| {
-                // Patterns that read as zero are not its numbers, and all NaNs count as one.
+                // Patterns that read as zero do not count as numbers, and all NaNs count as one.
                 let number = ops::convert(&narrow, narrow, bits).bits;
                 let there = ops::convert(&narrow, wide, number);
                 there.flags.is_empty() && ops::convert(&wide, narrow, there.bits).bits == number

@@ -59,7 +59,7 @@ fn enough_bits_are_rounded_sums() {
     assert!(scalar(&plain, 5) != scalar(&aligned, 5));
 }
 
-/// The first product lies in the middle between two numbers.
+/// The first product is the midpoint of two numbers.
 #[test]
 fn every_rule_shows_in_pixels_and_in_pixels_alone() {
     let (a, b) = ([1.5, 1.000_122_1, 3.0, 0.0], [1.000_015_3, 1.000_122_1, -0.333_251_95, 0.0]);
@@ -96,7 +96,7 @@ fn products_are_cut_with_any_exponent() {
         let text = "ps_2_0\nmov r0, c0\nmov r1, c1\nmad r2, r0, r1, c2\nmov oC0, r2";
         run(text, &profile, &operands.map(|x| [f32::from_bits(x); 4])).value(2)[0]
     };
-    // A GT200 gives these.
+    // Results measured on a GT200.
     assert_eq!(mad([0x3fff_ffff, 0x3fff_ffff, 0xc080_0000]), 0xb500_0000);
     assert_eq!(mad([0x7f00_0000, 0x4000_0000, 0xff7f_ffff]), 0x7380_0000);
 }
@@ -111,7 +111,7 @@ fn rules_of_exponents_are_refused_for_fixed_point() {
             assert!(matches!(&error, DeviceError::NeedsFloats { switch: name, .. } if name == switch), "{error}");
             assert_eq!(profile, before);
         }
-        // Settings are not dropped silently with another format either.
+        // Replacing the format does not drop settings silently either.
         let mut profile = ideal("fp24");
         profile.set_switch(switch, value).unwrap();
         assert!(matches!(profile.replace_format("s3.12"), Err(DeviceError::NeedsFloats { .. })), "{switch}");

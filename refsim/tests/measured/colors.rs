@@ -18,7 +18,7 @@ pub(crate) const GRADIENTS: &str = "nv2a/a_colour.csv";
 const ALPHA: &str = "nv2a/a_alpha_test.csv";
 const ONE: u32 = 0x3f80_0000;
 
-/// Ends of gradients that the chip draws as it draws the one from 0 to 1: infinity, the largest number, 8.
+/// Ends of gradients that the chip draws as a gradient from 0 to 1: infinity, the largest number, 8.
 const BEYOND: [[u32; 2]; 5] =
     [[0xbf80_0000, ONE], [0xc100_0000, ONE], [0, 0x4100_0000], [0xff7f_ffff, 0x7f7f_ffff], [0xff80_0000, 0x7f80_0000]];
 
@@ -105,7 +105,7 @@ pub(crate) fn rules() -> Vec<Rule> {
     vec![unit, clamp, iterated, near, rounding, dither, alpha]
 }
 
-/// Constant colors of `mov oD0, v1` and `mul oD0, v1, c0`, a cell each.
+/// Constant colors of `mov oD0, v1` and `mul oD0, v1, c0`, one cell each.
 fn ends(profile: &Profile, executor: &Executor) -> Values {
     by_program(profile, executor, &table(ENDS))
 }
@@ -157,7 +157,7 @@ pub(crate) fn gradient_quad(picture: &str) -> ([f32; 4], bool) {
     }
 }
 
-/// Draws the gradients of the file; codes at its pixels are right within `slop`.
+/// Draws the gradients of the file; codes at its pixels are correct within `slop`.
 fn gradients(profile: &Profile, executor: &Executor, slop: u8) -> Values {
     let mut values = Values::default();
     let same = |a: &Row, b: &Row| a.text("picture") == b.text("picture") && is_falling(a) == is_falling(b);
@@ -171,7 +171,7 @@ fn gradients(profile: &Profile, executor: &Executor, slop: u8) -> Values {
     values
 }
 
-/// Pixels of the vertical gradient: those of a row are alike in the file, and alike as drawn.
+/// Pixels of the vertical gradient: equal within a row, in the file and as drawn.
 fn undithered(profile: &Profile, executor: &Executor) -> Values {
     let rows: Vec<Row> = table(GRADIENTS).into_iter().filter(|row| row.text("picture") == "0_1").collect();
     let found = drawn(profile, executor, [0, ONE], &rows);
@@ -198,7 +198,7 @@ pub(crate) fn is_falling(row: &Row) -> bool {
     row.text("triangle") == "alpha falling"
 }
 
-/// Gradients between ends beyond 0 and 1, by a vertex program: the codes are those of the one from 0 to 1.
+/// Gradients between ends beyond 0 and 1, by a vertex program: their codes equal those of the gradient from 0 to 1.
 fn gradients_beyond(profile: &Profile, executor: &Executor) -> Values {
     let table = table(GRADIENTS);
     let rows: Vec<Row> = table.into_iter().filter(|row| row.text("picture") == "0_1").collect();
@@ -233,7 +233,7 @@ fn drawn(profile: &Profile, executor: &Executor, [from, to]: [u32; 2], rows: &[R
     rows.iter().map(|row| image.raw(0, 0, row_number(row), row.number("column")) as u8).collect()
 }
 
-/// Each row is a cell whose alpha is compared; what passes is drawn.
+/// Draws a cell per row, whose alpha is compared.
 fn alpha_test(profile: &Profile, executor: &Executor) -> Values {
     let table = table(ALPHA);
     let (program, constants) = (color_program(profile), Constants::default());

@@ -79,8 +79,8 @@ fn shown(device: &Profile, executor: &Executor, cells: &[(String, [u8; 2], u8)])
         .collect()
 }
 
-/// `a*b + (1 - a)*c`. A row lists all factors within one code of the picture's; one of them must give the measured
-/// color.
+/// `a*b + (1 - a)*c`. A row lists all factors within one code of the picture's factor; one of them must give the
+/// measured color.
 fn lerps(device: &Profile, executor: &Executor) -> Values {
     let rows = table(LERPS);
     let factors = |row: &Row| -> Vec<u8> { row.text("a").split(';').map(|a| a.parse().expect("a code")).collect() };
@@ -99,7 +99,7 @@ fn lerps(device: &Profile, executor: &Executor) -> Values {
     values
 }
 
-/// Single operations of a combiner, in the assembler's words.
+/// Single operations of a combiner, by their names in assembly.
 fn operations(device: &Profile, executor: &Executor) -> Values {
     let rows = table(OPERATIONS);
     let body = |row: &Row| match row.text("operation") {

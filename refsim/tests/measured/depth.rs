@@ -35,12 +35,12 @@ pub(crate) fn rules() -> Vec<Rule> {
     vec![truncation, plane]
 }
 
-/// `true` for the shapes whose depths are small enough to be exact enough in single precision.
+/// `true` for shapes whose depths are small enough for single precision to be accurate.
 fn is_flat(row: &Row) -> bool {
     row.text("shape").starts_with("Tri")
 }
 
-/// `true` if the exact depth is not so close to a code that the error of a plane decides.
+/// `true` if the exact depth is not so near to a code that the error of a plane decides.
 fn is_between_codes(row: &Row) -> bool {
     let exact: f64 = row.number("exact_plane");
     (0.02..=0.98).contains(&exact.fract())
@@ -77,7 +77,7 @@ fn redraw(profile: &Profile, executor: &Executor, choose: fn(&Row) -> bool) -> V
         for row in rows.iter().filter(|row| choose(row)) {
             let [x, y] = ["column", "row"].map(|name| row.number::<usize>(name));
             let (measured, drawn): (u32, u32) = (row.number("stored_code"), depths[y * 640 + x]);
-            // Codes are shown by their last byte.
+            // The page shows the last byte of codes.
             values.add_grey(measured as u8, drawn as u8, measured == drawn);
         }
     }

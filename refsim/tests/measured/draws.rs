@@ -10,8 +10,8 @@ use refsim::texture::{Image, TextureKind};
 /// Width of targets in cells.
 pub(crate) const COLUMNS: u32 = 64;
 
-/// A viewport around the window's origin whose half extents are powers of two, so that positions arrive as they are:
-/// window (x, y) is clip space (x / 1024, -y / 1024). Pixels up to column and row 1023 are drawn.
+/// A viewport around the window's origin whose half extents are powers of two, so that positions arrive exactly: window
+/// (x, y) is clip space (x / 1024, -y / 1024). Pixels up to column and row 1023 are drawn.
 pub(crate) const WINDOW: Viewport =
     Viewport { x: -1024, y: -1024, width: 2048, height: 2048, min_depth: 0, max_depth: 0x3f80_0000 };
 
@@ -26,13 +26,13 @@ pub(crate) fn cell(index: usize) -> [Vertex; 4] {
     [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]].map(|corner| at(corner, 0.5))
 }
 
-/// [`cell`] with both colors the same, codes of 255ths in the order red, green, blue, alpha.
+/// [`cell`] with both colors equal: codes of 255ths in the order red, green, blue, alpha.
 pub(crate) fn colored(index: usize, codes: [u8; 4]) -> [Vertex; 4] {
     let color = bits(codes.map(|code| f32::from(code) / 255.0));
     cell(index).map(|corner| Vertex { colors: [color; 2], ..corner })
 }
 
-/// Rows of a target that holds so many cells.
+/// Rows of a target that holds `cells` cells.
 pub(crate) fn rows(cells: usize) -> u32 {
     (cells as u32).div_ceil(COLUMNS).max(1)
 }

@@ -71,7 +71,7 @@ fn checked_levels() -> Image {
     image
 }
 
-/// Draws the checks with each bias that `wanted` accepts and compares the pixels that were read.
+/// Draws the checkerboards with each bias that `wanted` accepts, and compares the measured pixels.
 fn checks(profile: &Profile, executor: &Executor, wanted: impl Fn(i32) -> bool) -> Values {
     let all = table("nv2a/b_filter.csv");
     let (program, constants) = (checked("ps_1_1\ntex t0\nmov r0, t0", profile), Constants::default());
@@ -105,7 +105,7 @@ fn dimmed(byte: i32) -> i32 {
     (2 * (127 * shade + 128 * 32) + 255) / 510
 }
 
-/// Each row is a cell that reads between two texels. A signed byte k arrives as 2k / 255, or as 1 for -128 negated.
+/// Draws a cell per row that reads between two texels. A signed byte k arrives as 2k / 255, or as 1 for -128 negated.
 fn fractions(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_filter_fraction.csv");
     let programs = ["t0", "-t0"].map(|value| checked(&format!("ps_1_1\ntex t0\nmov r0, {value}"), profile));
@@ -132,7 +132,7 @@ fn fractions(profile: &Profile, executor: &Executor) -> Values {
             (0..alike.len()).map(|i| i32::from(codes(image, i)[0])).collect::<Vec<_>>()
         });
         for (row, (above, below)) in alike.iter().zip(above.into_iter().zip(below)) {
-            // Half of the register's code, -255 being that of -128.
+            // Half of the register's code; -255 is the code of -128.
             let byte = if signed { (above - below).div_euclid(2) } else { above };
             let (measured, drawn): (i32, i32) = (row.number("red8"), dimmed(byte));
             values.add_grey(measured as u8, drawn as u8, measured == drawn);

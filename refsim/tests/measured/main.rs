@@ -1,6 +1,6 @@
-//! Measured values of real chips, drawn again: rows of `fixtures/measured` as draws on the cards' profiles, on every
-//! executor, bit by bit, under every hypothesis that a rule offers. `docs/measured.md` and the counts of the profiles
-//! are held here; `INSTA_UPDATE=always cargo test -p refsim --test measured` writes the page.
+//! Measured values of real chips: draws the rows of `fixtures/measured` on the cards' profiles, on every executor, bit
+//! by bit, under every hypothesis of each rule. Checks `docs/measured.md` and the counts of the profiles;
+//! `INSTA_UPDATE=always cargo test -p refsim --test measured` writes the page.
 //!
 //! A topic is a file with a function `rules`, named in [`topics`].
 
@@ -27,7 +27,7 @@ mod values;
 
 use rule::Rule;
 
-/// The cards that NV2A is a sibling of. The first one tries the hypotheses.
+/// The siblings of NV2A. The first one tries the hypotheses.
 const CARDS: [&str; 2] = ["nv20", "nv25"];
 
 /// Rules of all topics, in the order of the page.

@@ -1,4 +1,4 @@
-//! The page `docs/measured.md`: its table and its pictures are made here.
+//! The page `docs/measured.md`: generates its table and its pictures.
 
 use super::pictures;
 use super::rule::Measured;
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 const TABLE: [&str; 2] = ["<!-- measured -->\n", "<!-- end -->"];
 const PICTURES: [&str; 2] = ["<!-- pictures -->\n", "<!-- end of pictures -->"];
 
-/// Every rule is counted and compared on every executor ([`Measured::of`]), and the page has the counts.
+/// Every rule is counted and compared on every executor ([`Measured::of`]), and the page has these counts.
 pub(crate) fn the_page_has_the_counts() {
     let measured: Vec<Measured> = super::topics().into_iter().map(Measured::of).collect();
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/measured.md");
@@ -26,7 +26,7 @@ pub(crate) fn the_page_has_the_counts() {
     assert!(made == text, "INSTA_UPDATE=always cargo test -p refsim --test measured writes the page; expected\n{made}");
 }
 
-/// The page with another text between two marks.
+/// The page with new text between two marks.
 fn replaced(page: &str, marks: [&str; 2], text: &str) -> String {
     let (head, rest) = page.split_once(marks[0]).expect("the mark where it begins");
     let (_, tail) = rest.split_once(marks[1]).expect("the mark where it ends");

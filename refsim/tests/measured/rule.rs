@@ -1,4 +1,4 @@
-//! Rules of a card, their hypotheses, and how many measured values each of them predicts.
+//! Rules of a card, their hypotheses, and the number of measured values that each predicts.
 
 use super::CARDS;
 use super::values::Values;
@@ -18,9 +18,9 @@ pub(crate) struct Rule {
     pub(crate) hypotheses: Hypotheses,
     /// Draws all rows on a device.
     pub(crate) redraw: Redraw,
-    /// Number of values that the cards' own answer does not predict; the page gives the reason.
+    /// Number of values that the cards' own setting does not predict; the page gives the reason.
     pub(crate) unexplained: usize,
-    /// `true` if the cards' own answer is settled: it predicts all but the unexplained values, and more than any other.
+    /// `true` if the cards' own setting is settled: it predicts the most values, all but the unexplained ones.
     pub(crate) settled: bool,
     /// The open points; empty if there are none.
     pub(crate) open: &'static str,
@@ -29,17 +29,17 @@ pub(crate) struct Rule {
 /// A device's results for all measured values.
 pub(crate) type Redraw = fn(&Profile, &Executor) -> Values;
 
-/// An answer of a rule by its name, and the setting for it.
+/// A hypothesis of a rule by its name, and its setting.
 pub(crate) type RuleOption = (&'static str, fn(&mut Rules));
 
-/// The answers to a rule. The cards' own answer is that of their profile.
+/// The hypotheses of a rule. The cards' own hypothesis is their profile's setting.
 #[derive(Clone, Copy)]
 pub(crate) enum Hypotheses {
     /// The values of a switch of the cards.
     Switch(&'static str),
-    /// Names of answers, the cards' own first, and what each one changes.
+    /// Names of settings, the cards' own first, and the change that each makes.
     Options(&'static [RuleOption]),
-    /// The name of the cards' own answer, and other answers, which no rule of a device can be set to, with their
+    /// The name of the cards' own setting, and other hypotheses, which no setting of a device expresses, with their
     /// results for the values.
     Computed(&'static str, &'static [(&'static str, Redraw)]),
 }
@@ -47,17 +47,18 @@ pub(crate) enum Hypotheses {
 /// A rule with its counts.
 pub(crate) struct Measured {
     pub(crate) rule: Rule,
-    /// Hypotheses, the cards' own first, and what each makes of all values.
+    /// Hypotheses, the cards' own first, and the results of each for all values.
     pub(crate) values: Vec<(String, Values)>,
 }
 
 impl Rule {
-    /// The chip, which is the folder of the files.
+    /// The chip, by the folder of the files.
     fn chip(&self) -> String {
         self.data.split('/').next().unwrap_or_default().to_uppercase()
     }
 
-    /// Names of the hypotheses, each with a card that has it and what draws the values; the card's own comes first.
+    /// Names of the hypotheses, each with a card that has it and the function that draws the values; the card's own
+    /// first.
     fn ways(&self, card: &Profile) -> Vec<(String, Profile, Redraw)> {
         match self.hypotheses {
             Hypotheses::Switch(name) => {
@@ -88,8 +89,8 @@ impl Rule {
 }
 
 impl Measured {
-    /// Draws the rows of a rule under each hypothesis on the executors of the host, on all cards with their own answer.
-    /// Panics where executors or cards disagree, or where a settled rule is not the best of its hypotheses.
+    /// Draws the rows of a rule under each hypothesis on the executors of the host, and on all cards with their own
+    /// setting. Panics if executors or cards disagree, or if a settled rule is not the best of its hypotheses.
     pub(crate) fn of(rule: Rule) -> Self {
         let [host, batch] = [ExecutorKind::Scalar, ExecutorKind::Batch].map(Executor::from);
         let [first, others @ ..] = CARDS.map(|card| Profile::named(card).expect("a card"));
@@ -119,13 +120,13 @@ impl Measured {
         Self { values, rule }
     }
 
-    /// The cards' own answer, and the number of values.
+    /// The cards' own setting, and the number of values.
     pub(crate) fn own(&self) -> (&str, usize) {
         let (name, values) = &self.values[0];
         (name, values.all())
     }
 
-    /// Panics if the figure of a settled switch does not have the counts.
+    /// Panics if the figure of a settled switch does not state the counts.
     pub(crate) fn stands_in_the_profiles(&self) {
         let Hypotheses::Switch(name) = self.rule.hypotheses else { return };
         if !self.rule.settled {
@@ -144,7 +145,7 @@ impl Measured {
     }
 }
 
-/// The cards' own answers on a GPU of the host.
+/// Draws the cards' own settings on a GPU of the host.
 #[cfg(feature = "wgpu")]
 pub(crate) fn an_adapter_draws_what_the_host_draws(gpu: &std::sync::Arc<refsim::exec::gpu::Gpu>) {
     let (card, gpu) = (Profile::named(CARDS[0]).expect("a card"), Executor::Gpu { gpu: std::sync::Arc::clone(gpu) });

@@ -1,4 +1,4 @@
-//! Tables of measured values: CSV without quotes, the first line with the names of the columns.
+//! Tables of measured values: CSV without quotes, with the names of the columns in the first line.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -47,7 +47,7 @@ pub(crate) fn rules() -> Vec<Rule> {
     vec![bytes, signed, border]
 }
 
-/// A cell whose corners read the same place, so that its coordinates are not interpolated.
+/// A cell whose corners read one place, so that its coordinates are not interpolated.
 pub(crate) fn reading(index: usize, place: [f32; 2]) -> [Vertex; 4] {
     cell(index).map(|mut corner| {
         corner.texcoords[0] = bits([place[0], place[1], 0.0, 1.0]);
@@ -91,7 +91,7 @@ fn channel(row: &Row) -> usize {
     "rgba".find(row.text("channel")).expect("a channel")
 }
 
-/// Each row is a texel; R6G5B5's blue is read where bgra5551 has it.
+/// Draws a texel per row; R6G5B5's blue is read at bgra5551's position.
 fn narrow_channels(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_texel_codes.csv");
     let mut values = Values::default();
@@ -110,7 +110,7 @@ fn narrow_channels(profile: &Profile, executor: &Executor) -> Values {
     values
 }
 
-/// Each row is a texel with its code in every channel.
+/// Draws a texel per row, with its code in every channel.
 fn signed_bytes(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_signed_texel.csv");
     let mut values = Values::default();

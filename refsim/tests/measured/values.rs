@@ -1,11 +1,11 @@
-//! Measured values beside drawn ones.
+//! Measured values and drawn ones.
 
-/// A measured value and what was drawn for it, as colors: red, green and blue.
+/// A measured value and the drawn one, as colors: red, green and blue.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Value {
     pub(crate) measured: [u8; 3],
     pub(crate) drawn: [u8; 3],
-    /// `true` if the drawn value equals the measured one; the colors can be only a part of the compared value.
+    /// `true` if the drawn value equals the measured one; the colors may show only part of the compared value.
     pub(crate) right: bool,
 }
 

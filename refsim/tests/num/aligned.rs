@@ -1,4 +1,4 @@
-//! Sums of an adder that aligns, and the multiply-add that cuts its product, against exact fractions.
+//! Sums of an adder that aligns, and the multiply-add that truncates its product, against exact fractions.
 
 use rayon::prelude::*;
 use refsim::num::{Denormals, DotOrder, Format, Outcome, Overflow, Rounding, Tininess, ops};
@@ -8,7 +8,7 @@ use crate::random::Random;
 use crate::rational::Q;
 use crate::small_ops::{Reference, Val, decode};
 
-/// Floats of 6 bits at most with all rules that sums see.
+/// Floats of at most 6 bits with all rules that affect sums.
 fn formats() -> Vec<Format> {
     let mut all = Vec::new();
     for layout in ["e2m3", "e3m2", "e4m1", "e2m1", "e3m2fn", "e2m3fnuz"] {
@@ -29,12 +29,12 @@ fn exponent(q: Q) -> i32 {
     (-60..60).rfind(|&e| Q::scaled(1, e).cmp(q).is_le()).expect("a leading bit")
 }
 
-/// Cut to a multiple of `2^e`.
+/// Truncates to a multiple of `2^e`.
 fn cut(q: Q, e: i32) -> Q {
     Q::scaled(q.mul(Q::scaled(1, -e)).floor(), e)
 }
 
-/// The numbers behind patterns, with their signs; `None` if one is an infinity or NaN.
+/// The numbers of patterns, with their signs; `None` if one is an infinity or NaN.
 fn numbers(f: &Format, addends: &[u32]) -> Option<Vec<(bool, Q)>> {
     let number = |bits: &u32| match decode(f, *bits) {
         Val::Num(negative, q) => Some((negative, q)),
@@ -75,7 +75,7 @@ fn aligned_sums_are_cut_and_rounded_once() {
                 let expected = by_definition(&r, bits, &numbers);
                 assert_eq!(found, expected, "{f} aligned:{bits} {addends:x?}: found {found:x}, expected {expected:x}");
             }
-            // The order of addends does not show.
+            // The order of addends does not matter.
             let mut turned = addends.clone();
             turned.rotate_left(1);
             turned.swap(0, 1);
@@ -84,8 +84,8 @@ fn aligned_sums_are_cut_and_rounded_once() {
     });
 }
 
-/// Every pair of numbers: with enough bits nothing is cut, and the sum is that of `add`; special values are its own in
-/// any case.
+/// Every pair of numbers: with enough bits nothing is truncated, and the sum equals `add`; special values have separate
+/// rules.
 #[test]
 fn enough_bits_make_the_exact_sum() {
     formats().par_iter().for_each(|&f| {
@@ -154,7 +154,7 @@ fn cut_products_lose_bits_below_the_significand_and_nothing_else() {
     });
 }
 
-/// Numbers that a reader can check.
+/// Examples that can be checked by hand.
 #[test]
 fn examples_of_cut_bits() {
     let f = Format::FP24.with_rounding(Rounding::TowardZero);
@@ -166,7 +166,7 @@ fn examples_of_cut_bits() {
     // The largest two cancel, the third lies 2^25 below them.
     assert_eq!(sum(17, &["33554432", "-33554432", "1"]), Outcome::new(0, refsim::num::Flags::INEXACT));
     assert_eq!(sum(25, &["33554432", "-33554432", "1"]).bits, n("1"));
-    // More bits than the adder has count as those that it has.
+    // More bits than the adder has count as all of its bits.
     assert_eq!(sum(255, &["1", "2"]), sum(28, &["1", "2"]));
     // Fixed point has no exponents.
     let fixed = Format::S3_12;

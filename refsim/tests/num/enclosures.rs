@@ -30,7 +30,7 @@ fn enclosures_nest() {
     }
 }
 
-/// Returns `true` if the finer enclosure lies within the coarser one. A wrong constant or error bound fails here, while
+/// Returns `true` if the finer enclosure lies within the coarser one. A wrong constant or error bound fails here;
 /// rounded results would hide it except for one operand in a billion.
 fn nested<T: Into<BigInt>>(coarse: Enclosure<T>, fine: Enclosure<BigInt>) -> bool {
     let shift = (coarse.exp - fine.exp).unsigned_abs();

@@ -2,7 +2,7 @@
 
 use refsim::num::{Format, Rounding, ops};
 
-/// Widths up to 32 bits, with the longest intermediate results.
+/// Widths up to 32 bits, with the widest intermediate results.
 #[test]
 fn wide_fixed_point_equals_integers() {
     let mut cases = crate::random::Random::new(7);

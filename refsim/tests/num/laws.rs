@@ -154,9 +154,9 @@ proptest! {
     #[test]
     fn decimals_read_back(f in format(), a in pattern()) {
         let wanted = moved(f, a);
-        // Most normalized numbers have no last digit.
+        // Most normalized numbers have no finite decimal expansion.
         let exact = f.denominator() == 1 || to_decimal_exact(&f, a).parse::<i32>().is_ok();
-        // Rounded to odd, an inexact result is an odd number.
+        // Rounded to odd, an inexact result has an odd pattern.
         prop_assume!(exact || f.rounding != Rounding::Odd);
         for text in [to_decimal(&f, a)].into_iter().chain(exact.then(|| to_decimal_exact(&f, a))) {
             prop_assert_eq!(from_decimal(f, &text).expect("a number").bits, wanted, "{}", text);

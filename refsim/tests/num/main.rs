@@ -2,17 +2,17 @@
 //!
 //! | file | what is compared with what |
 //! |---|---|
-//! | `values` | values a reader can check by hand, and messages |
+//! | `values` | values that can be checked by hand, and messages |
 //! | `half` | every fp16 operand pair with rustc_apfloat |
 //! | `fixed` | fixed point of up to 32 bits with plain integers |
 //! | `wide` | fp24 with double precision, fp32 with the host, fused operations with rustc_apfloat |
 //! | `normalized` | sums, products, conversions of `n3.8` and the like with their definition |
 //! | `small` | every operation of every format of at most 6 bits with exact rational arithmetic |
-//! | `aligned` | sums that one adder makes, and cut products, with exact fractions |
-//! | `transcendental` | `exp2` and `log2` with series and roots of their own |
+//! | `aligned` | sums by one adder, and truncated products, with exact fractions |
+//! | `transcendental` | `exp2` and `log2` with separate series and roots |
 //! | `enclosures` | enclosures of transcendental functions with finer ones |
 //! | `tables` | short floats, scales and MX blocks with ml_dtypes and gfloat |
-//! | `laws` | what must hold for all formats and values |
+//! | `laws` | properties of all formats and values |
 //!
 //! By default each test covers a sample of its range; `CROSSBAR_FULL=1` covers everything.
 

@@ -6,7 +6,7 @@ use refsim::num::{DotOrder, Flags, Format, Outcome, Overflow, Rounding, Unpacked
 use crate::environment::by_form;
 use crate::random::Random;
 
-/// A format with its unit, apart from `Format`'s own.
+/// A format with its unit, computed separately from `Format`'s.
 struct Reference {
     f: Format,
     bits: u32,
@@ -118,7 +118,7 @@ fn every_code() {
     }
 }
 
-/// To and from fixed point, floats and other units.
+/// Conversions to and from fixed point, floats and other units.
 #[test]
 fn conversions() {
     let dyadic = ["s3.8", "s0.15", "s15.16", "s1.2:rtz", "e5m10", "e7m16:rdn", "e8m23:rtz", "e8m23:rna", "e2m1"];
@@ -143,7 +143,7 @@ fn conversions() {
                     assert_eq!(ops::convert(&other, r.f, a), r.round(n * r.unit, d), "{text} {a:#x} to {}", r.f);
                 }
             }
-            // Wide formats have the code and 255 exactly, and divide them.
+            // Wide formats hold the code and 255 exactly, and divide them.
             if other.width() >= 24 {
                 let whole = |n: i128| ops::convert(&Format::FP32, other, (n as f32).to_bits()).bits;
                 for a in 0..=r.f.mask() {

@@ -87,7 +87,7 @@ fn up(rounding: Rounding, negative: bool, low: Q, high: Q, low_even: bool, again
     }
 }
 
-/// The last of `0 .. end` whose magnitude isn't above the value.
+/// The last index below `end` whose magnitude is not above the value.
 fn below(f: &Format, end: u64, against: &impl Fn(Q) -> Ordering) -> u64 {
     let (mut low, mut high) = (0, end);
     while high - low > 1 {
@@ -106,7 +106,7 @@ pub(crate) fn round(f: &Format, tininess: Tininess, negative: bool, against: imp
     if f.is_fixed() { round_fixed(f, negative, &against) } else { round_float(f, tininess, negative, &against) }
 }
 
-/// So many steps of fixed point, in its range or not.
+/// `steps` steps of fixed point, within its range or beyond.
 fn unit(f: &Format, steps: u64) -> Q {
     Q::new(steps.into(), 1).mul(magnitude(f, 1))
 }
@@ -115,7 +115,7 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
     let unit = |i: u64| unit(f, i);
     let range = 1u64 << f.width();
     let mut end = range;
-    // Nothing that wraps in these tests reaches 2^40, and saturating values need no exact index beyond it.
+    // Values that wrap in these tests are below 2^40, and saturating values need no exact index beyond it.
     while end < 1 << 40 && against(unit(end)).is_ge() {
         end *= 2;
     }

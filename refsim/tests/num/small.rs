@@ -28,7 +28,7 @@ fn formats() -> Vec<Format> {
     let floats = (2..6).flat_map(|x| (1..6).filter_map(move |m| Format::float(x, m))).filter(|f| f.width() <= 6);
     let encodings = [Encoding::Ieee, Encoding::Finite, Encoding::UnsignedZero];
     let encoded = floats.flat_map(|f| encodings.map(|encoding| f.with_encoding(encoding)));
-    // Finite floats have NaN from 7 bits on.
+    // Finite floats have NaN only from 7 bits on.
     let seven = [(2, 4), (4, 2), (3, 3)].into_iter().filter_map(|(x, m)| Format::float(x, m));
     for layout in encoded.chain(seven.map(|f| f.with_encoding(Encoding::Finite))) {
         for (_, rounding) in Rounding::ALL {
@@ -118,7 +118,7 @@ fn binary_operations() {
     });
 }
 
-/// `pow` consists of three operations; the references of its steps are slow, so the short form takes some bases only.
+/// `pow` consists of three operations; the references of its steps are slow, so the short form takes only some bases.
 #[test]
 fn powers() {
     let step = by_form(7, 1);

@@ -7,7 +7,7 @@ use crate::random::Random;
 
 const TABLES: &str = include_str!("../../../fixtures/formats/tables.txt");
 
-/// The lines that begin with a word, each as its further words.
+/// The lines that begin with a word, each as its remaining words.
 fn lines(kind: &str) -> Vec<Vec<&'static str>> {
     let words = TABLES.lines().map(|line| line.split(' ').collect::<Vec<_>>());
     words.filter(|words| words[0] == kind).map(|words| words[1..].to_vec()).collect()
@@ -33,7 +33,7 @@ fn every_value() {
         for (code, text) in (0u32..).zip(&line[1..]) {
             let single = f32::from_bits(u32::from_str_radix(text, 16).expect("a pattern"));
             let found = to_f64(&f, code);
-            // Bits, so that -0 is not 0; the one NaN.
+            // Compares bits, so that -0 differs from 0, and all NaNs as one.
             let same = if single.is_nan() { found.is_nan() } else { found.to_bits() == f64::from(single).to_bits() };
             assert!(same, "{f} {code:#x}: found {found}, expected {single}");
             if !single.is_nan() {
@@ -65,7 +65,7 @@ fn every_pair() {
     }
 }
 
-/// 2,048 numbers a digest.
+/// Each digest covers 2,048 numbers.
 #[test]
 fn every_half_in_every_rounding() {
     let lines = lines("fp16");
@@ -101,7 +101,7 @@ fn every_half_by_chance() {
     }
 }
 
-/// A share of 2^-k of all words rounds a fraction of 2^-k up: sums, products, quotients, roots, and fixed point.
+/// A fraction of 2^-k is rounded up by a share of 2^-k of all words: sums, products, quotients, roots, fixed point.
 #[test]
 fn chance_is_the_fraction() {
     let ups = |format: Format, operation: &dyn Fn(Format) -> u32, exact: u32| {
@@ -109,11 +109,11 @@ fn chance_is_the_fraction() {
         words.filter(|&word| operation(format.with_rounding(Rounding::Stochastic(word))) != exact).count()
     };
     let (half, single) = (Format::FP16, Format::FP32);
-    // 1 + 2^-12: a quarter of a unit.
+    // 1 + 2^-12: a quarter of a unit in the last place.
     assert_eq!(ups(half, &|f| ops::add(f, 0x3c00, 0x0c00).bits, 0x3c00), 64);
-    // (1 + 2^-10)^2 = 1 + 2^-9 + 2^-20: 2^-10 of a unit, one word of 256 at these.
+    // (1 + 2^-10)^2 = 1 + 2^-9 + 2^-20: 2^-10 of a unit, which here one word of 256 rounds up.
     assert_eq!(ups(half, &|f| ops::mul(f, 0x3c01, 0x3c01).bits, 0x3c02), 1);
-    // 1 / 3 ends in ...01|01 01: a third of a unit; of 1 / 3 in s3.12 too.
+    // 1 / 3 ends in ...01|01 01: a third of a unit, also in s3.12.
     assert_eq!(ups(half, &|f| ops::div(f, 0x3c00, 0x4200).bits, 0x3555), 86);
     assert_eq!(ups(Format::S3_12, &|f| ops::div(f, 0x1000, 0x3000).bits, 0x0555), 86);
     assert_eq!(ups(single, &|f| ops::div(f, 0x3f80_0000, 0x4040_0000).bits, 0x3eaa_aaaa), 171);
@@ -121,11 +121,11 @@ fn chance_is_the_fraction() {
     assert_eq!(ups(Format::S3_12, &|f| ops::sqrt(f, 0x2000).bits, 5792), 159);
     // 2.75 to an integer.
     assert_eq!(ups(single, &|f| ops::round_to_int(f, 0x4030_0000).bits, 0x4000_0000), 192);
-    // Exact numbers stay.
+    // Exact results are unchanged.
     assert_eq!(ups(single, &|f| ops::add(f, 0x3f80_0000, 0x3f80_0000).bits, 0x4000_0000), 0);
 }
 
-/// Blocks of 32 finite singles: an exponent of the block, and up to 15 less for each number, or zero.
+/// Blocks of 32 finite singles: an exponent of the block, lowered by up to 15 for each number, or zero.
 fn blocks() -> Vec<Vec<u32>> {
     let mut cases = Random::new(1);
     let mut block = || {
@@ -150,7 +150,7 @@ fn blocks_with_a_scale() {
             let block = mx.quantize(&Format::FP32, numbers);
             let found = digest(std::iter::once(block.scale).chain(block.elements.iter().copied()));
             assert_eq!(found, **expected, "{mx}: {numbers:x?} gives {block:x?}");
-            // Back: a power of two times a short number is exact in doubles, and in singles but for the smallest.
+            // Back: a power of two times a short number is exact in doubles, and in singles except for the smallest.
             let back = mx.dequantize(Format::FP32, block.scale, &block.elements);
             let scale = to_f64(&Format::E8M0, block.scale);
             for (outcome, &element) in back.iter().zip(&block.elements) {

@@ -70,7 +70,7 @@ fn check(f: &Format, name: &str, x: u32, bits: u32, exact: &BigInt) {
         Rounding::TowardZero => Some(true),
         Rounding::Down => Some(!negative),
         Rounding::Up => Some(negative),
-        // An odd pattern is on either side of the number.
+        // The odd pattern may lie on either side of the number.
         Rounding::Odd => {
             let near = down(low_bits) < magnitude && magnitude < up(low_bits);
             assert!(bits & 1 == 1 && near, "{f} {name} {x:#x}: {bits:#x} is not the odd neighbour");
@@ -127,7 +127,7 @@ fn exp2_is_correctly_rounded() {
                 assert_eq!(value(&f, found.bits), BigInt::one() << (whole + PLACES.cast_signed()));
                 assert_eq!(found.flags, Flags::empty(), "{f} exp2 {x:#x}");
             } else if integer {
-                // Below the smallest subnormal: a midpoint at most.
+                // Below the smallest subnormal: at most a midpoint.
                 let up = match f.rounding {
                     Rounding::NearestAway => whole == -emax - man_bits.cast_signed(),
                     rounding => matches!(rounding, Rounding::Up | Rounding::Odd),

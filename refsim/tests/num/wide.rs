@@ -135,8 +135,8 @@ fn fp32_equals_host() {
         let (a, b) = (generator.float_bits(8, 23), generator.float_bits(8, 23));
         let (x, y) = (f32::from_bits(a), f32::from_bits(b));
         let check = |name: &str, found: u32, host: f32| {
-            // Tests the bits for NaN: optimised code was seen to compute the root of a negative number as something
-            // else.
+            // Tests the bits for NaN: optimised code was seen to compute the root of a negative number as another
+            // value.
             let bits = host.to_bits();
             let expected = if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { bits };
             assert!(found == expected, "{name} {a:#x} {b:#x}: found {found:#x}, expected {expected:#x}");

@@ -17,7 +17,7 @@ struct Corner {
 /// A corner in window space: snapped column and row, depth, 1 / w.
 type Snapped = (i64, i64, f32, f32);
 
-/// Grid lines a pixel of window positions, and their rounding.
+/// Grid lines per pixel of window positions, and their rounding.
 type Grid = (u32, SubpixelRounding);
 
 fn distances([x, y, z, w]: [f32; 4], opengl: bool) -> [f32; 7] {

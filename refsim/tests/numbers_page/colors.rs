@@ -1,4 +1,4 @@
-//! "Vertex colors": the clamp in front of interpolation, on both executors of the host.
+//! "Vertex colors": the clamp before interpolation, on both executors of the host.
 
 use super::running::checked;
 use super::{Random, clean, probes};
@@ -8,7 +8,7 @@ use refsim::machine::{AttributeStream, DrawCall, ExecutorKind, Machine, StepRate
 use refsim::raster::{Primitive, Vertex};
 use refsim::texture::TexelFormat;
 
-/// A color as the page has it in front of interpolation; `None` if it is left as it is.
+/// A color before interpolation, as the page states it; `None` if it is unchanged.
 fn clamped(clamp: ColorClamp, by_program: bool, x: f32) -> Option<f32> {
     let range = if x > 1.0 { 1.0 } else { x.max(0.0) };
     match clamp {
@@ -19,7 +19,7 @@ fn clamped(clamp: ColorClamp, by_program: bool, x: f32) -> Option<f32> {
     }
 }
 
-/// The middle of three colors, one at each corner, in the pixel's center, to the next code of 8 bits.
+/// The middle of three corner colors, at the pixel's center, to within one code of 8 bits.
 #[test]
 fn vertex_colors_are_clamped_where_the_page_says() {
     let mut r = Random::new(31);

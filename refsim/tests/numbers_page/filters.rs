@@ -22,7 +22,7 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Byte of a stored channel: bits repeated from the highest; of 16 the upper ones.
+    /// Byte of a stored channel: bits repeated from the highest; of 16 bits the upper byte.
     fn channel(&self, channel: &Channel, raw: u128) -> Byte {
         let (code, bits) = (channel.code(raw), i64::from(channel.bits));
         let bit = |place: i64| code >> (bits - 1 - place % bits) & 1;
@@ -66,7 +66,7 @@ impl Case<'_> {
             (true, TexelValues::Bytes) => (2 * byte, 255),
         };
         let clamp = signed && self.rules.signed_texel_minimum == SignedTexelMinimum::Clamp;
-        // A quotient of short integers that is rounded to double and then to single is rounded once.
+        // A quotient of short integers, rounded to double and then to single, is rounded correctly.
         (if clamp { numerator.max(-denominator) } else { numerator } as f64 / denominator as f64) as f32
     }
 
@@ -153,7 +153,7 @@ fn bytes_are_filtered_as_the_page_says() {
         let coordinates = [at[0].to_bits(), at[1].to_bits(), 0, 0];
         let found = sample(Some(&image), &state, &rules, coordinates, lod).map(f32::from_bits);
         assert_eq!(found, expected, "{format}, {at:?}, level {level} / 256, {state:?}, {rules:?}");
-        // A nearest read has the same bytes, unfiltered.
+        // A nearest read uses the same bytes, without a filter.
         let nearest = SamplerState { min: Filter::Nearest, mag: Filter::Nearest, mip: MipFilter::None, ..state };
         let texel = [0, 1].map(|i| (f64::from(at[i]) * SIZE[i] as f64).floor() as i64);
         let inside = (0..2).all(|i| (0..SIZE[i]).contains(&texel[i]));

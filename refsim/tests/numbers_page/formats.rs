@@ -10,7 +10,7 @@ pub(crate) struct Words {
     fixed: bool,
     /// Fixed point in units of `1 / (2^F - 1)`.
     normalized: bool,
-    /// Nothing, `fn` or `fnuz`.
+    /// Suffix of the encoding: empty, `fn` or `fnuz`.
     encoding: &'static str,
     rounding: &'static str,
     overflow: &'static str,
@@ -57,7 +57,7 @@ impl Words {
         }
     }
 
-    /// The pattern of NaN; of formats without infinity, which have one, any NaN is this.
+    /// The pattern of NaN; for formats without infinity that have NaN, any NaN is this pattern.
     fn nan(&self) -> Option<u32> {
         let (a, b) = self.layout;
         match self.encoding {
@@ -90,7 +90,7 @@ impl Words {
         self.round_quotient(x, 1.0)
     }
 
-    /// Rounds `x / d` once, where `d` is what numbers of a format are divided by: only whole quotients are exact.
+    /// Rounds `x / d` once, where `d` is the denominator of a format's numbers: only whole quotients are exact.
     fn round_quotient(&self, x: f64, d: f64) -> (u32, Flags) {
         let (a, b) = self.layout;
         if self.fixed {
@@ -236,7 +236,7 @@ fn one_rounding_into_every_format() {
     }
 }
 
-/// Sums, products and quotients of singles: the page's rules for zeros, infinities and NaN equal the host's.
+/// Sums, products and quotients of singles: the page's rules for zeros, infinities and NaN match the host's.
 #[test]
 fn special_values_are_those_of_the_page() {
     let mut r = Random::new(2);

@@ -10,7 +10,7 @@ use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, Te
 
 /// Extents of the texture.
 const SIZE: [u32; 2] = [64, 32];
-/// Its levels; each holds its own number.
+/// Levels of the texture; the texels of each hold its number.
 const LEVELS: u32 = 7;
 
 fn image() -> Image {

@@ -41,7 +41,7 @@ fn triangle(z: f32, w: f32) -> [Vertex; 3] {
         .map(|[x, y]: [f32; 2]| Vertex { position: [x * w, y * w, z, w].map(f32::to_bits), ..Vertex::default() })
 }
 
-/// Draws it; returns the first texel of the target and of the depth buffer.
+/// Draws the triangle; returns the first texel of the target and of the depth buffer.
 fn draw(machine: &mut Machine, text: &str, host: &Constants, vertices: &[Vertex], viewport: Viewport) -> (u128, u32) {
     let program = checked(text, machine.profile());
     let target = machine.create_target(TexelFormat::Rgba32f, 1, 1).unwrap();

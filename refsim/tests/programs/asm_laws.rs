@@ -17,7 +17,7 @@ fn good_texts() -> Vec<String> {
     paths.into_iter().map(read).collect()
 }
 
-/// Properties of any text.
+/// Checks the properties of any text.
 pub(crate) fn survives(text: &str) {
     match assemble(text) {
         Ok(program) => {

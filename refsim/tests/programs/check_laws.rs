@@ -9,7 +9,7 @@ use refsim::{
 
 const DEVICES: [&str; 6] = ["r200", "nv20", "nv25", "r300", "nv35", "ideal-fp32"];
 
-/// Checks everything that executors rely on.
+/// Checks all properties that executors rely on.
 fn is_safe(program: &Program, facts: &check::Facts) -> Result<(), String> {
     let version = program.version;
     for (index, instruction) in program.instructions.iter().enumerate() {
@@ -99,7 +99,7 @@ proptest! {
         prop_assert_eq!(is_safe(&checked, checked.facts()), Ok(()));
     }
 
-    /// With a line removed or doubled, a program is still checked, and accepted programs are safe.
+    /// With a line removed or doubled, a program still gets a verdict, and accepted programs are safe.
     #[test]
     fn broken_blocks_are_judged(body in block(), at in any::<prop::sample::Index>(), double in any::<bool>()) {
         let mut lines: Vec<&str> = body.iter().flat_map(|b| b.split_inclusive('\n')).collect();

@@ -59,7 +59,7 @@ proptest! {
         prop_assert_eq!(misses(&walk, bytes, line, ways), misses_by_definition(&walk, bytes, line, ways));
     }
 
-    /// Whatever the shape, each line misses at least once, and a cache that holds everything misses no more.
+    /// For any shape, each line misses at least once, and a cache that holds all lines misses no more.
     #[test]
     fn a_cache_that_holds_all_lines_has_compulsory_misses_only(walk in addresses(), line in 4_u32..8) {
         let line = 1 << line;
@@ -134,7 +134,7 @@ fn draw(
     }
     let id = machine.create_texture(texture.clone()).unwrap();
     let other = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
-    // A separate texture: lines fetched through one sampler hit through another one of the same texture.
+    // Another texture: lines fetched through one sampler hit through another sampler of the same texture.
     let third = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
     let target = machine.create_target(TexelFormat::Bgra8, 64, 64).unwrap();
     let (vertices, host) = (screen(scale), Constants::default());

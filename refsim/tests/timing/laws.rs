@@ -29,7 +29,7 @@ fn program(lines: &[usize]) -> Arc<ProgramWork> {
     Arc::new(ProgramWork::new(&assemble(&text).expect("every line is one"), FlowConstants::default()))
 }
 
-/// Quantities that can increase.
+/// Quantities of work that can increase.
 #[derive(Clone, Debug)]
 struct Work {
     lines: Vec<usize>,

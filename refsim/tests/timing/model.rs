@@ -101,12 +101,12 @@ fn the_units_count_what_the_program_says() {
         let clocks = model(device).fragment(&record.pixel);
         (clocks.arithmetic.0, clocks.textures.0, clocks.total().0)
     };
-    // Two phases: 2 pairs + 1, and 2 + 1 texture instructions at two per clock.
+    // Two phases: two pairs and one instruction; two texture instructions and one, at two per clock.
     let two = "ps_1_4\ntexld r0, t0\ntexcrd r1.rgb, t1\nmul r0.rgb, r0, r1\n+mov r0.a, r0.a\nadd r0, r0, r0\nphase\n\
                texld r1, r0\nmul r0.rgb, r0, r1\n+mov r0.a, r1.a";
     assert_eq!(fragment("r200", two), (3, 2, 3));
-    // NV30: the same program alternates, with the dependent read at one per clock and two more registers than run at
-    // full speed.
+    // NV30 alternates on the same program: the dependent read runs at one per clock, and there are two more registers
+    // than run at full speed.
     assert_eq!(fragment("nv30", two), (3, 2, 5));
     // An independent vec3 and scalar: one slot on r300, two on nv30.
     let split = "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmul r1.xyz, r0, r0\nmov r1.w, r0.w\nmov oC0, r1";
@@ -148,7 +148,7 @@ fn clocks(device: &str, lines: &str) -> (u64, u64, u64) {
     (fragment.arithmetic.0, fragment.textures.0, fragment.total().0)
 }
 
-/// A read, five instructions in fixed point and a dot product: 2 clocks with X, 7 with H, 3 on the NV35.
+/// A read, five fixed-point instructions and a dot product: 2 clocks with X, 7 with H, 3 on the NV35.
 #[test]
 fn fixed_point_goes_beside_the_float_unit_of_nv30() {
     let lines = |x: &str| {
@@ -172,7 +172,7 @@ fn nv30_does_three_operations_or_five_multiplications_in_fixed_point_a_clock() {
         assert_eq!(times("MULX H0, H0, p[0]", n), n.div_ceil(5) as u64, "{n} products");
         assert_eq!(times("ADDH H0, H0, p[0]", n), n as u64, "{n} sums of half precision");
     }
-    // Behind 4 float operations there is room for 8 sums or 16 products.
+    // After 4 float operations there is room for 8 sums or 16 products.
     let behind =
         |line: &str, n: usize| clocks("nv30", &("ADDH H1, H1, p[0];\n".repeat(4) + &format!("{line};\n").repeat(n))).2;
     assert_eq!([8, 9, 11, 12].map(|n| behind("ADDX H0, H0, p[0]", n)), [4, 5, 5, 6]);
@@ -225,7 +225,7 @@ fn only_draw(log: &[Event]) -> &DrawRecord {
     log.iter().find_map(|e| if let Event::Draw(draw) = e { Some(&**draw) } else { None }).expect("one draw")
 }
 
-/// Three instructions and 16 bytes per vertex processed: once each along a strip, and again after 16 others.
+/// Three instructions and 16 bytes per processed vertex: once each along a strip, and again after 16 others.
 #[test]
 fn vertices_that_left_the_cache_are_run_again() {
     let strip: Vec<u32> = (0..38).flat_map(|n| [n, n + 1, n + 2]).collect();

@@ -60,8 +60,8 @@ impl Item {
     }
 }
 
-/// The parts that an item needs. Drivers take longer to compile units of cards and groups of operations together than
-/// one by one.
+/// The parts that an item needs, and no more: drivers compile units of cards and groups of operations faster one by one
+/// than together.
 fn parts(formats: &[Format], item: &Item) -> Parts {
     let converts = item.operation == NumberOperation::Convert;
     let both = [formats[item.format], formats[if converts { item.source } else { item.format }]];
@@ -184,7 +184,7 @@ fn exhausted(o: NumberOperation) -> bool {
     tried(o) && o.operands() < 3 && o != NumberOperation::Steps && !(o.has_immediate() && o != NumberOperation::Scale)
 }
 
-/// Operands of the vectors that were compared with cards: the first cells of each row.
+/// Operands of the vectors that were measured on cards: the first cells of each row.
 fn rows_of_cards() -> Vec<[u32; 3]> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("lanes/tests/vectors");
     let mut rows = Vec::new();
@@ -208,7 +208,7 @@ pub(crate) fn operands_that_cards_were_given(gpu: &Arc<Gpu>) {
     let step = by_form(150, 1);
     let rows = rows_of_cards();
     let mut items = Vec::new();
-    // The second operand of Steps is a count, which cards were not given.
+    // The second operand of Steps is a count, which was not measured on cards.
     let with_numbers = |o: &NumberOperation| tried(*o) && !o.has_immediate() && *o != NumberOperation::Steps;
     for operation in NumberOperation::ALL.into_iter().filter(with_numbers) {
         let item = |format, &operands: &[u32; 3]| Item { operation, format, source: format, operands };

@@ -22,7 +22,7 @@ impl Call {
         let function = [2, 3, 4, 5, 7, 8][words.below(6)];
         let mut places = [words.below(all.len()), words.below(all.len())];
         if function == 5 {
-            // `n_term` knows no units of cards: its results are normalized before.
+            // `n_term` does not support units of cards, whose results are normalized before.
             let ideal = all.iter().filter(|f| !f.unit.is_card()).count();
             places = [words.below(ideal), words.below(ideal)];
         }

@@ -32,7 +32,7 @@ pub(crate) fn reference(operation: NumberOperation, format: &Format, a: u32, b: 
     })
 }
 
-/// `128 + 127 x` to the nearest, halves up, x from -128/127 to 1; 128 for NaN. The product is exact in double
+/// `128 + 127 x` to the nearest, halves up, for x from -128/127 to 1; 128 for NaN. The product is exact in double
 /// precision, and so is the sum near an integer.
 fn signed_byte(bits: u32) -> u32 {
     let x = f64::from(f32::from_bits(bits));
@@ -54,7 +54,7 @@ fn integer(format: &Format, bits: u32) -> u32 {
     }
 }
 
-/// The first factor under the rule that zero times anything is zero.
+/// The first factor, under the rule that zero times anything is zero.
 fn factor(format: &Format, a: u32, b: u32) -> u32 {
     let passed = ops::max(format, a, a).bits;
     let zero = format.is_zero(a) || format.is_zero(b);

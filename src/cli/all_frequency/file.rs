@@ -1,4 +1,4 @@
-//! The `.npz` files of `crossbar all-frequency`, the models that they were made from, and what is drawn of both.
+//! The `.npz` files of `crossbar all-frequency`, their models, and the drawn model.
 
 use std::path::{Path, PathBuf};
 

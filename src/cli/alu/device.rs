@@ -1,4 +1,4 @@
-//! The arithmetic of a device's stage: its format, the unit that computes, and the rules beside them.
+//! The arithmetic of a device's stage: its format, its measured unit, and its rules.
 
 use refsim::device::SumRules;
 use refsim::num::{Format, NumberOperation as Op, Unit};
@@ -23,7 +23,7 @@ pub(super) enum State {
 }
 
 impl State {
-    /// The unit in this state, and its name; `None` where it has no such state.
+    /// The unit in this state, and its name; `None` if the unit has no such state.
     const fn of(self, unit: Unit) -> Option<Unit> {
         match (unit, self) {
             (Unit::Nv3x | Unit::Nv3xLegacy, Self::Legacy) => Some(Unit::Nv3xLegacy),
@@ -39,7 +39,7 @@ impl State {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluArithmetic {
     pub(super) format: Format,
-    /// Rules of products and sums; without a device those of the format.
+    /// Rules of products and sums: the device's, or else the format's.
     pub(super) sums: Option<SumRules>,
 }
 
@@ -48,7 +48,7 @@ impl AluArithmetic {
         Self { format, sums: None }
     }
 
-    /// That of a device's stage; by default of the stage whose unit was measured, or else the pixels'.
+    /// The arithmetic of a device's stage: by default the stage whose unit was measured, otherwise the pixel stage.
     pub(super) fn of_device(name: &str, stage: Option<AluStage>, state: Option<State>) -> miette::Result<Self> {
         let rules = switch::device(name, &[])?.rules;
         let measured = |format: Format| format.unit.is_card();
@@ -60,7 +60,7 @@ impl AluArithmetic {
         if let Some(state) = state {
             format.unit = state.of(format.unit).ok_or_else(|| no_state(name, stage))?;
         }
-        // Units of cards have rules of their own, in every state.
+        // Measured units have rules of their own, in every state.
         let sums = match stage {
             _ if format.unit.is_card() => SumRules::plain(format),
             AluStage::Vertex => rules.vertex_sums(),
@@ -78,7 +78,7 @@ fn no_state(name: &str, stage: AluStage) -> Problem {
     )
 }
 
-/// Refuses operations that a device's instructions are not, or its unit lacks.
+/// Refuses operations that a device's instructions or its unit lack.
 pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<(), Problem> {
     use AluOperation as Alu;
     let name = operation.name();
@@ -110,7 +110,7 @@ pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<
     Ok(())
 }
 
-/// Refuses operations of vertex units in formats of others.
+/// Refuses operations of vertex units in other units' formats.
 pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<(), Problem> {
     let vertex = matches!(format.unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x);
     let theirs = matches!(

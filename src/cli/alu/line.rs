@@ -3,7 +3,7 @@
 use super::operation::AluUnit;
 use crate::error::{InputError, ensure, input_error};
 
-/// The most fields of a good line: three operands, a result and flags.
+/// Maximum number of fields of a valid line: three operands, a result and flags.
 const MAX_FIELDS: usize = 5;
 
 /// Error for a line (from 1) with another number of fields.
@@ -31,7 +31,7 @@ pub(super) struct LineFormat {
 /// A line that was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct AluLine {
-    /// The operands; those that the operation does not take are 0.
+    /// The operands; unused ones are 0.
     pub(super) operands: [u32; 3],
     /// The expected result, where the format has one.
     pub(super) result: u32,
@@ -101,7 +101,7 @@ impl LineFormat {
     }
 }
 
-/// The number that the digits of `field` write, if it has at most `width` bits.
+/// The number that the hexadecimal digits of `field` write, if it has at most `width` bits.
 pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError> {
     let found = || String::from_utf8_lossy(field).chars().take(40).collect::<String>();
     let mut value = 0_u64;
@@ -117,7 +117,7 @@ pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError
                 ));
             }
         };
-        // Kept below 2^36 so that no number of digits overflows.
+        // Clamped below 2^36, so that no number of digits overflows.
         value = (value << 4 | u64::from(digit)).min(1 << 32);
     }
     let digits = width.div_ceil(4);

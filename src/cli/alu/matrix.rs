@@ -30,8 +30,8 @@ fn codes(cell: &str, element: Element, line: u64) -> Result<Vec<u64>, InputError
     Ok(words)
 }
 
-/// The word of line `number` (from 1), and the result that the line brings; `None` if it is blank, or the header of a
-/// table.
+/// Computes the word of line `number` (from 1), and reads its expected result, if any; `None` if the line is blank, or
+/// the header of a table.
 fn compute<'a>(
     unit: &MatrixUnit,
     text: &'a str,
@@ -47,7 +47,7 @@ fn compute<'a>(
     let types = if unit.operands.len() > 1 { 2 } else { 0 };
     let scales = if unit.scaling.is_some() { 2 } else { 0 };
     let operands = types + 3 + scales;
-    // With a result the tables of vectors have a class before it.
+    // With a result, the tables of vectors have a class before it.
     if !(count == operands && !verify || verify && (operands + 1..=operands + 2).contains(&count)) {
         let columns = [&["ta tb"][..types / 2], &["a b c"], &["sa sb"][..scales / 2], &["result"][..verify.into()]];
         return Err(other_fields(number, &columns.concat().join(" "), count));
@@ -62,7 +62,7 @@ fn compute<'a>(
     };
     let [ta, tb] = [element(0)?, element(1)?];
     let [a, b] = [codes(cells[types], ta, number)?, codes(cells[types + 1], tb, number)?];
-    // One number. That of a short type is in up to a word, whose bits above those of the type are ignored.
+    // One number. A short type may be in a longer word, whose upper bits are ignored.
     let (digits, is_short) = (cells[types + 2].len(), unit.addend.digits() < 8);
     let word = u64::from_str_radix(cells[types + 2], 16).ok().filter(|_| digits == 8 || is_short && digits < 8);
     let c = word.map_or_else(|| codes(cells[types + 2], unit.addend, number), |word| Ok(vec![word]))?;
@@ -83,7 +83,7 @@ fn compute<'a>(
     Ok(Some((unit.dot(a, b, c[0]), last)))
 }
 
-/// Writes the word of every line, or compares it with the result that the line brings; any NaN matches `nan`.
+/// Writes the word of every line, or compares it with the line's expected result; any NaN matches `nan`.
 pub(super) fn run(unit: &MatrixUnit, verify: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
     let json = out.json();
     let digits = unit.result.element.digits();

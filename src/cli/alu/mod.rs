@@ -146,7 +146,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(unit) = &args.unit {
         let others = [("--unit", args.op != AluOperation::Dot)];
         given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
-        // The parser lets these pass beside a unit, with which --device conflicts.
+        // The parser accepts these with a unit, although --device excludes it.
         let of_device = [("--stage", args.stage.is_some()), ("--state", args.state.is_some())];
         given::refuse(of_device, "`--device`", "leave it out: a matrix unit has one rule")?;
         return matrix::run(unit, args.verify, io::stdin().lock(), out);
@@ -170,7 +170,7 @@ fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
             refuse_lacking(args.op, arithmetic.format)?;
             arithmetic
         }
-        // The parser asks for one of both, but lets these pass beside a format, with which --device conflicts.
+        // The parser requires a format or a device, but accepts these with a format.
         (None, _) if args.stage.is_some() || args.state.is_some() => {
             return Err(Problem::usage(
                 "`--stage` and `--state` are for `--device` only",
@@ -189,7 +189,7 @@ fn by_chance(format: &Format) -> bool {
     matches!(format.rounding, Rounding::Stochastic(_))
 }
 
-/// Refuses options that do not go with the operation or the formats.
+/// Refuses options that do not fit the operation or the formats.
 fn refuse_others(args: &Args, format: &Format) -> Result<(), Problem> {
     let needs_seed = by_chance(format) || args.to.as_ref().is_some_and(by_chance);
     let seed = [("--seed", args.seed.is_some() && !needs_seed)];
@@ -256,7 +256,7 @@ fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Resul
     Ok(Some(RowUnit { operation, env: format.tininess(Tininess::After) }))
 }
 
-/// The unit that the options make, once they go together.
+/// The unit that the options describe, after checking that they fit together.
 fn unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<AluUnit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {

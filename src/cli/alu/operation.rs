@@ -13,10 +13,10 @@ pub(super) enum AluOperation {
     Table(Op),
     RoundToInt,
     Convert,
-    /// Numbers to a block with a shared scale, and back.
+    /// Numbers to a block with a shared scale; `Dequantize` is the reverse.
     Quantize,
     Dequantize,
-    /// The sum of products of any number.
+    /// The sum of any number of products.
     Dot,
     /// `a * b + c`, as the format or device does it.
     Mad,
@@ -26,7 +26,7 @@ pub(super) enum AluOperation {
     Rcc,
     /// A comparison that gives one or zero, with its operands swapped or not.
     Set(Op, bool),
-    /// Vectors to a number or a vector, a line of words.
+    /// An instruction on vectors, with a line of words.
     Vector(VectorOperation),
 }
 
@@ -111,7 +111,7 @@ impl AluOperation {
         }
     }
 
-    /// Returns `true` if the result is 0 or 1 instead of a number of the format.
+    /// Returns `true` if the result is 0 or 1 rather than a number of the format.
     pub(super) const fn is_comparison(self) -> bool {
         matches!(self, Self::Table(Op::Equal | Op::LessEqual | Op::Less))
     }
@@ -123,7 +123,7 @@ pub(super) struct AluUnit {
     pub(super) op: AluOperation,
     /// The format of the operands.
     pub(super) env: Env,
-    /// The format of the result (that of the operands, except for `convert`).
+    /// The format of the result: the operands' format, except for `convert`.
     pub(super) to: Format,
     /// The seed of stochastic rounding.
     pub(super) seed: u64,
@@ -147,8 +147,8 @@ impl AluUnit {
         !self.op.is_comparison() && self.to.is_nan(result)
     }
 
-    /// The result for operands of the format's width; those that the operation does not take are ignored. Stochastic
-    /// rounding takes the word of `index`.
+    /// Returns the result for operands of the format's width; surplus operands are ignored. Stochastic rounding takes
+    /// the random word of `index`.
     pub(super) fn evaluate(&self, operands: [u32; 3], index: u64) -> Outcome {
         let (mut env, mut to, [a, b, c]) = (self.env, self.to, operands);
         for format in [&mut env.format, &mut to] {
@@ -176,7 +176,7 @@ impl AluUnit {
     }
 }
 
-/// A comparison as a number: by the unit of a card, or else quiet.
+/// A comparison as a number: by a card's unit, otherwise as a quiet comparison.
 fn set(env: Env, operation: Op, [a, b]: [u32; 2]) -> Outcome {
     operation.evaluate(env, [a, b, 0]).unwrap_or_else(|| {
         let holds = match operation {

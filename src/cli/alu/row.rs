@@ -1,5 +1,5 @@
-//! Operations on lines of many numbers: dot products, instructions on vectors, and blocks with a shared scale there and
-//! back.
+//! Operations on lines of many numbers: dot products, instructions on vectors, and conversions to and from blocks with
+//! a shared scale.
 
 use std::io::Read;
 

@@ -1,7 +1,7 @@
 //! Lines in, lines out, in order and in parallel.
 //!
-//! Whatever one read from the input brings is worked on at once, so that a program at the other end of two pipes may
-//! send a line and wait for the answer; a file comes a mebibyte at a time, and its lines are shared out to the threads.
+//! The lines of one read are processed at once, so that a program at the other end of two pipes may send a line and
+//! wait for the answer. A file is read by the mebibyte, and its lines are shared among the threads.
 
 use std::io::{ErrorKind, Read, Write as _};
 
@@ -20,7 +20,7 @@ use crate::error::{InputError, input_error};
 const READ: usize = 1 << 20;
 const TASK_LINES: usize = 4096;
 
-/// Output for consecutive lines, and the first error, after which nothing was read.
+/// Output for consecutive lines, and the first error, after which no line was processed.
 #[derive(Default)]
 pub(super) struct TaskOutput {
     pub(super) text: Vec<u8>,
@@ -29,7 +29,7 @@ pub(super) struct TaskOutput {
     error: Option<InputError>,
 }
 
-/// Calls `work` on tasks of consecutive lines, `take` on their results, in the order of the lines.
+/// Calls `work` on tasks of consecutive lines in parallel, and `take` on their results in order.
 fn each_line(
     mut input: impl Read,
     work: impl Fn(&mut TaskOutput, &[u8], u64) -> Result<(), InputError> + Sync,
@@ -50,7 +50,7 @@ fn each_line(
             })?,
         };
         buffer.truncate(held + got);
-        // The last line of the input may lack its end; any other piece of a line waits for the rest.
+        // The last line of the input may lack its end; any other incomplete line waits for the rest.
         let whole = if got == 0 {
             buffer.len()
         } else {
@@ -140,7 +140,7 @@ fn push_json_result(text: &mut Vec<u8>, unit: &AluUnit, flags: bool, outcome: Ou
     text.extend_from_slice(b"\"}");
 }
 
-/// Compares the results that the lines bring with ours.
+/// Compares the expected results of the lines with ours.
 pub(super) fn verify(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
     let format = LineFormat::verify(unit, flags);
     let json = out.json();
@@ -158,8 +158,8 @@ pub(super) fn verify(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Ou
     verified(input, out, work)
 }
 
-/// Counts lines that pass and fail in `work`, which writes the latter: with `--json` a comma and a document. A closed
-/// pipe does not change the verdict.
+/// Counts lines that pass and fail in `work`, which writes failing lines: with `--json`, a comma and a document. A
+/// closed pipe does not change the verdict.
 pub(super) fn verified(
     input: impl Read,
     out: &mut Out,
@@ -168,7 +168,7 @@ pub(super) fn verified(
     out.outlive_reader();
     let json = out.json();
     let (mut passed, mut failed) = (0_u64, 0_u64);
-    // A document for machines is written whole or not at all: an error may be waiting in the last line.
+    // JSON is written whole or not at all: the last line may be an error.
     let mut mismatches = Vec::new();
     each_line(input, work, |part| {
         if json {
@@ -180,7 +180,7 @@ pub(super) fn verified(
         failed += part.failed;
         Ok(())
     })?;
-    // A check that checked nothing must not pass: the generator of the lines may have failed.
+    // A check without any line must not pass: the generator of the lines may have failed.
     if passed + failed == 0 {
         let empty = input_error!("crossbar::alu::empty" => "expected at least one line to verify, found none";
             help "pipe lines in, as from `testfloat_gen f16_add`");

@@ -16,7 +16,7 @@ impl VectorOperation {
         }
     }
 
-    /// The result: one number, or four components. `words` has as many as [`Self::words`] says.
+    /// The result: one number, or four components. `words` has [`Self::words`] words.
     pub(super) fn evaluate(self, env: Env, sums: SumRules, words: &[u32]) -> Vec<Outcome> {
         let one = Outcome::exact(env.format.one());
         // The caller refuses formats whose unit has no such instruction.
@@ -50,7 +50,7 @@ fn dot(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     sums.dot(env, env.format, &terms)
 }
 
-/// DPH: a fourth product by 1 in the unit of a card, or else the dot product of three components and a sum.
+/// DPH: in a card's unit, a fourth product by 1; otherwise the dot product of three components, and a sum.
 fn homogeneous(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let mut words = words.to_vec();
     if env.format.unit.is_card() {

@@ -91,8 +91,8 @@ impl Summary<'_> {
         2 * self.matrix.nonzeros() as u64
     }
 
-    /// Bytes by layout: dense in bytes and in floats; rows of columns of 2 bytes and values of 1, of 4 and 4;
-    /// biclusters of 4 bytes per row and 4 + 4 per column, as the paper's figures have it.
+    /// Bytes by layout: dense as bytes and as floats; compressed rows with columns and values of 2 and 1 bytes, and of
+    /// 4 and 4; biclusters with 4 bytes per row and 4 + 4 per column, as in the paper.
     fn bytes(&self) -> [(&'static str, &'static str, u64); 5] {
         let (rows, columns) = (self.matrix.rows() as u64, self.matrix.columns() as u64);
         let nonzeros = self.matrix.nonzeros() as u64;
@@ -107,7 +107,7 @@ impl Summary<'_> {
         ]
     }
 
-    /// Columns of biclusters whose value products in single precision round; those beyond its range.
+    /// Number of bicluster columns whose value rounds in single precision, and of columns beyond its range.
     fn rounded(&self) -> [usize; 2] {
         let mut rounded = [0; 2];
         for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {

@@ -31,7 +31,7 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
     Err(format!("expected an angle from 0 to 180 degrees, found `{text}`"))
 }
 
-/// A model, its normals taken anew if there is a crease angle, in degrees: smooth over edges up to it.
+/// Loads a model; a crease angle in degrees recomputes its normals, smooth over edges up to this angle.
 pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette::Result<Model> {
     let model = load_model(path, tangents)?;
     let Some(degrees) = crease else { return Ok(model) };
@@ -53,12 +53,12 @@ pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMea
     Ok(vertices)
 }
 
-/// Returns `true` if a file is a matrix as text, by its name.
+/// Returns `true` if a file's name is that of a matrix as text.
 fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
 }
 
-/// A Matrix Market file, or a `.npz` file of bi-scale transfer, by the ending of its name.
+/// Reads a Matrix Market file, or a `.npz` file of bi-scale transfer, by the extension.
 pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
     if !is_text(path) {
         let file = load_bi_scale(path)?;
@@ -71,7 +71,7 @@ pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
         .map_err(|reason| Problem::usage(format!("{}: {reason}", path.display()), "name another matrix"))?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
 }
-/// Refuses a matrix that claims more rows and columns than any model has, however few of them have entries.
+/// Refuses a matrix with more rows and columns than any model has, even if few of them have entries.
 fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem> {
     /// A row or a column takes some 32 bytes.
     const MOST: usize = 1 << 28;
@@ -107,7 +107,7 @@ pub(super) fn value_counts(matrix: &SparseMatrix) -> Vec<(f64, u64)> {
     counts.into_iter().map(|(value, count)| (matrix.value(value), count)).collect()
 }
 
-/// Values with their counts, as many as a table has room for.
+/// Values with their counts, as many as fit into a table.
 pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
     const MOST: usize = 17;
     let mut table = Table::new("Values", &["value", "count"]);

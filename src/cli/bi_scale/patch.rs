@@ -9,14 +9,14 @@ use crate::names::did_you_mean;
 
 /// The name of a patch without relief.
 const PLAIN: &str = "plain";
-/// Longest table of heights that is read, in bytes (1 GiB).
+/// Maximum length of a table of heights, in bytes (1 GiB).
 const MAX_BYTES: u64 = 1 << 30;
-/// Depth of a picture's white above its black, in edges of the patch.
+/// Height of a picture's white above its black, in edges of the patch.
 const PICTURE_DEPTH: f64 = 0.1;
-/// Reflectance of `plain` and of heights from a file.
+/// Reflectance of `plain` and of patches from a file.
 const COLOR: [f64; 3] = [0.5; 3];
 
-/// The patch of a name, or of a file of heights.
+/// Loads a patch by its name, or from a file of heights.
 pub(super) fn patch_of(source: &Path) -> miette::Result<MesoPatch> {
     let name = source.to_str().unwrap_or_default();
     if let Ok(kind) = name.parse::<PatchKind>() {
@@ -31,7 +31,7 @@ fn material() -> Result<MesoMaterial, Problem> {
     Ok(material)
 }
 
-/// Heights from a table of numbers, in edges of the patch, or from a picture's mean of channels.
+/// Heights from a table of numbers, in edges of the patch, or from the mean of a picture's channels.
 fn of_file(path: &Path) -> miette::Result<MesoPatch> {
     let name = path.to_str().unwrap_or_default();
     if !path.exists() && path.components().count() == 1 && !name.contains('.') {

@@ -89,8 +89,7 @@ fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
     }
 }
 
-/// Biclusters by how many rows they have: up to 1, 3, 7, 15 and so on; with their total rows and columns, and their
-/// cost.
+/// Biclusters by number of rows (up to 1, 3, 7, 15 and so on), with their total rows and columns, and their cost.
 fn sizes(biclusters: &Biclustering) -> Vec<[u64; 5]> {
     let mut sizes: BTreeMap<u32, [u64; 5]> = BTreeMap::new();
     for number in 0..biclusters.len() {

@@ -96,22 +96,22 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// The mean over texels and views of what light of radiance 1 from everywhere sends out.
+/// Mean over texels and views of the radiance under uniform light of radiance 1.
 fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for sample in texture.samples() {
         (0..3).for_each(|channel| sum[channel] += f64::from(sample[channel]));
     }
-    // Each sample stands for 2 pi / M of the hemisphere.
+    // Each sample covers 2 pi / M of the hemisphere.
     let of_texel = texture.samples().len() as f64 / std::f64::consts::TAU;
     sum.map(|sum| sum / of_texel)
 }
 
-/// The patches of a view, by the place of their light in the square, rows from the lower edge up; each has v upwards.
+/// The patches of a view, placed by light direction in the square, rows from the lower edge up; each has v upwards.
 fn sheet(texture: &BidirectionalTexture, view: usize) -> RgbImage {
     let (side, size) = (texture.light().side(), texture.size());
     let width = side * size;
-    // A white Lambert surface, lit along its normal, is white; brighter lobes are clipped.
+    // A white Lambert surface, lit along its normal, appears white; brighter lobes are clipped.
     let scale = std::f64::consts::PI;
     let pixel = |at: usize| {
         let (x, y) = (at % width, width - 1 - at / width);

@@ -48,7 +48,7 @@ impl FromStr for TextureArg {
 }
 
 impl TextureArgs {
-    /// Transfer with its model, and the number of each triangle's texture.
+    /// Transfer with its model, and a texture index per triangle.
     pub(super) fn transfer(&self, file: &Path, model: &Path) -> miette::Result<(TransferOfModel, Vec<u32>)> {
         if !self.texture.iter().any(|texture| patch_kind(&texture.source).is_some()) {
             self.patches.require_patch()?;
@@ -72,7 +72,7 @@ impl TextureArgs {
         [transfer].into_iter().chain(picture.inputs()).chain(light.file()).chain(files).collect()
     }
 
-    /// The texture of each material, by its number among those given.
+    /// Index of the texture of each material among those given.
     fn of_materials(&self, materials: &[Material]) -> Result<Vec<u32>, Problem> {
         for (at, TextureArg { material, .. }) in self.texture.iter().enumerate() {
             if self.texture[..at].iter().any(|before| before.material == *material) {

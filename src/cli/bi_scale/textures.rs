@@ -1,5 +1,4 @@
-//! Options of bidirectional textures that `crossbar bi-scale render` and `card` share, and the transfer of a model,
-//! which both need.
+//! Texture options that `crossbar bi-scale render` and `card` share, and the transfer of a model, which both need.
 
 use std::path::Path;
 
@@ -38,14 +37,14 @@ pub(super) struct PatchArgs {
 }
 
 impl PatchArgs {
-    /// Refuses options of patches where no texture is one. Fails with [`Problem`] names the option.
+    /// Refuses options of patches if no texture is a patch. The [`Problem`] names the option.
     pub(super) fn require_patch(&self) -> Result<(), Problem> {
         let of_patches =
             [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];
         given::refuse(of_patches, "textures of patches, found files only", "leave it out: a file has its own size")
     }
 
-    /// A texture by its file, or that of a patch by its name, sampled in a transfer's local directions.
+    /// A texture from its file, or of a patch by its name, sampled in a transfer's local directions.
     pub(super) fn texture(&self, source: &Path, light: &LocalDirections) -> miette::Result<SurfaceTexture> {
         let name = source.display().to_string();
         let Some(kind) = patch_kind(source) else {
@@ -68,7 +67,7 @@ impl PatchArgs {
     }
 }
 
-/// The patch of a name.
+/// The kind of a named patch.
 pub(super) fn patch_kind(source: &Path) -> Option<PatchKind> {
     source.to_str().and_then(|name| name.parse().ok())
 }

@@ -41,12 +41,12 @@ pub(super) struct Coherence {
     triangles: usize,
     /// Vertices moved, and the squared error that moves added.
     moved: Option<(usize, f64)>,
-    /// Triangles drawn: of clusters as they came, after reclassification, in superclusters.
+    /// Number of triangles drawn: with the original clusters, after reclassification, in superclusters.
     drawn: [u64; 3],
 }
 
 impl CoherenceArgs {
-    /// The mesh, where something is done on it.
+    /// The mesh's vertices, if an option needs them.
     pub(super) fn vertices(&self, signal: &Path, mesh: Option<MeshDigest>) -> miette::Result<Option<Vertices>> {
         let Some(model) = &self.model else { return Ok(None) };
         let is_idle = self.reclassify.is_none() && self.supercluster_size.is_none();
@@ -55,7 +55,7 @@ impl CoherenceArgs {
         Ok(Some(model_of(signal, mesh, model)?.1))
     }
 
-    /// Distinguishes reclassification and superclusters by whether they are requested.
+    /// Returns whether reclassification and superclusters are requested.
     pub(super) const fn given(&self) -> [bool; 2] {
         [self.reclassify.is_some(), self.supercluster_size.is_some()]
     }

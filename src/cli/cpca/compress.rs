@@ -31,9 +31,9 @@ Examples:
 
 CSV and NumPy arrays hold a row per point. The file that is written holds the clusters and how they were made.";
 
-/// Iterations at most for each number of vectors, and rounds of redistribution.
+/// Maximum number of iterations for each number of vectors, and of rounds of redistribution.
 const ITERATIONS: usize = 10;
-/// Draws the start points.
+/// Seed of the start points.
 const SEED: u64 = 1;
 
 /// Compress transfer, or any signal, by clustered principal components
@@ -92,7 +92,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
 }
 
 impl Args {
-    /// Refuses options that others make useless.
+    /// Refuses options that other options make useless.
     fn refuse_idle(&self) -> Result<(), Problem> {
         let no_vectors = [("--method", self.vectors == Some(0) && self.method.is_some())];
         given::refuse(
@@ -113,7 +113,7 @@ impl Args {
         self.method.unwrap_or(CpcaMethod::Iterative)
     }
 
-    /// How a signal is compressed.
+    /// Options of the compression.
     fn options(&self, signal: &Signal) -> miette::Result<CpcaOptions> {
         let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
         let (clusters, vectors) = (self.clusters.unwrap_or(256), self.vectors.unwrap_or(most.min(8)));
@@ -134,7 +134,7 @@ impl Args {
         })
     }
 
-    /// Provenance of the clusters for the file: the values used, not the limits.
+    /// Provenance of the clusters for the file: the actual values, not the limits.
     fn provenance(&self, options: &CpcaOptions, clustering: &Clustering, steps: &[CpcaStep]) -> String {
         let vectors = steps.last().map_or(options.vectors, |step| step.vectors);
         let mut parts = vec![

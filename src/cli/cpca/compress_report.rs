@@ -27,7 +27,7 @@ pub(super) fn table(steps: &[CpcaStep], energy: f64) -> Table {
     table
 }
 
-/// All steps for machines.
+/// All steps as JSON.
 pub(super) fn steps_document(steps: &[CpcaStep]) -> Value {
     let step = |step: &CpcaStep| {
         let &CpcaStep { vectors, kind, moved, squared_error } = step;

@@ -1,4 +1,4 @@
-//! `crossbar cpca error`: a compressed signal beside the original.
+//! `crossbar cpca error`: compares a compressed signal with the original.
 
 use std::path::{Path, PathBuf};
 

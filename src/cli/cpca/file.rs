@@ -1,4 +1,4 @@
-//! The `.npz` files of `crossbar cpca`, and the models that they were made from.
+//! The `.npz` files of `crossbar cpca`, and their models.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 pub(super) struct FileOfModel {
     pub(super) file: PrtFile,
     pub(super) model: Model,
-    /// The points of the file, with tangents as the file says.
+    /// The points of the file, with the file's choice of tangents.
     pub(super) vertices: Vertices,
     pub(super) digest: MeshDigest,
 }
@@ -27,7 +27,7 @@ impl FileOfModel {
     }
 }
 
-/// The model of the mesh that a file is of, with its vertices: the file's points.
+/// The model of a file's mesh, with its vertices: the file's points.
 pub(super) fn model_of(
     path: &Path,
     mesh: Option<MeshDigest>,
@@ -52,14 +52,14 @@ pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
     }
 }
 
-/// A `.npz` file that has clusters, and these.
+/// A `.npz` file with clusters, and its clusters.
 pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
     let mut file = load_prt(path, None)?;
     let clustering = clusters_of(&mut file, path)?;
     Ok((file, clustering))
 }
 
-/// The clusters of a file, taken out of it.
+/// Takes the clusters out of a file.
 pub(super) fn clusters_of(file: &mut PrtFile, path: &Path) -> miette::Result<Clustering> {
     Ok(file.clustering.take().ok_or_else(|| {
         let what = format!("{}: expected clusters, found transfer only", path.display());

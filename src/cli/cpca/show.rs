@@ -20,7 +20,7 @@ Examples:
 
 The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
-/// Eigenvalues that a table has room for.
+/// Number of eigenvalues in a table.
 const EIGENVALUES: usize = 4;
 
 /// Show the contents of a .npz file: header, clusters with spectra

@@ -1,4 +1,4 @@
-//! `crossbar devices`: the profiles, and where every figure of one is from.
+//! `crossbar devices`: the profiles, and the source of every figure.
 
 use refsim::device::{FigureRow, MeasuredCounts, Profile, Switch};
 use serde_json::{Value, json};

@@ -68,7 +68,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         trace,
         knows_flags: matches!(executor.kind(), ExecutorKind::Scalar | ExecutorKind::Batch),
     });
-    // Before the work: a folder that cannot be written is found out early.
+    // Checked before the work, so that an unwritable folder is found at once.
     let files = FileSet::new(&folder).map_err(Problem::from)?;
     let outcome = case::run(&setup, &executor)?;
     let written = view::write_folder(files, &outcome.pictures)?;

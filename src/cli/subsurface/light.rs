@@ -12,7 +12,7 @@ use crate::study::subsurface::Lighting;
 use crate::subsurface::on_card::Light;
 use crate::transfer::light::{CubeLight, Decimation};
 
-/// A light: one of pass 1, or distant light as the commands on transfer read it.
+/// A light of pass 1, or distant light as in the commands on transfer.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum LightArg {
     /// `ambient:R,G,B`, `directional:X,Y,Z:R,G,B` or `point:X,Y,Z:R,G,B[:K0,K1,K2]`.
@@ -53,7 +53,7 @@ impl FromStr for LightArg {
                 Light::Point { position, intensity, attenuation }
             }
             ["ambient" | "directional" | "point", ..] => return Err(wrong()),
-            // A word that no light begins with; a letter is a drive.
+            // A word that no light begins with; a single letter is a drive.
             [word, _, ..] if word.len() > 1 && !["disk", "constant", "sky"].contains(&word) => return Err(wrong()),
             _ => return text.parse().map(Self::Environment).map_err(|_| wrong()),
         }))
@@ -67,7 +67,7 @@ pub(super) fn coefficient(text: &str) -> Result<[f64; 3], String> {
     found.ok_or_else(|| format!("expected a number of at least 0, or three as R,G,B, per mm, found `{text}`"))
 }
 
-/// The light that was asked for; else a white one from above and beside the eye.
+/// The requested light; otherwise a white light from above and beside the eye.
 pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Lighting> {
     if let [LightArg::Environment(light)] = asked {
         return environment(light).map(Lighting::Environment);

@@ -1,4 +1,4 @@
-//! `crossbar timeline`: how long a run takes on an emulated card, and where the time goes.
+//! `crossbar timeline`: the modelled time of a run on an emulated card, by cause.
 
 mod args;
 mod run;
@@ -14,7 +14,7 @@ pub(super) use args::Args;
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let input = Input::read(args)?;
-    // One step, but it moves: with a cache to run, this takes long.
+    // A single step, shown because it takes long with `--cache`.
     let bar = ProgressBar::new("drawing", 1);
     let log = input.log(args.cache)?;
     drop(bar);

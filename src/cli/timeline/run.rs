@@ -21,7 +21,7 @@ use crate::options::Size;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
-/// The card where rays are cast and none is named.
+/// The default card for rays.
 const DEFAULT_DEVICE: &str = "r200";
 /// Quads along each side of each patch of the teapot.
 const TESSELLATION: u32 = 8;
@@ -70,7 +70,7 @@ impl Input {
         }
     }
 
-    /// Rays, where there are any.
+    /// Number of rays; `None` for a case.
     pub(super) fn rays(&self) -> Option<u64> {
         match self {
             Self::Case(_) => None,
@@ -78,7 +78,7 @@ impl Input {
         }
     }
 
-    /// The run's log; with the hits and misses of every texel in the texture cache, if `cache`.
+    /// The run's log; with `cache`, it has the texture cache's hits and misses over every texel read.
     pub(super) fn log(&self, cache: bool) -> miette::Result<Vec<Event>> {
         let caches = if cache { Some(TextureCaches::new(self.profile()).map_err(no_figure)?) } else { None };
         let watcher = caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) });
@@ -119,7 +119,7 @@ fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, Strin
     }
 }
 
-/// One model's view of a log.
+/// A log under one timing model.
 pub(super) struct TimedLog {
     pub(super) model: Model,
     pub(super) replay: Replay,

@@ -7,7 +7,7 @@ use refsim::timing::{Level, Model, Picoseconds};
 
 use crate::cli::ProgressBar;
 
-/// A guessed figure, and the makespan with half and with twice its value.
+/// A guessed figure, and the total time with half and with twice its value.
 pub(super) struct Sensitivity {
     pub(super) key: String,
     pub(super) value: String,
@@ -15,7 +15,7 @@ pub(super) struct Sensitivity {
     pub(super) doubled: Picoseconds,
 }
 
-/// Every guess that the model reads, in its order, then those of the queue. Halving rounds down, but not to 0.
+/// Varies every guess that the model reads, in its order, then the queue's guesses. Halving rounds down, but not to 0.
 pub(super) fn sensitivity(model: &Model, log: &[Event], options: &Options<'_>) -> miette::Result<Vec<Sensitivity>> {
     let time = |model: &Model, options: &Options<'_>| -> miette::Result<Picoseconds> {
         Ok(replay(log, model, options)?.timeline.makespan())

@@ -1,4 +1,4 @@
-//! The tables of a timeline, and the document for machines.
+//! The tables of a timeline, and its JSON document.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::cli::Out;
 use crate::report::visible::visible_line;
 use crate::report::{Cell, Table};
 
-/// Draws that the table shows; the document has all.
+/// Maximum number of draws in the table; the document has all.
 const MAX_DRAWS: usize = 16;
 
 pub(super) fn print(
@@ -68,17 +68,17 @@ fn us(time: Picoseconds) -> Cell {
     Cell::measured(time.0 as f64 / 1e6)
 }
 
-/// In per cent.
+/// Cell of a part in per cent.
 fn percent(part: i128, whole: Picoseconds) -> Cell {
     Cell::percent(100.0 * part as f64 / whole.0.max(1) as f64)
 }
 
-/// A part of a total.
+/// Cell of a part's share of a total.
 fn share(part: Picoseconds, whole: Picoseconds) -> Cell {
     percent(part.0.into(), whole)
 }
 
-/// The change of a total.
+/// Cell of the change of a total.
 fn change(from: Picoseconds, to: Picoseconds) -> Cell {
     percent(i128::from(to.0) - i128::from(from.0), from)
 }
@@ -124,7 +124,7 @@ fn generations<'a>(log: &'a [Event], timed: &'a TimedLog) -> impl Iterator<Item 
     records.zip(&timed.replay.mipmaps)
 }
 
-/// The mip levels that the card made; none, no table.
+/// Table of the mip levels that the card generated; `None` if there are none.
 fn mipmaps(log: &[Event], timed: &TimedLog) -> Option<Table> {
     let headings = ["levels", "texels read", "texels written", "total", "clocks", "bound by"];
     let mut table = Table::new("Generated mip levels", &headings);

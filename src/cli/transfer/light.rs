@@ -19,7 +19,7 @@ pub(in crate::cli) const HARMONIC_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DE
 pub(in crate::cli) const CUBE_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
      radius), sky:X,Y,Z (towards the sun), red-and-blue, a lat-long, angular-probe or cube-cross picture, a table of a \
      cube's texels (.csv) or of small sources (.sources.csv)";
-/// The light where none is named.
+/// The default light.
 pub(in crate::cli) const DEFAULT_LIGHT: &str = "sky:1,-1,1";
 
 const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z \
@@ -30,7 +30,7 @@ const ZENITH: [f64; 3] = [0.25, 0.4, 0.7];
 const GROUND: [f64; 3] = [0.1; 3];
 const SUN: [f64; 3] = [4e4, 3.7e4, 3.2e4];
 
-/// A light that is not yet of an order.
+/// A light, before its projection to an order of harmonics.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::cli) enum DistantLightArg {
     Constant([f64; 3]),
@@ -73,7 +73,7 @@ impl DistantLightArg {
         Ok(Self::Disk { towards, degrees, radiance })
     }
 
-    /// The file that the light is read from; `None` for other lights.
+    /// The file that the light is read from, if any.
     pub(in crate::cli) fn file(&self) -> Option<&Path> {
         if let Self::Picture(path) = self { Some(path) } else { None }
     }
@@ -89,7 +89,7 @@ impl DistantLightArg {
         }
     }
 
-    /// The light before it is sampled by the texels of a cube.
+    /// The light, before it is sampled at the texels of a cube.
     pub(in crate::cli) fn distant(&self) -> miette::Result<DistantLight> {
         Ok(match self {
             Self::Constant(radiance) => DistantLight::Constant(*radiance),
@@ -104,7 +104,7 @@ impl DistantLightArg {
                 DistantLight::Disks(load_light_sources(path)?.into_iter().map(DiskSource::from).collect())
             }
             Self::Picture(path) if has_ending(path, ".csv") => {
-                // Truncation makes texels below 0.
+                // Truncated light has texels below 0.
                 let light = CubeLight::signed(load_cube_table(path, LIGHT_SIDE)?);
                 DistantLight::Texels(light.map_err(|error| no_light(path, &error))?)
             }
@@ -115,7 +115,7 @@ impl DistantLightArg {
         })
     }
 
-    /// The light at an order.
+    /// The light, projected to an order.
     pub(in crate::cli) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
         let made = match self {
             Self::Constant(radiance) => HarmonicLight::constant(order, *radiance),

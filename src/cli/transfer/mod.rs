@@ -1,5 +1,5 @@
-//! Shared by the commands of the three systems on transfer, `cpca`, `all-frequency` and `bi-scale`: a model and its
-//! vertices, distant light, reflectance, and pictures.
+//! Options of the commands on transfer, `cpca`, `all-frequency` and `bi-scale`: a model and its vertices, distant
+//! light, reflectance, and pictures.
 
 pub(super) mod light;
 pub(super) mod model;

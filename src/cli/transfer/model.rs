@@ -12,8 +12,8 @@ use crate::report::Findings;
 use crate::scene::Material;
 use crate::transfer::{Tangents, Vertices};
 
-/// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
-/// none.
+/// Loads the model. If tangents come from texture coordinates, a file is read as a mesh without materials, since scenes
+/// have no texture coordinates.
 pub(in crate::cli) fn load(path: &Path, tangents: Tangents) -> miette::Result<Model> {
     if tangents == Tangents::Texture && path.is_file() {
         return Ok(Model::plain(model_file::mesh(path)?));
@@ -26,8 +26,8 @@ pub(in crate::cli) fn vertices(model: &Model, tangents: Tangents) -> miette::Res
     Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
 }
 
-/// Adds what is odd about the vertices of a model to the findings of `precompute`: those without a triangle, those
-/// without a tangent, and as many of `more` as there are.
+/// Adds unusual vertices of a model to the findings of `precompute`: vertices without a triangle, vertices without a
+/// tangent, and the non-zero counts of `more`.
 pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, more: &[(usize, &str)]) {
     found.fields(json!({ "unused_vertices": vertices.unused, "replaced_tangents": vertices.replaced_tangents }));
     let of_model = [
@@ -44,7 +44,7 @@ pub(in crate::cli) fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "see this command's `--help`")
 }
 
-/// The materials of a model and that of each triangle: of a file that was read without them, those that it names.
+/// The materials of a model, and the material of each triangle; a file read as a mesh is read again for them.
 pub(in crate::cli) fn materials_of(path: &Path, model: &Model) -> miette::Result<(Vec<Material>, Vec<u32>)> {
     if !path.is_file() {
         return Ok((model.materials.clone(), model.material_of.clone()));

@@ -17,7 +17,7 @@ pub(in crate::cli) struct OnCardArgs {
 }
 
 impl OnCardArgs {
-    /// The card that draws; `device` is drawn on where none is named.
+    /// The card that draws: the requested one, or `device`.
     pub(in crate::cli) fn setting(&self, device: &str) -> miette::Result<CardSetting> {
         let Self { sweep, card } = self;
         let (profile, executor) = (card.profile(device)?, card.executor()?);

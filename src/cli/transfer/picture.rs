@@ -1,4 +1,4 @@
-//! The picture of a model: which one, from where, how large, how bright.
+//! Options of a model's picture: model, camera, size, exposure.
 
 use std::path::{Path, PathBuf};
 

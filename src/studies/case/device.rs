@@ -99,8 +99,8 @@ impl Binder<'_> {
 /// Maximum length of a device file, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// The device of a name: one of [`Profile::named`], or a device file ([`Profile::from_device_file`]), whose name ends
-/// in `.toml`. Fails if there is no such device; [`DeviceError::File`] if the file cannot be read.
+/// Returns the device with this name: one of [`Profile::named`], or, for a name that ends in `.toml`, a device file
+/// ([`Profile::from_device_file`]). Fails if there is no such device; [`DeviceError::File`] if the file cannot be read.
 pub fn device_named(name: &str) -> Result<Profile, DeviceError> {
     if is_file(name) { read(Path::new(name), name) } else { Profile::named(name) }
 }
@@ -120,7 +120,7 @@ fn read(path: &Path, name: &str) -> Result<Profile, DeviceError> {
     })
 }
 
-/// Help text with the known name nearest to the one in a device error; often empty.
+/// Help text for a device error: suggests the nearest known name; often empty.
 pub fn meant(error: &DeviceError) -> String {
     match error {
         DeviceError::UnknownDevice { name: found, known: names }

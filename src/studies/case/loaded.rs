@@ -75,7 +75,7 @@ impl<'s> Loaded<'s> {
 
     /// Draws. Fails if the device cannot execute the case.
     pub fn draw(&mut self) -> Result<DrawEvents, CaseError> {
-        // Borrows apart: the machine is mutable, the rest is read.
+        // Separate borrows: only the machine is borrowed mutably.
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
         self.machine.draw(&call).map_err(|error| placed(self.setup, error))
     }
@@ -84,13 +84,13 @@ impl<'s> Loaded<'s> {
         draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers)
     }
 
-    /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`]. Errors: as [`Loaded::draw`], and
-    /// if a pixel lies outside the targets.
+    /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`]. Fails as [`Loaded::draw`] does,
+    /// and if a pixel lies outside the targets.
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         self.machine.trace_pixels(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// Encodes a trace of some pixels for another host of WebGPU: see [`Machine::trace_buffers`]. Fails as
+    /// Encodes a trace of some pixels for a GPU in a browser: see [`Machine::trace_buffers`]. Fails as
     /// [`Loaded::trace`] does.
     pub fn trace_buffers(&self, pixels: &[(u32, u32)]) -> Result<TraceBuffers, CaseError> {
         self.machine.trace_buffers(&self.call(), pixels).map_err(|error| placed(self.setup, error))
@@ -171,7 +171,7 @@ fn draw_call<'a>(
             },
         },
         (Vertices::Transformed(vertices), _) => VertexSource::Transformed(vertices),
-        // Attributes are made for a program only.
+        // Attributes are bound only for a vertex program.
         (Vertices::Attributes(_), None) => VertexSource::Transformed(&[]),
     };
     let opengl = setup.geometry.convention == Convention::Opengl;

@@ -7,8 +7,8 @@ use refsim::{
 
 use super::{CaseError, Loaded, Setup};
 
-/// Draws the case as [`super::run`] does and returns the machine's log: textures up, targets cleared, the draw, targets
-/// and depth buffer back. It is the same for every executor. Fails if the device cannot execute the case.
+/// Draws the case as [`super::run`] does and returns the machine's log: texture uploads, clears, the draw, read-back of
+/// targets and depth buffer. The log is the same for every executor. Fails if the device cannot execute the case.
 pub fn log(setup: &Setup, executor: impl Into<Executor>) -> Result<Vec<Event>, CaseError> {
     log_of(Loaded::recording(setup, executor, None)?)
 }

@@ -51,12 +51,12 @@ pub struct ProbeResult {
     pub probe: Probe,
     /// Value found.
     pub found: Found,
-    /// `true` if it is as expected.
+    /// `true` if the value found is the expected one.
     pub passed: bool,
 }
 
 impl ProbeResult {
-    /// Document for programs.
+    /// Converts the result to JSON.
     pub fn document(&self) -> Value {
         let found = match &self.found {
             Found::Color(channels) => json!(channels.map(number_json)),
@@ -74,12 +74,12 @@ impl ProbeResult {
     }
 }
 
-/// JSON has no infinity and no NaN.
+/// Converts a number to JSON; infinity and NaN, which JSON lacks, become strings.
 fn number_json(number: f64) -> Value {
     if number.is_finite() { number.into() } else { number.to_string().into() }
 }
 
-/// Evaluates a probe on the target that it names, or on the depth buffer.
+/// Evaluates a probe on its target, or on the depth buffer.
 pub(super) fn answer(
     probe: &Probe,
     target: &Image,

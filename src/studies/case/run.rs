@@ -64,7 +64,7 @@ impl CaseOutcome {
         list
     }
 
-    /// Document for programs: the device with its switches, counts, probes.
+    /// JSON document: the device with its switches, counts, probes.
     pub fn document(&self, setup: &Setup) -> Value {
         let counts: Map<String, Value> =
             self.counts().into_iter().map(|(name, number)| (name.replace(' ', "_"), number.into())).collect();
@@ -140,15 +140,15 @@ fn slots(cost: SlotCount, fragments: u64, rates: &Rates) -> ShaderSlots {
     ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }
 }
 
-/// Minimum number of clocks by the profile's issue rates: texture and arithmetic slots in parallel, every pipeline
-/// always busy, memory free.
+/// Minimum number of clocks by the profile's issue rates, if texture and arithmetic slots issue in parallel, every
+/// pipeline is always busy, and memory takes no time.
 fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> Option<u64> {
     let clocks = |slots: u64, rate: Option<u64>| Some(slots.div_ceil(rate.filter(|r| *r > 0)?));
     let fragment = clocks(texture, rates.texture_reads_per_clock)?.max(clocks(arithmetic, rates.alu_pairs_per_clock)?);
     clocks(fragments.saturating_mul(fragment.max(1)), rates.pixel_pipes)
 }
 
-/// Encodes a target as PNG if its channels are unsigned fractions, otherwise as EXR with the values as singles.
+/// Encodes a target as PNG if its channels are unsigned fractions, otherwise as EXR in single precision.
 fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<NamedFile, InputError> {
     let (width, height) = (target.width(), target.height());
     let record = target.format().record();
@@ -176,7 +176,7 @@ fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result
     Ok((format!("{stem}.exr"), exr(&picture)?))
 }
 
-/// Rounds an unsigned fraction to multiples of `1 / most` and returns the multiple.
+/// Returns the integer k for which `k / most` is nearest to an unsigned fraction.
 fn scaled(value: ChannelValue, most: u64) -> u64 {
     match value {
         ChannelValue::Ratio { numerator, denominator } => {

@@ -86,14 +86,14 @@ pub struct Texture {
     pub kind: TextureKind,
     /// Texel format.
     pub format: Spanned<String>,
-    /// Width, height, depth, as many as the kind has; with a `file` those of the picture.
+    /// Width, height, depth, as many as the kind has axes; not required with `file`.
     pub size: Option<Spanned<Vec<u32>>>,
     /// Path of a PNG file, relative to the folder of the case.
     pub file: Option<Spanned<PathBuf>>,
-    /// Texels of level 0 that differ from (0, 0, 0, 1), each red, green, blue, alpha: rows from the top, then faces or
-    /// slices.
+    /// Texels of level 0, each as red, green, blue, alpha; missing channels come from (0, 0, 0, 1). Rows from the top,
+    /// then faces or slices.
     pub texels: Option<Spanned<Vec<Vec<Number>>>>,
-    /// `true` if `texels` and `mipmaps` are the stored codes, integers: as many per texel as the format stores.
+    /// `true` if `texels` and `mipmaps` list stored codes: integers, one per stored channel.
     #[serde(default)]
     pub raw: bool,
     /// Source of levels 1 and up.
@@ -123,7 +123,7 @@ pub struct Texture {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bump {
-    /// Stage: the number of the destination of `texbem`, `texbeml` or `bem`.
+    /// Index of the stage: the number of the destination register of `texbem`, `texbeml` or `bem`.
     pub stage: Spanned<u32>,
     /// M00, M01, M10, M11.
     pub matrix: Exactly<Number, 4>,
@@ -217,7 +217,7 @@ pub struct Alpha {
     pub reference: Spanned<Number>,
 }
 
-/// Blending. Without the `alpha_` fields alpha is blended like color.
+/// Blending. Without the `alpha_` fields, alpha is blended like color.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Blend {

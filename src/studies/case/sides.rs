@@ -14,7 +14,7 @@ use crate::compare::{
     first_difference, images,
 };
 
-/// Number of pixels traced at a time: the vertices are processed once for them.
+/// Number of pixels traced per batch; each batch processes the vertices once.
 const TOGETHER: usize = 1024;
 
 /// One side of a comparison: a case with its overrides, and the executor.
@@ -48,13 +48,13 @@ pub struct Comparison {
     pub different: u64,
     /// Counts that differ.
     pub counts: Vec<CountDifference>,
-    /// Number of pixels traced on both sides, and of those that differ.
+    /// Number of pixels traced on both sides, and how many of them differ.
     pub followed: [u64; 2],
     /// First difference; `None` if there is none.
     pub first: Option<First>,
 }
 
-/// Count that differs.
+/// A count with different values on the two sides.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CountDifference {
     /// Name of the count.
@@ -72,8 +72,8 @@ pub struct First {
     pub draw: usize,
     /// Column and row of the first pixel that differs, row by row from the top left.
     pub pixel: [u32; 2],
-    /// First difference of its fragments' traces; `None` if the traces are equal although the results of the draws are
-    /// not: then the draw of a side differs from its own trace.
+    /// First difference of its fragments' traces. `None` if the traces are equal although the results of the draws
+    /// differ: then the draw of one side differs from its own trace.
     pub difference: Option<TraceDifference>,
 }
 
@@ -106,7 +106,7 @@ pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Compar
     let pixels: Vec<(u32, u32)> = match scope {
         Scope::Pixel([x, y]) => vec![(x, y)],
         Scope::Results if !differing.is_empty() => vec![place(differing[0])],
-        // Only counts differ: no target gives a position.
+        // Counts have no position.
         Scope::Results if comparison.counts.is_empty() => Vec::new(),
         Scope::Results | Scope::Registers => (0..count).map(place).collect(),
     };
@@ -126,7 +126,7 @@ pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Compar
     Ok(comparison)
 }
 
-/// Side with two cards: one that draws, one whose memory stays as before the draw.
+/// Side with two cards: one draws; the other keeps the memory from before the draw, for traces.
 struct DrawnSide<'s> {
     drawn: Loaded<'s>,
     before: Loaded<'s>,
@@ -171,7 +171,7 @@ fn follow(sides: &[DrawnSide<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Co
     Ok(())
 }
 
-/// Attributes a difference before the program to the vertex stage, if the corners differ.
+/// Attributes a difference in coverage or input to the vertex stage, if the corners differ.
 fn from_vertices(sides: &[DrawnSide<'_>; 2], difference: TraceDifference) -> Result<TraceDifference, CaseError> {
     if !matches!(difference.stage, TraceStage::Coverage { .. } | TraceStage::Input) {
         return Ok(difference);
@@ -187,7 +187,7 @@ fn from_vertices(sides: &[DrawnSide<'_>; 2], difference: TraceDifference) -> Res
     })
 }
 
-/// Compares the surfaces of both sides. They have the same shapes, since both are of one case.
+/// Compares the surfaces of both sides. Their shapes are equal, since both sides draw one case.
 fn surfaces(left: &Loaded<'_>, right: &Loaded<'_>) -> Result<Vec<SurfaceDifference>, CaseError> {
     let (a, b) = (left.targets()?, right.targets()?);
     let targets = a.iter().zip(b).enumerate();

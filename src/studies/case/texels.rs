@@ -97,7 +97,7 @@ fn from_texels(
         let help = "1d and cube have one number, 2d and rectangle two, volume three";
         return Err(binder.place.wrong(size.span(), message, help));
     };
-    // Checked before allocating the size: the case must list as many texels.
+    // The number of listed texels is checked before the image is allocated.
     let faces = if written.kind == TextureKind::Cube { 6 } else { 1 };
     let expected = extents.iter().try_fold(faces, |product: usize, &side| product.checked_mul(side as usize));
     if expected != Some(texels.get_ref().len()) {
@@ -116,8 +116,8 @@ fn from_texels(
     Ok(image)
 }
 
-/// Encodes a texel from a list of codes, one for each channel in the order red, green, blue, alpha (luminance first);
-/// in signed channels negative codes stand for their two's complement. The error is the expected value.
+/// Encodes a texel from a list of codes, one per channel in the order red, green, blue, alpha (luminance first). Signed
+/// channels take negative codes as two's complement. The error is a description of the expected list.
 fn stored(format: TexelFormat, codes: &[Number]) -> Result<u128, String> {
     let channels = format.record().stored();
     if codes.len() != channels.len() {
@@ -214,7 +214,7 @@ fn from_file(
             return Err(binder.place.wrong(size.span(), message, "leave `size` out: a picture has its own"));
         }
     }
-    // A channel of n bits is k / (2^n - 1), rounded once into a single, from which the texel format takes it.
+    // A channel of n bits is k / (2^n - 1), rounded once to single precision; the texel format then quantises it.
     let single = |k: u16| num::from_ratio(Format::FP32, false, k.into(), 65535).bits;
     let values: Vec<[u32; 4]> = picture.pixels().map(|pixel| pixel.0.map(single)).collect();
     let extents = [picture.width(), picture.height(), 1];

@@ -4,7 +4,7 @@ use refsim::machine::{Executor, FragmentTrace};
 
 use super::{CaseError, Loaded, Setup};
 
-/// Search distance for a covered pixel around one that nothing covers, in pixels.
+/// Radius of the search for a covered pixel around an uncovered one, in pixels.
 const AROUND: u32 = 16;
 
 /// Trace of a pixel.
@@ -12,9 +12,9 @@ const AROUND: u32 = 16;
 pub struct PixelTrace {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Fragments of all triangles that cover it, in order.
+    /// Fragments of all triangles that cover the pixel, in order.
     pub fragments: Vec<FragmentTrace>,
-    /// If there are none: the nearest covered pixel within 16 columns and rows.
+    /// Nearest covered pixel within 16 columns and rows, if there are no fragments.
     pub nearest: Option<[u32; 2]>,
 }
 

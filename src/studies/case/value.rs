@@ -165,7 +165,7 @@ impl<'de> Deserialize<'de> for Mipmaps {
 pub enum Constant {
     /// `b#`
     Bool(bool),
-    /// `c#`, `i#`: four numbers; of a name up to four.
+    /// `c#`, `i#`: four numbers; a named constant has up to four.
     Vector(Vec<Number>),
 }
 

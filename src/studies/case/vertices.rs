@@ -190,7 +190,7 @@ impl Reader<'_> {
             registers[number] = self.bits(value)?;
         }
         registers[self.attribute("position", geometry.span())?] = position;
-        // Only a program that reads coordinates receives them.
+        // Only a program that reads texture coordinates receives them.
         if let Some(number) = self.declared("t0") {
             registers[number] = t0;
         }

@@ -7,11 +7,11 @@ use clap::error::ErrorKind;
 use clap::{Arg, Command};
 use strum::{EnumMessage, IntoEnumIterator};
 
-/// Parser of a value by its name; help and errors are those of clap's own enums.
+/// Parser of a value by its name; help and errors match clap's for its own enums.
 #[derive(Clone)]
 pub struct OneOf<T>(Vec<(PossibleValue, T)>);
 
-/// The variants of an enum under the names that `strum` gives them. The help of each is the first paragraph of its
+/// The variants of an enum under the names that `strum` gives them. The help of a variant is the first paragraph of its
 /// documentation.
 pub fn variants<T: IntoEnumIterator + EnumMessage>() -> OneOf<T> {
     let named = |value: T| {

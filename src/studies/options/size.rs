@@ -14,7 +14,7 @@ pub struct Size {
     pub height: u32,
 }
 
-/// The text is not a size.
+/// Error for text that is not a size.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected a size as `512x512`, each side 1 to {LONGEST}, found `{0}`")]
 pub struct BadSize(String);

@@ -7,7 +7,7 @@ pub enum Quantity {
     /// Setting, or value that is shown in full: the shortest text that reads back to the same number.
     #[default]
     Exact,
-    /// Printed value of a paper, or ours beside it: this many digits after the point.
+    /// Printed value of a paper, or our value of it: this many digits after the point.
     Decimals(u8),
     /// Measured or computed time, rate or size: four significant digits, and at least the integer part.
     Measured,
@@ -19,7 +19,7 @@ pub enum Quantity {
     Error,
 }
 
-/// Power of ten from which numbers are written with an exponent, as are those below [`SMALL`].
+/// Power of ten from which numbers are written with an exponent.
 const LARGE: i32 = 15;
 /// Power of ten below which numbers are written with an exponent.
 const SMALL: i32 = -4;
@@ -47,7 +47,7 @@ pub fn count(count: u64) -> String {
     grouped(&count.to_string())
 }
 
-/// Formats as the shortest text that reads back to the same number: plain near one, with an exponent far from it.
+/// Formats as the shortest text that reads back to the same number: plain digits near one, an exponent far from it.
 pub fn exact(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {
@@ -87,7 +87,7 @@ fn fixed(value: f64, decimals: usize) -> String {
 fn significant(value: f64, digits: i32) -> String {
     let places = usize::try_from(digits - 1).unwrap_or(0);
     let scientific = format!("{value:.places$e}");
-    // The power of ten after rounding: 9.999 of three digits is 1.00e1.
+    // The power of ten after rounding: 9.999 to three digits is 1.00e1.
     let power = scientific.split_once('e').and_then(|(_, power)| power.parse::<i32>().ok()).unwrap_or(0);
     if (SMALL..LARGE).contains(&power) {
         fixed(value, usize::try_from(digits - 1 - power).unwrap_or(0))

@@ -1,4 +1,4 @@
-//! Excerpts of a text for error messages: the lines around labels, long ones truncated, hidden characters escaped.
+//! Excerpts of a text for error messages: lines around labels. Long lines are truncated, hidden characters escaped.
 
 use std::ops::Range;
 use std::slice;
@@ -12,11 +12,11 @@ use super::visible::{is_hidden, visible_line};
 
 /// Maximum columns of a line, with escapes as written and without the marks of truncation.
 const WIDTH: usize = 80;
-/// Minimum number of characters in front of a label where a long line is truncated.
+/// Minimum number of characters before a label in a truncated line.
 const BEFORE: usize = 20;
 /// Mark of truncation.
 const CUT: &str = "...";
-/// Maximum number of lines of a label; of a longer one, the first line is shown.
+/// Maximum number of lines shown of a label; a longer label shows only its first line.
 const LINES: usize = 8;
 
 /// Excerpt of a text in the form that a renderer of diagnostics takes, with its position in the text.
@@ -24,15 +24,15 @@ const LINES: usize = 8;
 pub struct Excerpt {
     piece: SourceText,
     named: bool,
-    /// Number of lines of the whole text before the excerpt.
+    /// Number of lines before the excerpt.
     first_line: usize,
-    /// For each label its position in the excerpt, and its column in the whole text, from 0, in characters.
+    /// Per label: its position in the excerpt, and its column in the whole text, from 0, in characters.
     columns: Vec<(usize, usize)>,
 }
 
 impl Excerpt {
-    /// Extracts the lines of `source` around `labels`; returns also the labels' positions in the excerpt. `None`
-    /// without labels, or if one lies outside.
+    /// Extracts the lines of `source` around `labels`; also returns the labels' positions in the excerpt. `None`
+    /// without labels, or if a label lies outside the text.
     pub fn new(source: &dyn SourceCode, labels: &[LabeledSpan]) -> Option<(Self, Vec<LabeledSpan>)> {
         let low = labels.iter().map(LabeledSpan::offset).min()?;
         let high = labels.iter().map(|label| label.offset().saturating_add(label.len())).max()?;
@@ -46,7 +46,7 @@ impl Excerpt {
                 clip(start..start + label.len(), &lines)
             })
             .collect();
-        // After the last line end there is a line only if a label is there.
+        // The empty line after the last line end is shown only if a label is on it.
         let end = whole.data().len();
         if lines.len() > 1 && lines.last() == Some(&(end..end)) && spans.iter().all(|span| span.start < end) {
             lines.pop();
@@ -199,7 +199,7 @@ fn previous(line: &[u8], at: usize) -> usize {
     start
 }
 
-/// Character of a line, or a byte that is part of none.
+/// Character of a line, or a byte outside any UTF-8 character.
 enum Piece {
     Character(char),
     Byte(u8),
@@ -213,7 +213,7 @@ impl Piece {
         }
     }
 
-    /// Width in terminal columns. Zero-width characters count as one, so that every line has an end.
+    /// Width in terminal columns. Zero-width characters count as one, which bounds the length of a line.
     fn width(&self) -> usize {
         match self {
             // Renderers write a tab as blanks, four at most.

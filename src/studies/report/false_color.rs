@@ -4,11 +4,11 @@ use colorous::{Gradient, MAGMA, RED_BLUE};
 
 use crate::picture::{RgbImage, rgb8};
 
-/// Colors of values that are not finite: none that the gradient has.
+/// Colors of values that are not finite; the gradients contain neither.
 const NOT_FINITE: [u8; 3] = [0, 0, 0];
 const NOT_FINITE_MAGNITUDE: [u8; 3] = [0, 158, 115];
 
-/// End of the caption of a [`signed`] picture; empty if all values are finite.
+/// Ending for the caption of a [`signed`] picture: explains black pixels; empty if all values are finite.
 pub fn not_finite(values: &[f64]) -> &'static str {
     if values.iter().all(|value| value.is_finite()) { "" } else { "; black where not finite" }
 }

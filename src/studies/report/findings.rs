@@ -50,7 +50,7 @@ pub type Legend = Vec<(Color, String)>;
 #[derive(Clone, Debug)]
 pub struct FoundTable {
     pub(super) table: Table,
-    /// Complete table for programs, if it has more rows.
+    /// Table before rows were folded, if any were.
     whole: Option<Table>,
     pub(super) csv: Option<&'static str>,
     field: Option<&'static str>,
@@ -77,8 +77,8 @@ impl FoundTable {
         Self { field: Some(name), ..self }
     }
 
-    /// Folds rows that found the same as a row above ([`Table::folded`]) on the page and in print; CSV and document
-    /// keep all.
+    /// Folds rows with the results of an earlier row ([`Table::folded`]) on the page and in print; CSV and document
+    /// keep all rows.
     #[must_use]
     pub fn folded(
         self,
@@ -222,7 +222,7 @@ impl Findings {
         self.layers.push((name.into(), picture));
     }
 
-    /// Sets the camera of all pictures for the files of numbers: see [`crate::picture::PictureNotes`].
+    /// Sets the camera that the EXR files of all pictures record: see [`crate::picture::PictureNotes`].
     pub const fn taken_from(&mut self, world_to_camera: [f32; 16]) {
         self.world_to_camera = Some(world_to_camera);
     }
@@ -297,7 +297,7 @@ impl Findings {
         document
     }
 
-    /// Builds the document of a command without provenance: fields, and the tables that have one.
+    /// Builds the document of a command without provenance: fields, and the tables that have a field.
     pub fn plain_document(&self) -> Value {
         let tables = self.tables.iter().filter_map(|found| Some((found.field?.to_owned(), found.whole().json())));
         Value::Object(self.fields.clone().into_iter().chain(tables).collect())

@@ -1,4 +1,4 @@
-//! Folding of rows that found the same as a row above into one.
+//! Folding of table rows that have the results of an earlier row.
 
 /// Cell that replaces folded rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ impl Folded {
         format!("{} {rows}: {}", self.names.len(), self.same)
     }
 
-    /// Sentence with the names of the rows, for below a table.
+    /// Sentence with the names of the folded rows, for the note below the table.
     pub fn note(&self) -> String {
         let mut same = self.same.chars();
         let capital = same.next().map(|first| first.to_ascii_uppercase()).into_iter();
@@ -32,8 +32,8 @@ impl Folded {
 /// Minimum number of rows that are folded.
 const FEWEST: usize = 2;
 
-/// Groups rows by their results, in the order of the first of each group: each with the later rows that found the same,
-/// if they are enough to be folded. `first[i]` is the first row with the result of row i.
+/// Returns the rows to show, in order, each with the rows folded into it: at least [`FEWEST`] later rows with equal
+/// results. `first[i]` is the first row with the result of row i.
 pub(super) fn groups(first: &[usize]) -> Vec<(usize, Vec<usize>)> {
     let same = |row: usize| -> Vec<usize> { (row + 1..first.len()).filter(|other| first[*other] == row).collect() };
     let folds = |row: &usize| same(first[*row]).len() >= FEWEST;

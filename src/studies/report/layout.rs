@@ -1,9 +1,9 @@
 //! Layout of tables as text within a width: words and numbers are not broken.
 //!
-//! Columns share the width; where it is too narrow for all of them, the table is split into several, each with the key
-//! columns, or the first alone where these leave no room; where it is too narrow even for one column beside the first,
-//! every row becomes a list of its cells. Only there a word that is longer than a line is broken; numbers never are, in
-//! [`MIN_WIDTH`] columns or more.
+//! Columns share the width. If it is too narrow for all of them, the table is split into several, each with the key
+//! columns, or with the first column alone if the key columns leave no room. If no column fits beside the first, every
+//! row becomes a list of its cells. Only lists break a word longer than a line; numbers are never broken from
+//! [`MIN_WIDTH`] columns on.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use textwrap::core::{Word, display_width};
@@ -11,7 +11,7 @@ use textwrap::{Options, WordSeparator, WordSplitter, WrapAlgorithm};
 
 /// Minimum width; narrower terminals are treated as this wide.
 pub const MIN_WIDTH: usize = 40;
-/// Minimum width of a text column, if its text is as long.
+/// Minimum width of a text column whose text is at least this long.
 const MIN_TEXT_WIDTH: usize = 12;
 /// Length from which words, for example addresses, may be broken after a slash.
 const LONG_WORD: usize = 24;
@@ -28,7 +28,7 @@ pub(super) struct Column {
 }
 
 impl Column {
-    /// Creates a column of cells with marked numbers.
+    /// Creates a column of cells; `true` marks a number.
     pub(super) fn new(heading: String, cells: Vec<(String, bool)>) -> Self {
         let cells = aligned(cells);
         // Blanks that align a number's point belong to the number.
@@ -97,7 +97,7 @@ pub(super) fn within(columns: &[Column], keys: usize, width: usize) -> String {
     let parts = |keys: usize| cut(columns, keys, width).map(|parts| (keys, parts));
     match parts(keys).or_else(|| parts(1)) {
         Some((keys, parts)) => {
-            // The same number of parts in less width balances the parts.
+            // The smallest width with as many parts balances the parts.
             let narrower = (MIN_WIDTH..width).filter_map(|less| cut(columns, keys, less));
             let even = { narrower }.find(|even| even.len() == parts.len());
             let parts: Vec<String> = even.unwrap_or(parts).iter().map(|part| side_by_side(part, width)).collect();
@@ -107,8 +107,8 @@ pub(super) fn within(columns: &[Column], keys: usize, width: usize) -> String {
     }
 }
 
-/// Splits the columns into as few groups as fit, each with the first `keys` columns; `None` if one column does not fit
-/// beside these.
+/// Splits the columns into as few groups as fit, each with the first `keys` columns; `None` if some column does not fit
+/// beside them.
 fn cut(columns: &[Column], keys: usize, width: usize) -> Option<Vec<Vec<&Column>>> {
     let fits = |group: &[&Column], least: usize| taken(group.iter().map(|column| column.widths[least])) <= width;
     let (keys, others) = columns.split_at_checked(keys.min(columns.len()))?;

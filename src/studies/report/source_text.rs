@@ -33,7 +33,7 @@ impl SourceText {
         &self.text
     }
 
-    /// Index, from 0, of the line that contains a byte; the byte behind the text belongs to the last.
+    /// Index, from 0, of the line that contains a byte; the end of the text belongs to the last line.
     pub fn line_of(&self, byte: usize) -> usize {
         self.starts.partition_point(|&start| start <= byte).saturating_sub(1)
     }
@@ -64,7 +64,7 @@ impl SourceCode for SourceText {
             return Err(MietteError::OutOfBounds);
         }
         let first = self.line_of(start).saturating_sub(before);
-        // The last byte of the span decides, not the one behind it.
+        // The last byte of the span decides, not the byte after it.
         let last = self.line_of(end.saturating_sub(1).max(start)).saturating_add(after);
         let from = if before == 0 { start } else { self.line_range(first).start };
         let to = if after == 0 { end } else { self.line_range(last).end };

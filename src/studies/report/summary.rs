@@ -49,9 +49,9 @@ pub struct TallyEntry {
 pub struct SummaryLine {
     /// Title.
     pub title: String,
-    /// Heading of the page that the title links to; no link if there is none of this text.
+    /// Heading of the page that the title links to; no link if no heading has this text.
     pub heading: String,
-    /// Counts of outcomes; those of 0 are not shown.
+    /// Counts of outcomes; zero counts are not shown.
     pub tally: Vec<TallyEntry>,
     /// Sentence that summarises the part.
     pub text: String,

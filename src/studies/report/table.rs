@@ -108,9 +108,9 @@ impl Table {
         (1..=leading).find(apart).unwrap_or(1)
     }
 
-    /// Replaces rows that found the same as a row above by one row: `first[i]` is the first row with the result of row
-    /// i. `called` names a row; `rows` and `same` are those of [`Folded`]. A table with another number of rows, for
-    /// example none, is unchanged.
+    /// Folds rows with the results of an earlier row into one row. `first[i]` is the first row with the result of row
+    /// i. `called` names a row; `rows` and `same` are as in [`Folded`]. A table whose number of rows is not that of
+    /// `first` is unchanged.
     #[must_use]
     pub fn folded(
         &self,

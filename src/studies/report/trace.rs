@@ -1,9 +1,9 @@
 //! Traces for the viewers of Chrome and Perfetto: the JSON object form of the trace event format.
 //!
-//! One process, a thread for each lane. Slices are complete events (`X`), names and order of the lanes are metadata
-//! (`M`), arrows are flows (`s` to `f`). Times are given in picoseconds. The format wants microseconds, and Perfetto
-//! rounds starts and durations to nanoseconds separately: two slices that meet at half a nanosecond would overlap, and
-//! it drops one. So the ends of slices are moved to whole nanoseconds before; the picoseconds are among the details.
+//! One process, a thread per lane. Slices are complete events (`X`), names and order of the lanes are metadata (`M`),
+//! arrows are flows (`s` to `f`). Inputs are picoseconds; the format requires microseconds. Perfetto rounds starts and
+//! durations to nanoseconds separately, and drops a slice that then overlaps another. So slice ends are rounded to
+//! whole nanoseconds first; the details of a slice keep the picoseconds.
 
 use std::io::{self, Write};
 
@@ -119,7 +119,7 @@ fn nanosecond(picosecond: u64) -> u64 {
     picosecond / 1000
 }
 
-/// The nearest double has three digits behind the point, up to 9007199 s.
+/// A double keeps three digits after the point up to 9007199 s.
 fn microseconds(nanoseconds: u64) -> f64 {
     nanoseconds as f64 / 1e3
 }

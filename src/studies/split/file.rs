@@ -1,7 +1,7 @@
 //! The file of a part.
 //!
-//! A line that names the layout, a line of JSON ([`PartHeader`]), the results in postcard's encoding, and at the end
-//! the SHA-256 of all before it, 32 bytes. Numbers keep their bits.
+//! Layout: a line with the version, a line of JSON ([`PartHeader`]), the results in postcard's encoding, and the 32
+//! bytes of the SHA-256 of everything before. Numbers keep their bits.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -52,7 +52,7 @@ pub struct PartHeader {
     pub inputs: BTreeMap<String, String>,
     /// The items that are split, in the plural.
     pub items: String,
-    /// Their number in all parts.
+    /// Number of items in all parts.
     pub count: u64,
     /// Length of this part's results in the file.
     bytes: u64,
@@ -69,7 +69,7 @@ impl PartHeader {
         Self { command, part, inputs, items: items.to_owned(), count: count as u64, bytes: 0 }
     }
 
-    /// True if this part has the results that another is for.
+    /// Returns `true` if both headers describe the same results.
     pub(super) fn is_of(&self, other: &Self) -> bool {
         Self { bytes: 0, ..self.clone() } == Self { bytes: 0, ..other.clone() }
     }
@@ -78,7 +78,7 @@ impl PartHeader {
     pub(super) fn write(mut self, results: &[u8], path: &Path) -> Result<u64, InputError> {
         self.bytes = results.len() as u64;
         let mut head = format!("{MAGIC}{VERSION}\n").into_bytes();
-        // Text and numbers are always written.
+        // Text and numbers always encode.
         serde_json::to_writer(&mut head, &self).map_err(|reason| unreadable(path, reason.into()))?;
         head.push(b'\n');
         let digest = Sha256::new().chain_update(&head).chain_update(results).finalize();
@@ -113,7 +113,7 @@ impl PartHeader {
             Sha256::digest(contents).as_slice() == digest
         };
         let damaged = || damaged(path);
-        // A damaged header says nothing of the length that can be relied on.
+        // The length in a damaged header cannot be trusted.
         let header: Self = serde_json::from_slice(second).map_err(|_| damaged())?;
         let start = (first.len() + second.len() + 2) as u64;
         let (expected, found) = (start.saturating_add(header.bytes).saturating_add(DIGEST as u64), bytes.len() as u64);
@@ -154,7 +154,7 @@ pub fn not_utf8(found: &OsStr) -> InputError {
         help "give the file another name")
 }
 
-/// Error for contents that do not have their digest.
+/// Error for contents that do not match their digest.
 pub(super) fn damaged(path: &Path) -> InputError {
     let found = "the contents do not have the SHA-256 at the end of the file";
     let help = "the file was damaged or edited: copy it again, or compute the part again";
@@ -166,7 +166,7 @@ pub fn unreadable(path: &Path, source: io::Error) -> InputError {
     input_error!("crossbar::part::unreadable" => "cannot read {}", path.display()).with_source(source)
 }
 
-/// Error for a part's file that cannot be written; nothing of it was left behind.
+/// Error for a part's file that cannot be written; no incomplete file remains.
 pub(super) fn unwritable(error: WriteError) -> InputError {
     InputError::of("crossbar::part::unwritable", error)
 }

@@ -13,7 +13,7 @@ use super::number::PartNumber;
 use crate::error::{InputError, input_error};
 use crate::io::WriteError;
 
-/// A folder of results of one command, a file for each: a part of one, whose items have the result's name.
+/// Folder of results of one command: a part file per result, whose items are named after the result.
 #[derive(Debug)]
 pub struct KeptResults {
     folder: PathBuf,
@@ -37,9 +37,8 @@ pub struct SpentTime {
 }
 
 impl KeptResults {
-    /// Results of a command in a folder, which is made when the first of them is kept. They depend on the files that
-    /// were read until now. `clock` returns the time since a fixed moment. Errors: for files that cannot be read a
-    /// second time.
+    /// Results of a command in a folder, which is created with the first result. They depend on the files read until
+    /// now. `clock` returns the time since a fixed moment. Fails if a file cannot be read a second time.
     pub fn new(folder: PathBuf, command: SplitCommand, clock: fn() -> SpentTime) -> Result<Self, InputError> {
         let (inputs, taken, before) = (inputs_read()?, Cell::default(), Cell::default());
         Ok(Self { folder, command, inputs, clock, taken, start: clock(), before })
@@ -69,7 +68,7 @@ impl KeptResults {
         Ok(())
     }
 
-    /// First difference of a result's work from this: program, command, or input.
+    /// First difference between the work of a stored result and this work: program, command, or input.
     fn difference(&self, found: &PartHeader) -> Option<[String; 2]> {
         let commands = [&self.command, &found.command];
         if commands[0].program != commands[1].program {
@@ -126,7 +125,7 @@ impl KeptResults {
             return Ok(result);
         }
         let result = compute()?;
-        // Numbers, texts and lists of them are always encoded.
+        // Numbers, texts and lists of them always encode.
         let bytes = postcard::to_stdvec(&(self.spent(), &result)).expect("a result that can be encoded");
         header.write(&bytes, &path)?;
         Ok(result)

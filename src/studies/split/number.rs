@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// Most parts of a run.
+/// Maximum number of parts of a run.
 const MAX_PARTS: u32 = 1_000_000;
 
 /// Part K of N: 1 to N.

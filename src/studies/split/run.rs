@@ -1,4 +1,4 @@
-//! The one place of a command where its items are computed, divided or taken from parts.
+//! The one place where a command's items are computed, divided, or taken from parts.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -14,10 +14,10 @@ use crate::io::FileSet;
 
 /// Results of consecutive items, which are stored with their bits and put together in order.
 pub trait Concatenate: Serialize + DeserializeOwned {
-    /// True if these are results of the items of a range, and complete. A wrong part is refused, not merged.
+    /// Returns `true` for complete results of the items of a range. A wrong part is refused, not merged.
     fn are_of(&self, range: &Range<usize>) -> bool;
 
-    /// Appends the results of the items that follow.
+    /// Appends the results of the next items.
     fn append(&mut self, next: Self);
 }
 
@@ -34,19 +34,19 @@ impl<T: Serialize + DeserializeOwned> Concatenate for Vec<T> {
 /// Mode in which a command's items are computed.
 #[derive(Clone, Debug, Default)]
 pub enum SplitRun {
-    /// All of them.
+    /// Computes all items.
     #[default]
     Whole,
-    /// Those of a part, which is written to a file.
+    /// Computes the items of a part, and writes them to a file.
     Part {
         /// The part.
         part: PartNumber,
-        /// The command that it is a part of.
+        /// The command that is divided.
         command: SplitCommand,
         /// The file.
         path: PathBuf,
     },
-    /// None: they are in these parts.
+    /// Computes nothing: reads the results of these parts.
     Merge(PartSet),
 }
 
@@ -63,11 +63,11 @@ pub struct WrittenPart {
     pub range: Range<usize>,
     /// The file.
     pub path: PathBuf,
-    /// Its length.
+    /// Length of the file, in bytes.
     pub bytes: u64,
 }
 
-/// Results of all items; or only a part of them was computed, which is in its file.
+/// Results of all items, or the part that was computed and written.
 #[derive(Clone, Debug)]
 pub enum Computed<T> {
     /// All items: the command continues.
@@ -114,9 +114,9 @@ impl SplitRun {
         matches!(self, Self::Part { .. })
     }
 
-    /// Computes `count` items by `compute`, which takes a range of them; or those of a part, and writes them; or takes
-    /// all from parts. The result must depend only on the item and on earlier input. A command calls this once. Errors:
-    /// those of `compute`, and if a part cannot be written or parts do not fit.
+    /// Computes `count` items by `compute`, which takes a range of them. A part computes only its range, and writes the
+    /// results; a merge takes all results from parts. The result must depend only on the item and on earlier input. A
+    /// command calls this once. Fails as `compute` does, and if a part cannot be written or parts do not fit.
     pub fn compute<T: Concatenate, E: From<InputError>>(
         &self,
         items: &'static str,
@@ -141,10 +141,10 @@ impl SplitRun {
     }
 }
 
-/// Finds out before long work that a file cannot be written.
+/// Checks before long work that a file can be written.
 fn require_writable(path: &Path) -> Result<(), InputError> {
     match path.parent() {
-        // A device or a pipe has no file beside it.
+        // A device or a pipe is written directly, not beside itself.
         Some(folder) if path.is_file() || !path.exists() => FileSet::new(folder).map(drop).map_err(unwritable),
         _ => Ok(()),
     }
@@ -176,7 +176,7 @@ fn merged<T: Concatenate>(parts: &PartSet, items: &'static str, count: usize) ->
     whole.ok_or_else(set::none)
 }
 
-/// Error for contents with a right digest that are not what the command computes.
+/// Error for contents that match their digest but are not the command's results.
 fn other_contents(path: &Path, items: &str, count: usize) -> InputError {
     input_error!("crossbar::part::file" => "expected the results of {count} {items}, found something else";
         help "compute the part again")

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::file::{PartHeader, SplitCommand};
 use crate::error::{InputError, ensure, input_error};
 
-/// Numbers of missing parts that a message names.
+/// Maximum number of missing parts that a message names.
 const MAX_NAMED: usize = 20;
 
 /// All parts of one run, in order.
@@ -44,7 +44,7 @@ impl PartSet {
         Ok(Self { parts })
     }
 
-    /// The command that all parts are of.
+    /// The command of all parts.
     pub fn command(&self) -> &SplitCommand {
         &self.parts[0].1.command
     }
@@ -90,7 +90,7 @@ fn same_run(paths: [&PathBuf; 2], [one, other]: [&PartHeader; 2]) -> Result<(), 
     Ok(())
 }
 
-/// Checks that the parts, sorted and none twice, are all.
+/// Checks that sorted, distinct parts are complete.
 fn missing(parts: &[(PathBuf, PartHeader)]) -> Result<(), InputError> {
     let (_, first) = parts.first().ok_or_else(none)?;
     let of = first.part.of();
@@ -107,7 +107,7 @@ fn missing(parts: &[(PathBuf, PartHeader)]) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Error for no part at all.
+/// Error for an empty list of parts.
 pub(super) fn none() -> InputError {
     InputError::new("crossbar::part::number", "expected the parts of a run, found none")
 }

@@ -22,7 +22,7 @@ impl Configuration {
     /// Creates the configuration of a device. Fails if there is no such device.
     pub fn device(name: &str) -> Result<Self, DeviceError> {
         let configuration = Self::of(&device_named(name)?);
-        // A card has one canonical name; device files are distinguished by theirs.
+        // A card has one canonical name; device files are told apart by their file names.
         let is_file = name.ends_with(".toml");
         Ok(if is_file { Self { label: file_name(name), ..configuration } } else { configuration })
     }
@@ -57,8 +57,8 @@ impl Configuration {
         Self { label: file_name(&profile.name), profile: profile.clone(), switch: None }
     }
 
-    /// Returns this configuration, and the same with each open switch of its device set to each other value, one at a
-    /// time; without those of generated mip levels. Fails if a switch rejects one of its own values.
+    /// Returns this configuration, then one per other value of each open switch of its device, with one switch changed
+    /// at a time; switches of generated mip levels are left out. Fails if a switch rejects one of its own values.
     pub fn under_each_switch(self) -> Result<Vec<Self>, DeviceError> {
         let mut all = vec![self.clone()];
         for switch in self.profile.switches().iter().filter(|s| !MIPMAP_SWITCHES.contains(&s.name.as_str())) {

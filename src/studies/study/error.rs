@@ -40,7 +40,7 @@ impl Cause {
 }
 
 impl StudyError {
-    /// An error that a study found itself: the place, the expected and the found value.
+    /// An error that the study itself found: the sentence says the place, the expected and the found value.
     pub fn new(code: &'static str, sentence: impl Into<String>) -> Self {
         Self(Box::new(ErrorParts { code: Some(code), sentence: Some(sentence.into()), ..ErrorParts::default() }))
     }

@@ -5,9 +5,9 @@ use glam::{DVec2, DVec3};
 use crate::geom::vector::unit;
 use crate::scene::View;
 
-/// Size of the picture relative to that of the model in it.
+/// Size of the picture relative to the model in it.
 const MARGIN: f64 = 1.06;
-/// Steps by which the middle of the view moves to the middle of the model as seen from the eye.
+/// Number of steps of the iteration that centers the view on the model.
 const STEPS: usize = 4;
 
 /// View from an eye in which points just fill a picture of `aspect`, width over height, with a margin of 3 % at each

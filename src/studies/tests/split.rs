@@ -99,7 +99,7 @@ fn time_is_that_of_all_runs() {
     work(&first, "one", 10.0);
     work(&first, "two", 5.0);
     assert_eq!(first.spent(), SpentTime { processor_s: Some(30.0), wall_s: 15.0 });
-    // Stopped in the middle of the third.
+    // The run stops in the middle of the third result.
     NOW.set(5000.0);
     let second = open();
     for name in ["one", "two", "three"] {
@@ -134,7 +134,7 @@ fn a_folder_that_cannot_be_made_is_said() {
     assert!(error.starts_with("cannot write into the folder "), "{error}");
 }
 
-/// A run that continues from another's segments, or takes its model, finds the same as a run without pieces.
+/// A run that reuses another run's segments, or its model, gives the same result as a run without pieces.
 #[test]
 fn pieces_make_the_same_model() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -146,7 +146,7 @@ fn pieces_make_the_same_model() {
     let [without, first, taken] = [None, kept(), kept()].map(|kept| bunny_in_pieces(kept).expect("compressed"));
     assert_eq!((&first.0, &taken.0), (&without.0, &without.0), "computed and kept, and taken");
     assert_eq!([first.1, taken.1], [true, false], "a model that is taken needs no visibility");
-    // Stopped before the last segment.
+    // The run stops before the last segment.
     let path = |piece: &str| folder.path().join(format!("{piece}.part"));
     for piece in ["bunny", "bunny-segment-21"] {
         fs::remove_file(path(piece)).expect("a piece");

@@ -48,15 +48,15 @@ fn state(r: &mut Random) -> StateBinding {
     ])
 }
 
-/// A program under way.
+/// State of a program while it is written.
 struct Writer<'a> {
     nv: bool,
     layout: &'a Layout,
     r: &'a mut Random,
     lines: &'a mut Vec<String>,
-    /// Temporaries in use, of each precision.
+    /// Temporaries in use, per precision.
     temps: usize,
-    /// The attribute and the constant that the instruction under way may read.
+    /// The attribute and the constant that the current instruction may read.
     attribute: String,
     constant: String,
 }
@@ -106,7 +106,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Chooses what the next instruction may read besides temporaries.
+    /// Chooses the attribute and the constant for the next instruction.
     fn choose(&mut self) {
         let n = self.r.below(8);
         let nv = self.nv;
@@ -219,7 +219,7 @@ impl Writer<'_> {
         };
         let is_texture = texture(&&s);
         if s.opcode == Opcode::Kil {
-            // One in many, or nothing is left.
+            // Kill instructions are rare, or no fragments are left.
             if !self.r.one_in(4) {
                 return format!("MOV R0, R{};", self.r.below(self.temps));
             }

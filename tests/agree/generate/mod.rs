@@ -43,7 +43,7 @@ pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Ra
     lines
 }
 
-/// A random program of a seed that the checker accepts for a device without limits, with texture 0 and one target.
+/// A random program by seed that the checker accepts for a device without limits, with texture 0 and one target.
 pub(crate) fn legal(version: Version, seed: u64) -> String {
     let mut random = Random::new(seed);
     let layout = Layout { samplers: vec![(0, TextureKind::D2)], targets: 1, limited: false, sampling: false };

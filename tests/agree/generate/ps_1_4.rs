@@ -4,7 +4,7 @@ use super::ps_1::MODIFIERS;
 use super::{Layout, values};
 use crate::random::Random;
 
-/// The registers whose components are written: red to blue, and all four.
+/// Registers with written components: red to blue, or all four.
 #[derive(Clone, Copy, Default)]
 struct Written {
     rgb: [bool; 6],
@@ -28,7 +28,7 @@ impl Written {
 /// Position of an instruction in the program.
 #[derive(Clone, Copy)]
 struct Place {
-    /// Behind `phase`, or in a program without one.
+    /// After `phase`, or in a program without one.
     second: bool,
     /// The second instruction of a pair.
     partner: bool,

@@ -1,4 +1,4 @@
-//! All that texts mention in passing exists: commands and options of the program, files of the source.
+//! Everything that texts mention in passing exists: commands and options of the program, source files.
 
 use std::process::Command;
 
@@ -12,7 +12,7 @@ fn quoted(text: &str) -> Vec<String> {
     sentences.split('`').skip(1).step_by(2).map(words).collect()
 }
 
-/// A message if a command line has a command or an option that does not exist. Words in capitals are placeholders.
+/// A message if a command line has a command or an option that does not exist; words in capitals are placeholders.
 fn fault(program: &clap::Command, line: &str) -> Option<String> {
     let mut command = program;
     for word in line.split(' ').skip(1).take_while(|word| !word.starts_with(['#', '>', '|', '('])) {

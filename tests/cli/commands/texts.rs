@@ -11,7 +11,7 @@ pub(crate) struct Command {
     pub(crate) input: String,
     pub(crate) arguments: Vec<String>,
     pub(crate) code: i32,
-    /// Whether the text builds the program with the feature `wgpu`, which the documented release lacks.
+    /// `true` if the text builds the program with the feature `wgpu`, which the documented release lacks.
     pub(crate) with_wgpu: bool,
 }
 
@@ -55,8 +55,8 @@ impl Line {
         &self.words[variables..]
     }
 
-    /// The line as a command of the program, if it is one: perhaps behind a pipe from `echo`, perhaps run by
-    /// `cargo run`.
+    /// The line as a command of the program, if it is one: possibly after a pipe from `echo`, possibly run by `cargo
+    /// run`.
     fn of_the_program(&self) -> Option<Command> {
         let words = self.command();
         let (input, words) = match words.iter().position(|word| word == "|") {
@@ -71,7 +71,7 @@ impl Line {
             }
             _ => return None,
         };
-        // The redirection of output is the shell's part.
+        // The shell handles the redirection.
         let arguments = arguments.split(|word| word == ">").next().unwrap_or_default().to_vec();
         let code = self.comment.split_once("exit code ").and_then(|(_, code)| code.split(' ').next()?.parse().ok());
         let with_wgpu = words.windows(2).any(|pair| pair == ["--features", "wgpu"]);

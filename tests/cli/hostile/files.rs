@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Files, assert_refused};
 
-/// Gives every option for an input file every kind of file that is not such an input.
+/// Gives every option for an input file every kind of unsuitable file.
 #[test]
 fn hostile_files() {
     let commands: [&[&str]; 19] = [
@@ -115,8 +115,8 @@ fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
     [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(&header), chunk(&noise), chunk(b"IEND")].concat()
 }
 
-/// A picture with too many pixels for the program, the command or its file's size is refused by its header, with any
-/// contents.
+/// A picture with too many pixels for the program, the command or its file's size is refused by its header, whatever
+/// its contents.
 #[test]
 fn large_pictures_are_refused_by_their_headers() {
     let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));

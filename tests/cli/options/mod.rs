@@ -1,9 +1,9 @@
 //! Every option of every command changes the output or is refused: none is accepted and ignored.
 //!
-//! The table has command lines and options with values; a new option that is not in it fails the test. Each option is
-//! added to each command line. The output consists of the exit code, both streams and all files, without parts that
-//! differ between two equal runs (times) and without the provenance, which names the options. The short form tries one
-//! in eighteen pairs of a line and an option, always the same ones; `CROSSBAR_FULL=1` tries all.
+//! The table has command lines, and options with values; a new option that is not in it fails the test. Each option is
+//! added to each command line. The compared output is the exit code, both streams and all files, except for parts that
+//! differ between two equal runs (times) and the provenance, which names the options. The short form tries a fixed
+//! choice of one in eighteen pairs of a line and an option; `CROSSBAR_FULL=1` tries all.
 
 mod table;
 
@@ -25,8 +25,8 @@ use crate::crossbar_in;
 use crate::tree::{self, command_of};
 use table::{TABLE, Tried};
 
-/// Options whose value here may be refused everywhere: it names something that this test cannot provide, another model
-/// than that of the file, or a precision that the card does not have.
+/// Options whose value here may be refused everywhere: it names something that this test cannot provide, a model other
+/// than the file's, or a precision that the card lacks.
 const NEVER_ACCEPTED: [&str; 6] = ["--emulator", "--model", "--model-up", "--strict", "--crease", "--switch"];
 
 /// An option of the table.
@@ -122,7 +122,7 @@ fn tell(row: usize, at: usize, options: &[TriedOption]) -> OptionFaults {
     if fails && !base.contains("odd.obj") {
         told.faults.push(format!("`{base}` fails: {first:?}"));
     }
-    // A line that ends in an error need only heed the options that are named in it.
+    // A line that ends in an error must only depend on the options that the error names.
     let is_there = |option: &TriedOption| option.value.is_none() && base.split(' ').any(|word| word == option.name);
     for option in options.iter().filter(|option| (!fails || option.only.is_some()) && !is_there(option)) {
         let found = outcome(base, Some(option));

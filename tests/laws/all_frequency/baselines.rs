@@ -93,8 +93,8 @@ fn a_fixed_view_under_the_whole_light_is_the_reference() {
     }
 }
 
-/// Harmonics of the upper hemisphere and of the clamped cosine share the bands 0 and 1 alone, so that order 2 has all
-/// of an open Lambert vertex in a furnace: its albedo, up to fine texels cut by the horizon.
+/// Harmonics of the upper hemisphere and of the clamped cosine share only the bands 0 and 1, so order 2 gives the exact
+/// radiance of an open Lambert vertex in a furnace: its albedo, up to fine texels cut by the horizon.
 #[test]
 fn harmonics_of_a_furnace_are_the_albedo() {
     let open = Clutter::new(&flat(observer(DVec3::new(0.3, -0.5, 0.9).normalize()).to_vec()), BasisWidth::TwoTexels);
@@ -116,8 +116,8 @@ fn harmonics_of_a_furnace_are_the_albedo() {
     }
 }
 
-/// Higher orders are nearer the exact picture, and none is as near as all of the light towards a fixed view; of that,
-/// the more coefficients are kept the nearer.
+/// Higher orders are nearer to the exact picture, and none is as near as the complete light at a fixed view; with a
+/// fixed view, more kept coefficients are nearer.
 #[test]
 fn more_is_nearer() {
     let lobe = Lobe::cook_torrance(0.4, 0.5);

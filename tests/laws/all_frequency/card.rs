@@ -76,7 +76,7 @@ fn pixels_show_what_their_rays_meet() {
     assert!(seen.iter().flatten().count() > 700);
 }
 
-/// Each two bits fewer quadruple the error; fp24 is nearer to f64 than fp16, sixteen bits than eight on each card.
+/// Each two bits fewer quadruple the error; fp24 is nearer to f64 than fp16, 16 bits nearer than 8 on each card.
 #[test]
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
@@ -108,7 +108,7 @@ fn what_is_coarser_is_farther_off() {
     assert!(products.all(|way| way.below_zero > Some(0)), "truncated factors have negative lobes");
 }
 
-/// One host rate for six models.
+/// One host rate fits six models.
 #[test]
 fn the_host_is_that_of_table_1() {
     let bunny = TABLE_1[0].multiplies();
@@ -145,7 +145,7 @@ fn a_frame_is_counted_and_timed() {
         let model = Model::new(Level::Pipeline, &r350).expect("a model");
         assert_eq!(time.uploads, model.upload(bytes as u64 * vertices));
         assert!(time.frame >= time.host && time.host >= time.products, "{time:?}");
-        // From sizes alone: host and vertices take as long, and only the pixels' time is missing.
+        // From sizes alone: host and vertices take equal time, and only the pixels' time is missing.
         let run_per_triangle = time.vertices_run as f64 / time.triangles as f64;
         let frame = FactoredFrame { vertices, triangles, terms: 10, host: steps, run_per_triangle };
         let estimate = frame_time(&r350, &frame.log(&place), &host).expect("a time");

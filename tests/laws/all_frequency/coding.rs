@@ -63,7 +63,7 @@ fn as_many_vectors_as_members_leave_the_matrices_themselves() {
         let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
         assert!(most > 1.0);
         for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
-            // What counts as rounding of a cluster's eigenvalues is 2^-44 of the largest, 2^-22 of its length.
+            // Eigenvalues of a cluster below 2^-44 of the largest count as rounding, which is 2^-22 of its length.
             close(*found, *expected, 1e-5 * most, "radiance");
         }
     }
@@ -80,7 +80,7 @@ fn open_diffuse_vertices_under_light_1_give_back_pi() {
     let radiance = Shader::new(&coded).transferred(&light.singles()).expect("radiance");
     for vertex in 0..vertices.len() {
         let [red, green, blue] = radiance.of(vertex)[0].map(f64::from);
-        // 98,304 directions miss the integral of the cosine by up to a thousandth where the horizon cuts texels.
+        // 98,304 directions integrate the cosine to a thousandth, since the horizon cuts texels.
         close(red, std::f64::consts::PI, 3e-3 * std::f64::consts::PI, "albedo 1");
         close(green, 2.0 * red, 1e-6, "twice the light");
         assert_eq!(blue, 0.0);

@@ -25,7 +25,7 @@ fn parsed(bytes: &[u8]) -> Result<AllFrequencyFile, String> {
     parse_all_frequency(bytes, Path::new("a.npz")).map_err(|error| error.to_string())
 }
 
-/// Everything of two triangles: factors of 3 terms, visibility, coded transfer.
+/// A complete file of two triangles: factors of 3 terms, visibility, coded transfer.
 fn whole() -> AllFrequencyFile {
     let mesh = clutter(3, 2, 1.0);
     let vertices = vertices(&mesh);
@@ -58,7 +58,7 @@ fn what_is_written_is_read_in_all_its_parts() {
     let coded = AllFrequencyFile { visibility: None, ..all.clone() };
     for file in [all, sight, coded, small()] {
         let mut read = parsed(&bytes(&file)).expect("read");
-        // How maps came about is not written.
+        // The file does not store how maps were computed.
         if let (Some(read), Some(maps)) = (&mut read.visibility, &file.visibility) {
             assert_eq!(read.counts.visible, maps.counts.visible);
             read.counts = maps.counts.clone();

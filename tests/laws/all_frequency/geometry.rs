@@ -36,12 +36,12 @@ fn on_average_6_65_segments_are_below_the_horizon() {
     let closed = 24.0 * (2.0 * PI - perimeter) / (4.0 * PI);
     close(closed, 6.649, 5e-4, "the closed form");
     let (least, mean, most) = below(BasisWidth::OneTexel, 64);
-    // Fine directions lie half a fine texel inside of a segment's border: a little more is below.
+    // Fine directions lie half a fine texel inside a segment's border, so slightly more segments are below.
     assert!(mean > closed && mean < closed * 1.03, "{mean} {closed}");
     assert_eq!((least, most), (6, 8));
 }
 
-/// LinearBasis of two texels reach over the borders, so fewer segments are empty: 3 at least, 6.44 on average.
+/// The linear basis of two texels reaches over the borders, so fewer segments are empty: 3 at least, 6.44 on average.
 #[test]
 fn with_hats_that_reach_over_fewer_are() {
     let (least, mean, most) = below(BasisWidth::TwoTexels, 64);

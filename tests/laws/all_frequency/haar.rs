@@ -25,7 +25,7 @@ fn lengths_and_products_stay_and_the_inverse_takes_back() {
             let [mut ha, mut hb] = [a.clone(), b.clone()];
             haar.forward(&mut ha);
             haar.forward(&mut hb);
-            // Sums of side^2 products of at most 1: a rounding of the sum each, and those of the transform.
+            // Sums of side^2 products of at most 1: one rounding per sum, and the roundings of the transform.
             let bound = (side * side) as f64 * f64::EPSILON * (dot(&a, &a) + dot(&b, &b));
             close(dot(&ha, &ha), dot(&a, &a), bound, "Parseval");
             close(dot(&ha, &hb), dot(&a, &b), bound, "a product");

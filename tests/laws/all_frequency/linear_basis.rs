@@ -1,4 +1,4 @@
-//! LinearBasis: one light texel's share of each fine direction, over all edges and corners of the cube.
+//! The linear basis: one light texel's weight at each fine direction, over all edges and corners of the cube.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -22,7 +22,7 @@ fn direction(texel: usize, side: usize) -> DVec3 {
     CubeMap::new(side).direction(texel / (side * side), texel % side, texel / side % side)
 }
 
-/// Every fine direction: weights above 0 that sum to 1, the largest that of the texel it lies in.
+/// Every fine direction: weights above 0 that sum to 1; its own texel has the largest.
 #[test]
 fn hats_are_a_partition_of_unity() {
     for width in WIDTHS {
@@ -50,7 +50,7 @@ fn hats_are_a_partition_of_unity() {
     }
 }
 
-/// Turns and mirrors of the cube take hats to hats, to the bit: three generators of its 48 symmetries.
+/// Symmetries of the cube map hats to hats, to the bit: three generators of the 48 symmetries.
 #[test]
 fn hats_have_the_symmetry_of_the_cube() {
     let generators = [
@@ -97,7 +97,7 @@ fn hats_are_continuous_over_edges() {
     close(change(20 * 128 + 18, 20 * 128 + 19), 0.5, 1e-12, "within a face");
 }
 
-/// The directions of a segment: its own, and with hats of two texels those beside it.
+/// The directions of a segment, and, with hats of two texels, the directions beside it.
 #[test]
 fn segments_reach_half_a_texel_beyond_their_border() {
     let [one, two] = WIDTHS.map(LinearBasis::new);

@@ -49,7 +49,7 @@ fn seen(light: &HaarLight, normal: DVec3) -> f64 {
     products.sum()
 }
 
-/// A bright texel at a face's middle lights most the normal along the face's axis, and no other normal half as much
+/// A bright texel at the middle of a face lights the normal along the face's axis most, and no other axis half as much
 /// (four texels meet in the middle).
 #[test]
 fn a_texel_shines_from_its_face() {
@@ -71,7 +71,7 @@ fn upper_left_texels_lie_where_the_table_says() {
         assert_eq!(Segmentation::Quarters.place(texel), [segment, 0]);
         let direction = LIGHT_MAP.direction(face, 0, 0);
         assert_eq!(direction.to_array().map(f64::signum), signs, "{name}: {direction}");
-        // Right and down from there stay on the face: the corner's component of the face is the largest.
+        // Right and down from there lie on the face: the largest component of the corner is the face's axis.
         let towards = DVec3::from(signs).normalize();
         let light = HaarLight::new(&one_texel(name, 0, 0), Segmentation::Quarters);
         let [with, against] = [towards, -towards].map(|normal| seen(&light, normal));

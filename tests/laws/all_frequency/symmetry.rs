@@ -1,4 +1,4 @@
-//! Turning mesh, light and frames together by a symmetry of the cube permutes directions: bits move, radiance stays.
+//! Rotating mesh, light and frames together by a symmetry of the cube permutes directions: bits move, radiance stays.
 
 use crate::environment::by_form;
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ use glam::{DMat3, DVec3};
 
 use super::{clutter, texel_of, trace};
 
-/// The 24 turns of the cube.
+/// The 24 rotations of the cube.
 fn turns() -> Vec<DMat3> {
     let axes = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z];
     let pairs = axes.into_iter().flat_map(|x| axes.map(|y| (x, y))).filter(|(x, y)| x.dot(*y) == 0.0);
@@ -30,7 +30,7 @@ fn turned(mesh: &Mesh, turn: &DMat3) -> Mesh {
     mesh_turned.with_normals(all(mesh.normals().expect("normals"))).expect("normals")
 }
 
-/// Image of each texel of a cube under a turn.
+/// Image of each texel of a cube under a rotation.
 fn places(turn: &DMat3, side: usize) -> Vec<usize> {
     let map = CubeMap::new(side);
     let direction = |at: usize| map.direction(at / (side * side), at % side, at / side % side);
@@ -55,7 +55,7 @@ fn radiance(vertices: &Vertices, maps: &VisibilityMaps, light: &CubeLight) -> BT
     sums
 }
 
-/// The short form has every fourth of the 24 turns: none, quarters and halves about axes, thirds about diagonals.
+/// The short form has every fourth of the 24 rotations: none, quarters and halves about axes, thirds about diagonals.
 #[test]
 fn turns_of_the_cube_permute_bits_and_keep_radiance() {
     let mesh = clutter(5, 10, 1.5);

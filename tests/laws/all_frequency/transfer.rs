@@ -60,9 +60,9 @@ fn segments(
     transfer.segments().map(|segment| segment.expect("transfer")).collect()
 }
 
-/// An open white Lambert vertex under light 1 is 1: the rule's error, over normals of all kinds. Its directions are the
-/// centers of the fine texels, so a texel cut by the horizon counts as a whole or not at all; but there the cosine is
-/// small: 2.0e-5 of the albedo at most, over the normals here.
+/// An open white Lambert vertex under light 1 has radiance 1: the error of the quadrature, over normals of all kinds.
+/// Directions are centers of fine texels, so a texel cut by the horizon counts wholly or not at all; but the cosine is
+/// small there: the error is at most 2.0e-5 of the albedo, over these normals.
 #[test]
 fn an_open_vertex_in_a_furnace_shows_its_albedo() {
     let fine = FineDirections::get();
@@ -103,17 +103,17 @@ fn a_square_overhead_shadows_its_form_factor() {
         let found = radiance(&segments(&vertices, &mesh, BasisWidth::TwoTexels, 1, cosine), &light, 0, 1)[0][0] / PI;
         let root = (1.0 + x * x).sqrt();
         let factor = 4.0 / PI * x / root * atan2(x, root);
-        // Fine texels along the rim count as a whole or not: their number is below 4 sides of 128 (1 + |tan|) / x, a
-        // random walk of halves of their form factor, which is at most 1 / (pi 64^2). Eight of its deviations.
+        // Fine texels along the rim count wholly or not: their number is below 4 sides of 128 (1 + |tan|) / x, a random
+        // walk of halves of their form factor, which is at most 1 / (pi 64^2). Eight standard deviations.
         let texels: f64 = 4.0 * FINE_SIDE as f64 * 1.5 * x.max(1.0);
         let tolerance = 8.0 * texels.sqrt() * 0.3 / (PI * 64.0 * 64.0) + FURNACE;
         close(found, 1.0 - factor, tolerance, &format!("half side {x}"));
     }
 }
 
-/// M L is the reference's sum over directions, with its own directions, solid angles, frames and interpolation of the
-/// light. Both see the same bits. Only rounding remains: each number of M once to f32, 2^-24 of its term in the sum,
-/// and some 1e5 roundings of f64 in sums whose order differs.
+/// M L equals the reference's sum over directions, with its own directions, solid angles, frames and interpolation of
+/// the light, from the same visibility bits. Only rounding differs: each number of M is rounded once to f32, 2^-24 of
+/// its term, and sums in another order have some 1e5 roundings of f64.
 #[test]
 fn transfer_times_light_is_the_reference() {
     let random = CounterRng::new(4);

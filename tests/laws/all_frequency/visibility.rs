@@ -18,8 +18,8 @@ fn face_row_column(fine: usize) -> [usize; 3] {
     [fine / (FINE_SIDE * FINE_SIDE), fine / FINE_SIDE % FINE_SIDE, fine % FINE_SIDE]
 }
 
-/// Distance of a fine direction from the nearest edge of a triangle, or from the plane of one that contains the eye, in
-/// pixels of the direction's face.
+/// Distance of a fine direction from the nearest edge of a triangle, or from the plane of a triangle that contains the
+/// eye, in pixels of the direction's face.
 fn pixels_to_edge(mesh: &Mesh, eye: DVec3, fine: usize) -> f64 {
     let [face, row, column] = face_row_column(fine);
     let axes = CUBE_FACES[face];
@@ -54,7 +54,7 @@ fn pixels_to_edge(mesh: &Mesh, eye: DVec3, fine: usize) -> f64 {
     nearest
 }
 
-/// So many random meshes, of three sizes in turn, and a teapot.
+/// `count` random meshes, of three sizes in turn, and a teapot.
 fn meshes(count: u64) -> Vec<(String, Mesh)> {
     let random =
         (0..count).map(|seed| (format!("clutter {seed}"), clutter(seed, 12, [0.3, 1.0, 3.0][seed as usize % 3])));
@@ -65,9 +65,9 @@ fn some(vertices: &Vertices) -> Vec<u32> {
     all(vertices).into_iter().filter(|vertex| vertices.len() < 40 || vertex % 13 == 0).collect()
 }
 
-/// Directions that are not cast are unblocked, with fewer directions too; any number of threads gives the same bits.
-/// Without the plane of the vertex normal as horizon vertices see more, and nothing else changes. The short form has a
-/// random mesh of each size.
+/// Directions that are not cast are unblocked, with fewer directions too; any number of threads gives identical bits.
+/// Without the vertex normal's plane as horizon, vertices see more, and nothing else changes. The short form has one
+/// random mesh per size.
 #[test]
 fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
     for (name, mesh) in meshes(by_form(3, 8)) {

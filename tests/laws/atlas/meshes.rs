@@ -11,13 +11,13 @@ pub(super) struct Sample {
     pub(super) mesh: Mesh,
     /// At most two faces per edge.
     pub(super) manifold: bool,
-    /// Closed, in one part, without handles.
+    /// Closed, connected, without handles.
     pub(super) sphere: bool,
 }
 
 type Shape = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
-/// A grid of `columns` x `rows` quads, each direction wrapped around or not. `place` maps grid to position.
+/// A grid of `columns` x `rows` quads; each direction may wrap around. `place` maps grid to position.
 fn grid([columns, rows]: [u32; 2], wrapped: [bool; 2], place: impl Fn(f64, f64) -> [f64; 3]) -> Shape {
     let across = columns + u32::from(!wrapped[0]);
     let down = rows + u32::from(!wrapped[1]);

@@ -11,8 +11,7 @@ use super::meshes::atlases;
 const K: u32 = 6;
 const ONE: i64 = 1 << K;
 
-/// The coordinates of the point with these weights, in units of 2^-K texels, interpolated over the drawn triangle that
-/// it lies on.
+/// The coordinates of the point with these weights, in units of 2^-K texels, interpolated over its drawn triangle.
 fn drawn_at(drawn: &DrawnFace, place: &FacePlace, weights: [i64; 3]) -> [i64; 2] {
     let [a, b, c] = place.in_turn(weights);
     // m = (b + c) / 2.
@@ -38,7 +37,7 @@ fn clamped(drawn: &DrawnFace, at: [i64; 2]) -> [i64; 2] {
     [0, 1].map(|axis| at[axis].clamp(bound(axis), bound(axis + 2)))
 }
 
-/// The texels that a bilinear read weighs with more than nothing.
+/// The texels with a non-zero weight in a bilinear read.
 fn bilinear([x, y]: [i64; 2]) -> Vec<[i64; 2]> {
     let along = |at: i64| {
         let low = (at - ONE / 2).div_euclid(ONE);
@@ -83,7 +82,7 @@ proptest! {
     }
 
     /// Both drawn triangles together cover the center of each texel of the face once: inside one of them, or on the
-    /// diagonal, which the fill rule gives to one.
+    /// diagonal, which the fill rule gives to one triangle.
     #[test]
     fn drawing_covers_the_rectangle((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -91,7 +90,7 @@ proptest! {
             let drawn = atlas.drawn(face);
             for y in place.y..place.y + place.height {
                 for x in place.x..place.x + place.width {
-                    // In halves of texels.
+                    // In half texels.
                     let center = [2 * i64::from(x) + 1, 2 * i64::from(y) + 1];
                     let [one, other] = drawn.triangles.map(|triangle| {
                         let at = triangle.map(|vertex| vertex.at.map(|at| 2 * i64::from(at)));

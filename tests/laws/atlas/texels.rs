@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::meshes::atlases;
 
-/// How large a mesh is.
+/// Extent of a mesh.
 fn extent(atlas: &Atlas) -> f64 {
     let top = atlas.cluster(atlas.levels() - 1, 0, 0);
     top.radius + top.point.length()
@@ -26,7 +26,7 @@ fn polygon(ring: &[DVec3]) -> (f64, DVec3) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Every face owns its rectangle, rectangles do not overlap and leave nothing out, and areas sum up.
+    /// Every face owns its rectangle, rectangles tile the atlas without overlap, and areas sum up.
     #[test]
     fn every_face_owns_texels_of_its_own((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -48,7 +48,7 @@ proptest! {
         prop_assert!((sum - whole).abs() <= 1e-12 * whole && (atlas.area() - whole).abs() <= 1e-12 * whole);
     }
 
-    /// The polygons of a texel have its area and mean point, computed another way; so have its points.
+    /// The polygons of a texel, and its points, have its area and mean point, computed in another way.
     #[test]
     fn parts_are_what_texels_say((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -72,7 +72,7 @@ proptest! {
         }
     }
 
-    /// A texel of a level is the mean of its texels of the finest, weighted by area, and its ball holds their parts.
+    /// A texel of a level is the area-weighted mean of its finest texels, and its bounding ball holds their parts.
     #[test]
     fn clusters_are_means_of_their_texels((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");

@@ -8,8 +8,8 @@ use super::meshes::{atlases, least_side, ring, round};
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
-    /// 2 T - 1 nodes; children share out the faces and the rectangle of their parent; every leaf has one face, and no
-    /// node more faces than texels.
+    /// 2 T - 1 nodes; children partition the faces and the rectangle of their parent; every leaf has one face, and no
+    /// node has more faces than texels.
     #[test]
     fn nodes_are_halves_of_their_parents((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -40,8 +40,7 @@ proptest! {
         }
     }
 
-    /// Children are connected where their parent is, with few exceptions where texels are scarce and none to speak of
-    /// where they are not.
+    /// Children are connected if their parent is, with few exceptions if texels are scarce, and hardly any otherwise.
     #[test]
     fn children_are_connected((sample, side) in atlases()) {
         let quality = AtlasQuality::of(&Atlas::new(&sample.mesh, side).expect("an atlas"));
@@ -68,7 +67,7 @@ fn clusters_of_a_sphere_are_simply_connected() {
     }
 }
 
-/// A torus is connected but not simply; of its clusters only the largest have its holes.
+/// A torus is connected but not simply connected; only its largest clusters have its holes.
 #[test]
 fn the_upper_clusters_of_a_torus_have_holes() {
     let quality = AtlasQuality::of(&Atlas::new(&ring([48, 24]), 128).expect("an atlas"));
@@ -79,7 +78,7 @@ fn the_upper_clusters_of_a_torus_have_holes() {
     assert_eq!((top.nodes, top.connected, top.simply_connected), (1, 1, 0));
 }
 
-/// As many faces as texels: every cut is fixed to the face.
+/// As many faces as texels: every cut is determined to the face.
 #[test]
 fn a_full_atlas_is_still_one() {
     let mesh = ring([32, 32]);

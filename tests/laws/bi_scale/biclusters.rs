@@ -9,7 +9,7 @@ use refsim::num::power_of_two;
 
 use super::{bits, blocks, finite, matrix, numbers_of, quietly, real_blocks, real_matrix};
 
-/// Values of any size and sign, few zeros.
+/// Values of any size and sign, with few zeros.
 fn anything() -> impl Strategy<Value = Vec<Vec<i32>>> {
     let value = prop_oneof![2 => Just(0), 4 => -3..4_i32, 1 => -1_000_000..1_000_000_i32];
     (1..10_usize, 1..10_usize).prop_flat_map(move |(rows, columns)| {
@@ -102,8 +102,8 @@ proptest! {
             }
         }
         for (row, ([fast], expected)) in fast.iter().zip(&expected).enumerate() {
-            // (1 + u)^n - 1 <= 2 n u for n u below a half, with u = 2^-24. Doubled, because f64 has an error too,
-            // though less.
+            // (1 + u)^n - 1 <= 2 n u for n u below a half, with u = 2^-24. Doubled, because f64 has a smaller error
+            // too.
             let bound = 4.0 * operations[row] as f64 * f64::from(f32::EPSILON) / 2.0 * magnitude[row];
             prop_assert!((f64::from(*fast) - expected).abs() <= bound, "row {row}: {fast} for {expected}");
         }
@@ -111,9 +111,9 @@ proptest! {
 }
 
 /// Bound on the rounding error of the sum of biclusters, per number. An element v of n values t has residuals r_k =
-/// r_(k-1) - t_k from r_0 = v, each rounded by at most u |r_k| with u = EPSILON / 2, the last of them 0; the error of
-/// their exact sum is the sum of these. Sums of the t add as many roundings, and no term exceeds S = |v| + sum |t| but
-/// for these: 2 n u S, and n + 2 in place of n for terms of second order.
+/// r_(k-1) - t_k from r_0 = v, each rounded by at most u |r_k| with u = EPSILON / 2, and the last is 0; the error of
+/// their exact sum is the sum of these roundings. Summing the t rounds as often, and no term exceeds S = |v| + sum |t|
+/// to first order: 2 n u S, with n + 2 in place of n for terms of second order.
 fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut sizes: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(|value| value.abs()).collect()).collect();
     let mut counts: Vec<Vec<f64>> = rows.iter().map(|row| vec![2.0; row.len()]).collect();
@@ -191,7 +191,7 @@ proptest! {
         prop_assert_eq!(paper::biclusters(&matrix, options), quietly(&matrix, options));
     }
 
-    /// Subnormal numbers, 1e-300 beside 1e300, numbers of 53 bits: they read back except for rounding.
+    /// Subnormal numbers, 1e-300 beside 1e300, and numbers of 53 bits read back up to rounding.
     #[test]
     fn any_numbers_come_back(rows in real_blocks(), seed: u64, deletion: bool) {
         let matrix = real_matrix(&rows);
@@ -206,7 +206,7 @@ proptest! {
         prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
     }
 
-    /// Multiples of a power of two below 2^40 of it are subtracted without rounding, for any power.
+    /// Multiples of a power of two below 2^40 times it are subtracted without rounding, for any power.
     #[test]
     fn numbers_of_few_bits_come_back_exactly(
         rows in anything(), factor in 1..1_000_000_i32, power in -1000..900_i32, seed: u64, deletion: bool,
@@ -217,8 +217,8 @@ proptest! {
         prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
     }
 
-    /// Rows that are multiples of one row by a few factors are as many biclusters; a row alone is taken apart, which
-    /// costs as much.
+    /// Rows that are multiples of one row by a few factors give as many biclusters; a single row is split, which costs
+    /// as much.
     #[test]
     fn matrices_of_rank_1_are_few_biclusters(
         row in prop::collection::vec(0.5..1.0_f64, 6..12),
@@ -243,7 +243,7 @@ proptest! {
         prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
     }
 
-    /// Numbers in a table are searched as the same numbers in units are: 2^-40 of a quarter has no unit.
+    /// The search finds equal biclusters for numbers in a table and in units: 2^-40 of a quarter has no unit.
     #[test]
     fn the_scale_of_numbers_decides_nothing(rows in blocks(), seed: u64, deletion: bool) {
         let options = BiclusterOptions { seed, deletion, drop: 0.0 };

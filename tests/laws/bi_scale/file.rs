@@ -35,7 +35,7 @@ fn small(values: &[Vec<i32>]) -> BiScaleFile {
     BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
 }
 
-/// Values of one byte, of two and of four.
+/// Values of one, two and four bytes.
 fn all_widths() -> [BiScaleFile; 3] {
     let rows = |large: i32| small(&[vec![4, 4, 0, 1], vec![4, 4, large, 0], vec![0, 0, 0, 0]]);
     [rows(-3), rows(300), rows(-70_000)]
@@ -48,7 +48,7 @@ fn small_of_numbers(values: &[Vec<f64>]) -> BiScaleFile {
     BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
 }
 
-/// Numbers of a table: with and without residuals, and residuals beyond 32 bits alone.
+/// Numbers in a table: without and with residuals, and only residuals beyond 32 bits.
 fn tables() -> [BiScaleFile; 3] {
     let row = |large: f64| vec![0.1, -3.0, large, f64::from_bits(1), 0.7];
     let mut residuals = vec![row(1e300); 4];
@@ -87,7 +87,7 @@ fn what_is_written_is_read() {
     }
 }
 
-/// Integers have the least type that holds all of them, numbers of a table are floats.
+/// Integers have the smallest type that holds all of them, numbers in a table are floats.
 #[test]
 fn values_have_types() {
     let type_of = |file: &BiScaleFile| {

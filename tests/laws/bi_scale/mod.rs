@@ -1,4 +1,4 @@
-//! System 6: transfer to local directions, biclusters of it, other ways to store it, files.
+//! System 6: transfer to local directions, its biclusters, other ways to store it, files.
 
 mod baselines;
 mod biclusters;
@@ -44,7 +44,7 @@ fn numbers_of(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
     (0..matrix.rows()).map(row).collect()
 }
 
-/// The bits of numbers; 0 of either sign is the same.
+/// The bits of numbers; zeros of both signs are equal.
 fn bits(rows: &[Vec<f64>]) -> Vec<Vec<u64>> {
     rows.iter().map(|row| row.iter().map(|value| (value + 0.0).to_bits()).collect()).collect()
 }
@@ -66,7 +66,7 @@ fn blocks() -> impl Strategy<Value = Vec<Vec<i32>>> {
     })
 }
 
-/// Any number whose sums are finite: of all bits alike, near 1, or at the ends of the range.
+/// Any number whose sums are finite: all bit patterns equally likely, near 1, or at the ends of the range.
 fn finite() -> impl Strategy<Value = f64> {
     let ends = [1e303, -1e303, f64::MIN_POSITIVE, f64::from_bits(1), 1e300, 1e-300, 0.1, -0.1, 1.0];
     prop_oneof![

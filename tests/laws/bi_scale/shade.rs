@@ -58,12 +58,12 @@ proptest! {
         let local = &light.as_chunks().0[..lights * VERTICES as usize];
         let found = TextureLookup::new(&texture).radiance(local, &pixel, &mut Vec::new());
         prop_assert_eq!(found, paper::radiance(&texture, local, &pixel));
-        // Light is linear: twice as much of it gives twice the radiance, to the bit.
+        // Light is linear: doubling it doubles the radiance, to the bit.
         let twice: Vec<[f64; 3]> = local.iter().map(|rgb| rgb.map(|value| 2.0 * value)).collect();
         prop_assert_eq!(paper::radiance(&texture, &twice, &pixel), found.map(|value| 2.0 * value));
     }
 
-    /// A texture that is the same everywhere gives its value times the light of the pixel, for any place and view.
+    /// A constant texture gives its value times the light of the pixel, for any place and view.
     #[test]
     fn weights_sum_to_one(sizes in sizes(), pixel in pixel(), value in 0.1..3.0_f32) {
         let texture = texture(sizes, &[value]);
@@ -75,7 +75,7 @@ proptest! {
     }
 }
 
-/// At a vertex a pixel's frame is the vertex's own; between them it is right-handed and of length 1.
+/// At a vertex a pixel's frame is the vertex's own; in between it is right-handed and orthonormal.
 #[test]
 fn frames_are_interpolated() {
     let vertices = Vertices::new(&hills(3), Tangents::Along(DVec3::X)).expect("vertices");
@@ -126,10 +126,9 @@ fn sampled(patch: &MesoPatch, size: usize, side: usize) -> BidirectionalTexture 
     patch.texture(&sampling, &mut |_, _| ()).expect("a texture")
 }
 
-/// A Lambert square under light 1 from everywhere sends out its albedo: by rays up to what 49,152 directions of the
-/// hemisphere get wrong of the cosine, by transfer up to what M directions do. Their centers have a mean cosine that is
-/// too large by the factor 1 + 2 / M; texels routed to the nearest center give each a share with an error of less than
-/// as much.
+/// A Lambert square under uniform light 1 reflects its albedo. Ray tracing has the error of 49,152 directions in the
+/// integral of the cosine, transfer that of M directions: their centers have a mean cosine that is too large by the
+/// factor 1 + 2 / M, and routing texels to the nearest center gives shares with an error of less than as much.
 #[test]
 fn white_furnace_of_pixels() {
     let albedo = [0.25, 0.5, 1.0];
@@ -163,8 +162,7 @@ fn white_furnace_of_pixels() {
     }
 }
 
-/// A rough patch is darker than a flat one, on every rung; with more directions and finer textures the rungs come
-/// together.
+/// A rough patch is darker than a flat one, at every step; with more directions and finer textures the steps converge.
 #[test]
 fn rungs_come_together() {
     let patch = PatchKind::Bricks.patch(1.0);
@@ -181,8 +179,8 @@ fn rungs_come_together() {
     assert!(of_texture < 0.5, "{of_texture}");
 }
 
-/// At a sample of a texture, the middle of a texel towards one of its views, the only error is single precision; at the
-/// middle of a texel its texels alone cause no error, for any view.
+/// At a sample of a texture (the middle of a texel, towards one of its views) only single precision causes an error; at
+/// the middle of a texel, the texels cause no error for any view.
 #[test]
 fn samples_cost_nothing() {
     let patch = PatchKind::Bricks.patch(1.0);

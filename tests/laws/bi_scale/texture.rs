@@ -19,19 +19,19 @@ fn directions(side: usize) -> LocalDirections {
     LocalDirections::new(side).expect("directions")
 }
 
-/// Any direction above the horizon, those almost along it among them.
+/// Any direction above the horizon, including almost grazing ones.
 fn direction() -> impl Strategy<Value = DVec3> {
     let at = || prop_oneof![6 => -1.0..1.0_f64, 1 => Just(0.0), 1 => Just(-0.999), 1 => Just(0.9)];
     [at(), at()].prop_map(hemisphere)
 }
 
-/// Places, texels' middles and borders among them.
+/// Places, including the middles and borders of texels.
 fn place() -> impl Strategy<Value = [f64; 2]> {
     let at = || prop_oneof![3 => -1.0..2.0_f64, 1 => (0..32_u8).prop_map(|at| f64::from(at) / 16.0)];
     [at(), at()]
 }
 
-/// Heights of a few texels: any, steps, or almost none.
+/// Heights of a few texels: arbitrary, steps, or almost flat.
 fn heights() -> impl Strategy<Value = HeightField> {
     (1..9_usize, 0.001..0.5_f64).prop_flat_map(|(side, relief)| {
         let height = prop_oneof![3 => 0.0..1.0_f64, 1 => Just(0.0), 1 => Just(1.0)];
@@ -85,8 +85,8 @@ proptest! {
         }
     }
 
-    /// Shadows against points of the light's ray: if a point is below the surface, the texel is dark; if the texel is
-    /// dark, a point is below or almost so.
+    /// Shadows compared with points along the light's ray: if a point is below the surface, the texel is dark; if the
+    /// texel is dark, a point is below the surface or almost below it.
     #[test]
     fn shadows_are_where_the_surface_is_in_the_way(
         heights in heights(), place in place(), view in direction(), light in direction(),
@@ -149,7 +149,7 @@ proptest! {
     }
 }
 
-/// A square pit twice as wide as deep, looked into under 45 degrees through its middle: the foot of the wall.
+/// A square pit twice as wide as deep, viewed at 45 degrees through its middle: the view meets the foot of the wall.
 #[test]
 fn parallax_moves_points_by_their_depth() {
     let side = 64;
@@ -160,13 +160,13 @@ fn parallax_moves_points_by_their_depth() {
     let point = patch.seen([0.5, 0.5], view).point(&patch);
     assert_relative_eq!(point.x, 0.5 - 0.125 * 0.75, max_relative = 1e-12);
     assert_eq!((point.y, point.z), (0.5, -0.125));
-    // Light along the view reaches it; light from the far side, low, does not.
+    // Light along the view reaches that point; low light from the far side does not.
     assert!(patch.response([0.5, 0.5], view, view)[0] > 0.0);
     assert_eq!(patch.response([0.5, 0.5], view, DVec3::new(-0.96, 0.0, 0.28)), [0.0; 3]);
 }
 
-/// Light 1 from everywhere: a Lambert surface sends out its albedo, times 2 mean cosines of the directions, which is
-/// 1 + 2 / k^2 with k x k of them, k even.
+/// Uniform light 1: a Lambert surface reflects its albedo, times twice the mean cosine of the directions, which is 1 +
+/// 2 / k^2 with k x k directions, k even.
 #[test]
 fn white_furnace() {
     let albedo = [0.25, 0.5, 1.0];
@@ -185,8 +185,8 @@ fn white_furnace() {
     }
 }
 
-/// Shadows only take light away: no point of a white patch sends out more than comes to it, up to what 32 x 32
-/// directions get wrong of a tilted cosine; where the surface is rough, it sends out less.
+/// Shadows only remove light: no point of a white patch reflects more than it receives, up to the error of 32 x 32
+/// directions in a tilted cosine; where the surface is rough, it reflects less.
 #[test]
 fn relief_makes_no_light() {
     let light = directions(32);

@@ -1,4 +1,4 @@
-//! Cards draw the front faces of open models alone, as rays of the host meet them, for each kind of transfer. An ideal
+//! Cards draw only the front faces of open models, as the host's rays meet them, for each kind of transfer. An ideal
 //! card differs from values interpolated in f64 by less than the snapping of vertices to subpixels explains.
 
 use super::{exits, interpolated};
@@ -36,7 +36,7 @@ use refsim::texture::TexelFormat;
 
 const SIZE: [u32; 2] = [60, 50];
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
-/// Offsets of rays from a pixel's center, in pixels: where all meet the same triangle, the rasterizer finds it too.
+/// Offsets of rays from a pixel's center, in pixels. If all meet one triangle, the rasterizer finds it too.
 const AROUND: [[f64; 2]; 5] = [[0.0, 0.0], [0.05, 0.05], [0.05, -0.05], [-0.05, 0.05], [-0.05, -0.05]];
 
 /// The surface that a pixel shows, computed in f64.
@@ -67,7 +67,7 @@ impl Scene {
         scene
     }
 
-    /// A box without a lid, seen from above and aside: where an inner face would be, its culled back shows nothing.
+    /// A box without a lid, seen obliquely from above: a culled inner face shows the background.
     fn open_box() -> Self {
         let corner = |at: usize| {
             let [x, y] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][at % 4];
@@ -271,7 +271,7 @@ fn bi_scale_transfer_shows_front_faces() {
     }
 }
 
-/// The text of a study of the open box on a card about the difference from the host.
+/// A study's sentence on the difference between card and host for the open box.
 fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
     let scene = Scene::open_box();
     let basis = ExitBasis::Radiance;

@@ -53,8 +53,8 @@ impl Hills {
         card.view_texels(&self.light, &view).expect("a picture")
     }
 
-    /// The largest difference of a picture from the host's values, relative to the largest value, over pixels whose
-    /// four neighbours show the hills too.
+    /// The largest difference of a picture from the host's values, relative to the largest value, over pixels of the
+    /// hills whose four neighbours are on the hills too.
     fn error(&self, picture: &Texels) -> f64 {
         let exits = exits(&self.clustering, &self.light);
         let seen = seen_pixels(&profile("ideal-fp32"), self.vertices.geometry(), &camera()).expect("pixels");
@@ -150,7 +150,7 @@ fn a_frame_is_counted_and_timed() {
         assert!((4 * vertices..=9 * drawn + 3 * triangles.len() as u64).contains(&time.vertices_run));
         assert!(time.frame >= time.host.max(time.draws) && time.host >= time.products, "{time:?}");
         assert!(time.frame <= time.host + time.draws + time.state + time.draws, "{time:?}");
-        // From sizes alone: vertices and constants take as long, and only the pixels' time is missing.
+        // From sizes alone: vertices and constants take equal time, and only the pixels' time is missing.
         let draws = || log.iter().filter_map(|event| if let Event::Draw(draw) = event { Some(draw) } else { None });
         let of_groups = draws().skip(1).map(|draw| draw.vertices_run[1]).sum::<u64>();
         let counts = FrameCounts {

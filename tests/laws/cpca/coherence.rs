@@ -1,4 +1,4 @@
-//! Fewer triangles drawn: within the budget, never more, and never at the cost of error where none is allowed.
+//! Fewer triangles are drawn: within the budget, never more, and without error if none is allowed.
 
 use crate::support::cluster_options;
 use crossbar::clustering::{Clustering, Signal, compress};
@@ -92,7 +92,7 @@ fn superclusters_keep_within_registers_and_have_no_neighbours_left_to_merge() {
     assert_eq!(before, triangles.len() as u64, "all clusters fit: each triangle is drawn once");
 }
 
-/// Superclusters of a given size contain no more clusters than that, and no two neighbors could be merged.
+/// Superclusters have at most the given number of clusters, and no two neighbors could be merged.
 #[test]
 fn superclusters_of_a_size_are_as_large_as_may_be() {
     let (signal, triangles) = (ragged(40, 0.02), grid(40));
@@ -195,7 +195,7 @@ fn digests_tell_meshes_apart() {
     let one = digest(&mesh, Tangents::Any);
     assert_eq!(digest(&mesh.clone(), Tangents::Any), one);
     assert!(others.iter().all(|other| digest(other, Tangents::Any) != one));
-    // Tangents count by value, not by name alone.
+    // The digest covers the values of tangents, not only their source's name.
     let textured = |slope: f32| {
         let texture = corners.iter().map(|&[x, y, _]| [x, y + slope * x]).collect();
         digest(&mesh.clone().with_texcoords(texture).expect("coordinates"), Tangents::Texture)

@@ -9,7 +9,7 @@ use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::transfer::synthetic::torus_signal;
 use proptest::prelude::*;
 
-/// By the error that they leave.
+/// In the order of descending error.
 const METHODS: [CpcaMethod; 4] =
     [CpcaMethod::Static, CpcaMethod::Doubling, CpcaMethod::Iterative, CpcaMethod::Adaptive { rounds: 6 }];
 
@@ -23,12 +23,12 @@ fn compressed(signal: &Signal, options: &CpcaOptions) -> Compression {
     compress(signal, options, |_| ()).expect("compressed")
 }
 
-/// The squares of all numbers.
+/// The sum of squares of all numbers.
 fn squares(signal: &Signal) -> f64 {
     signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum()
 }
 
-/// The squared distance of all points from their mean.
+/// The sum of squared distances of all points from their mean.
 fn energy(signal: &Signal) -> f64 {
     let n = signal.dimension();
     let mean: Vec<f64> = (0..n)
@@ -40,7 +40,7 @@ fn energy(signal: &Signal) -> f64 {
     (0..signal.points()).map(square).sum()
 }
 
-/// Errors are compared up to the share of the energy that counts as no error.
+/// Compares errors up to the share of the energy that counts as no error.
 fn near(a: f64, b: f64, energy: f64) -> bool {
     (a - b).abs() <= 1e-11 * energy
 }
@@ -248,7 +248,7 @@ proptest! {
         check_steps(&signal, form, &compression);
         let clustering = &compression.clustering;
         prop_assert!(clustering.all_weights().len() <= vectors * signal.points());
-        // The vectors are orthonormal, and their largest components positive: `new` checks the former.
+        // The vectors are orthonormal, which `new` checks, and their largest components are positive.
         let parts = (clustering.subspaces().to_vec(), clustering.of_point().to_vec(), clustering.all_weights().to_vec());
         let again = crossbar::clustering::Clustering::new(parts.0, parts.1, parts.2);
         prop_assert_eq!(again.as_ref(), Ok(clustering));

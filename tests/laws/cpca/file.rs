@@ -242,7 +242,7 @@ proptest! {
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
     }
 
-    /// Anything behind the magic, and members with a changed place and right checksums: an error or a file, no panic.
+    /// Arbitrary bytes after the magic, and changed members with valid checksums: an error or a file, no panic.
     #[test]
     fn noise_is_no_file(noise in prop::collection::vec(any::<u8>(), 0..200), which: prop::sample::Index, at: prop::sample::Index, with: u8) {
         prop_assert!(parsed(&[MAGIC, &noise].concat()).is_err());

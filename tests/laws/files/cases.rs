@@ -30,7 +30,7 @@ fn read(bytes: &[u8]) -> Option<Setup> {
     Setup::from_bytes("case.toml", bytes, folder()).map_err(shown).ok()
 }
 
-/// Draws small cases: invalid state must come back as an error too.
+/// Draws small cases: invalid state must be reported as an error too.
 fn draw(setup: &Setup) {
     if setup.size[0] * setup.size[1] <= 64 * 64 {
         case::run(setup, ExecutorKind::Scalar).ok();
@@ -61,7 +61,7 @@ const WORDS: &str = r#"0 -1 1e39 nan -inf 4294967295 4294967296 9223372036854775
 "../.." "add.psa" "\u0000" [1] [0,0] [65536,65536] [1,2,3,4,5] é"#;
 const TABLES: [&str; 3] = ["\n[[texture]]\n", "\n[blend]\nsource = \"one\"\ndestination = \"one\"\n", "\n[geometry]\n"];
 
-/// A good case with some bytes replaced or taken out, words put in or in the place of values, or lines exchanged.
+/// A good case with bytes replaced or removed, words inserted or in place of values, or lines exchanged.
 fn mutated() -> impl Strategy<Value = Vec<u8>> {
     let pieces: Vec<&str> = WORDS.split_whitespace().chain(TABLES).collect();
     let edit = (0..5_u8, any::<[Index; 2]>(), prop::sample::select(pieces));

@@ -1,4 +1,4 @@
-//! OBJ files beside another reader: the crate tobj finds the same triangles, in the same order, to the bit.
+//! OBJ files and another reader: the crate tobj finds the same triangles, in the same order, to the bit.
 
 use std::path::Path;
 

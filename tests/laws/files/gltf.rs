@@ -159,7 +159,7 @@ fn nodes_move_turn_scale_and_mirror() {
 #[test]
 fn sparse_elements_replace_those_of_the_base_or_zeros() {
     let mut sparse = document(json!([{ "mesh": 3 }]));
-    // The third corner moves to where the normal's numbers point: (0, 1, 0), with z up (0, 0, 1).
+    // The third corner is set to the values of the normal: (0, 1, 0), with z up (0, 0, 1).
     let values = json!({ "bufferView": 4, "byteOffset": 0 });
     add_view(&mut sparse, json!({ "buffer": 0, "byteOffset": 12, "byteLength": 12 }));
     add_view(&mut sparse, json!({ "buffer": 0, "byteOffset": 144, "byteLength": 2 }));
@@ -337,7 +337,7 @@ proptest! {
         let _ = parse_gltf(&bytes, Path::new("m.glb"), &mut nothing_beside);
     }
 
-    /// Replaced bytes keep lengths, so that more of them reach what comes after the JSON.
+    /// Replacing bytes keeps lengths, so that more files get past the JSON.
     #[test]
     fn replaced_digits_do_no_harm(places in prop::collection::vec((any::<prop::sample::Index>(), 0..20_u32), 1..4)) {
         let mut bytes = rich();

@@ -53,8 +53,8 @@ proptest! {
         prop_assert_eq!(read.display(1.0).expect("color"), image);
     }
 
-    /// Three mantissas of 8 bits share the exponent of the brightest: each channel is right to 1/128 of that, and what
-    /// was read is written and read again without loss.
+    /// Three mantissas of 8 bits share the exponent of the brightest channel: each channel is accurate to 1/128 of the
+    /// brightest, and a picture that was read is written and read again without loss.
     #[test]
     fn hdr_keeps_what_its_format_holds(color in prop::collection::vec(prop::array::uniform3(1e-6_f32..1e6), PIXELS)) {
         let read = Picture::decode(&hdr(&Picture::rgb(SIZE[0], SIZE[1], &color)).expect("a file")).expect("our own file");
@@ -175,7 +175,7 @@ fn hdr_files_that_are_not_linear_or_turned_are_refused() {
     assert!(said("rle_rgbe", "rle_xyze").contains("32-bit_rle_xyze"));
 }
 
-/// One rule for `diff` and studies: NaN and infinities are right beside themselves, and infinitely wrong beside others.
+/// One rule for `diff` and studies: equal non-finite values have no error; otherwise the error is infinite.
 #[test]
 fn errors_that_are_not_finite_are_counted_apart() {
     let (nan, infinity) = (f64::NAN, f64::INFINITY);

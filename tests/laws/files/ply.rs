@@ -103,7 +103,7 @@ fn a_file_cut_short_anywhere_is_refused() {
     }
 }
 
-/// A concave face: its first corner sees not all of it.
+/// A concave face, not all of which is visible from its first corner.
 const ARROW: &str = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
                      property list uchar int vertex_indices\nend_header\n";
 

@@ -170,7 +170,7 @@ proptest! {
     }
 }
 
-/// Materials that modelling tools write and that reflect more than all light: scaled with a note, refused where strict.
+/// Materials of modelling tools that reflect more than all light: scaled with a note, refused with `--strict`.
 #[test]
 fn materials_of_modellers_are_scaled_and_noted() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -233,7 +233,7 @@ fn models_stand_up() {
     }
 }
 
-/// Flipped triangles are turned round with their normals, and counted; so are degenerate triangles and crowded edges.
+/// Flipped triangles are reversed with their normals, and counted; so are degenerate triangles and edges of many faces.
 #[test]
 fn odd_models_are_mended_and_counted() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -304,7 +304,7 @@ fn names_run_to_the_end_of_their_line() {
             .ends_with("m.obj:13: material blue# # sky: expected a material of its libraries, found none of this name"),
         "{refused}"
     );
-    // One name for both is a guess.
+    // Taking one name for both is a guess.
     assert_eq!(albedos(&["Material"], "a.mtl").0, [[0.5; 3]]);
     assert_eq!(albedos(&["blue"], "my b.mtl").0, [blue]);
     write("a.mtl b.mtl", "newmtl blue\nKd 0.6 0.6 0.6\n");

@@ -1,4 +1,4 @@
-//! STL files: both kinds give the same mesh, and no bytes make the reader panic or take more than they support.
+//! STL files: both kinds give the same mesh; no bytes make the reader panic, or allocate more than the file needs.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::support::file;
 const CORNERS: [[[f32; 3]; 3]; 2] =
     [[[0.0, 0.0, 0.0], [1.5, 0.0, 1e-3], [1.0, 1.0, 0.0]], [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-0.25, 1.0, 7.0]]];
 
-/// Binary data with any text as their header.
+/// Binary data with any text as its header.
 fn binary(header: &[u8], count: u32) -> Vec<u8> {
     let mut bytes = header.to_vec();
     bytes.resize(80, b' ');

@@ -1,4 +1,4 @@
-//! Meshes and rays at the ends of f32: no panic, hang or invented number; and zeros of both signs are one direction.
+//! Meshes and rays at the ends of f32: no panic, hang or wrong number; zeros of both signs are one direction.
 
 use crate::support::{profile, soup};
 use crossbar::geom::exact;
@@ -12,7 +12,7 @@ use refsim::machine::ExecutorKind;
 
 const FINE: OctreeParameters = OctreeParameters { most_triangles: 1, most_depth: 20 };
 
-/// Every path's answers, by name: the host, the engine on a card, the cards alone.
+/// Every path's hits, by name: the host, the engine on a card, the cards alone.
 fn paths(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<(&'static str, Vec<Option<Hit>>)> {
     let mut found = vec![("host", HostTracer::with_octree(mesh, FINE, sides).nearest_all(rays).0)];
     let parameters = EngineParameters { octree: FINE, triangles: 1..=4, rays: 2, sides, ..EngineParameters::default() };
@@ -96,8 +96,8 @@ fn walls() -> Mesh {
     Mesh::new(positions, triangles).expect("a mesh")
 }
 
-/// All rays of a direction with zeros, from points between walls, in them, on their edges and outside, with the zeros'
-/// signs by bits.
+/// All rays of a direction with zeros, from points between walls, in them, on their edges and outside; `signs` has the
+/// zeros' signs as bits.
 fn rays_with_zeros(direction: [f32; 3], signs: usize) -> Vec<Ray> {
     let mut rays = Vec::new();
     let mut zeros = 0;
@@ -132,7 +132,7 @@ fn the_signs_of_zeros_do_not_show_on_any_path() {
                 hits_equal(plus, minus).unwrap_or_else(|unequal| panic!("{}: {unequal}", told()));
             }
         }
-        // These numbers are all exact in f32: fp32 paths have no excuse.
+        // All these numbers are exact in f32, so fp32 paths must be exact.
         let oracle = Oracle::new(&mesh, Sides::Both, Tolerance::ulps(0));
         for (name, hits) in plus.iter().filter(|(name, _)| !["r200", "r300"].contains(name)) {
             let report = oracle.judge(&rays_with_zeros(direction, 0), hits).expect("one answer a ray");
@@ -141,7 +141,7 @@ fn the_signs_of_zeros_do_not_show_on_any_path() {
     }
 }
 
-/// The paths that compute in fp32, against exact arithmetic; all of them the same bits.
+/// Compares the fp32 paths with exact arithmetic, and their bits with each other.
 fn right_everywhere(mesh: &Mesh, rays: &[Ray], sides: Sides) {
     let oracle = Oracle::new(mesh, sides, Tolerance::ulps(1));
     let found = paths(mesh, rays, sides);

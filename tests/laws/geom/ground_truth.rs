@@ -1,4 +1,4 @@
-//! The filter and the tree of the ground truth against plain integers.
+//! The ground truth's filter and tree against plain integers.
 
 use crate::support::in_threads;
 use crossbar::geom::exact::{self, ExactT, Guess, Sides, Tracer, filter, integer};
@@ -6,7 +6,7 @@ use crossbar::geom::{Mesh, Ray, aimed, teapot};
 use num_bigint::BigUint;
 use proptest::prelude::*;
 
-/// Coordinates that meet one another: few values, many equal, some at the ends of the range.
+/// Coordinates that often coincide: few values, some at the ends of the range.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![
         4 => (-4_i8..=4).prop_map(f32::from),

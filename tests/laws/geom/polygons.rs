@@ -34,7 +34,7 @@ fn meet([a, a_end]: [Point; 2], [b, b_end]: [Point; 2]) -> bool {
     det(w, u) == 0 && ends[0] <= length && ends[1] >= 0
 }
 
-/// True if no edges meet but at the corner of two that follow each other.
+/// `true` if no edges meet except consecutive ones at their corner.
 fn is_simple(outline: &[Point]) -> bool {
     let n = outline.len();
     let edge = |i: usize| [outline[i % n], outline[(i + 1) % n]];
@@ -62,7 +62,7 @@ fn uncrossed(mut outline: Vec<Point>) -> Option<Vec<Point>> {
     is_simple(&outline).then_some(outline)
 }
 
-/// Simple polygons on grids from coarse, where many corners are in line, to fine.
+/// Simple polygons on grids from coarse, with many collinear corners, to fine.
 fn simple() -> impl Strategy<Value = Vec<Point>> {
     let points = |side: i64| prop::collection::vec(prop::array::uniform2(0..side), 3..=40);
     prop::sample::select(vec![5_i64, 12, 60, 1000])
@@ -185,7 +185,7 @@ fn faults_have_names() {
     let fault = |corners: &[[f32; 3]]| triangulate(corners).1;
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     assert_eq!(fault(&flat(&square)), None);
-    // A corner in line with its neighbours is legal, three on one line are a triangle.
+    // A corner in line with its neighbours is legal; three corners in line make a triangle.
     assert_eq!(fault(&flat(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]])), None);
     assert_eq!(fault(&flat(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]])), None);
     assert_eq!(fault(&flat(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])), Some(PolygonFault::Repeated));
@@ -194,7 +194,7 @@ fn faults_have_names() {
     let mut lifted = flat(&square);
     lifted[2][2] = 1e-3;
     assert_eq!(fault(&lifted), Some(PolygonFault::Bent));
-    // Digits that a file rounds away bend nothing.
+    // Rounding in a file does not make a face non-planar.
     lifted[2][2] = 1e-6;
     assert_eq!(fault(&lifted), None);
     // The hole of a ring, joined to its outline by an edge that runs there and back, stays open.

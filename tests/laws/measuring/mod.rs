@@ -1,4 +1,4 @@
-//! fixtures/probes/open: for each open switch of a card a small case that tells its values apart, for owners of the
+//! fixtures/probes/open: for each open switch of a card a small case that distinguishes its values, for owners of the
 //! card. docs/measuring.md lists them.
 
 mod probe;
@@ -11,7 +11,7 @@ use crossbar::case::Setup;
 use refsim::device::{Profile, Switch};
 use refsim::machine::ExecutorKind;
 
-/// The cards, without variants that differ in clocks alone.
+/// The cards, without variants that differ only in clocks.
 const CARDS: [&str; 6] = ["nv20", "nv25", "r200", "r300", "nv30", "nv35"];
 const PRODUCTS: &str = "the only product out of range is -3 times -3, and with any third operand both results exceed 1, \
                         where registers end; else rounding commutes with the addition of multiples of the unit";
@@ -41,7 +41,7 @@ fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
     probe::open(profile).filter(|switch| undrawn(&profile.name, &switch.name).is_none())
 }
 
-/// A value of each switch draws other codes than another one, and the batch executor has the bits of the reference.
+/// Two values of each switch draw different codes, and the batch executor gives the reference's bits.
 #[test]
 fn each_open_switch_has_a_probe() {
     for device in CARDS {
@@ -59,7 +59,7 @@ fn each_open_switch_has_a_probe() {
     }
 }
 
-/// The folder has no other files, so that a switch that was settled leaves no probe behind.
+/// The folder has no other files, so that a settled switch leaves no probe behind.
 #[test]
 fn there_are_no_other_probes() {
     let mut expected: Vec<String> = Vec::new();

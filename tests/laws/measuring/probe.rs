@@ -34,8 +34,7 @@ pub(super) fn groups(text: &str, switch: &Switch) -> Option<Vec<Vec<String>>> {
     Some(groups.into_iter().map(|(_, values)| values).collect())
 }
 
-/// The open switches of a device: those whose default no document states, and no measurement of the chip or of a
-/// sibling.
+/// The open switches of a device: no document states the default, and no measurement of the chip or a sibling shows it.
 pub(super) fn open(profile: &Profile) -> impl Iterator<Item = &Switch> {
     profile.switches().iter().filter(|switch| switch.confidence.is_open())
 }

@@ -1,4 +1,4 @@
-//! The f32 iteration is within its derived bound of the direct solution, and the bound is not empty talk.
+//! The f32 iteration is within its derived bound of the direct solution, and the bound is not vacuous.
 
 use crossbar::linalg::Matrix;
 use crossbar::radiosity::card_order::CardSystem;
@@ -12,7 +12,7 @@ fn truth(matrix: &Matrix, right: &[f64]) -> Vec<f64> {
     solve(Solver::Direct, &problem, &Options::default()).expect("a solution").radiosity
 }
 
-/// Error, running bound, a-priori bound; the second no less than the first and no more than the third.
+/// Checks error <= running bound <= a-priori bound.
 fn check(name: &str, card: &CardSystem, systems: &[(Matrix, Vec<f64>)], steps: u32) {
     let value = |b: &crossbar::card::Texels, i: usize, c: usize| {
         f64::from(if systems.len() == 3 { b.texels[i][c] } else { b.texels[i / 4][i % 4] })

@@ -51,8 +51,8 @@ fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<
     rays.iter().zip(hits).map(found).collect()
 }
 
-/// The patch of each pixel if its centre is farther than [`SNAPPED`] from any other; the outer `None` marks those that
-/// are not.
+/// The patch of each pixel whose centre is farther than [`SNAPPED`] from any other patch; the outer `None` marks all
+/// other pixels.
 fn certain(patches: &Patches, camera: &Camera) -> Vec<Option<Option<(usize, DVec3)>>> {
     let around = [[0.0, 0.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let pixels = (0..camera.height()).flat_map(|y| (0..camera.width()).map(move |x| [x, y]));
@@ -98,7 +98,7 @@ fn a_radiosity_that_is_the_same_everywhere_makes_a_picture_of_one_colour() {
     let want = same.map(|b| f64::from(b as f32 * std::f64::consts::FRAC_1_PI as f32));
     for picture in [display.flat(&mut machine, texture, 1.0), display.smooth(&mut machine, texture, 1.0)] {
         let other = pixels(&picture.expect("a picture")).into_iter().filter(|&pixel| pixel != want).count();
-        // No crack shows the background, even where faces meet whose corners do not.
+        // No crack shows the background, even between faces whose corners do not coincide.
         assert_eq!(other, 0, "pixels of another colour");
     }
 }
@@ -158,8 +158,8 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
     assert!(compared > 3 * 3000, "{compared}");
 }
 
-/// A disc of so many triangles around the origin, in an order in which no two in a row are neighbours and make one
-/// face.
+/// A disc of triangles around the origin, ordered so that no two consecutive triangles are neighbours, which would make
+/// one face.
 fn disc(triangles: u32) -> Scene {
     let turn = |k: u32| {
         let angle = f64::from(k) / f64::from(triangles) * std::f64::consts::TAU;
@@ -187,7 +187,7 @@ fn any_number_of_patches_can_meet_in_a_corner() {
         let middle = pixels(&picture)[16 * 33 + 16];
         let mean = at_corners(&patches, &radiosity)[0][0];
         for (found, want) in middle.into_iter().zip(mean) {
-            // An operation is off by 2^-24 of its result; there are 3 a patch.
+            // An operation is off by 2^-24 of its result; there are 3 per patch.
             assert_abs_diff_eq!(found, want, epsilon = 1e-6 * f64::from(triangles) * (want + 1.0));
         }
     }

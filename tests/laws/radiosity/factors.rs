@@ -153,7 +153,7 @@ fn a_tetrahedron_shares_its_light_evenly() {
 fn enforcement_closes_rows_and_keeps_reciprocity() {
     let patches = Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(200)).expect("patches");
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
-    // Perturb the factors by up to a tenth.
+    // Perturbs the factors by up to a tenth.
     let mut spoilt = factors.matrix().clone();
     for i in 0..spoilt.row_count() {
         for (j, value) in spoilt.row_mut(i).iter_mut().enumerate() {
@@ -185,7 +185,7 @@ fn a_point_sees_of_a_patch_what_rays_find() {
     assert!(abs_diff_eq!(share, factor, epsilon = 5.0 * sigma), "{factor} against {share} of {all} rays");
 }
 
-/// True if the direction lies on the same side of all planes through the origin and an edge.
+/// `true` if the direction lies on one side of all planes through the origin and an edge.
 fn pierces(corners: &[DVec3; 4], d: DVec3) -> bool {
     (0..4).all(|i| corners[i].cross(corners[(i + 1) % 4]).dot(d) <= 0.0)
 }

@@ -23,7 +23,7 @@ fn a_white_furnace_is_as_bright_everywhere() {
         {
             let solution = system.solve_channel(1, solver, &EXACT, None).expect("a solution");
             let off = solution.radiosity.iter().map(|b| (b - 1.0).abs()).fold(0.0, f64::max);
-            // Row sums are within 1e-13 of 1, and 1 / (1 - rho) as far as that can lead.
+            // Row sums are within 1e-13 of 1, amplified by 1 / (1 - rho).
             assert!(off < 3e-13 / (1.0 - f64::from(reflectance)), "{solver} at {reflectance}: off by {off}");
         }
     }
@@ -37,7 +37,7 @@ fn what_is_emitted_is_absorbed_or_leaves() {
     let closed = cornell(250);
     let solution = closed.solve(Solver::Direct, &EXACT, None).expect("a solution").radiosity();
     assert!(closed.energy_balance_error(&solution).iter().all(|left| left.abs() < 1e-12 * emitted(&closed)));
-    // An open room balances as well: its row sums give the light that leaves.
+    // An open room conserves energy too: its row sums give the light that leaves.
     let scene = rooms::cornell(CornellBox { blocks: true, open: true });
     let patches = Patches::new(&scene, Subdivision::AtMost(250)).expect("patches");
     let seen =
@@ -74,7 +74,7 @@ fn light_can_change_and_the_last_solution_is_a_good_start() {
     // Light is linear, and so are the radiosities.
     let doubled = before.channels[0].radiosity.iter().map(|b| 1.01 * b).collect::<Vec<_>>();
     assert!(distance(&doubled, &anew.channels[0].radiosity) < 1e-6 * distance(&doubled, &[0.0; 250]));
-    // New paint: only the matrix is made again, and a darker room is darker.
+    // New paint recomputes only the matrix, and a darker room is darker.
     let darker: Vec<[f64; 3]> = system.reflectance().iter().map(|rho| rho.map(|x| 0.5 * x)).collect();
     system.set_reflectance(darker).expect("reflectances");
     let dark = system.solve(Solver::Jacobi, &options, Some(&anew.radiosity())).expect("a solution");

@@ -23,7 +23,7 @@ use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
 use crossbar::scene::{Material, Scene};
 use crossbar::tracer::HostTracer;
 
-/// The Cornell box without blocks, its factors made to close.
+/// The Cornell box without blocks, with closure of form factors enforced.
 fn cornell(patches: usize) -> System {
     let patches = Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(patches)).expect("patches");
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
@@ -46,8 +46,8 @@ fn tracer(scene: &Scene) -> HostTracer {
     HostTracer::new(scene.mesh(), Sides::Both)
 }
 
-/// A diagonally dominant matrix of no symmetry with row sums of the off-diagonal part at most `reach` of the diagonal,
-/// and a right side.
+/// A diagonally dominant asymmetric matrix whose off-diagonal row sums are at most `reach` of the diagonal, and a
+/// right-hand side.
 fn random_system(size: usize, reach: f64, seed: u64) -> (Matrix, Vec<f64>) {
     let random = CounterRng::new(seed);
     let number = |i: usize, j: usize| random.unit(i as u64, j as u64, 0);

@@ -54,7 +54,7 @@ fn a_start_at_the_solution_is_the_end() {
 fn shooting_sends_the_brightest_light_first() {
     let system = cornell(250);
     let options = |most_iterations| Options { tolerance: 0.0, most_iterations };
-    // After one round of shots most of the light is on its way; one Jacobi step has only sent the emitted light.
+    // After one round of shots most of the light is distributed; one Jacobi step only distributes the emitted light.
     let left = |solver| system.solve_channel(0, solver, &options(1), None).expect("a solution").history[1];
     assert!(left(Solver::Shooting) < 0.5 * left(Solver::Jacobi), "{} {}", left(Solver::Shooting), left(Solver::Jacobi));
 }

@@ -1,4 +1,4 @@
-//! A bucket's beam never passes by a cell that one of its rays visits.
+//! A bucket's beam covers every cell that one of its rays visits.
 
 use crate::environment::by_form;
 use crossbar::geom::random::CounterRng;
@@ -8,7 +8,7 @@ use crossbar::tracer::octree::{Beam, Flow, GpuCells, Octree, OctreeParameters};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-/// Rays through one face of the cube: from a box, most into a cone, with zeros, equal components and tiny ones.
+/// Rays through one face of the cube: from a box, mostly into a cone, some components zero, equal or tiny.
 fn bucket(random: CounterRng, count: u64, [distance, origins, directions]: [f64; 3]) -> Vec<Ray> {
     let at = |i: u64, k: u64| 2.0 * random.unit(i, 1, k) - 1.0;
     let (axis, sign) =
@@ -50,7 +50,7 @@ proptest! {
         let cells = GpuCells::mark(&octree, 5..=15);
         let gpu = gpu.then_some(&cells);
         let rays = bucket(CounterRng::new(seed), 40, [distance, origins, directions]);
-        // Equal components make a ray look through the first of two faces.
+        // A ray with equal components passes through the first of two faces.
         for face in 0..6 {
             let looks = |ray: &&Ray| {
                 let d = ray.direction();

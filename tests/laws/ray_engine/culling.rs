@@ -14,7 +14,7 @@ use crossbar::tracer::octree::OctreeParameters;
 use proptest::prelude::*;
 use refsim::machine::ExecutorKind;
 
-/// Numbers from -1 to 1 and, more often than by chance, 0 and the ends.
+/// Numbers from -1 to 1; 0 and the ends occur more often than by chance.
 fn coordinate(random: CounterRng, i: u64, k: u64) -> f64 {
     match random.bits(i, 9, k) % 8 {
         0 => 0.0,
@@ -63,7 +63,7 @@ fn triangles(random: CounterRng, count: u64, size: f64, wild: bool) -> Mesh {
     soup(positions)
 }
 
-/// Rays from a box, most of them into a cone, some at corners and edges and from points of the triangles.
+/// Rays from a box, mostly into a cone, some at corners and edges and from points of the triangles.
 fn rays(random: CounterRng, mesh: &Mesh, size: f64, [origins, directions]: [f64; 2]) -> RayBatch {
     let (eye, at) = (add([0.0; 3], point(random, 5000), 3.0), point(random, 5001));
     let mut all = Vec::new();
@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-/// A test that culled nothing would pass the one above.
+/// The culling is effective: otherwise the test above would be vacuous.
 #[test]
 fn much_of_what_can_be_culled_is() {
     for (device, least) in [("ideal-fp32", 400), ("r300", 400), ("r200", 200)] {

@@ -29,8 +29,7 @@ fn scene() -> (Mesh, Vec<Ray>) {
     (mesh, rays)
 }
 
-/// One GPU cell, the whole scene, and one pass of as many rays as the list has: then program, rays and units are those
-/// of the crossbar.
+/// One GPU cell for the whole scene, and one pass for all rays: program, rays and units then equal the crossbar's.
 #[test]
 fn a_pass_of_the_engine_finds_what_the_crossbar_finds() {
     let (mesh, rays) = scene();

@@ -1,4 +1,4 @@
-//! However the engine schedules, the hits are the same.
+//! Hits do not depend on the engine's schedule.
 
 use crate::support::{bits, in_threads, profile};
 use crossbar::geom::exact::Sides;

@@ -1,4 +1,4 @@
-//! The ways to wait for the card: the log of each, and the consequences for the time.
+//! The methods of waiting for the card: the log of each, and its effect on the time.
 
 use std::collections::BTreeSet;
 
@@ -23,7 +23,7 @@ struct Run {
 
 fn run(mesh: &Mesh, rays: &[Ray], parameters: EngineParameters) -> Run {
     let octree = OctreeParameters { most_triangles: 4, most_depth: 6 };
-    // A small tree: buckets leave it while rays still come in.
+    // A small tree: buckets leave it while rays still enter.
     let parameters = EngineParameters { octree, rays: 32, waiting: 600, record: true, ..parameters };
     let mut engine = RayEngine::new(mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
     let hits = engine.trace(rays).expect("the card works");
@@ -48,7 +48,7 @@ fn host_work(log: &[Event]) -> HostCounts {
     out
 }
 
-/// The run on the time axis: the log has the commands, the card's figures their durations.
+/// The run in modelled time: commands from the log, their durations from the card's figures.
 fn timed(run: &Run, host: &HostModel) -> Replay {
     let model = Model::new(Level::Pipeline, &profile("nv35")).expect("a model");
     replay(&run.log, &model, &Options { host: Some(host), ..Options::of(Level::Pipeline) }).expect("a good log")
@@ -72,7 +72,7 @@ fn waiting_changes_the_time_and_never_a_hit() {
         assert!(found.counts.passes > 20, "{mode:?}: {} passes", found.counts.passes);
     }
     let [synchronous, one, four, infinite] = runs.each_ref().map(|run| timed(run, &host).timeline.makespan().0);
-    // Each entry of host work is rounded up to a picosecond, and passes cut the same work into other entries.
+    // Each entry of host work is rounded up to a picosecond, and passes divide equal work into different entries.
     let rounding = runs[2].log.len() as u64;
     assert!(four <= one + rounding && one < synchronous, "{synchronous} {one} {four}");
     assert!(infinite < four, "{four} {infinite}");

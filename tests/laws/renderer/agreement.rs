@@ -6,8 +6,8 @@ use crossbar::scene::{Scene, Surface};
 
 use super::{by_distributed_rays, by_paths, host, of, room, room_camera, settings, white};
 
-/// At most so many standard deviations between two pixels: by a normal law one of 1.7 million channels lies further
-/// off, so a right picture of 16 x 16 fails once in 2,000 seeds.
+/// Maximum number of standard deviations between two pixels: by a normal law, one of 1.7 million channels lies further
+/// off, so a correct picture of 16 x 16 fails once in 2,000 seeds.
 const PIXEL_FAR: f64 = 5.0;
 
 fn paths(scene: &Scene, settings: &Settings, direct: Direct) -> RenderedPicture {
@@ -18,13 +18,13 @@ fn of_size(size: u32, scene: &Scene, settings: &Settings, direct: Direct) -> Ren
     by_paths(scene, &room_camera(size, size), settings, direct)
 }
 
-/// Walks find the lamp seldom: it takes many samples of few pixels before a normal law holds for each.
+/// Walks rarely find the lamp: each pixel needs many samples for a normal law, so there are few pixels.
 const FEW: u32 = 4;
 /// 96 samples for each of 16 x 16 pixels.
 const MANY: u32 = 96 * 16;
 
-/// Pixel by pixel, and the mean square of all deviations, which is 1 in the mean: its spread is about (2 / n)^(1/2),
-/// wider for long tails.
+/// Compares pixel by pixel, and the mean square of all deviations, whose expectation is 1: its spread is about (2 /
+/// n)^(1/2), wider for long tails.
 fn agree(a: &RenderedPicture, b: &RenderedPicture) {
     let (mut squares, mut count, mut sum, mut spread) = (0.0, 0.0, 0.0, 0.0);
     for pixel in 0..a.color.len() {
@@ -46,7 +46,7 @@ fn agree(a: &RenderedPicture, b: &RenderedPicture) {
             spread += variance;
         }
     }
-    // Channels of a pixel go together: a third of the channels is independent.
+    // Channels of a pixel are correlated: a third of the channels is independent.
     let wide = 5.0 * (2.0 / (count / 3.0_f64)).sqrt();
     assert!(count > 0.0, "something was left to chance");
     assert!((squares / count - 1.0).abs() < wide, "mean square {} of {count}", squares / count);
@@ -64,7 +64,7 @@ fn three_ways_to_the_lamp() {
 
 #[test]
 fn roulette_does_not_show() {
-    // Paths of up to 3 hits meet no roulette; those of 12 do.
+    // Paths of up to 3 hits use no roulette; paths of 12 do.
     let gloss = of(Surface::Glossy { albedo: [0.3; 3], specular: [0.6, 0.5, 0.4], exponent: 20.0 });
     let scene = room(1.6, &gloss);
     let settings = |seed| Settings { samples: MANY, depth: 12, seed, ..settings() };
@@ -80,7 +80,7 @@ fn distributed_rays_are_paths_with_one_diffuse_hit() {
     let once = |seed| Settings { samples: 64, depth: 1, seed, ..settings() };
     let camera = room_camera(16, 16);
     agree(&by_distributed_rays(&scene, &camera, &once(6)), &paths(&scene, &once(7), Direct::Both));
-    // A mirror between: one hit more for both, and no light between diffuse surfaces that only the walk would find.
+    // A mirror in between: one hit more for both, and no light path between diffuse surfaces that only the walk finds.
     let mirror = room(1.0, &of(Surface::Mirror { reflectance: [0.9; 3] }));
     assert!(by_distributed_rays(&mirror, &camera, &once(8)).counts.of(RayKind::Reflection) > 0);
 }
@@ -89,7 +89,7 @@ fn distributed_rays_are_paths_with_one_diffuse_hit() {
 fn a_lens_is_sharp_at_its_focus() {
     use crossbar::renderer::{Lens, eye};
     use crossbar::scene::Camera;
-    // A wall of two shades seen head on; with the wall at the focus the edge stays where it is, elsewhere it blurs.
+    // A wall of two shades seen head on: with the wall in focus the edge stays sharp, otherwise it blurs.
     let mut builder = super::Builder::default();
     builder.quad([-4.0, -4.0, 0.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0], white(0.25));
     builder.quad([0.0, -4.0, 0.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0], white(1.0));
@@ -99,7 +99,7 @@ fn a_lens_is_sharp_at_its_focus() {
         let lens = Some(Lens { radius: 0.5, focus });
         let settings = Settings { samples: 64, lens, ..settings() };
         let picture = eye::render(&scene, &camera, &settings, &mut host(&scene), &mut |_| {}).expect("a picture");
-        // Pixels that show neither shade alone.
+        // Pixels that mix both shades.
         picture.variance.iter().filter(|variance| variance[0] > 1e-4).count()
     };
     assert_eq!(shades(5.0), 0);

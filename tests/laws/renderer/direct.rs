@@ -1,4 +1,4 @@
-//! Light straight from a square, against Lambert's closed form of 1760.
+//! Direct light from a square, against Lambert's closed form of 1760.
 
 use std::f64::consts::PI;
 
@@ -11,8 +11,8 @@ use glam::DVec3;
 
 use super::{Builder, by_distributed_rays, by_paths, lamp, needle, settings, white, within_chance};
 
-/// The form factor from a small area at the origin, that looks along z, to a polygon above it: each side adds the angle
-/// at which it is seen times the cosine between z and the normal of the plane through it and the origin.
+/// Form factor from a small area at the origin, facing along z, to a polygon above it: each side adds the angle that it
+/// subtends times the cosine between z and the normal of the plane through the side and the origin.
 fn lambert(corners: &[DVec3]) -> f64 {
     let side = |i: usize| {
         let (a, b) = (corners[i].normalize(), corners[(i + 1) % corners.len()].normalize());
@@ -21,14 +21,14 @@ fn lambert(corners: &[DVec3]) -> f64 {
     ((0..corners.len()).map(side).sum::<f64>() / (2.0 * PI)).abs()
 }
 
-/// The form factor to a rectangle parallel to the area with a corner straight above it, sides a and b in multiples of
+/// Form factor to a rectangle parallel to the area with a corner straight above it; a and b are the sides relative to
 /// its height.
 fn parallel_corner(a: f64, b: f64) -> f64 {
     let (x, y) = ((1.0 + a * a).sqrt(), (1.0 + b * b).sqrt());
     (a / x * libm::atan(b / x) + b / y * libm::atan(a / y)) / (2.0 * PI)
 }
 
-/// A floor, and a lamp from a corner along two sides.
+/// A floor, and a lamp spanned by two sides from a corner.
 fn lit(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (Scene, f64) {
     let mut builder = Builder::default();
     builder.quad([-3.0, -3.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], white(0.75));

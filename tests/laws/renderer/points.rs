@@ -1,4 +1,4 @@
-//! Point lights and glossy surfaces: every renderer that shows one has the closed form of Phong's lobe.
+//! Point lights and glossy surfaces: every renderer that supports both agrees with the closed form of Phong's lobe.
 
 use std::f64::consts::PI;
 
@@ -62,14 +62,14 @@ fn every_renderer_shows_the_highlight_of_a_point_light() {
         for picture in pictures {
             near(picture.color[0], expected, 1e-5);
         }
-        // The map shows the diffuse part roughly, the highlight is still exact.
+        // The map shows the diffuse part approximately; the highlight is still exact.
         let photons = Photons { global: 200_000, nearest: 500, ..photons(0) };
         let picture = by_photons(&scene, &camera, &settings(), &photons);
         near(picture.color[0], expected, 1e-5 + 0.2 * f64::from(albedo) * expected[0]);
     }
 }
 
-/// On one flat floor photons add nothing to distributed rays: the pictures are the same.
+/// On a single flat floor photons add nothing to distributed rays: the pictures are equal.
 #[test]
 fn photons_and_distributed_rays_agree_on_gloss_under_a_point_light() {
     let camera = Camera::new(EYE, [0.0; 3], [0.0, 0.0, 1.0], 0.6, 12, 12).expect("a camera");
@@ -85,8 +85,8 @@ fn photons_and_distributed_rays_agree_on_gloss_under_a_point_light() {
     }
 }
 
-/// A mirror shows the floor a second light, at the point's mirror image. No ray of a lobe hits a point:
-/// photons find it.
+/// A mirror adds a second light for the floor, at the light's mirror image. No ray of a lobe hits a point, but photons
+/// find it.
 #[test]
 fn a_mirror_casts_a_point_light_on_gloss() {
     let image = DVec3::new(2.5, 0.25, 2.0);
@@ -98,7 +98,7 @@ fn a_mirror_casts_a_point_light_on_gloss() {
     let photons = Photons { caustic: 1_000_000, nearest: 2000, radius: 0.2, ..photons(4) };
     let found = by_photons(&scene, &needle(EYE, [0.0; 3]), &settings(), &photons).color[0];
     for channel in 0..3 {
-        // About 600 photons, a standard deviation of 4 %; the lobe over the disk of the estimate is bent a little.
+        // About 600 photons, a standard deviation of 4 %; the lobe changes a little over the disk of the estimate.
         let share = (found[channel] - direct[channel]) / mirrored[channel];
         assert!((share - 1.0).abs() < 0.2, "{found:?}, expected {mirrored:?} beside {direct:?}");
     }

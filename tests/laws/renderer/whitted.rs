@@ -32,12 +32,12 @@ fn a_mirror_shows_the_image_of_a_point() {
         [0.0, 20.0, 0.0],
         of(Surface::Mirror { reflectance: [0.9, 0.8, 0.7] }),
     );
-    // A lamp of side 0.02 about (2, 1, 3) that looks down; its image is about (2, 1, -3).
+    // A lamp of side 0.02 about (2, 1, 3) that faces down; its image is about (2, 1, -3).
     builder.quad([1.99, 0.99, 3.0], [0.0, 0.02, 0.0], [0.02, 0.0, 0.0], lamp([2.0, 2.0, 2.0]));
     let scene = builder.scene();
     let eye = [-1.0, -2.0, 4.0];
     near(one(&scene, eye, [2.0, 1.0, -3.0]), [1.8, 1.6, 1.4], 1e-6);
-    // Within the image, and just beside it.
+    // Inside the image, and just outside.
     for (at, seen) in [([1.992, 1.008, -3.0], true), ([1.98, 1.0, -3.0], false), ([2.0, 1.02, -3.0], false)] {
         let found = one(&scene, eye, at);
         assert_eq!(found[0] > 0.0, seen, "{at:?}: {found:?}");
@@ -58,12 +58,12 @@ fn a_slab_of_glass_moves_the_ray_and_keeps_its_direction() {
     let (s, p) = fresnel(0.5_f64.sqrt(), 1.5);
     let passes = 1.0 - (s + p) / 2.0;
     near(one(&scene, [-1.0, 0.0, 1.0], [0.0; 3]), [passes * passes; 3], 1e-9);
-    // The lamp seen where it would be without glass, and past the other side of the image.
+    // The lamp's position without glass, and beyond the other side of the image.
     near(one(&scene, [-1.1, 0.0, 1.0], [-0.1, 0.0, 0.0]), [0.0; 3], 0.0);
     near(one(&scene, [-0.9, 0.0, 1.0], [0.1, 0.0, 0.0]), [0.0; 3], 0.0);
 }
 
-/// Both polarisations, written as sines and tangents of the angles' sum and difference would be, by the cosines.
+/// Both polarisations, in cosines instead of sines and tangents of the angles' sum and difference.
 fn fresnel(cosine: f64, index: f64) -> (f64, f64) {
     let other = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
     let s = (cosine - index * other) / (cosine + index * other);

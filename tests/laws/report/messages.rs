@@ -33,7 +33,7 @@ fn rendered(source: &dyn SourceCode, spans: &[Range<usize>]) -> String {
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::none()).with_width(100);
     handler.render_report(&mut text, &Message(excerpt, labels)).expect("a message");
-    // 80 characters of the text and two marks of a cut, after line numbers of at most 8 digits.
+    // 80 characters of the text and two truncation marks, after line numbers of at most 8 digits.
     assert!(text.lines().all(|line| line.chars().count() <= 80 + 6 + 8 + 10), "{text}");
     text
 }
@@ -70,7 +70,7 @@ fn labels_at_the_edges_of_a_text() {
     }
 }
 
-/// Bytes with many line ends, tabs, control and broken characters, and stretches longer than a line may be.
+/// Bytes with many line ends, tabs, control characters, invalid UTF-8, and overlong lines.
 fn bytes() -> impl Strategy<Value = Vec<u8>> {
     let piece = prop_oneof![
         4 => prop::collection::vec(any::<u8>(), 0..30),

@@ -116,7 +116,7 @@ fn a_page_is_balanced_and_stands_alone() {
     assert!(page.starts_with("<!DOCTYPE html><html lang=\"en\">"));
     assert!(page.contains("T &amp; U") && page.contains("&lt;script&gt;") && !page.contains("an empty table"));
     assert!(page.contains("crossbar leaky-teapot --size 8x8"), "the command is told");
-    // Nothing is fetched: the one address is the name of SVG, and the one script is in the page.
+    // The page fetches nothing: the only address is SVG's name space, and the only script is in the page.
     assert!(!page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "").contains("http") && !page.contains("url("));
     assert!(!tags.iter().any(|tag| tag.starts_with("script ") || tag.starts_with("link") || tag.contains(" on")));
     for image in tags.iter().filter(|tag| tag.starts_with("img")) {
@@ -126,7 +126,7 @@ fn a_page_is_balanced_and_stands_alone() {
     for cell in tags.iter().filter(|tag| tag.starts_with("th ") || *tag == "th") {
         assert!(cell.contains("scope=\"col\"") || cell.contains("scope=\"row\""), "{cell}");
     }
-    // Each link leads to one place of the page.
+    // Each link leads to one element of the page.
     let ids: Vec<&str> = tags.iter().filter_map(|tag| tag.split(" id=\"").nth(1)?.split('"').next()).collect();
     for link in tags.iter().filter_map(|tag| tag.split(" href=\"").nth(1)?.split('"').next()) {
         let id = link.strip_prefix('#').expect("links stay on the page");
@@ -171,7 +171,7 @@ fn shown(page: &str, alt: &str) -> RgbImage {
     picture
 }
 
-/// A leaky teapot: the page has every pixel of the map and of the shaded picture, and its finding counts them.
+/// A leaky teapot: the page has every pixel of the map and of the shaded picture, and its conclusion counts the leaks.
 #[test]
 fn every_wrong_pixel_is_shown() {
     let (width, height) = (800, 160);

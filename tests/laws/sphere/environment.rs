@@ -1,4 +1,4 @@
-//! Light from pictures: orientation, exactness, files, refusals, threads.
+//! Light from pictures: orientation, accuracy, files, refusals, threads.
 
 use std::f64::consts::PI;
 
@@ -43,7 +43,7 @@ fn a_bright_texel_shines_from_its_axis() {
     }
 }
 
-/// Orientation of pictures around the axes: a texel right of and above the middle of each side of the view.
+/// Orientation of pictures around the axes: a bright texel right of and above the middle of each side of the view.
 #[test]
 fn pictures_are_not_mirrored() {
     for (layout, [width, height], [_, _, [column, row], ..]) in LABELLED {
@@ -52,7 +52,7 @@ fn pictures_are_not_mirrored() {
         let at = Extremes::of(&light(10, &Picture::rgb(width, height, &pixels)).channels()[0]).largest_at;
         assert!(at.x > 0.1 && at.y > 0.5 && at.z > 0.1, "{layout}: right and up of the middle is at {at}");
     }
-    // The back of both crosses is the same place seen from inside: left in the wide one is right in the tall one.
+    // The backs of both crosses show one place from inside: left in the wide cross is right in the tall one.
     let back = |[width, height]: [u32; 2], [column, row]: [u32; 2]| {
         let mut pixels = vec![[0.0; 3]; (width * height) as usize];
         pixels[(row * width + column) as usize] = [1.0; 3];
@@ -80,7 +80,7 @@ fn a_constant_picture_is_a_constant() {
     }
 }
 
-/// A light of order 3 that is sampled at pixels' centers, found again.
+/// A light of order 3, painted at pixels' centers, is recovered.
 #[test]
 fn a_lat_long_picture_gives_back_the_light_that_it_was_painted_with() {
     let expected = [2.0, 0.3, -0.4, 0.5, 0.1, 0.2, -0.3, 0.2, 0.1];

@@ -29,7 +29,7 @@ fn the_gram_matrix_is_that_of_a_rule_over_the_hemisphere() {
     }
 }
 
-/// Rounding of the product alone is the condition number times 2^-53; the inverse's own error is that of its root.
+/// The product's rounding alone is the condition number times 2^-53; the inverse's error is that of the root.
 #[test]
 fn the_inverse_is_one() {
     for order in 1..=MAX_ORDER {

@@ -40,7 +40,7 @@ proptest! {
     fn a_turned_disk_is_the_disk_elsewhere(center in direction(), other in direction(), radius in 0.1..2.0f64) {
         let axis = center.cross(other);
         prop_assume!(axis.length() > 0.05);
-        // The half turn around the middle of both takes one to the other.
+        // The half turn around the middle of both maps one to the other.
         let middle = (center + other).normalize();
         prop_assume!(middle.is_finite());
         let half_turn = DMat3::from_cols(

@@ -1,4 +1,4 @@
-//! Squares of texels that gather together against texels that gather alone.
+//! Squares of texels that gather together, compared with texels that gather alone.
 
 use crate::environment::by_form;
 use crossbar::geom::Mesh;

@@ -9,11 +9,11 @@
 //! with s. Along a direction u its second and third derivatives are
 //! `2 g' + 4 g'' (r.u)^2` and `12 g'' (r.u) + 8 g''' (r.u)^3`: of terms of opposite signs the larger bounds the sum.
 //!
-//! - A far pair counts with R_d between mean points. First-order terms cancel in the mean, and what is left is at most
-//!   half the largest second derivative times `p^2 + q^2`.
-//! - A near pair is summed by positive weights that are exact to second order in both points, so that both sum and
-//!   integral keep the second-order polynomial, and the error of each is at most a sixth of the largest third
-//!   derivative times `(p + q)^3`.
+//! - A far pair counts with R_d between mean points. First-order terms cancel in the mean, and the rest is at most half
+//!   the largest second derivative times `p^2 + q^2`.
+//! - A near pair is summed by positive weights that are exact to second order in both points, so sum and integral agree
+//!   on the second-order polynomial, and the error of each is at most a sixth of the largest third derivative times `(p
+//!   + q)^3`.
 
 use crossbar::atlas::Atlas;
 use crossbar::subsurface::links::{IrradianceMeans, LinkChoice, Links, MeanWeighting};
@@ -63,7 +63,7 @@ fn reference_error(dipole: &Dipole, from: (DVec3, f64, f64), to: (DVec3, f64, f6
     let [second, third] = derivatives(dipole, [(distance - reach).max(0.0), distance + reach]);
     let far = 0.5 * second * (from.2 * from.2 + to.2 * to.2);
     let near = 2.0 / 6.0 * third * reach * reach * reach;
-    // The choice of the reference between the two may depend on rounding.
+    // Rounding may decide which of the two the reference chooses.
     let error = if (distance / (NEAR * reach) - 1.0).abs() < 1e-9 {
         far.max(near)
     } else if distance < NEAR * reach {
@@ -115,7 +115,7 @@ fn links_to_every_texel_are_equation_9_within_the_derived_bound() {
     assert!(nearest > 1e-4, "the bound is {} times the largest difference", 1.0 / nearest);
 }
 
-/// The derivatives in the bound are those of R_d: against differences of it along a line.
+/// The derivatives in the bound are R_d's: compared with differences of R_d along a line.
 #[test]
 fn the_bound_s_derivatives_are_those_of_r_d() {
     for dipole in [figure_7(), medium(1.0, 0.3), medium(3.0, 0.0)] {

@@ -196,14 +196,14 @@ fn the_reference_and_the_factors_agree_texel_by_texel() {
             for j in 0..256_usize {
                 let cluster = ClusterId { level: 0, y: (j / 16) as u32, x: (j % 16) as u32 };
                 let [found] = receiver.factor([i as u32 % 16, i as u32 / 16], cluster);
-                // Far pairs of the reference are points: 0.75 (side / distance)^2 at most, with distances of 5 radii.
+                // The reference's far pairs are points: an error of 0.75 (side / distance)^2 at most, from 5 radii on.
                 assert_relative_eq!(found, reference.factor(i, j), max_relative = 0.02);
             }
         }
     }
 }
 
-/// B = G(2R) on a sphere of any radius; the polyhedron comes nearer as its faces become smaller. The short form has the
+/// B = G(2R) on a sphere of any radius; the polyhedron's error falls with the size of its faces. The short form has the
 /// smallest and the largest radius.
 #[test]
 fn a_sphere_under_uniform_light_has_its_closed_form() {
@@ -229,7 +229,7 @@ fn a_sphere_under_uniform_light_has_its_closed_form() {
     }
 }
 
-/// Row sums of a model and of the same surface in four times as many faces, at points that both have texels near.
+/// Row sums of a model, and of the same surface with four times as many faces, at points near a texel of both.
 #[test]
 fn the_result_does_not_depend_on_the_tessellation() {
     let mesh = sphere(3, 0.2);
@@ -251,7 +251,7 @@ fn the_result_does_not_depend_on_the_tessellation() {
     assert_relative_eq!(means[0], means[1], max_relative = 2e-3);
 }
 
-/// Where texels are far larger than the mean free path, the factor of all is that of the plane, and nothing breaks.
+/// If texels are far larger than the mean free path, the sum of factors is the plane's total.
 #[test]
 fn dense_media_return_the_planes_total() {
     let surface = surface(&atlas(&sphere(2, 0.0), 8), 1000.0);
@@ -261,7 +261,7 @@ fn dense_media_return_the_planes_total() {
             assert_relative_eq!(factors.factor(texel, root(&surface))[0], dipole.total(), max_relative = 0.02);
         }
     }
-    // The other end: bodies far smaller than the mean free path return almost no light.
+    // The other extreme: bodies far smaller than the mean free path return almost no light.
     let thin = medium(1e-30, 0.0);
     let factors = Factors::new(&surface, [thin], 0.01).expect("a tolerance");
     let [factor] = factors.factor([3, 3], root(&surface));

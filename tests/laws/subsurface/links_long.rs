@@ -1,5 +1,5 @@
-//! Factors and links of texels that are long against the mean free path, against integrals of equation 10 that have no
-//! pieces.
+//! Factors and links of texels that are long relative to the mean free path, compared with integrals of equation 10
+//! without subdivision.
 
 use crate::environment::by_form;
 use crate::support::{cuboid, plate};

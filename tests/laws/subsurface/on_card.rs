@@ -94,7 +94,7 @@ fn irradiance(lights: &[Light], point: DVec3, normal: DVec3) -> [f64; 3] {
     sum
 }
 
-/// The map of a card, as irradiances: less area factors and scale.
+/// The map of a card as irradiances, without area factors and scale.
 fn irradiances(card: &SubsurfaceCard, atlas: &Atlas) -> Vec<[f64; 3]> {
     let map = card.read_levels().expect("levels").swap_remove(0);
     let texel = |(texel, part): (&[f32; 4], &crossbar::atlas::Texel)| {
@@ -115,7 +115,7 @@ fn difference(found: &[[f64; 3]], wanted: &[[f64; 3]]) -> f64 {
     largest(&differences) / largest(wanted)
 }
 
-/// For some 30 roundings to fp32 per light.
+/// Error bound for some 30 roundings to fp32 per light.
 const ROUNDINGS: f64 = 64.0 / (1 << 24) as f64;
 
 fn options(light: LightStage) -> SubsurfaceCardOptions {
@@ -147,9 +147,9 @@ fn irradiance_by_texel_is_equation_8() {
     }
 }
 
-/// Parallel light is the same all over a flat face. From a point at distance D it bends by some (h / D)^2 over a face
-/// of extent h: the second derivative of c T(c) / d^2 is below 12 / D^2, and a linear interpolation misses at most an
-/// eighth of it along each of two directions.
+/// Parallel light is constant over a flat face. Light from a point at distance D varies by some (h / D)^2 over a face
+/// of extent h: the second derivative of c T(c) / d^2 is below 12 / D^2, and linear interpolation has an error of at
+/// most an eighth of it along each of two directions.
 #[test]
 fn by_vertex_is_by_texel_on_flat_faces() {
     let atlas = atlas(2.0);
@@ -208,7 +208,7 @@ fn the_card_gathers_as_the_host_does() {
                 .iter()
                 .map(|texel| [0, 1, 2].map(|channel| f64::from(texel[channel])))
                 .collect();
-            // Each of four levels rounds, and so does the gather's every link in fp32.
+            // Each of four levels rounds, and so does every link of the gather in fp32.
             let bound = match map {
                 MapFormat::Fp32 => ROUNDINGS,
                 MapFormat::Fp16 => 4.0 / 2048.0 + ROUNDINGS,
@@ -237,7 +237,7 @@ fn what_does_not_fit_8_bits_is_cut_off_and_counted() {
     assert!(scattered.texels.iter().all(|texel| texel[0] == 0.0 || texel[0] == 0.25), "1 of the map is 1/4");
 }
 
-/// Nothing depends on the unit of length: the same bits of a model 2^60 or 2^-60 times as large, its lights with it.
+/// Results do not depend on the unit of length: identical bits for a model and its lights scaled by 2^60 or 2^-60.
 #[test]
 fn the_unit_of_length_does_not_matter() {
     let maps = |size: f64| {

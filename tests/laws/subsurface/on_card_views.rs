@@ -31,7 +31,7 @@ fn options() -> SubsurfaceCardOptions {
     SubsurfaceCardOptions { light: LightStage::Texels, ..SubsurfaceCardOptions::default() }
 }
 
-/// Each face has a color of its own: every pixel has exactly one of these colors, in every view.
+/// Each face has a separate color: every pixel has exactly one of these colors, in every view.
 #[test]
 fn no_face_reads_another() {
     let colors: Vec<[f64; 3]> = (0..12).map(|face| [1.0 + f64::from(face), 0.7 * f64::from(face), 0.3]).collect();

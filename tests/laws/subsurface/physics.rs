@@ -188,7 +188,7 @@ fn many_paths_thick_light_leaves_where_it_entered() {
         Dipole::new(c, 1.3).unwrap()
     };
     assert_relative_eq!(far(1e6).disc(0.01), far(1.0).total(), max_relative = 1e-12);
-    // Coefficients and lengths scale as one.
+    // Coefficients and lengths scale inversely.
     assert_relative_eq!(far(1e6).r_d(3e-6), 1e12 * far(1.0).r_d(3.0), max_relative = 1e-12);
     let flux = integral(0.0, 2.0, |r| 2.0 * PI * r * far(0.5).r_d(r));
     assert_relative_eq!(flux, far(1.0).disc(1.0), max_relative = 1e-9);

@@ -14,7 +14,7 @@ fn dipole(sigma_s_prime: f64, sigma_a: f64) -> Dipole {
     Dipole::new(Coefficients { sigma_s_prime, sigma_a }, 1.3).unwrap()
 }
 
-/// The factor to a triangle by sums over `cells` squared small ones with their middles.
+/// The factor to a triangle by the midpoint rule over `cells` squared small triangles.
 fn brute_force(dipole: &Dipole, point: DVec3, [a, b, c]: [DVec3; 3], cells: u32) -> f64 {
     let step = 1.0 / f64::from(cells);
     let (u, v) = (step * (b - a), step * (c - a));
@@ -41,7 +41,7 @@ fn contours_are_sums_of_small_triangles() {
         for point in [inside, inside + 0.7 * normal, triangle[0], triangle[1] - 3.0 * normal, DVec3::new(5.0, 5.0, 5.0)]
         {
             let [coarse, fine] = [200, 400].map(|cells| brute_force(&dipole, point, triangle, cells));
-            // The error of middles falls with the square of the step.
+            // The error of the midpoint rule falls with the square of the step.
             let extrapolated = fine + (fine - coarse) / 3.0;
             let exact = point_to_polygon(&dipole, point, &triangle);
             assert_relative_eq!(exact, extrapolated, max_relative = 2e-7);

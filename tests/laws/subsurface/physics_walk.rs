@@ -1,5 +1,5 @@
-//! Photons followed through a medium, against exact facts: counts balance, mean paths depend on volume and surface
-//! alone, half spaces have the albedo of Chandrasekhar's H function.
+//! Photons traced through a medium, compared with exact facts: counts balance, mean paths depend only on volume and
+//! surface, half spaces have the albedo of Chandrasekhar's H function.
 
 use crate::environment::by_form;
 use approx::assert_relative_eq;
@@ -67,7 +67,7 @@ fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
 }
 
 /// The dipole against the walk in a half space, as docs/papers/subsurface.md prints both: bounds of rings in mean free
-/// paths, light that leaves in them after a million photons of another seed, and the dipole's share.
+/// paths, the light that leaves in each ring after a million photons of another seed, and the dipole's share.
 #[test]
 fn the_dipole_is_as_far_off_as_the_page_says() {
     let walk = PhotonWalk { seed: 7, ..medium(2.21, 0.0012, 1.3, 20_000) };

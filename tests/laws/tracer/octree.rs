@@ -47,7 +47,7 @@ const WHOLE: OctreeParameters = OctreeParameters { most_triangles: usize::MAX, m
 proptest! {
     #![proptest_config(ProptestConfig { cases: if cfg!(debug_assertions) { 4_000 } else { 40_000 }, ..ProptestConfig::default() })]
 
-    /// One octree a case for both: making it is what takes the time.
+    /// One octree per case for both checks, since building it takes most of the time.
     #[test]
     fn every_hit_is_found_and_gpu_cells_hold_what_their_leaves_hold(
         mesh in mesh(),
@@ -71,8 +71,8 @@ proptest! {
             let (expected, all) = whole.nearest(&ray);
             prop_assert!(all.tests <= mesh.len() as u64);
             if found != expected {
-                // Rounding can make a hit of a triangle that the ray misses, and then no cell on the ray's way need
-                // hold it.
+                // Rounding can create a hit of a triangle that the ray misses; then no cell along the ray needs to hold
+                // the triangle.
                 let false_hit = expected.expect("what is found in cells is found among all").triangle;
                 let corners = mesh.corners(false_hit).expect("a triangle");
                 prop_assert!(exact::intersect(&ray, &corners, sides).is_none(), "lost {:?}, found {:?}", expected, found);
@@ -82,8 +82,8 @@ proptest! {
             for end in [end, reach * end, before, before.next_up(), before * 2.0, f32::INFINITY, 0.0, -1.0, f32::NAN] {
                 let (occluded, cost) = fine.occluded_before(&ray, end);
                 if occluded != found.is_some_and(|hit| hit.t < end) {
-                    // Rounding can bring the t of a hit in front of the cells that hold the triangle, which a search
-                    // that ends at `end` does not reach. Then nothing is there in exact arithmetic either.
+                    // Rounding can move a hit's t in front of the cells that hold the triangle, where a search that
+                    // ends at `end` does not reach. Then there is no hit in exact arithmetic either.
                     let hit = found.expect("only a hit can be lost");
                     let corners = mesh.corners(hit.triangle).expect("a triangle");
                     let exact = exact::intersect(&ray, &corners, sides).map(|t| t.to_f64());
@@ -92,7 +92,7 @@ proptest! {
                 prop_assert!(cost.tests <= counts.tests);
             }
         }
-        // The answer to a ray does not depend on those before it, whose blockers it is tried with.
+        // A ray's result does not depend on earlier rays, whose blockers are tried first.
         let bundle: Vec<Ray> = cast.iter().chain(cast.iter().rev()).copied().collect();
         for end in [end, reach * end, f32::INFINITY] {
             let each: Vec<bool> = bundle.iter().map(|ray| fine.occluded_before(ray, end).0).collect();

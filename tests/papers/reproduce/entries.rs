@@ -6,7 +6,7 @@ use crossbar::study::reproduce::{Bound, Method, PaperRow, RowVerdict, printed};
 
 use super::{FOUND, findings, row};
 
-/// Section 6.1, by the paper's own equation: to the digits, in the table; rows of drawn figures have the pipeline's.
+/// Section 6.1: the table has the paper's equation, to the digit; rows of drawn figures have the pipeline's values.
 #[test]
 fn the_equation_gives_every_printed_digit() {
     let found = findings("ray-engine-equation-11");
@@ -37,7 +37,7 @@ fn what_the_paper_leaves_open_is_swept() {
     assert_eq!(columns("ray-engine-table-4", 1), 2, "rays and visits");
     assert_eq!(columns("ray-engine-table-3", 1), 8, "leaves");
     assert_eq!(columns("ray-engine-table-5", 1), 4, "factors");
-    // Twice the costs bring 64 rays home, and lose asynchronous read-back: no explanation.
+    // Doubled costs explain 64 rays, but move asynchronous read-back out of its bound: no explanation.
     let small = row("ray-engine/plus-card");
     assert_eq!((small.verdict(), small.explanation()), (RowVerdict::Missed, None));
 }
@@ -51,7 +51,7 @@ fn the_number_of_patches_is_swept() {
     let both = sizes.rows().iter().filter(|row| [jacobi, seidel].iter().all(|i| row[*i].text() == "yes"));
     let both: Vec<String> = both.map(|row| row[0].text()).collect();
     assert_eq!(both, ["1,540", "1,541", "1,542", "1,543"]);
-    // Roots of 189.5 and 190.5 million over 2 x 40: 1,539.1 to 1,543.1. The card's rate chooses nothing beside them.
+    // Square roots of 189.5 and 190.5 million over 2 x 40: 1,539.1 to 1,543.1. The card's rate excludes none of them.
     let by_host = sizes.rows().iter().filter(|row| row[seidel].text() == "yes");
     assert_eq!(by_host.map(|row| row[0].text()).collect::<Vec<_>>(), both);
     assert!(sizes.rows().len() > both.len(), "and others that do not");
@@ -72,7 +72,7 @@ fn the_card_is_linear_and_the_host_is_not() {
     let [rgb, luminance, host] = &findings("radiosity-figure-4").charts[0].chart.lines[..] else {
         panic!("three lines")
     };
-    // Milliseconds an element, but for the origin.
+    // Milliseconds per element, except at the origin.
     let slopes = |line: &Series| -> Vec<f64> { line.points[1..].iter().map(|(n, ms)| ms / n).collect() };
     for line in [rgb, luminance] {
         let all = slopes(line);
@@ -88,7 +88,7 @@ fn the_card_is_linear_and_the_host_is_not() {
     assert!(all.windows(2).all(|two| two[1] >= two[0]) && all[6] > 5.0 * all[0], "{all:?}");
 }
 
-/// Where models and BRDFs are lost, only an order is judged; the appendix is judged to its printed digits.
+/// Models and BRDFs are lost, so only an order is judged; the appendix is judged to its printed digits.
 #[test]
 fn lost_models_are_judged_by_order() {
     for id in ["cpca-figure-6", "cpca-figure-10", "cpca-figure-11", "cpca-table-1", "cpca-coherence"] {
@@ -103,7 +103,7 @@ fn lost_models_are_judged_by_order() {
     assert_eq!(appendix.len(), 17);
 }
 
-/// Reflectance factors: the textbooks' forms judge the rows, and every other form is in a table beside them.
+/// Reflectance factors: the textbooks' forms judge the rows; a table shows all other forms.
 #[test]
 fn reflectance_factors_have_the_printed_rows() {
     let found = findings("all-frequency-factors");
@@ -172,7 +172,7 @@ fn a_ground_takes_light_away() {
     }
 }
 
-/// Figures 2, 5 and 6: more terms, more representatives and more light coefficients are nearer.
+/// Figures 2, 5 and 6: errors fall with more terms, more representatives and more light coefficients.
 #[test]
 fn errors_fall_with_what_is_kept() {
     let found = findings("all-frequency-figures");
@@ -223,7 +223,7 @@ fn factored_sizes_follow_from_printed_ones() {
     assert!(least == 6.0 && near(mean, 6.70, 0.03), "{least}, {mean}");
 }
 
-/// The paper's host has its printed rate again, and is no slower per element while the matrix fits its cache.
+/// The paper's host reproduces its printed rate, and is no slower per element while the matrix fits its cache.
 #[test]
 fn the_host_of_radiosity_has_its_printed_rate() {
     let rate = row("radiosity/gauss-seidel-rate");

@@ -1,4 +1,4 @@
-//! The papers' figures beside ours, all worked out once.
+//! The papers' figures beside ours, computed once.
 
 mod book;
 mod entries;
@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 
 use crossbar::study::reproduce::{ENTRIES, EntryFindings, PaperRow, Reproduced, reproduce};
 
-/// Worked out once.
+/// All findings, computed once.
 static FOUND: LazyLock<Reproduced> =
     LazyLock::new(|| reproduce(ENTRIES, false, &mut |_, _, _| ()).expect("the entries can be worked out"));
 

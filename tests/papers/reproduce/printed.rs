@@ -28,7 +28,7 @@ fn print_is_set_against_print() {
     assert!(armor.expect("a computation").text().starts_with("254.80 MB: "));
 }
 
-/// "About 8 of 24" segments are below the horizon only by the rounding of the print; so are two rates that six chose.
+/// "About 8 of 24" segments hold only within the rounding of the print; so do two rates that determined six.
 #[test]
 fn about_8_segments_need_the_rounding() {
     let rounded = findings("all-frequency-counts").rows.iter().filter(|row| row.holds_by_rounding());
@@ -37,7 +37,7 @@ fn about_8_segments_need_the_rounding() {
     assert_eq!(rounded, ["all-frequency/below-mean", bunny, teapot]);
 }
 
-/// The emulator and the systems know no study, and have the rates of hosts themselves: they are those of the data.
+/// The emulator and the systems cannot use studies, and store rates of hosts themselves: these equal the data's.
 #[test]
 fn hosts_have_the_rates_of_the_data() {
     let value = |id: &str| printed(id).expect("a figure").value;

@@ -1,8 +1,8 @@
 //! Records of runs at full size belong to the entries that the program has.
 //!
-//! A run on reduced models proves that an entry ends and has the rows and tables of its record. The full form makes the
-//! runs of all recorded entries, and that at full size which took least; the short form makes one on reduced models by
-//! turns, that of number `CROSSBAR_TURN`, by default of the day.
+//! A run on reduced models proves that an entry ends and has the rows and tables of its record. The full form runs all
+//! recorded entries, and the fastest of them at full size; the short form runs one on reduced models, entry number
+//! `CROSSBAR_TURN`, by default chosen by the day.
 
 use std::env;
 use std::io::Write as _;
@@ -28,7 +28,7 @@ fn in_this_form() -> Vec<&'static ReproduceEntry> {
     let today = || SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).expect("a clock").as_secs() / 86_400;
     let turn = env::var("CROSSBAR_TURN").map_or_else(|_| today(), |turn| turn.parse().expect("a number of a turn"));
     let chosen = records[turn as usize % records.len()];
-    // Past the capture of tests that pass.
+    // Writes directly, since the test harness captures the output of passing tests.
     _ = writeln!(std::io::stderr(), "of the recorded entries, {} is run: CROSSBAR_TURN={turn}", chosen.id);
     vec![chosen]
 }

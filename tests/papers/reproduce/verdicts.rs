@@ -1,4 +1,4 @@
-//! Ground of a row's verdict: its source, its bound, its class, its explanation.
+//! Reasons of a row's verdict: its source, its bound, its class, its explanation.
 
 use crossbar::study::reproduce::report::{evidence_line, notes};
 use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, RowSource, RowVerdict, figures, timed};
@@ -17,8 +17,8 @@ fn every_judged_figure_has_one_row() {
     assert_eq!(rows, judged);
 }
 
-/// A contradiction is computed from printed values, and is in the notes. A contradictory row of ours lies within the
-/// bound of the printed value or of the one that contradicts it, by every reading; any other row outside its bound is
+/// A contradiction is computed from printed values, and is in the notes. In a contradictory row, our value lies within
+/// the bound of the printed value or of the contradicting one, by every reading; any other row outside its bound is
 /// missed, with a class.
 #[test]
 fn contradictions_come_with_their_computations() {
@@ -40,7 +40,7 @@ fn contradictions_come_with_their_computations() {
         assert!(text.contains(|c: char| c.is_ascii_digit()), "{text}");
         assert!(notes.rows().iter().any(|note| note[1].text() == "contradictory" && note[2].text() == text), "{text}");
     }
-    // Fifteen times of passes with waits inside, one claim of a factor; of eight pairs of values ours agrees with four.
+    // Fifteen times of passes include waits, one claim is a factor; ours agrees with four of eight pairs of values.
     assert_eq!(counts, [[15, 4], [1, 4]]);
 }
 
@@ -51,9 +51,9 @@ fn rates_have_the_bound_of_predictions() {
     assert_eq!(wrong.map(|row| row.target.id.as_str()).collect::<Vec<_>>(), Vec::<&str>::new());
 }
 
-/// Values of a confined row lie within the range; and every such row whose bound admits the whole range is met by
-/// construction. By hand: a block, three trees, fixed links, lossless biclusters, six errors
-/// that fall with vectors, six overdraws, terms and representatives.
+/// Values of a confined row lie within its range, and a confined row whose bound admits the whole range is met by
+/// construction. Counted by hand: a block, three trees, fixed links, lossless biclusters, six errors that fall with
+/// vectors, six overdraws, terms and representatives.
 #[test]
 fn what_cannot_fail_is_no_evidence() {
     let confined: Vec<_> = all().filter_map(|row| Some((row, row.confinement()?.0))).collect();
@@ -66,8 +66,8 @@ fn what_cannot_fail_is_no_evidence() {
     assert_eq!(confined.len(), 1 + 3 + 1 + 1 + 6 + 6 + 1 + 1);
 }
 
-/// Values that follow from printed sizes and a calibrated rate, from the display's rate that was read off them, or from
-/// the appendix's own equations predict nothing.
+/// Values that follow from printed sizes and a calibrated rate, from the display's rate (inferred from the printed
+/// ones), or from the appendix's own equations predict nothing.
 #[test]
 fn print_in_other_words_is_not_predicted() {
     for id in [
@@ -98,7 +98,7 @@ fn the_parts_of_the_tally_add_up() {
     assert_eq!(numbers(recorded), [of_tally().filter(|row| row.source != RowSource::Computed).count()]);
 }
 
-/// Numbers that are neither printed nor read off our own model are marked.
+/// Numbers that are neither printed nor taken from our own model are marked.
 #[test]
 fn origins_are_said() {
     let implied = &row("subsurface/lookups-fixed").target;
@@ -139,7 +139,7 @@ fn timed_work_has_the_times_of_its_rows() {
     }
 }
 
-/// A bound must fail for a card that brings nothing.
+/// A bound must fail for a card without any gain.
 #[test]
 fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
     let alone = &findings("ray-engine-table-3").rows[0];

@@ -7,7 +7,7 @@ use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureK
 
 use crate::running::{QuadRun, bits, constants, ideal, input, run_quad};
 
-/// `D3DTTFF_PROJECTED`: `tex` reads at (x / w, y / w) or (x / z, y / z), `texbem` adds to those.
+/// `D3DTTFF_PROJECTED`: `tex` reads at (x / w, y / w) or (x / z, y / z); `texbem` adds to these coordinates.
 #[test]
 fn projected_textures_before_1_4() {
     let fp32 = ideal("e8m23");

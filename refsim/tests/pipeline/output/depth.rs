@@ -46,7 +46,7 @@ proptest! {
     #[test]
     fn float_depths(bits in 0u32..=0x3f80_0000) {
         prop_assert_eq!(DepthFormat::Float32.quantise(Format::FP32, bits, TargetRounding::Truncate), bits);
-        // 20e4 holds 20 bits: cutting the last three gives a number that it holds, if the exponent fits.
+        // 20e4 holds 20 bits: truncating the last three bits gives a number of the format, if the exponent fits.
         let short = bits & !7;
         let stored = DepthFormat::Float24.quantise(Format::FP32, short, TargetRounding::Nearest);
         prop_assert!(stored < 1 << 24);
@@ -63,7 +63,7 @@ proptest! {
     }
 }
 
-/// Halves of the last of 20 bits round to even; 0.5 has exponent field 14.
+/// Ties in the last of 20 bits round to even; 0.5 has exponent field 14.
 #[test]
 fn float_24_rounds_to_even() {
     let q = |eighths: u32| DepthFormat::Float24.quantise(Format::FP32, 0x3f00_0000 + eighths, TargetRounding::Nearest);

@@ -90,7 +90,7 @@ proptest! {
     fn a_fan_covers_each_pixel_once(centre in (0.0f32..W as f32, 0.0f32..H as f32), on_grid in any::<bool>(), count in 3usize..24) {
         let (cx, cy) = if on_grid { (centre.0.floor(), centre.1.floor()) } else { centre };
         let mut vertices = vec![at(cx, cy, W, H)];
-        // Rim points on a large square, in order.
+        // Points of the rim on a large square, in order.
         for i in 0..=count {
             let t = 4.0 * (i % count) as f32 / count as f32;
             let (side, along) = (t.floor() as u32, 240.0 * t.fract() - 120.0);

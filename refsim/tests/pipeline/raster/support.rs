@@ -14,7 +14,7 @@ pub(crate) const RULES: RasterRules = RasterRules {
     iterator_format: Format::FP32,
 };
 
-/// Grids with so many bits, and that of twelfths.
+/// Grids with this many bits, and the grid of twelfths.
 pub(crate) fn grids(bits: impl Strategy<Value = u8>) -> impl Strategy<Value = SubpixelGrid> {
     prop_oneof![3 => bits.prop_map(SubpixelGrid::Bits), 1 => Just(SubpixelGrid::Twelfths)]
 }

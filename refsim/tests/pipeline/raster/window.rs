@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-/// Every boundary value in every component, the others ordinary.
+/// Every boundary value in every component, with ordinary values in the others.
 #[test]
 fn edge_values_arrive_where_the_definition_has_them() {
     let plain = [[-0.5f32, 0.75, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0], [0.0, -0.5, 0.75, 2.0]].map(|p| p.map(f32::to_bits));

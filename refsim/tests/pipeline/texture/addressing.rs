@@ -83,7 +83,7 @@ proptest! {
         }
     }
 
-    /// Coordinates of any magnitude go where exact arithmetic has them.
+    /// Coordinates of any magnitude address the texel that exact arithmetic finds.
     #[test]
     fn huge_coordinates_are_addressed_exactly(bits in any::<u32>(), n in 1u32..5000) {
         let u = f32::from_bits(bits);

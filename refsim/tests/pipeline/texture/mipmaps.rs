@@ -48,7 +48,7 @@ fn under(finer: [u32; 3], coarser: [u32; 3], place: [u32; 3]) -> Vec<[u32; 3]> {
     places
 }
 
-/// Asserts that every texel of every level is the mean of those of the previous level, rounded by value.
+/// Asserts that every texel of every level is the mean of the previous level's texels, rounded by value.
 fn check(image: &Image, rules: MipmapRules) {
     let mut filled = image.clone();
     filled.generate_mipmaps(rules);

@@ -154,7 +154,7 @@ fn defaults_are_those_of_opengl() {
         (B::LightAttenuation(0), [1.0, 0.0, 0.0, 0.0]),
         (B::SpotDirection(0), [0.0, 0.0, -1.0, -1.0]),
         (B::LightHalf(0), [0.0, 0.0, 1.0, 1.0]),
-        // 0.2 of a float, squared.
+        // 0.2 as a float, squared.
         (B::SceneColor(F::Front), [0.040_000_003, 0.040_000_003, 0.040_000_003, 1.0]),
         (B::LightProduct(0, F::Front, C::Diffuse), [0.8, 0.8, 0.8, 1.0]),
         (B::TextureEnvironment(0), [0.0; 4]),

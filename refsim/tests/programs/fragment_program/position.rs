@@ -13,7 +13,7 @@ const WIDTH: u32 = 20;
 const HEIGHT: u32 = 6;
 
 /// Draws a quad over a target and returns the colours. The quad's left corners have the first w and depth, the right
-/// ones the second.
+/// corners the second.
 fn drawn(kind: ExecutorKind, text: &str, center: PixelCenter, w: [f32; 2], depth: [f32; 2]) -> Vec<[f32; 4]> {
     let profile = Profile::named("nv35").unwrap();
     let program = check(assemble(text).unwrap(), &profile).unwrap();

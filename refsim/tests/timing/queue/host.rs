@@ -1,4 +1,4 @@
-//! The host model: one scale, calibrated on one figure.
+//! The host model: a single scale, calibrated on one figure.
 
 use proptest::prelude::*;
 use refsim::timing::Picoseconds;
@@ -77,7 +77,7 @@ proptest! {
         let mut both = a;
         both += b;
         let (a, b, both) = (model.time_of_all(&a), model.time_of_all(&b), model.time_of_all(&both));
-        // Each is rounded up once.
+        // Each time is rounded up once.
         prop_assert!(both <= a + b && a + b <= both + Picoseconds(1));
     }
 }

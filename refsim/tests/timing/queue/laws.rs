@@ -133,7 +133,7 @@ proptest! {
         }
     }
 
-    /// Except for the host's cost of waiting for a fence, which a synchronous program does not have.
+    /// Excludes the host's cost of waiting for a fence, which a synchronous program does not have.
     #[test]
     fn asynchronous_is_never_slower(commands in program(), figures in figures()) {
         let figures = QueueFigures { finish_fence_ps: 0, ..figures };

@@ -1,4 +1,4 @@
-//! Logs on the time axis: recorded and artificial ones.
+//! Recorded and artificial logs, replayed in modelled time.
 
 use std::sync::Arc;
 
@@ -87,7 +87,7 @@ fn two_buckets(mode: ReadBackMode) -> Vec<Event> {
     [bucket(1), bucket(2)].concat()
 }
 
-/// A generated ray costs a picosecond.
+/// A generated ray costs one picosecond.
 fn picosecond_a_ray() -> HostModel {
     let counts = HostCounts::default().with(HostOperation::RayGenerated, 1_000_000_000_000);
     HostModel::calibrate(&counts, 1, 1).expect("good counts")

@@ -16,8 +16,8 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// Ratio of values above which [`Scale::fitting`] chooses a logarithmic axis: on a linear one the smallest would lie
-/// within an eighth of the axis.
+/// Ratio of values above which [`Scale::fitting`] chooses a logarithmic axis. On a linear axis the smallest value would
+/// lie in the first eighth.
 const MAX_LINEAR_FACTOR: f64 = 8.0;
 
 impl Scale {
@@ -34,7 +34,7 @@ impl Scale {
     }
 }
 
-/// Smallest and largest value; inverted infinities for none.
+/// Smallest and largest value; infinity and -infinity for no values.
 fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
@@ -131,18 +131,18 @@ impl ValueFormatter<f64> for Axis {
 /// Ticks at multiples of 1, 2 or 5 times a power of ten.
 fn linear_ticks(low: f64, high: f64) -> Vec<f64> {
     let exponent = log10((high - low) / MAX_INTERVALS as f64).floor() as i32;
-    // Decimal text is read back to the nearest number: 3 times 0.1 would not be.
+    // Parsing decimal text gives the nearest double; the product 3 * 0.1 does not.
     let at = |multiple: i64, step: i64, exponent: i32| format!("{}e{exponent}", multiple * step).parse().unwrap_or(0.0);
     let steps = [(1, exponent), (2, exponent), (5, exponent), (1, exponent + 1), (2, exponent + 1)];
     let fits = |&&(step, exponent): &&(i64, i32)| (high - low) / at(1, step, exponent) <= MAX_INTERVALS as f64;
     let Some(&(step, exponent)) = steps.iter().find(fits) else { return Vec::new() };
     let first = (low / at(1, step, exponent)).ceil() as i64;
     let all = (first..).map(|multiple| at(multiple, step, exponent)).take_while(|tick| *tick <= high);
-    // Plus 0, so that nothing reads -0.
+    // Adding 0 turns -0 into 0.
     all.take(2 * MAX_INTERVALS).map(|tick| tick + 0.0).collect()
 }
 
-/// Ticks at powers of ten, with 2 and 5 times each where there are few of them; at round steps within less than that.
+/// Ticks at powers of ten, and at 2 and 5 times each over up to three decades; linear ticks if fewer than two remain.
 fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
     let (first, last) = (log10(low).floor() as i32, log10(high).ceil() as i32);
     let decades = (log10(high) - log10(low)).ceil() as usize;
@@ -155,7 +155,7 @@ fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
     if ticks.len() >= 2 { ticks } else { linear_ticks(low, high) }
 }
 
-/// Formats a tick: plain near one, as a power of ten far from it.
+/// Formats a tick: plain digits near one, a power of ten far from it.
 fn tick_text(tick: f64) -> String {
     let magnitude = tick.abs();
     if tick == 0.0 || (1e-3..1e6).contains(&magnitude) { format!("{tick}") } else { format!("{tick:e}") }

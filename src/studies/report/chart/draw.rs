@@ -154,7 +154,7 @@ impl PixelSeries<'_> {
         self.points.last().copied().unwrap_or_default()
     }
 
-    /// Draws the line, dashed or not; nothing for points.
+    /// Draws the line, dashed or solid; nothing for a series of points.
     fn path<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> DrawResult<B> {
         let style = self.series.style;
         let stroke = style.color.stroke_width(2);

@@ -48,7 +48,7 @@ impl Chart {
         Ok(visible(&self.titled(&text)).into_owned())
     }
 
-    /// Lines, points and the printed ones, in the order of their styles; empty ones are omitted.
+    /// Lines, points and printed points, in the order of their styles; empty series are omitted.
     fn series(&self) -> Vec<DrawnSeries<'_>> {
         let admitted = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points.iter().copied().filter(|p| self.x_scale.admits(p.0) && self.y_scale.admits(p.1)).collect()

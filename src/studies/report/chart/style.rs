@@ -35,7 +35,7 @@ const MARKERS: [Marker; 7] = [
     Marker::OpenDiamond,
 ];
 
-/// Maximum number of distinguishable series: the lengths of the lists have no common divisor.
+/// Maximum number of distinguishable series: the lengths of the lists are pairwise coprime.
 pub(super) const MAX_SERIES: usize = COLORS.len() * DASHES.len() * MARKERS.len();
 
 /// Shape of a point.

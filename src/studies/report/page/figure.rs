@@ -23,9 +23,9 @@ pub(super) fn drawing(svg: &str, caption: &str) -> Markup {
     }
 }
 
-/// Renders pictures side by side at their native resolution, as many as fit into a row; small ones are enlarged by a
-/// whole factor. A screen that is narrower than a picture shows it smaller, and smoothed: so the share of marked pixels
-/// stays what it is. A click shows all pixels. The script adds a slider between pictures of the same size.
+/// Renders pictures side by side at native resolution, as many per row as fit; small ones are enlarged by a whole
+/// factor. A narrow screen shows a picture scaled down and smoothed, which preserves the share of marked pixels. A
+/// click shows all pixels. The script adds a slider between pictures of equal size.
 pub(super) fn pictures(all: &[NamedPicture], pngs: &[Vec<u8>], places: Range<usize>) -> Markup {
     html! { div.figures { @for place in places { (figure(&all[place], &pngs[place], place)) } } }
 }

@@ -2,9 +2,8 @@
 
 use super::super::palette::{Color, DARK, LIGHT, Theme};
 
-/// Accents of links and of outcomes: for good, neutral and bad ones blue, grey and orange of Okabe and Ito (2008),
-/// adjusted for contrast with each page; the others differ from these and from each other for readers with any color
-/// vision.
+/// Accent colors of links and outcomes. Good, neutral and bad outcomes are blue, grey and orange of Okabe and Ito
+/// (2008), adjusted for contrast with each page. All accents can be told apart with any color vision.
 type Accents = [(&'static str, Color); 7];
 
 const ON_LIGHT: Accents = [

@@ -6,13 +6,13 @@ use super::super::palette::okabe_ito;
 use super::super::summary::TallyEntry;
 use super::super::{Cell, Figure, Table};
 
-/// Name of the column that is second on the page; files keep its own place.
+/// Name of the column that the page moves to second place; files keep the order.
 const VERDICT: &str = "verdict";
 
-/// Most rows of a table that is shown in full: a longer one scrolls in a box as high as the window.
+/// Maximum number of rows of a table shown in full; a longer table scrolls in a box as high as the window.
 const LONG: usize = 25;
 
-/// Renders a table in a box that scrolls; `place` makes its id, and `tally` has the evaluation of verdicts.
+/// Renders a table in a box that scrolls; `place` makes its id, and `tally` gives the tone of each verdict.
 ///
 /// The script of the page adds search, choices and sorting.
 pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Markup {
@@ -56,7 +56,7 @@ pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Ma
     }
 }
 
-/// Columns after the first, without the verdicts'.
+/// Columns after the first, except the verdict column.
 fn others(count: usize, verdict: Option<usize>) -> impl Iterator<Item = usize> {
     (1..count).filter(move |column| Some(*column) != verdict)
 }

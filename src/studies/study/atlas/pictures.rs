@@ -10,8 +10,7 @@ use crate::picture::{RgbImage, rgb8};
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
 
-/// Maximum side of a picture of the atlas, in pixels: of a larger atlas only every other texel, or every fourth, is
-/// shown.
+/// Maximum side of a picture of the atlas, in pixels. A picture of a larger atlas shows every second or fourth texel.
 pub const MAX_PICTURE: u32 = 2048;
 
 /// Criterion of coloring.

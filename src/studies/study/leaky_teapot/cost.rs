@@ -10,7 +10,7 @@ use crate::ray_engine::{EdgeRule, EngineError, Kernel};
 /// Cost of the pixel program of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IntersectionCost {
-    /// Arithmetic slots; a pair of a color and an alpha instruction is one.
+    /// Arithmetic slots; a pair of a color and an alpha instruction counts as one.
     pub arithmetic: u32,
     /// Texture slots.
     pub texture: u32,

@@ -16,7 +16,7 @@ const SOME_HITS: u64 = 100;
 /// Hits per distinct value of t from which a warning is given.
 const HITS_PER_VALUE: u64 = 20;
 
-/// Loss of a scene and of the hits to the format of a card.
+/// Loss of information to a card's number format, in the scene and in the hits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct FormatLimits {
     /// Loss in the triangles.
@@ -24,7 +24,7 @@ pub struct FormatLimits {
     pub bits: BitsLeft,
     /// Number of hits reported.
     pub hits: u64,
-    /// Number of distinct values of t among them.
+    /// Number of distinct values of t of these hits.
     pub t_values: u64,
 }
 
@@ -40,13 +40,13 @@ impl FormatLimits {
         self.bits.share() >= MUCH
     }
 
-    /// Returns `true` if many hits share a value of t. In a float format few values mean that the surface is flat and
-    /// faces the rays.
+    /// Returns `true` if many hits share a value of t. In a float format, few values mean a flat surface that faces the
+    /// rays.
     pub fn t_is_coarse(&self) -> bool {
         self.bits.fixed_point && self.hits >= SOME_HITS && self.t_values * HITS_PER_VALUE <= self.hits
     }
 
-    /// Warning, if the format keeps too little.
+    /// Warning, if the format loses too much.
     pub fn warning(&self) -> Option<String> {
         let below = format!(
             "n of {} of {} ({}) is below one step of the card's format",

@@ -7,8 +7,8 @@ use crate::geom::classify::HitVerdict;
 use crate::geom::exact::NearestHit;
 use crate::geom::vector::wide;
 
-/// Least cosine between a triangle's normal and the direction to the eye, for a triangle that faces it: nearer to
-/// edge-on, a card's rounding may turn it away.
+/// Minimum cosine between the normal of a triangle and the direction to the eye for the triangle to count as facing it.
+/// With a smaller cosine, a card's rounding may make it face away.
 const FACING: f64 = 1.0 / 16.0;
 
 /// Rays whose exact first hit lies inside the surface, and how many of them a card misses.
@@ -20,8 +20,8 @@ pub struct Holes {
     pub leaks: u64,
 }
 
-/// The triangles of a mesh that have no outline near: at each of their corners all triangles face the eye and no edge
-/// has one triangle only. Triangles without area do not count.
+/// Marks triangles away from outlines: at each of their corners, all triangles face the eye, and no edge belongs to one
+/// triangle only. Triangles without area are ignored.
 pub(super) struct Inside(Vec<bool>);
 
 impl Inside {

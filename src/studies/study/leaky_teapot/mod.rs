@@ -1,10 +1,10 @@
 //! The leaky teapot: the number of holes in Figure 4 of the Ray Engine paper, in any number format, against exact
 //! arithmetic.
 //!
-//! The eye rays meet the triangles on the emulated card, in buckets or all pairs; the hits are compared with first hits
-//! that are decided exactly on the same f32 inputs. A second question aims rays at the edges and corners that triangles
-//! share, where the paper's equations are evaluated once for each neighbour and need not agree. Rows with shared edges
-//! ([`EdgeRule::SharedEdges`]) answer a third: what leaks where the card evaluates each edge once.
+//! The emulated card intersects eye rays with triangles, in buckets or all pairs; the hits are compared with first hits
+//! decided exactly on the same f32 inputs. A second test aims rays at edges and corners that triangles share: the
+//! paper's equations are evaluated once per neighbour and may disagree. A third test uses shared edges
+//! ([`EdgeRule::SharedEdges`]): the card evaluates each edge once.
 
 mod conclusion;
 mod cost;
@@ -90,7 +90,7 @@ impl JudgedRays {
 }
 
 impl Parameters {
-    /// The rows: each configuration with the way in which it evaluates edges.
+    /// The rows: each configuration with its edge rule.
     fn cases(&self) -> impl Iterator<Item = (Cow<'_, Configuration>, EdgeRule)> {
         let shared = |configuration: &Configuration| {
             let label = format!("{}{SHARED}", configuration.label);
@@ -101,7 +101,7 @@ impl Parameters {
     }
 }
 
-/// Hits of the rays of a configuration: the listed or the camera's, those aimed at edges, those aimed at vertices.
+/// Hits of a configuration: of the listed or camera rays, of rays aimed at edges, of rays aimed at vertices.
 #[derive(Debug, Serialize, Deserialize)]
 struct ConfigurationHits {
     view: Vec<Option<Hit>>,
@@ -109,7 +109,7 @@ struct ConfigurationHits {
     vertices: Vec<Option<Hit>>,
 }
 
-/// Rays that are aimed at edges and at vertices; none if the rays have no common origin or none are asked for.
+/// Rays aimed at edges and at vertices; none without a common origin of the rays, or if none are requested.
 fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
     let eye = parameters.view.common_origin().filter(|_| parameters.options.rays_per_edge > 0);
     let rays = |aimed: Vec<Aimed>| aimed.into_iter().map(|aimed| aimed.ray).collect();
@@ -168,7 +168,7 @@ fn of_range(
     found.collect()
 }
 
-/// Holds the hits of all configurations against exact ones.
+/// Compares the hits of all configurations with exact hits.
 fn judged(
     parameters: &Parameters,
     aimed: [Vec<Ray>; 2],

@@ -88,7 +88,7 @@ pub struct Tally {
     pub false_hits: u64,
     /// Hits reported on a triangle that is not the first.
     pub wrong_triangle: u64,
-    /// Hits among these on triangles that touch the correct one.
+    /// Number of these hits on triangles that touch the correct triangle.
     pub wrong_adjacent: u64,
     /// Largest |t - exact t| where both hit, in multiples of the ray's direction.
     pub largest_t_error: f64,

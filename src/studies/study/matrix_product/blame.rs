@@ -4,17 +4,17 @@ use refsim::num::matrix::{Element, MatrixError};
 
 use super::multiply::MatrixOperands;
 
-/// The fate of an addend.
+/// An addend's exact value, and the value that the unit keeps of it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct AddendFate {
     pub(super) unit: &'static str,
-    /// Its k, or `c`, or `result` for the rounding of the block's sum.
+    /// Index k of the addend, or `c`, or `result` for the rounding of the block's sum.
     pub(super) addend: String,
     pub(super) exact: f64,
     pub(super) kept: f64,
 }
 
-/// Sums of a unit and of its reference before some k.
+/// Partial sums of a unit and of its reference before index k.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct SumsAt {
     pub(super) k: usize,
@@ -28,19 +28,19 @@ impl SumsAt {
     }
 }
 
-/// Where an element parts from its reference, with one accumulator.
+/// Block where an element's sum first differs from its reference, with one accumulator.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Blame {
     pub(super) place: [usize; 2],
-    /// Before the block, and behind it; the same k if the sums never part.
+    /// Sums before and after the block; equal k if the sums never differ.
     pub(super) block: [SumsAt; 2],
     /// Sums at the end.
     pub(super) end: SumsAt,
-    /// Addends in the order of k, those of the unit first; none of units without an aligned adder.
+    /// Addends in ascending k, those of the unit first; empty for units without an aligned adder.
     pub(super) addends: Vec<AddendFate>,
 }
 
-/// The sum before each block, and behind the last: a word and its type.
+/// Index k and the sum before each block and after the last: a word and its type.
 type Sums = Vec<(usize, (u64, Element))>;
 
 fn trace(operands: &MatrixOperands, [row, column]: [usize; 2]) -> Sums {
@@ -54,8 +54,8 @@ fn trace(operands: &MatrixOperands, [row, column]: [usize; 2]) -> Sums {
     sums
 }
 
-/// Follows an element. Against another unit, the block is the first behind which the sums differ; against the exact
-/// sum, the one that adds most to the error.
+/// Follows an element's sum. Against another unit, the block is the first after which the sums differ; against the
+/// exact sum, it is the block that adds most to the error.
 pub(super) fn blame(
     operands: &MatrixOperands,
     other: Option<&MatrixOperands>,
@@ -68,7 +68,7 @@ pub(super) fn blame(
     let number = |(word, element): (u64, Element)| element.number(word);
     let ours = trace(operands, place);
     let theirs = other.map(|other| trace(other, place));
-    // Both sums where both are at the end of a block.
+    // Both sums, at each k where both units end a block.
     let reference: Vec<(usize, f64)> = match &theirs {
         Some(theirs) => theirs.iter().map(|&(k, sum)| (k, number(sum))).collect(),
         None => {

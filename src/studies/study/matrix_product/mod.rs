@@ -1,4 +1,4 @@
-//! Study of a matrix product in matrix units: errors by unit and promotion, and where an element parts.
+//! Study of a matrix product in matrix units: errors by unit and promotion, and the block where a sum first differs.
 
 mod blame;
 mod multiply;

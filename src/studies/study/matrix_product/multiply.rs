@@ -17,7 +17,7 @@ pub struct MatrixOperands {
     pub(super) a: MatrixRows,
     /// Columns of B.
     pub(super) b: MatrixRows,
-    /// C, by rows, in the type of the unit; zeros without.
+    /// C, row by row, in the type of the unit; zeros if there is none.
     pub(super) c: Vec<u64>,
     /// The numbers of A and B, with their scales.
     numbers: [Vec<f64>; 2],
@@ -40,12 +40,12 @@ impl ExactSum {
         self.magnitudes += addend.abs();
     }
 
-    /// The sum, rounded once more.
+    /// The sum as one double.
     pub(super) fn value(self) -> f64 {
         self.high + self.low
     }
 
-    /// Another sum of addends of the same magnitudes.
+    /// Replaces the sum, and keeps the sum of magnitudes.
     pub(super) fn replaced(self, value: f64) -> Self {
         Self { high: value, low: 0.0, ..self }
     }
@@ -95,12 +95,12 @@ impl MatrixOperands {
         [self.a.count(), self.b.count()]
     }
 
-    /// Products of an element.
+    /// Number of products per element.
     pub fn depth(&self) -> usize {
         self.a.length
     }
 
-    /// D, each number exactly.
+    /// D as doubles, which hold each number exactly.
     pub(super) fn product(
         &self,
         unit: &MatrixUnit,
@@ -111,9 +111,9 @@ impl MatrixOperands {
         Ok(self.words(unit, depth, promote)?.into_iter().map(number).collect())
     }
 
-    /// Words of D over the first `depth` products, by a unit that takes the same operands. With `promote`, every so
-    /// many products go to a sum in single precision, rounded to nearest even, and the unit begins again from zero.
-    /// Fails if the unit does not go with the promotion.
+    /// Words of D over the first `depth` products, by a unit that takes the same operands. With `promote`, the partial
+    /// sum of every `promote` products is added to a sum in single precision, rounded to nearest even, and the unit
+    /// restarts from zero. Fails if the unit does not support the promotion.
     pub fn words(&self, unit: &MatrixUnit, depth: usize, promote: Option<usize>) -> Result<Vec<u64>, MatrixError> {
         let result = unit.result.element;
         let multiple = unit.block.max(self.a.share);
@@ -147,15 +147,15 @@ impl MatrixOperands {
         Ok(rows.par_chunks(TASK_ROWS).flat_map_iter(task).collect())
     }
 
-    /// The exact D over each of some depths. Products of up to 26 bits are exact in a double, and their sums in two
-    /// doubles, except for types with the exponents of single precision.
+    /// The exact D for each depth. Products of up to 26 bits are exact in a double, and their sums in two doubles,
+    /// except for types with the exponents of single precision.
     pub(super) fn exact(&self, depths: &[usize]) -> Vec<Vec<ExactSum>> {
         let elements: Vec<Vec<ExactSum>> =
             (0..self.c.len()).into_par_iter().map(|index| self.exact_element(index, depths)).collect();
         (0..depths.len()).map(|at| elements.iter().map(|sums| sums[at]).collect()).collect()
     }
 
-    /// One element of [`Self::exact`]; depths rise.
+    /// One element of [`Self::exact`]; depths are ascending.
     pub(super) fn exact_element(&self, index: usize, depths: &[usize]) -> Vec<ExactSum> {
         let (depth, count) = (self.a.length, self.b.count());
         let row = &self.numbers[0][index / count * depth..][..depth];

@@ -21,7 +21,7 @@ library_errors! {
 /// A matrix, as read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatrixInput {
-    /// Its name in messages.
+    /// Name in messages.
     pub name: String,
     /// Numbers or patterns, row by row.
     pub data: NumbersOrCodes,
@@ -50,7 +50,7 @@ impl MatrixInput {
         made.ok_or_else(wrong)
     }
 
-    /// The rows, or the columns, as a unit takes them. Numbers are quantised to nearest even, types of up to 8 bits
+    /// The rows, or the columns, in a unit's types. Numbers are quantised to nearest even; types of up to 8 bits
     /// saturate; blocks of the MX formats get their scales by OCP's rule.
     pub(super) fn rows(&self, unit: &MatrixUnit, element: Element, columns: bool) -> Result<MatrixRows, MatrixError> {
         let [height, width] = self.shape()?;

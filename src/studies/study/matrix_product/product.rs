@@ -8,9 +8,9 @@ use super::operands::MatrixInput;
 use crate::study::precision::Goal;
 use crate::study::{ProgressFn, StudyError};
 
-/// Depths of a curve, at most.
+/// Maximum number of depths of a curve.
 const POINTS: usize = 8;
-/// Bits below the largest exponent that the search for the fewest tries, at most.
+/// Maximum number of bits below the largest exponent that the search for the fewest bits tries.
 const MAX_BITS: u32 = 40;
 
 /// A product with the units that compute it.
@@ -26,7 +26,7 @@ pub struct MatrixProduct {
     pub elements: [Option<Element>; 2],
     /// Products after which a partial sum is added to single precision; `None` for one accumulator.
     pub promotions: Vec<Option<usize>>,
-    /// The unit that errors are against; `None` for the exact product of the quantised operands.
+    /// Reference unit of the errors; `None` for the exact product of the quantised operands.
     pub against: Option<MatrixUnit>,
     /// Row and column of an element whose sum is followed.
     pub blame: Option<[usize; 2]>,
@@ -37,18 +37,18 @@ pub struct MatrixProduct {
 /// Names of the measures of [`Errors`].
 const MEASURES: &str = "worst, mean, bits, of_addends and differing";
 
-/// Errors of all elements. Relative ones are shares of the reference's magnitude, element by element.
+/// Errors of all elements. Relative errors are per element, relative to the reference's magnitude.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Errors {
     /// Largest relative error.
     pub(super) worst: f64,
-    /// Mean relative error with its sign, that of larger results.
+    /// Mean signed relative error; positive if results are too large.
     pub(super) mean: f64,
-    /// Largest error as a share of the sum of the magnitudes of an element's addends.
+    /// Largest error relative to the sum of the magnitudes of an element's addends.
     pub(super) of_addends: f64,
     /// Elements that differ from the reference.
     pub(super) differing: usize,
-    /// Elements that are not finite on either side, which are in no error.
+    /// Elements that are not finite on a side; the errors exclude them.
     pub(super) not_finite: usize,
 }
 
@@ -73,7 +73,7 @@ impl Errors {
         errors
     }
 
-    /// Bits that are right in the worst element.
+    /// Correct bits of the worst element.
     pub(super) fn bits(&self) -> f64 {
         -crate::elementary::ln(self.worst) / std::f64::consts::LN_2
     }
@@ -108,7 +108,7 @@ pub(super) struct ProductOutcome {
     pub(super) blame: Option<Blame>,
     /// Fewest bits with one accumulator that meet the goal.
     pub(super) fewest_bits: Option<u32>,
-    /// Products of the rarest promotion that meets the goal; the depth for one accumulator.
+    /// Products between promotions: the largest number that meets the goal; the depth for one accumulator.
     pub(super) rarest_promotion: Option<usize>,
 }
 
@@ -167,8 +167,8 @@ impl MatrixProduct {
     }
 }
 
-/// The fewest bits with one accumulator, and the rarest promotion with the unit's own bits, that meet a goal. More bits
-/// are taken to be no worse.
+/// The fewest bits with one accumulator, and the rarest promotion with the unit's own bits, that meet a goal. Assumes
+/// that more bits are never worse.
 fn search(
     goal: &Goal,
     operands: &MatrixOperands,

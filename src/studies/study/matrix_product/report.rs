@@ -9,7 +9,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
 
-/// Maximum number of addends that are printed; those that lose most.
+/// Maximum number of addends printed: those that lose most.
 const MOST_ADDENDS: usize = 10;
 const MOST_LINES: usize = 12;
 
@@ -106,7 +106,7 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     found.conclusion(sentence);
 }
 
-/// Errors at the depths behind the first `skipped`.
+/// Errors at the depths after the first `skipped`.
 fn errors(title: &str, outcome: &ProductOutcome, skipped: usize) -> Table {
     let mut table = Table::of(title, "unit promoted_every k worst mean of_addends bits differing of not_finite");
     let elements = outcome.shape[0] * outcome.shape[2];

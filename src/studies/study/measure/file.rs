@@ -111,7 +111,7 @@ pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>,
     Ok(cases)
 }
 
-/// Line of the record that is read from a position on: the position does not count the remarks and empty lines there.
+/// Line of the record read from a position, which may precede remarks and empty lines before the record.
 fn line_of(bytes: &[u8], position: &csv::Position) -> u64 {
     let start = usize::try_from(position.byte()).unwrap_or(usize::MAX);
     let lines = bytes.get(start..).unwrap_or_default().split(|byte| *byte == b'\n');

@@ -7,7 +7,7 @@ use super::settings::{Setting, Survey};
 use crate::report::words::{counted, listed};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 
-/// Settings and codes that are shown, at most.
+/// Maximum number of settings, and of codes, shown.
 const MOST_SHOWN: usize = 20;
 
 /// Tables of values and settings; the verdict holds if a setting draws every measured code.
@@ -49,7 +49,7 @@ pub(super) fn findings(measure: &Measure, survey: &Survey) -> Findings {
     found
 }
 
-/// The switches that no measured code depends on, and that have several values.
+/// Switches with several values that no measured code depends on.
 fn undecided(survey: &Survey) -> Vec<&str> {
     let open = survey.questions.iter().enumerate().filter(|(at, _)| !survey.relevant.contains(at));
     open.filter(|(_, question)| question.values.len() > 1).map(|(_, question)| question.name.as_str()).collect()
@@ -94,7 +94,7 @@ fn settings(survey: &Survey) -> Table {
     table
 }
 
-/// Codes that the best setting draws otherwise.
+/// Codes that the best setting gets wrong.
 fn wrong(survey: &Survey) -> Table {
     let title = format!("Codes that the best setting draws otherwise: {}", survey.wrong.len());
     let mut table = Table::of(title, "line column measured drawn");

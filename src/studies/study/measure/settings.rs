@@ -10,10 +10,10 @@ use super::parameters::{CODES, Measure};
 use crate::case::{CaseError, Loaded, Overrides, Setup};
 use crate::study::{ProgressFn, StudyError};
 
-/// Settings of one case that are drawn, and settings of all cases that are counted, at most.
+/// Maximum number of settings drawn per case, and of settings counted for all cases.
 const MOST: [usize; 2] = [4096, 1 << 20];
 
-/// Switch with its values; a setting has an index into the values of each.
+/// Switch with its values; a setting has an index into these.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Question {
     pub(super) name: String,
@@ -21,7 +21,7 @@ pub(super) struct Question {
     pub(super) default: usize,
 }
 
-/// Setting of some switches: by the switch's index, the index of its value. Others have their defaults.
+/// Values of some switches: index of the switch to index of its value. Other switches have their defaults.
 pub(super) type Setting = BTreeMap<usize, usize>;
 
 /// Counts of measured codes that each setting draws.
@@ -34,11 +34,11 @@ pub(super) struct Survey {
     pub(super) settings: Vec<(Setting, u64)>,
     /// Number of measured codes.
     pub(super) codes: u64,
-    /// Codes that the best setting draws otherwise.
+    /// Codes that the best setting gets wrong.
     pub(super) wrong: Vec<WrongCode>,
 }
 
-/// Measured code that a setting draws otherwise.
+/// Measured code that a setting gets wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct WrongCode {
     pub(super) line: u64,
@@ -108,7 +108,7 @@ fn questions(measure: &Measure) -> Vec<Question> {
     measure.profile.switches().iter().map(of).collect()
 }
 
-/// All settings of some switches.
+/// All combinations of values of some switches.
 fn product(questions: &[Question], some: &BTreeSet<usize>, most: usize) -> Result<Vec<Setting>, StudyError> {
     let count = some.iter().fold(1_usize, |count, &at| count.saturating_mul(questions[at].values.len()));
     if count > most {
@@ -144,7 +144,7 @@ impl MeasuredDraws<'_> {
         let relevant = self.relevant()?;
         let mut right = BTreeMap::new();
         for setting in product(self.questions, &relevant, MOST[0])? {
-            // A card that drew the case does not have a setting that cannot draw it.
+            // The card drew the case, so its setting is not one that cannot.
             let drawn = self.draw(&setting).unwrap_or_default();
             let equal = drawn.iter().zip(&expected).filter(|(drawn, expected)| drawn == expected).count();
             right.insert(setting, equal as u64);
@@ -152,7 +152,7 @@ impl MeasuredDraws<'_> {
         Ok(CaseCounts { relevant, right })
     }
 
-    /// Switches that a measured code depends on: alone, or beside another value of one that matters alone.
+    /// Switches that a measured code depends on, alone or together with a changed value of another such switch.
     fn relevant(&self) -> Result<BTreeSet<usize>, StudyError> {
         let base = self.draw(&Setting::new())?;
         let draw = |setting: Setting| self.draw(&setting).ok();
@@ -167,7 +167,7 @@ impl MeasuredDraws<'_> {
         Ok(relevant)
     }
 
-    /// Measured codes that a setting draws otherwise.
+    /// Measured codes that a setting gets wrong.
     fn wrong(&self, setting: &Setting) -> Result<Vec<WrongCode>, StudyError> {
         let drawn = self.draw(setting)?;
         let all = self.case.pixels.iter().flat_map(|pixel| measured(pixel).map(|code| (pixel.line, code)));
@@ -218,12 +218,12 @@ impl MeasuredDraws<'_> {
     }
 }
 
-/// Values of a switch but for its default, each with the switch's index.
+/// Values of a switch except its default, each with the switch's index.
 fn others((at, question): (usize, &Question)) -> Vec<(usize, usize)> {
     (0..question.values.len()).filter(|value| *value != question.default).map(|value| (at, value)).collect()
 }
 
-/// Measured codes of a pixel: the place among red to alpha and depth, and the code.
+/// Measured codes of a pixel: index of the column among red to alpha and depth, and the code.
 pub(super) fn measured(pixel: &MeasuredPixel) -> impl Iterator<Item = (usize, u32)> {
     let [red, green, blue, alpha] = pixel.codes;
     let all = [red, green, blue, alpha, pixel.depth];

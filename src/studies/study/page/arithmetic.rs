@@ -49,7 +49,7 @@ const FORMATS: [(&str, &str); 8] = [
     ("e8m23", "fp32"),
 ];
 
-/// The format whose operands the adapter's own `f32` gets, and that of its `f16`.
+/// Formats whose operands the adapter's own `f32` and `f16` receive.
 const NATIVE: [&str; 2] = ["e8m23", "e5m10"];
 
 /// All that the page needs for its table of operations.

@@ -1,4 +1,4 @@
-//! Operands of the table of operations, made by a counter-based generator, in the page's script as here.
+//! Operands of the table of operations, from a counter-based generator that the page's script repeats.
 
 use refsim::num::{Format, FormatKind};
 use serde::Serialize;
@@ -38,7 +38,7 @@ impl PatternBits {
         Self { sign, high, low, near, shift: lower.into(), middle }
     }
 
-    /// Operand `k` of a set, from the counter of the set and the operand before it.
+    /// Operand `k` of a set, derived from the set's counter and the previous operand.
     fn operand(&self, counter: u32, k: u32, before: u32) -> u32 {
         let random = mixed(counter.wrapping_mul(4).wrapping_add(k));
         let choice = mixed(random ^ 0x9e37_79b9);

@@ -31,7 +31,7 @@ pub(super) struct ProgramCase {
 }
 
 impl ProgramCase {
-    /// The case file, with registers of the format or else of the device's.
+    /// The case file, with registers in the given format, otherwise in the device's.
     pub(super) fn text(&self, format: Option<&str>) -> String {
         let [head, rest] = self.parts();
         let line = format.map_or_else(String::new, |format| format!("format = \"{format}\"\n"));
@@ -65,7 +65,7 @@ fn texture<const CHANNELS: usize>(
     let mut text = format!("\n[[texture]]\nslot = {slot}\n{more}\nsize = [{width}, {height}]\ntexels = [\n");
     for y in 0..height {
         for x in 0..width {
-            // Single precision has fewer digits, and no texel has more.
+            // Single precision has few digits, and is enough for every texel format.
             let channels = texel(x, y).map(|value| (value as f32).to_string()).join(", ");
             let _ = write!(text, "[{channels}],");
         }
@@ -129,7 +129,7 @@ fn any_origin() -> ProgramCase {
 fn radiosity() -> ProgramCase {
     /// Texels of the block: four columns each.
     const BLOCK: u32 = 4;
-    // Less reflectance times the form factor of a patch of the floor and one of the lamp, for centers at distance 1.
+    // Minus reflectance times form factor between patches of the floor and the lamp, with centers at distance 1.
     let factor = |patch: u32, source: u32| {
         let [x, y] = center(patch % SIDE, patch / SIDE);
         let dx = x - (f64::from(source % 4) - 1.5) / 4.0 - 0.25;

@@ -18,9 +18,9 @@ use super::program_cases::{self, ProgramCase, SIDE};
 use crate::case::{Loaded, Setup};
 use crate::study::StudyError;
 
-/// Added to the word `special` of a format whose operations run in the adapter's own floats.
+/// Flag in the word `special` of a format: operations run in the adapter's own floats.
 const NATIVE: u32 = 2;
-/// Index of that word in the parameters of a draw, which begin with the register format.
+/// Index of the word `special` in the parameters of a draw, which begin with the register format.
 const SPECIAL_WORD: usize = 6;
 /// Format of the adapter's own floats.
 const SINGLE: &str = "e8m23";
@@ -32,12 +32,12 @@ pub(super) struct PagePrograms {
     /// Text that runs programs by the number library, and in the adapter's own floats.
     shaders: [String; 2],
     entry: &'static str,
-    /// Words of a record before its steps, words of a step, first word of a record with a fragment, and of one to be
-    /// continued.
+    /// Sizes of a record's header and of a step, in words; first word of a record with a fragment, and of a record to
+    /// be continued.
     record: [u32; 4],
     /// Word of a draw that marks a continuation.
     resumes: usize,
-    /// Contents of buffers; each once.
+    /// Contents of buffers, without duplicates.
     buffers: Vec<String>,
     programs: Vec<PageProgram>,
 }
@@ -70,7 +70,7 @@ struct Variant {
     entries: Vec<Entry>,
     /// Written values, by pixel, entry and component: little-endian patterns of the fewest bytes that hold the format.
     values: String,
-    /// Outcome of each pixel's fragment, as in records.
+    /// Outcome of each pixel's fragment, encoded as in records.
     fates: String,
     /// The picture, red, green and blue per pixel.
     picture: String,
@@ -96,7 +96,7 @@ struct Entry {
     format: usize,
 }
 
-/// Indices of a trace's buffers in [`PagePrograms::buffers`], and their sizes in words where they are longer.
+/// Indices of a trace's buffers in [`PagePrograms::buffers`], and their sizes in words where larger than the contents.
 #[derive(Debug, Serialize)]
 struct TraceJob {
     draw: usize,
@@ -122,7 +122,7 @@ impl PagePrograms {
     pub(super) fn compute() -> Result<Self, StudyError> {
         let mut buffers = Buffers::default();
         let mut parts = [Parts::default(), Parts::default()];
-        // The mark of the adapter's own format is a word of a format.
+        // A format's words hold the flag of the adapter's own floats.
         parts[1].add("HAS_FORMATS");
         let mut programs = Vec::new();
         for case in program_cases::all() {
@@ -267,7 +267,7 @@ impl TraceReader<'_> {
     }
 }
 
-/// The word of an outcome in records.
+/// Code of an outcome in records.
 const fn fate(fate: FragmentFate) -> u8 {
     match fate {
         FragmentFate::KilledByShader => 1,

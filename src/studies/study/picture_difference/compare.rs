@@ -97,7 +97,7 @@ pub(super) struct DifferenceOutcome {
 pub(super) struct PerceptualDifference {
     pub(super) ssim: Option<f64>,
     pub(super) flip: FlipMap,
-    /// Second minus first, of the luminance times the exposure, not clipped.
+    /// Luminance difference, second minus first, times the exposure, not clipped.
     pub(super) luminance: Vec<f64>,
 }
 

@@ -129,7 +129,7 @@ fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOut
     Ok(())
 }
 
-/// 99th percentile of the magnitudes of pixels that differ: a few large ones do not make all others pale.
+/// 99th percentile of the magnitudes of differing pixels, so that a few large differences do not make all others pale.
 fn usual_scale(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).filter(|x| x.is_finite() && *x > 0.0).collect();
     sizes.sort_unstable_by(f64::total_cmp);

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use refsim::num::{Denormals, Encoding, Format, FormatKind, Overflow};
 
-/// Formats of cards, and of later ones.
+/// Formats of emulated cards and of later GPUs.
 const NAMED: [(&str, FormatBits); 8] = [
     ("s3.12", FormatBits::fixed(3, 12)),
     ("s0.15", FormatBits::fixed(0, 15)),
@@ -91,7 +91,7 @@ impl FormatBits {
         1 + u32::from(self.range) + u32::from(self.digits)
     }
 
-    /// Formats with one bit less: of precision, then of range.
+    /// Formats with one bit less, of precision or of range, in this order.
     pub(super) fn narrower(self) -> impl Iterator<Item = Self> {
         let legal = |bits: &Self| {
             bits.family.range_bits().contains(&bits.range) && bits.family.digit_bits(bits.range).contains(&bits.digits)
@@ -102,11 +102,11 @@ impl FormatBits {
         digits.into_iter().chain(range).filter(legal)
     }
 
-    /// Format with so many bits more of range and of precision, as far as the family has them.
+    /// Format with `bits` more bits of range and of precision, as far as the family has them.
     pub(super) fn wider(self, bits: u8) -> Self {
         let range = (self.range + bits).min(*self.family.range_bits().end());
         let digits = (self.digits + bits).min(*self.family.digit_bits(range).end());
-        // In fixed point both come from the same bits: those of precision that were there stay.
+        // In fixed point both share one width: the bits of precision must not decrease.
         if digits < self.digits { self } else { Self { range, digits, ..self } }
     }
 
@@ -115,7 +115,7 @@ impl FormatBits {
         Self { family, range, digits: *family.digit_bits(range).start() }
     }
 
-    /// Format of this layout with the rounding of `rules`, and its other rules where they belong to the same family.
+    /// Format of this layout with the rounding of `rules`, and its other rules if `rules` is of the same family.
     pub(super) fn format(self, rules: Format) -> Format {
         let Self { range, digits, .. } = self;
         let alike = rules.is_fixed() == (self.family == FormatFamily::Fixed);

@@ -70,7 +70,7 @@ pub(super) fn per_instruction(
     }
 }
 
-/// Reason for the sum of the shares of blame.
+/// Explains the sum of the blame shares.
 fn additivity(sum: f64) -> &'static str {
     match sum {
         ..0.99 => "errors that are small alone add up, or one opens the way for another",

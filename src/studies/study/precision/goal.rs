@@ -19,7 +19,7 @@ pub enum GoalRelation {
 }
 
 impl GoalRelation {
-    /// Relations with their signs; a sign that begins with another one is listed before it.
+    /// Relations with their signs. A sign precedes its own prefixes, since parsing takes the first match.
     const ALL: [(Self, &str); 5] =
         [(Self::AtMost, "<="), (Self::AtLeast, ">="), (Self::Below, "<"), (Self::Above, ">"), (Self::Equal, "=")];
 
@@ -92,7 +92,7 @@ impl Goal {
         if badness.is_nan() { f64::INFINITY } else { badness }
     }
 
-    /// Loss of a value against that of the exact run, at least 0.
+    /// Loss of a value compared with the exact run, at least 0.
     pub(super) fn loss(&self, value: f64, exact: f64) -> f64 {
         let [ours, exact] = [self.badness(value), self.badness(exact)];
         if ours == exact { 0.0 } else { (ours - exact).max(0.0) }

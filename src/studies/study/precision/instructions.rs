@@ -20,7 +20,7 @@ pub(super) struct InstructionNeeds {
     pub(super) regained: Option<f64>,
 }
 
-/// Format that is too small, whose loss is shared out.
+/// Format that is too small; blame divides its loss among the instructions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BlamedFormat {
     pub(super) bits: FormatBits,
@@ -28,10 +28,10 @@ pub(super) struct BlamedFormat {
     pub(super) loss: f64,
 }
 
-/// Loss of the goal when all instructions have a bit less than the smallest uniform format.
+/// Loss of the goal when all instructions have one bit less than the smallest uniform format.
 pub(super) fn blamed_format(minimum: FormatBits, runs: &mut Runs<'_>) -> Result<BlamedFormat, RunError> {
     runs.step("blame");
-    // The narrowest format has no bit less.
+    // The narrowest format cannot lose a bit.
     let bits = minimum.narrower().next().unwrap_or(minimum);
     Ok(BlamedFormat { bits, loss: loss(runs, &runs.uniform(bits))? })
 }
@@ -68,7 +68,7 @@ pub(super) fn blame(
     Ok(())
 }
 
-/// Finds the fewest bits of precision of one instruction, which has as many bits of range as the points of the curve.
+/// Finds the fewest bits of precision of one instruction, with as many bits of range as the points of the curve.
 pub(super) fn fewest_bits(
     needs: &mut InstructionNeeds,
     place: usize,

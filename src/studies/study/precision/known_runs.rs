@@ -1,4 +1,4 @@
-//! Runs of an earlier study of the same subject: a longer search continues where the last ended.
+//! Runs of an earlier study of one subject: a longer search continues where the last ended.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
@@ -16,20 +16,20 @@ use crate::report::sha256;
 pub(super) const FILE: &str = "runs.json";
 /// Maximum length of the file, in bytes.
 const MAX_BYTES: u64 = 1 << 28;
-/// Runs that are made although they are known. If one of them finds something else, none is known.
+/// Number of known runs that are repeated as a check. If one differs, all known runs are discarded.
 const CHECKED: u32 = 3;
 
-/// Values of runs that were made before.
+/// Values of earlier runs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct KnownRuns {
     /// Digest of the program's version, the subject, its device and the measure.
     subject: String,
-    /// By the digest of the formats.
+    /// Runs by the digest of their formats.
     runs: BTreeMap<String, KnownRun>,
     /// Number of known runs that were repeated.
     #[serde(skip)]
     checked: u32,
-    /// Runs of parts of this study. The study's own are those that it asks for.
+    /// Runs made by parts of this study. A run that the study asks for moves to `runs`.
     #[serde(skip)]
     of_parts: BTreeMap<String, KnownRun>,
 }
@@ -42,26 +42,25 @@ struct KnownRun {
 }
 
 impl KnownRuns {
-    /// Reads the runs of the study that was written to a folder. Without any, or where the file was damaged, none are
-    /// known.
+    /// Reads the runs of the study that was written to a folder; empty if there is no file, or a damaged one.
     pub fn of_folder(folder: &Path) -> Self {
         let bytes = read_kept(&folder.join(FILE), MAX_BYTES).ok().flatten().unwrap_or_default();
         serde_json::from_slice(&bytes).unwrap_or_default()
     }
 
-    /// These runs if they are of this subject and this measure, or none.
+    /// Returns these runs if they are of this subject and measure, otherwise no runs.
     pub(super) fn of(&self, subject: &dyn PrecisionSubject, measure: &str) -> Self {
         let digest = digest_of(subject, measure);
         if self.subject == digest { self.clone() } else { Self { subject: digest, ..Self::default() } }
     }
 
-    /// These runs, and those that parts have made.
+    /// Adds the runs that parts have made.
     pub(super) fn with_parts(self, parts: Self) -> Self {
         let known = if self.subject == parts.subject { self } else { Self::default() };
         Self { subject: parts.subject, of_parts: parts.runs, ..known }
     }
 
-    /// Adds runs of the same subject and measure; others are not known.
+    /// Adds runs of the same subject and measure; ignores others.
     pub(super) fn add(&mut self, other: Self) {
         if self.subject == other.subject {
             self.runs.extend(other.runs);
@@ -80,7 +79,7 @@ impl KnownRuns {
         Some((f64::from_bits(run.bits), run.worst))
     }
 
-    /// Adds a run that was made. If the known value is a different one, everything that was known is forgotten.
+    /// Adds a run that was made. If the known value differs, discards all known runs.
     pub(super) fn insert(&mut self, assignment: &Assignment, value: f64, worst: Option<WorstPlace>) {
         let run = KnownRun { bits: value.to_bits(), worst };
         let key = digest(assignment);
@@ -123,7 +122,7 @@ fn digest_of(subject: &dyn PrecisionSubject, measure: &str) -> String {
     short(hashed.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
-/// 128 bits of a digest are enough.
+/// Truncates a digest to 128 bits.
 fn short(mut digest: String) -> String {
     digest.truncate(32);
     digest

@@ -23,11 +23,11 @@ pub(super) fn title(trace: &RefutationTrace, runs: &Runs<'_>) -> String {
 /// Columns of a trace.
 const COLUMNS: &str = "fragment line instruction component exact mixed one_bit_less one_bit_less_differs";
 
-/// Rows of a trace from which on it has only those whose result differs with one bit less.
+/// Number of rows above which a trace shows only results that differ with one bit less.
 const LONG: usize = 1000;
 
-/// Table of one trace: a row for each component of each step that all three runs execute; of more than [`LONG`] only
-/// those in which the last two differ.
+/// Table of one trace: a row for each component of each step that all three runs execute; above [`LONG`] rows, only
+/// rows in which the last two runs differ.
 pub(super) fn table(title: String, trace: &RefutationTrace, runs: &Runs<'_>) -> Table {
     let mut table = Table::of(title, COLUMNS);
     rows(trace, runs).for_each(|row| table.push(row));
@@ -63,7 +63,7 @@ fn rows(trace: &RefutationTrace, runs: &Runs<'_>) -> impl Iterator<Item = Vec<Ce
     })
 }
 
-/// Steps that are the same instruction's in all three runs, up to the first that are not: another way was taken there.
+/// Steps that execute the same instruction in all three runs, up to the first difference in control flow.
 fn aligned([exact, mixed, less]: &[Vec<StepResult>; 3]) -> impl Iterator<Item = (StepResult, [f64; 2])> + Clone {
     let place = |step: &StepResult| (step.fragment, step.program, step.instruction, step.component);
     exact

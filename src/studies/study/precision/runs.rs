@@ -97,8 +97,7 @@ impl<'a> Runs<'a> {
         (0..self.count()).map(|other| (other == place).then_some(bits)).collect()
     }
 
-    /// Device of a run; `None` if the instructions of a program would have more different formats than a device can
-    /// hold.
+    /// Device of a run; `None` if the instructions of a program would have more formats than a device can hold.
     pub(super) fn device(&self, given: &Profile, assignment: &[Option<FormatBits>]) -> Option<Profile> {
         let mut formats = vec![BTreeMap::new(); self.programs.len()];
         for (place, bits) in self.places.iter().zip(assignment) {
@@ -114,7 +113,7 @@ impl<'a> Runs<'a> {
 
     /// Device with all instructions in one format, or exact.
     pub(super) fn uniform_device(&self, given: &Profile, bits: Option<FormatBits>) -> Profile {
-        // One format is never too many.
+        // A device can hold one format.
         self.device(given, &vec![bits; self.count()]).unwrap_or_else(|| given.clone())
     }
 
@@ -131,7 +130,7 @@ impl<'a> Runs<'a> {
             None => {
                 let measured = match self.device(self.subject.profile(), assignment) {
                     Some(device) => self.measure(&device)?,
-                    // Without values, which meets no goal.
+                    // A run without values meets no goal.
                     None => Measured::default(),
                 };
                 let value = measured.value(&self.goal.measure);
@@ -159,7 +158,7 @@ impl<'a> Runs<'a> {
         Ok(self.subject.measure(device, ExecutorKind::Batch, Some(&self.goal.measure))?)
     }
 
-    /// Measures everything, outside of the budget: a few runs for the report.
+    /// Measures everything for the report, outside of the budget.
     pub(super) fn shown(&self, device: &Profile, executor: ExecutorKind) -> Result<Measured, StudyError> {
         self.subject.measure(device, executor, None)
     }
@@ -181,8 +180,7 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// Device with registers of single precision, which rounds to the nearest, and without formats of the programs'
-/// instructions.
+/// Device with registers in single precision, rounding to nearest, and no formats of single instructions.
 pub(super) fn exact<'p>(given: &Profile, programs: impl IntoIterator<Item = &'p Program>) -> Profile {
     let mut device = given.clone();
     let single = Format::FP32.with_specials(given.rules.format.specials);

@@ -14,8 +14,8 @@ pub(super) struct SampleFindings {
     pub(super) errors: Vec<Vec<Option<LocalError>>>,
 }
 
-/// Samples the results of each instruction in the exact run, and rounded to each of some formats. An unrolled loop has
-/// those of all its instructions, rounded one at a time, as the operands of the next would not be exact otherwise.
+/// Samples the results of each instruction in the exact run, and rounded to each of some formats. Instructions of an
+/// unrolled loop are rounded one at a time, so that the operands of the later ones stay exact.
 pub(super) fn sample_results(formats: &[FormatBits], runs: &mut Runs<'_>) -> Result<SampleFindings, RunError> {
     runs.step("ranges");
     let mut rounded = Vec::new();

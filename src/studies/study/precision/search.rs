@@ -41,8 +41,8 @@ fn assignment(formats: &[FormatBits]) -> Assignment {
     formats.iter().copied().map(Some).collect()
 }
 
-/// Searches from formats with so many bits of precision more than the smallest uniform one, and keeps what it finds in
-/// `best` if that is cheaper.
+/// Searches from formats with `more` bits of precision than the smallest uniform format, and stores a cheaper result in
+/// `best`.
 ///
 /// The instructions are narrowed one after the other, the least blamed first: `order`. Then single bits are removed
 /// until none can be.
@@ -78,7 +78,7 @@ fn descend(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> 
         let fewest = *family.digit_bits(range).start();
         narrow(formats, place, fewest..=digits, runs, |digits| FormatBits { family, range, digits })?;
         let digits = formats[place].digits;
-        // A fixed-point format has a bit beside its sign.
+        // A fixed-point format needs a bit besides its sign.
         let fewest = if digits == 0 { range.min(1) } else { *family.range_bits().start() };
         narrow(formats, place, fewest..=range, runs, |range| FormatBits { family, range, digits })?;
     }
@@ -123,7 +123,7 @@ fn remove_bits(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>)
     Ok(())
 }
 
-/// Removes one bit of an instruction if the goal is met without; returns `false` if it is missed.
+/// Removes one bit of an instruction if the goal is still met; returns `false` if it is not.
 fn remove_one(formats: &mut [FormatBits], place: usize, runs: &mut Runs<'_>) -> Result<bool, RunError> {
     let now = formats[place];
     for less in now.narrower() {

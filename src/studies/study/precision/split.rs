@@ -1,4 +1,4 @@
-//! Items of parts of a study: searches, whose runs are known to the merge.
+//! Parts of a study: a part makes the runs of some searches, which the merge then reuses.
 
 use std::ops::Range;
 
@@ -44,7 +44,7 @@ impl Precision {
         }
     }
 
-    /// Makes the runs of one search; those of curve and blame, which every search of a family needs, once.
+    /// Makes the runs of one search. Runs for curve and blame, which all searches of a family need, are made once.
     fn search_of(&self, number: usize, runs: &mut Runs<'_>) -> Result<(), RunError> {
         exact_run(runs)?;
         let family = self.families[number / STARTS.len()];

@@ -36,7 +36,7 @@ pub(super) fn step_results(
 /// Device of the exact run with the format of one instruction.
 pub(super) fn with_rounded(exact: &Profile, program: &Program, rounded: RoundedInstruction) -> Profile {
     let mut device = exact.clone();
-    // Formats of searches are formats of registers, and one is not too many: it is taken.
+    // Always succeeds: searches use register formats, and a device can hold one format.
     device.set_instruction_format(program, rounded.instruction, Some(rounded.format));
     device
 }

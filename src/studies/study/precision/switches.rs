@@ -40,8 +40,8 @@ impl SwitchRow {
     }
 }
 
-/// Runs under each value of each switch that has several. `minimum` is the smallest uniform
-/// format of the curve's range.
+/// Runs under each value of each switch that has several. `minimum` is the smallest uniform format of the curve's
+/// range.
 pub(super) fn sensitivity(
     minimum: Option<FormatBits>,
     runs: &mut Runs<'_>,
@@ -76,7 +76,7 @@ fn under(
     given.set_switch(switch, value).map_err(StudyError::from)?;
     let goal = runs.goal;
     let as_given = runs.measure(&given)?.value(&goal.measure);
-    // Some switches decide which program a system chooses: formats of other programs' instructions would do nothing.
+    // Some switches decide which program a system chooses; formats of another program's instructions have no effect.
     let exact = runs.uniform_device(&given, None);
     let exact = runs.measure(&exact)?.value(&goal.measure);
     if runs.subject.chooses_other_programs(&given)? {

@@ -54,7 +54,7 @@ fn unit(bits: FormatBits, value: f64) -> f64 {
     }
 }
 
-/// Errors of results in a format against exact ones, over results that both have.
+/// Errors of results in a format against exact results, where both exist.
 ///
 /// A finite result that should be infinite or NaN, or the reverse, has an infinite error.
 pub(super) fn errors_of<'r>(
@@ -80,7 +80,7 @@ pub(super) fn errors_of<'r>(
 pub(super) fn local_error(errors: impl Iterator<Item = f64>) -> Option<LocalError> {
     let mut errors: Vec<f64> = errors.collect();
     errors.sort_by(f64::total_cmp);
-    // For an even count the lower one, which is one of the errors.
+    // For an even count, takes the lower of the two middle errors.
     let median = *errors.get(errors.len().checked_sub(1)? / 2)?;
     Some(LocalError { median, largest: *errors.last()? })
 }

@@ -10,9 +10,9 @@ const DECADES: std::ops::RangeInclusive<i32> = -10..=-1;
 /// The squared error of every point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompressionError {
-    /// Per point.
+    /// Squared error per point.
     pub squared: Vec<f64>,
-    /// The sum.
+    /// Sum over all points.
     pub total: f64,
     /// The sum of squares of the signal.
     pub energy: f64,
@@ -21,7 +21,7 @@ pub struct CompressionError {
 }
 
 impl CompressionError {
-    /// For a signal in clusters of as many points and numbers each.
+    /// Errors of a clustering with as many points, and numbers per point, as the signal.
     pub fn new(signal: &Signal, clustering: &Clustering) -> Self {
         let squared: Vec<f64> = (0..signal.points()).map(|point| clustering.squared_error_of(point, signal)).collect();
         let square = |&value: &f32| f64::from(value) * f64::from(value);
@@ -30,7 +30,7 @@ impl CompressionError {
         Self { squared, total, energy, dimension: signal.dimension() }
     }
 
-    /// The sum as a share of the signal's sum of squares; 0 for a signal of zeros that is met.
+    /// Total error relative to the signal's sum of squares; 0 without error.
     pub fn relative(&self) -> f64 {
         if self.total > 0.0 { self.total / self.energy } else { 0.0 }
     }
@@ -40,7 +40,7 @@ impl CompressionError {
         (self.total / (self.squared.len() * self.dimension) as f64).sqrt()
     }
 
-    /// The point of the largest error, of equals the first.
+    /// The first point with the largest error.
     pub fn largest(&self) -> usize {
         let larger = |best: usize, point: usize| if self.squared[point] > self.squared[best] { point } else { best };
         (0..self.squared.len()).fold(0, larger)

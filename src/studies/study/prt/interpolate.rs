@@ -18,18 +18,18 @@ pub(in crate::study) struct SeenSurface {
 }
 
 impl SeenSurface {
-    /// From a camera, front faces only.
+    /// Casts a camera's rays; front faces only.
     pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
         Self::of_parts(&[(mesh, vertices)], camera)
     }
 
-    /// By the raster of a device.
+    /// Takes the surface points of a device's raster.
     pub(super) fn by_raster(pixels: &[Option<SeenPixel>]) -> Self {
         let pixel = |pixel: &SeenPixel| (pixel.corners, DVec3::from(pixel.weights));
         Self { pixels: pixels.iter().map(|seen| seen.as_ref().map(pixel)).collect() }
     }
 
-    /// The nearest of several meshes; vertices of a mesh are counted after those of the meshes before it.
+    /// The nearest of several meshes; vertex indices continue from mesh to mesh.
     pub(super) fn of_parts(parts: &[(&Mesh, &Vertices)], camera: &Camera) -> Self {
         let rays = camera.rays();
         let mut nearest: Vec<Option<(f32, [u32; 3], DVec3)>> = vec![None; rays.len()];
@@ -61,7 +61,7 @@ impl SeenSurface {
         self.pixels.iter().flatten().count()
     }
 
-    /// Colors of vertices, interpolated; `background` where nothing is.
+    /// Colors of vertices, interpolated; `background` where no surface is visible.
     pub(in crate::study) fn colors(&self, of_vertex: &[[f64; 3]], background: [f64; 3]) -> Vec<[f64; 3]> {
         let color = |pixel: &Option<([u32; 3], DVec3)>| {
             let Some((corners, weights)) = pixel else { return background };
@@ -71,8 +71,8 @@ impl SeenSurface {
         self.pixels.par_iter().map(color).collect()
     }
 
-    /// Radiance of each pixel's exit coefficients towards its view vector, both interpolated, as a card that rounds
-    /// nothing would have it. `functions` fills in the functions of exit radiance at a direction.
+    /// Radiance of each pixel's exit coefficients towards its view vector, both interpolated, as on a card without
+    /// rounding. `functions` fills in the functions of exit radiance at a direction.
     pub(super) fn radiance(
         &self,
         exit: &[Vec<[f64; 3]>],
@@ -113,7 +113,7 @@ pub(in crate::study) fn linear_picture(camera: &Camera, colors: &[[f64; 3]]) -> 
     Picture::rgb(camera.width(), camera.height(), &single)
 }
 
-/// Weights of a triangle's corners at a point of its plane; of one beside it by rounding, at its rim.
+/// Barycentric weights of a point in a triangle's plane; clamped to the edge if rounding moves it outside.
 pub(super) fn weights(at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let normal = (b - a).cross(c - a);
     let opposite = |from: DVec3, to: DVec3| (from - at).cross(to - at).dot(normal).max(0.0);

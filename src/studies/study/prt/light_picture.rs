@@ -13,11 +13,11 @@ use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
 
 /// Width of the picture in pixels, twice its height.
 const WIDTH: u32 = 320;
-/// Linear light of the median of the pixels that are not black.
+/// Linear light of the median non-black pixel.
 const MIDDLE_GREY: f64 = 0.18;
 
-/// Picture of the radiance from every direction, as a lat-long picture that `--light` reads: its middle is +y, its
-/// right +x, and up is +z. The median of the pixels that are not black is 18 % grey, with any sun.
+/// Lat-long picture of the radiance from every direction, as `--light` reads it: its middle is +y, its right +x, and up
+/// is +z. The median non-black pixel is 18 % grey.
 pub(in crate::study) fn light_picture(
     name: impl Into<String>,
     light: &str,

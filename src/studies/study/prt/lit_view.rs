@@ -68,8 +68,8 @@ impl LitView {
         Ok((found, exposure))
     }
 
-    /// The picture from uncompressed transfer, and where `drawn` differs from it; the difference of each pixel's mean
-    /// channel too, with the largest one. `less` names the two.
+    /// Pictures from uncompressed transfer and of the difference of `drawn`, named by `less`; the difference of each
+    /// pixel's mean channel, and the largest one.
     pub(super) fn against_original(
         &self,
         drawn: &[[f64; 3]],
@@ -97,7 +97,7 @@ impl LitView {
     }
 }
 
-/// Pixels that show something at 18 % grey on average.
+/// Exposure that brings visible pixels to 18 % grey on average.
 pub(in crate::study) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
     let lit: Vec<f64> =
         colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&value| value > 0.0).collect();

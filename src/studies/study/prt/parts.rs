@@ -22,7 +22,7 @@ impl Concatenate for VisibilityMaps {
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct VertexTransfer {
     pub(super) answers: RayAnswers,
-    /// Per channel a matrix per vertex, and one of light that passes below the surface where it does.
+    /// Per channel: matrices of the vertices, and matrices of light transmitted below the surface, if any.
     pub(super) channels: Vec<(Vec<f32>, Vec<f32>)>,
 }
 

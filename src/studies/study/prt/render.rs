@@ -21,9 +21,9 @@ use crate::transfer::file::PrtFile;
 pub struct Rendering {
     /// Names, camera and exposure.
     pub view: LitView,
-    /// Its mesh.
+    /// The model's mesh.
     pub mesh: Mesh,
-    /// Its vertices, the points of the file.
+    /// The model's vertices, the points of the file.
     pub vertices: Vertices,
     /// Transfer, clusters or both: clusters are drawn.
     pub file: PrtFile,
@@ -51,7 +51,7 @@ impl Study for Rendering {
 }
 
 impl Rendering {
-    /// Linear radiance of all pixels, from the clusters, else the transfer; from `original`, if given.
+    /// Linear radiance of all pixels: from `original` if given, else from clusters, else from transfer.
     fn colors(&self, seen: &SeenSurface, original: Option<&Signal>) -> Result<Vec<[f64; 3]>, StudyError> {
         let lit = Lit::new(&self.file.meaning, &self.light).ok_or_else(no_transfer)?;
         let exit = match (original, &self.file.clustering, &self.file.transfer) {
@@ -74,7 +74,7 @@ impl Rendering {
         }
     }
 
-    /// The original beside the clusters, and where they differ.
+    /// Compares pictures of the original and of the clusters.
     fn compare(
         &self,
         seen: &SeenSurface,

@@ -16,8 +16,8 @@ use crate::report::{Cell, Table};
 use crate::study::ProgressFn;
 use crate::transfer::grid::LIGHT_TEXELS;
 
-/// Texels along an edge of the coarse cubes of the rejected form: as many over the hemisphere as there are local
-/// directions of 8 x 8, about, and the light's own.
+/// Edges of the cubes of the rejected form, in texels: a coarse cube with about as many texels over the hemisphere as 8
+/// x 8 local directions, and the light's own cube.
 const COARSE_SIDES: [usize; 2] = [4, 32];
 
 /// The transfer to be stored in several ways.
@@ -25,9 +25,9 @@ const COARSE_SIDES: [usize; 2] = [4, 32];
 pub struct StoredComparison<'a> {
     /// T.
     pub matrix: &'a SparseMatrix,
-    /// Biclusters of it.
+    /// Biclusters of T.
     pub biclusters: &'a Biclustering,
-    /// Frames of its vertices; without them nothing that is rotated is compared.
+    /// Frames of T's vertices; without them, rotated forms are not compared.
     pub transfer: Option<LocalTransfer<'a>>,
     /// Clusters of rows.
     pub clusters: RowClusterOptions,
@@ -54,8 +54,8 @@ pub struct StoredWay {
 pub type LightChannels = Vec<Vec<f64>>;
 
 impl StoredComparison<'_> {
-    /// All ways under some lights, biclusters first. `visit` sees each when it is made. Fails with [`InputError`];
-    /// values that do not fit into a layout of narrow numbers are left out.
+    /// All storage methods under some lights, biclusters first. `visit` is called with each. Fails with [`InputError`];
+    /// omits values that do not fit into a layout of narrow numbers.
     pub fn ways(
         &self,
         lights: &[LightChannels],
@@ -113,7 +113,7 @@ impl StoredComparison<'_> {
         Ok(ways.found)
     }
 
-    /// Clusters as requested, and with as many vectors as fit into some bytes if these differ.
+    /// Clusters as requested, and with as many vectors as fit into `budget` bytes, if that differs.
     fn cluster_settings(&self, budget: u64) -> Vec<(RowClusterOptions, &'static str)> {
         let equal = self.clusters.within(budget, [self.matrix.rows(), self.matrix.columns()]);
         let mut settings = vec![(self.clusters, "")];
@@ -124,12 +124,12 @@ impl StoredComparison<'_> {
     }
 }
 
-/// Behind ways that take about as many bytes as biclusters.
+/// Suffix for methods that take about as many bytes as biclusters.
 const EQUAL: &str = ", in the bytes of biclusters";
 
 struct StorageMethods<'a> {
     lights: &'a [LightChannels],
-    /// T L by light, all channels one after another.
+    /// T L per light, channel by channel.
     exact: Vec<Vec<f64>>,
     found: Vec<StoredWay>,
     visit: &'a mut dyn FnMut(&str, &dyn StoredTransfer),

@@ -61,7 +61,7 @@ impl Paper {
 }
 
 impl ReproduceEntry {
-    /// An entry with a record, which represents a run at full size by default.
+    /// An entry with a record, whose values replace a run at full size by default.
     pub(super) const fn recorded(self, record: &'static str) -> Self {
         Self { record: Some(record), ..self }
     }
@@ -73,14 +73,14 @@ impl ReproduceEntry {
         Ok(EntryFindings { rows, ..found })
     }
 
-    /// Computes the entry at full size, alone. Finished pieces of entries that take hours are kept, and taken. Errors:
-    /// those of the entry, and of a folder in which pieces cannot be kept.
+    /// Computes the entry at full size, alone. Entries that take hours keep finished pieces, and reuse them. Fails as
+    /// the entry does, and if pieces cannot be kept.
     pub fn at_full_size(&self, kept: Rc<KeptResults>) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Printed).keeping(Some(kept)))
     }
 
-    /// Computes the entry alone on reduced models, which judge nothing: a test that a run at full size ends. Errors:
-    /// those of the entry.
+    /// Computes the entry alone on reduced models, without judging it: tests that a run at full size would end. Fails
+    /// as the entry does.
     pub fn on_reduced_models(&self) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Reduced))
     }

@@ -35,7 +35,7 @@ pub(super) fn rows(found: &Reproduced) -> impl Iterator<Item = &PaperRow> {
     found.iter().flat_map(|(_, found)| &found.rows)
 }
 
-/// Sentence of counts, each behind what it counts; `None` if the first is 0. Other counts of 0 are left out.
+/// Sentence of counts, each after its noun; `None` if the first is 0. Other counts of 0 are left out.
 fn counts(parts: &[(&str, usize)]) -> Option<String> {
     let (_, first) = parts.first()?;
     let shown = parts.iter().filter(|(_, count)| *count > 0).map(|(what, count)| format!("{what}: {count}"));
@@ -77,17 +77,17 @@ fn count(rows: &[&PaperRow], of: impl Fn(&PaperRow) -> bool) -> usize {
     rows.iter().filter(|row| of(row)).count()
 }
 
-/// Rows that chose no constant.
+/// Rows whose printed value determined no constant.
 fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
     rows(found).filter(|row| !row.is_calibrated()).collect()
 }
 
-/// Number of rows that chose no constant, and the numbers by verdict; `None` without such rows.
+/// Number of rows whose printed value determined no constant, and their numbers by verdict; `None` without such rows.
 fn judged(rows: &[&PaperRow]) -> Option<String> {
     let of = |verdict: RowVerdict| (count(rows, |row| row.verdict() == verdict), verdict);
     let parts = RowVerdict::VARIANTS.iter().map(|verdict| of(*verdict)).filter(|(count, _)| *count > 0);
     let parts = parts.enumerate().map(|(n, (count, verdict))| {
-        // The first part has the verb of all.
+        // The verb agrees with the first count.
         let verb = ["are ", "is "][usize::from(count == 1)];
         format!("{count} {}{}", if n == 0 { verb } else { "" }, verdict.of_rows())
     });
@@ -96,7 +96,7 @@ fn judged(rows: &[&PaperRow]) -> Option<String> {
     (!rows.is_empty()).then(|| format!("Of {all} to which no constant was fitted, {parts}"))
 }
 
-/// Formats the tally of the rows that chose no constant, and how many of them are recorded.
+/// Formats the tally of the rows whose printed value determined no constant, and how many of them are recorded.
 pub fn evidence_line(found: &Reproduced) -> String {
     let rows = chose_none(found);
     format!("{}; recorded at full size: {}", judged(&rows).unwrap_or_default(), count(&rows, is_recorded))

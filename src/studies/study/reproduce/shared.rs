@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use super::{ModelSize, StudyError};
 use crate::split::KeptResults;
 
-/// Result that entries share: of each type one per key, made where the type is.
+/// Result that entries share: one per type and key.
 pub(super) trait SharedResult: Sized + 'static {
     /// Key of the result within its type.
     type Key: PartialEq + 'static;
@@ -42,7 +42,7 @@ impl Shared {
         Self { models, ..Self::default() }
     }
 
-    /// For a run that keeps its pieces in a folder, and reuses those that exist.
+    /// Keeps pieces of the run in a folder, and reuses existing ones.
     pub(super) fn keeping(self, kept: Option<Rc<KeptResults>>) -> Self {
         Self { kept, ..self }
     }
@@ -71,7 +71,7 @@ impl Shared {
             return Ok(found);
         }
         let found = T::compute(&key, self)?;
-        // Behind those that this one needed.
+        // Appends after results that this one needed.
         let end = self.nodes().last().map_or(&self.results, |node| &node.next);
         let node = end.get_or_init(|| Box::new(Node { result: Box::new((key, found)), next: Link::new() }));
         Ok(&node.result.downcast_ref::<(T::Key, T)>().expect("the type that was boxed").1)

@@ -11,7 +11,7 @@ use crate::report::words::listed;
 
 type Part = (ReproduceEntry, EntryFindings);
 
-/// Most entries that a line names.
+/// Maximum number of entries that a line names.
 const NAMED: usize = 3;
 
 /// One line per paper with an entry, each with the counts of its verdicts.

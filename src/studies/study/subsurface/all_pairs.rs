@@ -11,13 +11,12 @@ use crate::subsurface::{Dipole, Reference};
 /// Names of the channels.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// Differences of radiosities from others, relative to the others; infinite if some are not finite and the others are,
-/// or the reverse.
+/// Errors of radiosities relative to expected ones; infinite if only one of two radiosities is finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct GatherError {
-    /// Root of the mean squared difference, over that of the others' values; by area, over all channels.
+    /// Root mean square difference over the root mean square of the expected values; by area, over all channels.
     pub(super) rms: f64,
-    /// The largest difference over the others' largest value.
+    /// Largest difference over the largest expected value.
     pub(super) largest: f64,
 }
 
@@ -49,7 +48,7 @@ pub(super) struct AllPairSums<'a> {
 }
 
 impl AllPairSums<'_> {
-    /// Radiosities of the texels of some rows, by channel; none for a channel that is like an earlier one.
+    /// Radiosities of the texels of some rows, by channel; empty for a channel that equals an earlier one.
     pub(super) fn rows(self, rows: &Range<usize>, progress: &mut ProgressFn<'_>) -> Result<[Vec<f64>; 3], StudyError> {
         let mut found = [const { Vec::new() }; 3];
         for (channel, into) in found.iter_mut().enumerate() {
@@ -63,7 +62,7 @@ impl AllPairSums<'_> {
         Ok(found)
     }
 
-    /// Radiosities of all texels, row by row, out of those of all rows.
+    /// Radiosities of all texels, row by row, from the results of all rows.
     pub(super) fn of_rows(self, rows: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
         let mut texels = vec![[0.0; 3]; self.irradiance.len()];
         for (channel, radiosity) in rows.into_iter().enumerate() {

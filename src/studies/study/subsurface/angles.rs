@@ -13,12 +13,12 @@ const BINS: usize = 12;
 /// Degrees of a bin.
 const WIDTH: f64 = 180.0 / BINS as f64;
 
-/// Error of radiosities in a bin, relative to those over all pairs there; over all channels.
+/// Error of radiosities in a bin, relative to the sums over all pairs there; over all channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct BinError {
-    /// The mean radiosity by area over that of all pairs, less 1.
+    /// Area-weighted mean radiosity over that of all pairs, minus 1.
     pub(super) mean: f64,
-    /// Root of the mean squared difference by area over that of the squared radiosity of all pairs.
+    /// Root mean square difference over the root mean square radiosity of all pairs, weighted by area.
     pub(super) rms: f64,
 }
 

@@ -16,7 +16,7 @@ pub(super) struct GatheredBands {
     bands: usize,
     /// Radiosities over all pairs, by channel; none without them.
     pub(super) all_pairs: [Vec<f64>; 3],
-    /// For each method whose links differ from those of earlier ones.
+    /// Links per method, if they differ from those of earlier methods.
     links: Vec<LinkBands>,
 }
 
@@ -38,7 +38,7 @@ impl GatheredBands {
         Ok(found)
     }
 
-    /// The bands of a way's links; `None` if there are none.
+    /// The bands of a method's links; `None` if there are none.
     pub(super) fn links(&self, parameters: &Parameters, way: GatherWay) -> Option<&LinkBands> {
         let mut all = parameters.ways_with_links().zip(&self.links);
         all.find(|(other, _)| other.has_links_of(&way)).map(|(_, links)| links)

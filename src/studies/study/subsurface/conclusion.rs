@@ -47,8 +47,8 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
 /// Error of one of the two choices of links, in a bin of each.
 type ErrorOf = fn((&AngleBin, &AngleBin)) -> f64;
 
-/// At which angles from the light fixed and adaptive links of the same number are each nearer to all pairs, for the
-/// largest such number.
+/// Compares fixed and adaptive links by angle from the light, at the largest number of links that both have: which is
+/// nearer to all pairs?
 fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let count = |row: &WayRow| row.way.choice.per_texel(parameters.options.side);
     let is_fixed = |row: &WayRow| matches!(row.way.choice, LinkChoice::Fixed { .. });

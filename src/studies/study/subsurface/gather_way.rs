@@ -17,13 +17,13 @@ pub enum MapBits {
 /// One way of gathering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GatherWay {
-    /// Links per texel, and which.
+    /// Number and layout of links per texel.
     pub choice: LinkChoice,
     /// A factor per channel, or green's for all.
     pub rgb: bool,
-    /// The textures of links.
+    /// Format of the link textures.
     pub links: FloatTexels,
-    /// The radiosity map.
+    /// Format of the radiosity map.
     pub map: MapBits,
 }
 

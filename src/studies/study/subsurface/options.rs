@@ -95,8 +95,8 @@ impl SubsurfaceOptions {
         self.all_pairs.unwrap_or(self.side <= ALL_PAIRS_SIDE)
     }
 
-    /// Every combination of what may be repeated: a row of the table for each. Fails if no level of the atlas has the
-    /// requested number of fixed links.
+    /// Every combination of the options that may be repeated, each a row of the table. Fails if no level of the atlas
+    /// has the requested number of fixed links.
     pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
         let [r, g, b] = material.channels;
         let choices = or(&self.choices, LinkLayout::Fixed);
@@ -117,7 +117,7 @@ impl SubsurfaceOptions {
     }
 }
 
-/// The requested ones, each once, or the usual one.
+/// The requested values without duplicates, or the usual value.
 fn or<T: Copy + PartialEq>(asked: &[T], usual: T) -> Vec<T> {
     let mut all: Vec<T> = Vec::new();
     for &one in asked {

@@ -41,9 +41,9 @@ impl Neighbours {
         Self(found)
     }
 
-    /// Root mean square over all texels of how far `found` less `expected` is from linear among a texel's neighbours,
-    /// over the root mean square of `expected`; both by area, over all channels. A smooth error counts little, a jump in
-    /// full.
+    /// Root mean square over all texels of the distance of `found` minus `expected` from a linear function over a
+    /// texel's neighbours, relative to the root mean square of `expected`; by area, over all channels. A smooth error
+    /// counts little, a jump in full.
     pub(super) fn seams(&self, atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> f64 {
         let off = |texel: usize| DVec3::from(found[texel]) - DVec3::from(expected[texel]);
         let (mut rough, mut whole) = (0.0, 0.0);

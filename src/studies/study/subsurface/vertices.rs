@@ -7,8 +7,8 @@ use crate::atlas::Atlas;
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 
-/// Means of values per texel at each vertex: of the texels in its corners of faces, by the areas of the faces. `None`
-/// for a vertex of no face with an area.
+/// Means of texel values at each vertex, over the texels in its corners of faces, weighted by face area. `None` for a
+/// vertex without a face that has an area.
 pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
     let mut sums = vec![(0.0, DVec3::ZERO); mesh.positions().len()];
     for (face, (vertices, place)) in (0..).zip(mesh.triangles().iter().zip(atlas.places())) {
@@ -17,7 +17,7 @@ pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<
             weights[corner] = 1.0;
             let [x0, y0, x1, y1] = place.bounds();
             let [x, y] = atlas.coordinates(face, weights);
-            // The texel that the corner is a corner of.
+            // The texel at this corner of the face.
             let [column, row] = [x.clamp(x0, x1), y.clamp(y0, y1)].map(|at| at as usize);
             let (sum, mean) = &mut sums[vertex as usize];
             *sum += mesh.area(face);

@@ -62,7 +62,7 @@ pub(super) struct WayRow {
     pub(super) way: GatherWay,
     /// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
     pub(super) lookups: [usize; 2],
-    /// The card's memory: all of it, and of links alone, in bytes.
+    /// Card memory in bytes: in total, and of links alone.
     pub(super) memory: [u64; 2],
     /// Instructions and samplers of each program of pass 2.
     pub(super) programs: Vec<[usize; 2]>,
@@ -72,7 +72,7 @@ pub(super) struct WayRow {
     pub(super) saturated: usize,
     /// The links' own error: the host's sum over them against all pairs.
     pub(super) links_error: Option<GatherError>,
-    /// Roughness of its errors among neighbouring texels, relative to B.
+    /// Roughness of the errors among neighbouring texels, relative to B.
     pub(super) seams: Option<f64>,
     /// The links' own error with means by number of texels.
     pub(super) plain_error: Option<GatherError>,
@@ -111,12 +111,12 @@ pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn
     links_of(scene, way, link_bands(scene, way, 0..LinkBands::count(scene.parameters.options.side), progress)?)
 }
 
-/// The links of a way out of those of all bands.
+/// The links of a method, from the links of all bands.
 pub(super) fn links_of(scene: &Scene<'_>, way: GatherWay, bands: LinkBands) -> Result<Links, StudyError> {
     Ok(Links::of_bands(scene.surface, link_dipoles(scene, way).len(), way.choice, bands)?)
 }
 
-/// The dipoles of a way's factors: of red, green and blue, or of green for all.
+/// The dipoles of a method's factors: of red, green and blue, or of green for all.
 fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
     if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }

@@ -39,7 +39,7 @@ fn ticks(scale: Scale, values: &[f64]) -> Vec<String> {
     numbers(&svg).into_iter().map(str::to_owned).collect()
 }
 
-/// Column and row of each disc but that beside the label, which is drawn first.
+/// Column and row of each disc except the first, which is beside the label.
 fn discs(svg: &str) -> Vec<[f64; 2]> {
     let number = |tag: &str, name: &str| -> f64 {
         between(tag, &format!("{name}=\""), "\"").next().expect("a place").parse().expect("a number")

@@ -48,7 +48,7 @@ fn triangle() -> (Mesh, Vertices, LitView) {
     (mesh, vertices, view)
 }
 
-/// Corners of one channel each: a pixel's value in a channel is the barycentric weight of its corner, from 0 to 1.
+/// Corners have one channel each, so a pixel's channel is the barycentric weight of its corner, in [0, 1].
 #[test]
 fn weights_are_barycentric_and_stay_inside() {
     let (mesh, vertices, view) = triangle();

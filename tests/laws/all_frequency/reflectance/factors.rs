@@ -71,8 +71,8 @@ fn as_many_terms_as_the_rank_are_the_table() {
     }
 }
 
-/// The squared error of m terms is the sum of the squared singular values left out, and no row has an error larger than
-/// the first of these values.
+/// The squared error of m terms is the sum of the squared omitted singular values, and no row has a larger error than
+/// the first of these.
 #[test]
 fn the_error_is_the_tail_of_the_spectrum() {
     for table in tables() {
@@ -200,7 +200,7 @@ fn bits_do_not_depend_on_threads() {
     assert!(on(2) == one && on(5) == one);
 }
 
-/// Under uniform radiance 1 the truncated sum reflects the same as the table, up to the first singular value left out
+/// Under uniform radiance 1 the truncated sum reflects as much as the table, up to the first omitted singular value
 /// times the length of the weights.
 #[test]
 fn a_white_furnace_shows_what_terms_lose() {
@@ -236,7 +236,7 @@ fn a_white_furnace_shows_what_terms_lose() {
     assert_eq!((view, light(DVec3::NEG_Z)), (1.0 / PI, 0.0));
 }
 
-/// Singular values of isotropic lobes come in pairs: a number of terms that splits a pair is reported, others are not.
+/// Singular values of isotropic lobes come in pairs: only a number of terms that splits a pair is reported.
 #[test]
 fn split_pairs_are_found() {
     let bare = Lobe {

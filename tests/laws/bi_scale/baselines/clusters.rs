@@ -20,7 +20,7 @@ fn clusters(matrix: &SparseMatrix, options: &RowClusterOptions) -> RowClusters {
     RowClusters::new(matrix, options, &mut |_| ()).expect("clusters")
 }
 
-/// The squared error of all rows, through dense rows.
+/// The squared error of all rows, computed from dense rows.
 fn squared_error(matrix: &SparseMatrix, found: &RowClusters) -> f64 {
     let of_row = |row| {
         let difference: Vec<f64> = dense_row(matrix, row).iter().zip(found.row(row)).map(|(a, b)| a - b).collect();
@@ -34,7 +34,7 @@ fn no_round_adds_error() {
     let matrix = transfer().1;
     let whole: f64 = (0..matrix.rows()).map(|row| dot(&dense_row(&matrix, row), &dense_row(&matrix, row))).sum();
     for form in FORMS {
-        // From all rows, and from a sample, which leaves the rounds more to do.
+        // From all rows, and from a sample, which needs more rounds.
         for sample in [4096, 40] {
             let mut told = Vec::new();
             let options = RowClusterOptions { sample, ..options(form) };
@@ -50,7 +50,7 @@ fn no_round_adds_error() {
     }
 }
 
-/// From all rows the rounds start where clustering of the dense signal ends, and rows are where they are met best.
+/// From all rows, rounds start where clustering of the dense signal ends; each row is in its best cluster.
 #[test]
 fn rounds_begin_with_the_clusters_of_the_dense_signal() {
     let matrix = transfer().1;
@@ -97,7 +97,7 @@ fn products_are_those_of_the_approximated_rows() {
     }
 }
 
-/// Rows of a few patterns are met exactly by as many vectors.
+/// Rows of a few patterns are represented exactly by as many vectors.
 #[test]
 fn rows_of_low_rank_are_met() {
     let mut matrix = SparseMatrix::new(6144, 2).unwrap();
@@ -112,7 +112,7 @@ fn rows_of_low_rank_are_met() {
     }
 }
 
-/// Any number of threads, the same bits.
+/// Any number of threads gives the same bits.
 #[test]
 fn threads_change_nothing() {
     let matrix = transfer().1;

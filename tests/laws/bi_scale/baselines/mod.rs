@@ -1,4 +1,4 @@
-//! Other ways to store transfer: their contents, against plain loops, and their errors.
+//! Other ways to store transfer: their contents and errors, against plain loops.
 
 mod clusters;
 mod rotated;

@@ -1,4 +1,4 @@
-//! Harmonics and reshuffled visibility, which are rotated into frames of vertices.
+//! Harmonics and reshuffled visibility, which are rotated into vertex frames.
 
 use std::f64::consts::{PI, TAU};
 
@@ -33,7 +33,7 @@ fn cells_cover_the_hemisphere() {
     }
 }
 
-/// Light of an order, and matrices of harmonics, written out texel by texel.
+/// Light projected to an order, and matrices of harmonics, computed texel by texel.
 #[test]
 fn harmonics_are_those_of_plain_loops() {
     let (vertices, matrix, directions) = transfer();
@@ -72,8 +72,8 @@ fn harmonics_are_those_of_plain_loops() {
     }
 }
 
-/// For smooth light the error falls with the order; for hard light low orders have a large error, and harmonics on both
-/// sides a larger one than on one.
+/// For smooth light the error falls with the order. For hard light, low orders have a large error, and a larger one
+/// with harmonics on both sides than on one side.
 #[test]
 fn higher_orders_are_nearer() {
     let (vertices, matrix, directions) = transfer();
@@ -97,7 +97,7 @@ fn higher_orders_are_nearer() {
     assert_eq!(refused, "expected an order of harmonics of 1 to 10, found 11");
 }
 
-/// Down-sampled visibility, reshuffled, direction by direction; and its error, which finer texels do not take away.
+/// Down-sampled visibility, reshuffled direction by direction, and its error, which finer texels do not remove.
 #[test]
 fn a_shuffle_takes_the_texel_of_each_direction() {
     let (vertices, matrix, directions) = transfer();
@@ -137,7 +137,7 @@ fn a_shuffle_takes_the_texel_of_each_direction() {
     );
 }
 
-/// A vertex that sees everything, under the same light from everywhere: each direction gets its solid angle.
+/// An unoccluded vertex under uniform light: each direction gets its solid angle.
 #[test]
 fn a_constant_light_stays_constant() {
     let (vertices, _, directions) = transfer();

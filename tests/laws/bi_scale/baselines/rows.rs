@@ -26,8 +26,8 @@ proptest! {
             prop_assert_eq!(found[1], 2.0 * found[0]);
             let magnitude: f64 = matrix.row(row).iter()
                 .map(|entry| 0.25 * f64::from(entry.value.abs()) * light[entry.index as usize]).sum();
-            // Per entry one rounding of the light, a product and a sum, each with error 2^-24; f64 has less error than
-            // that again.
+            // Per entry one rounding of the light, a product and a sum, each with error 2^-24; doubled, since f64 has a
+            // smaller error.
             let bound = 2.0 * (matrix.row(row).len() + 2) as f64 * f64::from(f32::EPSILON) * magnitude;
             prop_assert!((f64::from(found[0]) - expected).abs() <= bound, "row {}", row);
         }
@@ -51,7 +51,7 @@ fn sizes_are_of_entries_and_rows() {
     assert_eq!(CompressedRows::wide(&matrix).unwrap().sizes()[0].bytes, 8 * entries + 4 * rows);
 }
 
-/// Columns and values out of range are refused, and fit into wider numbers.
+/// Columns and values out of range are refused, and fit wider types.
 #[test]
 fn what_has_no_room_is_refused() {
     let of = |columns, index, value| {

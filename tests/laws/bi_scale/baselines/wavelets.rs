@@ -53,7 +53,7 @@ fn by_largest_coefficients(row: &[f64], keep: usize, priority: CoefficientPriori
     coefficients
 }
 
-/// Coefficients of quarters are multiples of powers of two: nothing is rounded.
+/// Coefficients of quarters are multiples of powers of two, so nothing is rounded.
 #[test]
 fn the_largest_coefficients_are_those_of_plain_loops() {
     for seed in 0..12 {
@@ -69,8 +69,8 @@ fn the_largest_coefficients_are_those_of_plain_loops() {
     }
 }
 
-/// Orthonormal wavelets: with all coefficients the product is that of the matrix; with fewer, that of the rows that
-/// they represent, and magnitude gives the least squared error.
+/// Orthonormal wavelets: with all coefficients the product equals the matrix's; with fewer, it equals that of the
+/// represented rows, and choice by magnitude has the least squared error.
 #[test]
 fn products_are_those_of_the_approximated_rows() {
     let (matrix, light) = (transfer().1, light(7));

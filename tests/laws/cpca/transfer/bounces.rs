@@ -48,7 +48,7 @@ fn two_materials_light_each_other() {
     assert!(one.to_string().starts_with("triangle 3 has material 1"), "{one}");
 }
 
-/// A box without lid that looks inwards.
+/// A box without a lid, whose faces look inwards.
 fn open_box() -> Mesh {
     let mut soup = Soup::default();
     soup.quad(DVec3::ZERO, DVec3::X, DVec3::Y);
@@ -96,7 +96,7 @@ fn where_nothing_is_lost_everything_looks_like_the_sky() {
 
 #[test]
 fn half_of_white_is_a_series_that_can_be_summed() {
-    // In a closed box nothing of the sky is seen; a bounce halves what walls send out, which is nothing.
+    // In a closed box no sky is visible; a bounce halves the reflected light, which is 0.
     let mut soup = Soup::default();
     soup.boxed(DVec3::ONE, DVec3::ZERO);
     let mesh = soup.flat();

@@ -1,4 +1,4 @@
-//! A second opinion: random directions instead of a rule, and no transfer at all.
+//! An independent estimate: random directions instead of a rule, and no transfer.
 
 use crossbar::cpca::transfer::{Bounces, Response, Transfer};
 use crossbar::elementary::on_circle;
@@ -22,7 +22,7 @@ fn random_directions_see_as_much_light() {
     let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(0)).expect("t_p");
     let (mut squares, mut count) = (0.0, 0);
     for (vertex, (at, frame)) in vertices.positions().iter().zip(vertices.frames()).enumerate() {
-        // Away from the edge where floor and wall meet: there a lifted point would still lie on one of them.
+        // Away from the edge between floor and wall, where an offset point would lie on one of them.
         if at[1] == 1.0 {
             continue;
         }

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::{Soup, caster, close, uniform};
 
-/// A triangle at the origin that looks up, too small to matter, before all else: its first corner is vertex 0.
+/// A triangle at the origin that faces up, too small to matter: its first corner is vertex 0.
 fn observer() -> Soup {
     Soup(vec![[0.0; 3], [1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0]])
 }
@@ -64,7 +64,7 @@ fn a_disk_overhead_shadows_every_band_as_the_formula_says() {
         let (transfer, rays) = diffuse(&soup.flat(), degree, order);
         let blocked = (0..rule.len()).filter(|&direction| rays.is_blocked(0, direction)).count();
         assert_eq!(blocked, (31 - ring) * (degree + 1));
-        // Free are z below the rim: the integral of y z / pi there, m = 0 alone, by a rule of its own.
+        // The sky is free for z below the rim: the integral of y z / pi there, for m = 0 alone, by a separate rule.
         let mut expected = [0.0; 100];
         let mut y = [0.0; 100];
         for (z, weight) in crossbar::quadrature::integral_points(0.0, cosine) {
@@ -74,13 +74,13 @@ fn a_disk_overhead_shadows_every_band_as_the_formula_says() {
                 expected[index] += weight * 2.0 * PI * y[index] * z / PI;
             }
         }
-        // A ring's weight stands for the stretch around it: the rim lies where one ends, to half a step.
+        // A ring's weight covers the band around it: the rim lies at the end of a band, up to half a step.
         let step = (above - below) * above * 1.1;
         for (index, expected) in expected.into_iter().enumerate() {
             let m_is_0 = index == function_index(index.isqrt(), 0);
             close(f64::from(transfer.of(0)[index]), expected, if m_is_0 { step } else { 1e-6 }, "a coefficient");
         }
-        // Exactly: the rings that are left.
+        // Exact: the unblocked rings.
         let rings: f64 = (0..=ring).map(|ring| rule.weights()[ring * 64] * 64.0 * rule.directions()[ring * 64].z).sum();
         close(transfer.radiance(0, DVec3::Z, &uniform(100)), rings / PI, 1e-6, "radiance");
     }
@@ -116,7 +116,7 @@ fn bowl(sine: f64) -> Mesh {
     soup.flat()
 }
 
-/// Light in a bowl, by the rule that transfer is precomputed with unasked: no height falls between rings.
+/// Light in a bowl by the default rule for transfer: every height of the rim is within the same error.
 #[test]
 fn bowls_of_any_height_cost_no_more_than_walls() {
     let albedo = Brdf::Lambert { albedo: 1.0 };

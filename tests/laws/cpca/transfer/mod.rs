@@ -26,7 +26,7 @@ use glam::DVec3;
 struct Soup(Vec<[f32; 3]>);
 
 impl Soup {
-    /// A parallelogram that looks along `across` x `along`.
+    /// A parallelogram that faces along `across` x `along`.
     fn quad(&mut self, corner: DVec3, across: DVec3, along: DVec3) {
         for place in [corner, corner + across, corner + across + along, corner, corner + across + along, corner + along]
         {
@@ -34,7 +34,7 @@ impl Soup {
         }
     }
 
-    /// A box between two corners that looks outwards, or with them exchanged inwards.
+    /// A box between two corners whose faces look outwards, or, with exchanged corners, inwards.
     fn boxed(&mut self, low: DVec3, high: DVec3) {
         let d = high - low;
         for axis in 0..3 {
@@ -51,13 +51,13 @@ impl Soup {
         soup(self.0)
     }
 
-    /// With the normals of its triangles.
+    /// A mesh with the normals of its triangles.
     fn flat(self) -> Mesh {
         flat(self.0)
     }
 }
 
-/// A step: a floor and a wall, two squares each, and a block that overhangs.
+/// A step: a floor and a wall of two squares each, and an overhanging block.
 fn step() -> Mesh {
     let mut soup = Soup::default();
     for x in [0.0, 1.0] {
@@ -83,7 +83,7 @@ fn uniform(count: usize) -> Vec<f64> {
     light
 }
 
-/// Some light of every function.
+/// Light with a non-zero coefficient for every function.
 fn mixed(count: usize) -> Vec<f64> {
     (0..count).map(|index| if index == 0 { 3.0 } else { ((index * 37 % 23) as f64 - 11.0) / 15.0 }).collect()
 }

@@ -1,4 +1,4 @@
-//! A second opinion: path tracing under the same light, which knows triangles and materials, but no rule of directions,
+//! An independent estimate: path tracing under the same light, with triangles and materials, but no rule of directions,
 //! no matrix and no interpolation between vertices.
 //!
 //! Per vertex the difference is compared with the standard error of the paths. The error of interpolation between
@@ -20,7 +20,7 @@ use super::{Soup, caster, mixed, trace};
 const ALBEDO: f64 = 0.8;
 /// Offset of rays from the surface.
 const LIFT: f64 = 1e-4;
-/// Random numbers of a place on a path.
+/// Random numbers per vertex of a path.
 const PER_PLACE: u64 = 2;
 
 /// Parts of each side of a square, and paths per vertex.
@@ -45,14 +45,14 @@ fn divided_step(parts: u32) -> (Mesh, Vec<u32>) {
     (soup.flat(), materials)
 }
 
-/// A direction around a normal, by the cosine.
+/// A cosine-distributed direction around a normal.
 fn around(normal: DVec3, [u, turns]: [f64; 2]) -> DVec3 {
     let [x, y] = on_circle(turns);
     LocalFrame::of_normal(normal).to_global(DVec3::new(u.sqrt() * x, u.sqrt() * y, (1.0 - u).sqrt()))
 }
 
-/// Paths from a place, a first direction each: the radiance that arrives along it after at most so many reflections by
-/// diffuse surfaces.
+/// Paths from a place, each with its first direction: the radiance along it after at most this many diffuse
+/// reflections.
 struct Paths<'a> {
     mesh: &'a Mesh,
     caster: HostTracer,
@@ -93,7 +93,7 @@ impl Paths<'_> {
     }
 }
 
-/// Standard deviations from a mean.
+/// Number of standard deviations from a mean.
 fn deviations(found: f64, samples: &[f64]) -> f64 {
     let count = samples.len() as f64;
     let mean = samples.iter().sum::<f64>() / count;
@@ -101,14 +101,14 @@ fn deviations(found: f64, samples: &[f64]) -> f64 {
     (found - mean) / (variance / count).sqrt()
 }
 
-/// The root of the mean square of deviations, and the largest.
+/// Root mean square of deviations, and the largest.
 fn spread(all: &[f64]) -> [f64; 2] {
     let squares: f64 = all.iter().map(|z| z * z).sum();
     [(squares / all.len() as f64).sqrt(), all.iter().fold(0.0, |most, z| most.max(z.abs()))]
 }
 
-/// Vertices that are compared with paths: a few of each kind, off the edge where a lifted place would still lie on the
-/// other surface.
+/// Vertices that are compared with paths: a few of each kind, away from the edge, where an offset place would lie on
+/// the other surface.
 fn chosen(vertices: &Vertices, every: usize) -> impl Iterator<Item = usize> + '_ {
     (0..vertices.len()).step_by(every).filter(|&vertex| vertices.positions()[vertex][1] != 1.0)
 }
@@ -141,8 +141,8 @@ fn diffuse_transfer_with_bounces_is_what_paths_bring() {
     assert!(without > 1.5 * root, "the last bounce is seen: {without} standard deviations without it");
 }
 
-/// A glossy block that sees diffuse surfaces alone: the integrals of its exit radiance with harmonics are `A (M_p l)`,
-/// of least squares.
+/// A glossy block that sees only diffuse surfaces: the integrals of its exit radiance with harmonics equal `A (M_p l)`,
+/// by least squares.
 #[test]
 fn glossy_transfer_with_a_bounce_is_what_paths_bring() {
     let (parts, samples) = size();
@@ -175,7 +175,7 @@ fn glossy_transfer_with_a_bounce_is_what_paths_bring() {
         let random = |sample, dimensions: [u64; 2]| dimensions.map(|k| paths.random.unit(vertex as u64, sample, k));
         let first: Vec<DVec3> = (0..samples).map(|sample| around(frame.normal(), random(sample, [0, 1]))).collect();
         let arriving = paths.arriving(vertex as u64, place, &first, 1);
-        // Views evenly over the hemisphere, light by the cosine: 2 pi times pi over the number of samples.
+        // Views are uniform over the hemisphere, light cosine-distributed: 2 pi times pi over the number of samples.
         let scale = 2.0 * std::f64::consts::PI * std::f64::consts::PI;
         let mut integrals = vec![Vec::new(); exit.len()];
         for (sample, (&towards, radiance)) in (0..).zip(first.iter().zip(arriving)) {

@@ -1,4 +1,4 @@
-//! Rotating everything, and sharing the work differently, changes nothing.
+//! Rotating everything, or dividing the work differently, changes nothing.
 
 use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
 use crossbar::geom::{Mesh, Sides};
@@ -36,7 +36,7 @@ fn turned(mesh: &Mesh, rotation: &DMat3) -> Mesh {
 
 #[test]
 fn turning_mesh_tangents_and_light_changes_nothing() {
-    // Askew, so that no ray runs along an edge.
+    // Rotated, so that no ray runs along an edge.
     let mesh = turned(&step(), &DMat3::from_axis_angle(DVec3::new(0.36, -0.48, 0.8), 0.4));
     let light = mixed(25);
     let (before, rays, response) = transfer(&mesh, AXIS);
@@ -52,7 +52,7 @@ fn turning_mesh_tangents_and_light_changes_nothing() {
         for vertex in 0..before.vertex_count() {
             let of =
                 |direction: &usize| rays.is_blocked(vertex, *direction) != turned_rays.is_blocked(vertex, *direction);
-            // Corners in single precision: a ray that just misses an edge may hit it.
+            // Corners are in single precision: a ray that just misses an edge may hit it.
             let flipped: Vec<usize> = (0..rays.rule().len()).filter(of).collect();
             differ += flipped.len();
             // Factors of a ray: its weight, the lobe towards the view, and the light, both below 20.

@@ -17,7 +17,7 @@ fn dipole() -> Dipole {
     Dipole::new(Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 }, 1.3).expect("a medium")
 }
 
-/// Irradiance that enters each vertex; all of it where `transmittance` is 1.
+/// Irradiance that enters each vertex; all of it if `transmittance` is 1.
 fn entering(mesh: &Mesh, order: usize, transmittance: fn(f64) -> f64) -> (Vertices, Transfer) {
     let vertices = Vertices::new(mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(14), &mut caster(mesh), false).expect("traced");

@@ -4,13 +4,13 @@ use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
 use crossbar::oracle::{Disagreement, DisagreementKind};
 
-/// The quantity whose rounding made an fp32 answer wrong.
+/// The quantity whose rounding caused a wrong fp32 answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Cause {
     /// The sign of u, v or w: the side of an edge on which the ray passes.
     Edge,
-    /// The sign of n.d, or the normal itself: triangle and ray so nearly coplanar that fp32 finds the other side, or no
-    /// normal.
+    /// The sign of n.d, or the normal itself: triangle and ray are so nearly coplanar that fp32 finds the other side,
+    /// or no normal.
     Plane,
     /// The sign of t: the origin lies on the surface, or next to it.
     Start,
@@ -120,7 +120,7 @@ impl Single {
         self.products.iter().zip(&double.products).any(lost)
     }
 
-    /// The test of f32 that rejects the ray, among plane, edges and start.
+    /// The f32 condition that rejects the ray, among plane, edges and start.
     fn turned(&self, sides: Sides) -> Cause {
         if self.n == [0.0; 3] || !self.faces(sides) {
             Cause::Plane
@@ -133,7 +133,7 @@ impl Single {
 }
 
 impl Double {
-    /// The test that a missed triangle fails in f64.
+    /// The condition that a missed triangle fails in f64.
     fn fails(&self, sides: Sides) -> Cause {
         if self.outside() && self.n_d != 0.0 {
             Cause::Edge

@@ -3,9 +3,9 @@
 //! bits.
 //!
 //! **What is tested.** The baseline is the card's f32 test over all pairs. Where its answer is right in exact
-//! arithmetic, every path gives its bits. Where it is wrong, or the error of t is a hundredth or more, a path may
-//! differ, but only by skipping triangles: every hit that a path reports passes the f32 test. docs/papers/ray_engine.md
-//! has a table of fp32's errors by the rounding that causes them.
+//! arithmetic, every path must give its bits. Where it is wrong, or has an error of t of a hundredth or more, a path
+//! may differ, but only by skipping triangles: every reported hit passes the f32 test. docs/papers/ray_engine.md has a
+//! table of fp32's errors by the rounding that causes them.
 
 mod cause;
 mod scene;
@@ -29,10 +29,10 @@ use refsim::machine::ExecutorKind;
 use scene::Scene;
 
 const SCENES: u64 = 10_000;
-/// One scene in this many is drawn on the card, and one in so many in octrees; all with `CROSSBAR_FULL=1`.
+/// One scene in this many is drawn on the card; every scene with `CROSSBAR_FULL=1`.
 const ON_CARD: usize = 8;
 const IN_OCTREES: usize = 4;
-/// ULPs of a t error of a hundredth or more.
+/// ULPs above which a t error is at least a hundredth.
 const ASTRAY: u64 = 1 << 17;
 const TOLERANCE: Tolerance = Tolerance::ulps(4);
 
@@ -61,8 +61,8 @@ impl Yardstick {
         Self { scene, hits, wrong }
     }
 
-    /// Compares the hits of a path with the baseline: returns the number of rays that differ; panics at one without
-    /// excuse.
+    /// Compares the hits of a path with the baseline: returns the number of rays that differ; panics at an unexplained
+    /// one.
     fn hold(&self, name: &str, number: u64, hits: &[Option<Hit>]) -> usize {
         let bits = |hit: &Option<Hit>| hit.map(|hit| (hit.triangle, hit.t.to_bits()));
         assert_eq!(self.hits.len(), hits.len());
@@ -85,7 +85,7 @@ impl Yardstick {
         differing
     }
 
-    /// The f32 test of one triangle, in a mesh with the scene's bounds, which two degenerate triangles span.
+    /// The f32 test of one triangle, in a mesh with the scene's bounds, which two degenerate triangles ensure.
     fn alone(&self, ray: &Ray, triangle: u32) -> Option<Hit> {
         let corners = self.scene.mesh.corners(triangle)?;
         let positions = corners.into_iter().chain(self.scene.mesh.bounds()?).collect();
@@ -94,12 +94,12 @@ impl Yardstick {
     }
 }
 
-/// The baselines of all scenes, shared by the tests. Tests must use this before they start work in parallel: a worker
-/// that waits for the initialisation could be the one that has to run it.
+/// The baselines of all scenes, shared by the tests. Tests must initialise this before they start work in parallel: a
+/// waiting worker could be the one that has to run the initialisation.
 static YARDSTICKS: LazyLock<Vec<Yardstick>> =
     LazyLock::new(|| (0..SCENES).into_par_iter().map(Yardstick::new).collect());
 
-/// The sum of `each` over every `step`-th scene; scenes run in parallel.
+/// The sum of `each` over every `step`-th scene, in parallel.
 fn sum(step: usize, each: impl Fn(u64, &Yardstick) -> usize + Sync + Send) -> usize {
     let yardsticks: &[Yardstick] = &YARDSTICKS;
     yardsticks.par_iter().enumerate().step_by(step).map(|(number, yardstick)| each(number as u64, yardstick)).sum()

@@ -49,7 +49,7 @@ impl Dice {
 /// The kind of coordinates in a scene.
 #[derive(Clone, Copy, PartialEq)]
 enum Coordinates {
-    /// Few values, so that triangles are degenerate, coplanar, share corners, and lie in the planes of octree cells.
+    /// Few values, so that triangles are degenerate or coplanar, share corners, and lie in planes of octree cells.
     Grid,
     Free,
     /// A mixture of both.
@@ -65,7 +65,7 @@ impl Scene {
     pub(crate) fn new(number: u64) -> Self {
         let mut dice = Dice { stream: CounterRng::new(2002), scene: number, throws: 0 };
         let kind = dice.one_of(&[Coordinates::Grid, Coordinates::Grid, Coordinates::Free, Coordinates::Mixed]);
-        // Sizes: mostly one, at times tiny or huge, at times mixed within the scene.
+        // Sizes: mostly one, sometimes tiny or huge, sometimes mixed within the scene.
         let scales: &[f32] = match dice.below(8) {
             0 => &[1e-30],
             1 => &[1e30],

@@ -1,10 +1,10 @@
-//! Bounds of the error of u, v, w, n.d, n.ao and t by a card's rounding: forward error analysis of the programs,
-//! operation by operation, for formats whose range is never left. Each operation is charged one whole step, which
-//! covers every rounding mode.
+//! Bounds of a card's rounding errors of u, v, w, n.d, n.ao and t: forward error analysis of the programs, operation by
+//! operation, for formats without overflow or underflow. Each operation is charged one whole step, which covers every
+//! rounding mode.
 //!
 //! The scale factors of scene and edges are not read from the program under test. Fixed-point errors are taken at the
 //! worst of the scales that the rule "as large as fits" admits: S within a factor of eight, k at least half of the
-//! value that coarse magnitudes allow.
+//! value for coarse magnitudes.
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::vector::wide;
@@ -36,7 +36,7 @@ enum Judgement {
         error: f64,
     },
     Miss,
-    /// A hit or a miss within the error bounds; if a hit, at this t or beyond.
+    /// A hit or a miss within the error bounds; a hit would be at this t or beyond.
     Unclear {
         from: f64,
     },
@@ -45,7 +45,7 @@ enum Judgement {
 /// The bounds of a batch.
 pub(crate) struct Bounds {
     format: FormatKind,
-    /// True if n.d is used as a divisor up to 1 only.
+    /// `true` if n.d is used as a divisor only up to 1.
     min1: bool,
     one_origin: bool,
     /// The largest components of offsets, origins and corners.
@@ -187,7 +187,7 @@ impl Bounds {
             FormatKind::Float { exp_bits, man_bits } => self.float(&exact, (o, corners), exp_bits, man_bits),
         };
         let passes = |sign: f64| {
-            // A certain miss has a value with a certainly wrong sign; in a certain hit all signs are certainly right.
+            // A certain miss has a value with a certainly wrong sign; in a certain hit, all signs are certainly right.
             let margins = [
                 sign * exact.inside[0] / errors.inside[0],
                 sign * exact.inside[1] / errors.inside[1],
@@ -246,7 +246,7 @@ impl Bounds {
         let edge = exact.edges.map(largest).into_iter().fold(0.0, f64::max) * scale;
         let normal = largest(exact.n) * scale * scale;
         let t_max = if self.one_origin { 2.2 * self.t * scale } else { 4.0 };
-        // Half a 16-bit code and the register's step, doubled by _bx2.
+        // Half a step of a 16-bit code, and the register's step, doubled by _bx2.
         let texel = power_of_two(-15) + 2.0 * step;
         let ao = if self.one_origin { step } else { texel + 2.0 * step } + SINGLE * offset;
         let aod = 2.0 * offset * texel + 2.1 * ao + 4.0 * step;

@@ -1,7 +1,7 @@
 //! No intersection is lost to the range of a number format, and none depends on the unit of length.
 //!
-//! **Range.** Random scenes of any size and position, triangles from tiny ones to rooms around the rays, on every card
-//! that intersects and on ideal formats, fixed-point ones that wrap among them. `bounds.rs` derives how far rounding
+//! **Range.** Random scenes of any size and position, with triangles from tiny ones to rooms around the rays, on every
+//! card that intersects and on ideal formats, including fixed point that wraps. `bounds.rs` derives how far rounding
 //! can move u, v, w, n.d and t. If the first hit of a ray is certain within these bounds, the card must find it. So
 //! saturation, wrapping, overflow and underflow would be detected.
 //!
@@ -38,7 +38,7 @@ const DEVICES: [(&str, &[(&str, &str)]); 18] = [
     ("r350", &[]),
     ("nv30", &[]),
     ("nv35", &[]),
-    // Saturating: the hit mask is the constant 1, which would wrap to -1 here.
+    // Saturates: the hit mask is the constant 1, which would wrap to -1 here.
     ("ideal-s0.15", &[]),
     ("ideal-s3.12:wrap", &[]),
     ("ideal-s3.16", &[]),
@@ -70,7 +70,7 @@ fn scenes() -> u64 {
     by_form(60, 4000)
 }
 
-/// The scenes, and the triangle that each ray truly hits first. Tests use this before they start work in parallel.
+/// The scenes, and the exact first triangle of each ray. Tests use this before they start work in parallel.
 static SCENES: LazyLock<Vec<(Scene, Vec<Option<u32>>)>> = LazyLock::new(|| {
     let truth = |scene: &Scene, ray: &Ray| exact::nearest(&scene.mesh, ray, scene.sides).map(|hit| hit.triangle);
     let with_truth = |number| {
@@ -112,13 +112,13 @@ fn no_hit_in_no_doubt_is_lost_to_the_range_of_a_format() {
             certain
         });
         let [hits, misses] = counts.reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-        // A law about nothing would hold.
+        // Guards against a vacuous test.
         let rays = (scenes.len() * scene::RAYS) as u64;
         assert!(hits * 160 > rays && misses * 20 > rays, "{device:?}: {hits} hits, {misses} misses of {rays}");
     }
 }
 
-/// Directions in 16 bits do not bound single rays, but lost range loses most hits.
+/// Directions in 16 bits do not bound the error of single rays, but a lost range loses most hits.
 #[test]
 fn floats_keep_their_range_in_the_programs_for_fixed_point() {
     for format in ["e5m10", "e7m16", "e8m16", "e8m23"] {
@@ -237,7 +237,7 @@ fn no_eye_ray_leaves_a_closed_room() {
         for jitter in [0.0, 1e-3] {
             let hits = crossbar((device, &[])).intersect(&room, &rays(jitter), Sides::Both).expect("it works").hits;
             let lost = hits.iter().filter(|hit| hit.is_none()).count();
-            // Rounding loses rays at the edges; the paper's leaks are that.
+            // Rounding loses rays at the edges: these are the paper's leaks.
             assert!(lost <= most, "{device}: {lost} of 1024 lost");
         }
     }

@@ -1,4 +1,4 @@
-//! Scenes by number: some triangles, anywhere, of sizes from a thousandth to all of the scene, and a square of rays.
+//! Scenes by number: triangles anywhere, of sizes from a thousandth to all of the scene, and a square of rays.
 
 use crate::support::soup;
 use crossbar::geom::exact::Sides;
@@ -19,12 +19,12 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// For a size from 2^-20 to 2^20.
+    /// A scene of a size from 2^-20 to 2^20.
     pub(crate) fn new(number: u64) -> Self {
         Self::of_size(number, (CounterRng::new(number).bits(0, 0, 0) % 41) as i32 - 20)
     }
 
-    /// For size 2^`power`.
+    /// A scene of size 2^`power`.
     pub(crate) fn of_size(number: u64, power: i32) -> Self {
         let random = CounterRng::new(number);
         let size = power_of_two(power);

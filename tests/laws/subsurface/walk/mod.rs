@@ -1,4 +1,4 @@
-//! Photons followed one by one through a homogeneous medium with a smooth boundary, for the dipole's own error.
+//! Photons traced one by one through a homogeneous medium with a smooth boundary, for the dipole's own error.
 //!
 //! A photon enters refracted, goes exponentially distributed steps of mean 1 / sigma'_t, is absorbed or scattered
 //! isotropically at the end of each, and meets the boundary from inside, which reflects it by Fresnel's formula or
@@ -30,7 +30,7 @@ pub(crate) struct PhotonWalk {
     pub(crate) entry: PhotonEntry,
     /// Photons that enter, at least [`BATCHES`].
     pub(crate) photons: u64,
-    /// Steps after which a photon is given up: without absorption some walk on almost forever.
+    /// Steps after which a photon is given up: without absorption some walks are almost endless.
     pub(crate) max_steps: u32,
     /// Random seed.
     pub(crate) seed: u64,

@@ -7,7 +7,7 @@ use crossbar::geom::random::CounterRng;
 use crossbar::subsurface::fresnel_transmittance;
 use glam::DVec3;
 
-/// Tries for a direction that passes the boundary.
+/// Maximum number of tries for a direction that passes the boundary.
 const MAX_TRIES: u32 = 1000;
 
 /// How photons enter. All counts are per photon that has passed the boundary.
@@ -45,7 +45,7 @@ impl PhotonRng {
         around(DVec3::Z, 1.0 - 2.0 * u, v)
     }
 
-    /// Length of a step in mean free paths, and a number in (0, 1) for what happens at its end.
+    /// Length of a step in mean free paths, and a number in (0, 1) for the event at its end.
     pub(crate) fn step(&mut self) -> [f64; 2] {
         let [u, v] = self.pair();
         [-ln(u), v]

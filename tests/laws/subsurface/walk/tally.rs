@@ -1,6 +1,6 @@
-//! Shares of photons by where they ended, with their errors.
+//! Fractions of photons by fate, with their errors.
 
-/// Groups that photons are counted in: their spread gives the error.
+/// Number of batches in which photons are counted: their spread gives the error.
 pub(crate) const BATCHES: usize = 32;
 
 /// The 97.5 % quantile of Student's t distribution with 31 degrees of freedom.

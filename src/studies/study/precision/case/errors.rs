@@ -36,7 +36,7 @@ pub(super) struct CaseErrors {
     relative: ErrorSums,
     largest_absolute: f64,
     largest_codes: f64,
-    /// By pixel: the largest badness of a channel, and `true` if one is wrong.
+    /// Per pixel: the largest badness of a channel; in `wrong`, `true` if a channel is wrong.
     pub(super) off: Vec<f64>,
     wrong: Vec<bool>,
     /// Target, index of the value, and its badness.
@@ -62,7 +62,7 @@ impl CaseErrors {
             return;
         }
         self.largest_absolute = self.largest_absolute.max(absolute);
-        // Codes are integers; the quotients that represent them here are not.
+        // Codes are integers, but their values here are quotients.
         let off = codes(channel).map(|codes| (absolute * codes).round());
         self.largest_codes = self.largest_codes.max(off.unwrap_or(0.0));
         self.wrong[pixel] |= off.map_or(relative > WRONG, |off| off > 1.0);

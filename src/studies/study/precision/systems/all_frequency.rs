@@ -18,7 +18,7 @@ use crate::transfer::{Tangents, Vertices};
 
 /// Terms of the reflectance: those of the paper.
 const TERMS: usize = 10;
-/// Directions along a side of its table.
+/// Directions per side of the reflectance table.
 const TABLE: usize = 16;
 
 /// Bunny with a reflectance in terms, and transferred radiance made of waves with edges.

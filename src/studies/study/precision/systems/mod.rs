@@ -22,7 +22,7 @@ use crate::study::StudyError;
 use picture_subject::SystemSubject;
 use ray_engine::RayEngineSubject;
 
-// No result of a study shows that a sample leaves nothing out.
+// Public for tests: no result of a study shows that a sample covers everything.
 #[doc(hidden)]
 pub use sampler::spread;
 
@@ -45,7 +45,7 @@ pub enum PaperSystem {
 }
 
 impl PaperSystem {
-    /// Card of the paper on which it ran.
+    /// The paper's card.
     pub fn card(self) -> &'static str {
         match self {
             Self::RayEngine => "r200",

@@ -1,4 +1,4 @@
-//! Systems whose values are compared with those of their own exact run.
+//! Systems whose values are compared with their own exact run.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -59,7 +59,7 @@ impl SystemSubject {
 
 /// Errors of values.
 struct SystemErrors {
-    /// By the names of [`MEASURES`].
+    /// Values by the names of [`MEASURES`].
     values: Vec<(&'static str, f64)>,
     /// Index of the first of the largest errors, if there are any.
     worst: Option<usize>,
@@ -75,7 +75,7 @@ fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> SystemErrors {
         let mut most = 0.0_f64;
         for (&value, &right) in ours.iter().zip(right) {
             sums.add(relative_error(value, right), 1.0);
-            // To a millionth, so that a code of 8 bits, which is read in single precision, is one 255th.
+            // Rounds to a millionth, so that an 8-bit code, which is read in single precision, is exactly one 255th.
             most = most.max((1e6 * 255.0 * value_error(value, right).abs()).round() / 1e6);
         }
         off.push(most);
@@ -153,8 +153,8 @@ impl PrecisionSubject for SystemSubject {
         Ok(sampler.results())
     }
 
-    /// Follows the worst pixel or patch through the passes into it. If the refuted instruction's program is not one of
-    /// them, the texel of that program's targets which one bit less changes most.
+    /// Follows the worst pixel or patch through the passes into it. If the refuted instruction is in another program,
+    /// follows the texel of that program's targets that changes most with one bit less.
     fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
         let followed = self.followed(devices, worst, FollowedDraws::IntoTargets(self.target_size()))?;
         let Some(program) = self.programs.get(devices.program).map(Program::digest) else { return Ok(None) };

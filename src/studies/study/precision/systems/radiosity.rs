@@ -10,9 +10,9 @@ use crate::study::StudyError;
 use crate::study::precision::goal::Goal;
 use crate::study::radiosity::no_card;
 
-/// Patches, at most. Programs are unrolled over them, so that their number is that of instructions too.
+/// Maximum number of patches. Programs are unrolled over patches, so that each adds instructions.
 const PATCHES: usize = 24;
-/// Iterations from darkness: light has been reflected so often.
+/// Iterations from darkness: the number of reflections of light.
 const ITERATIONS: usize = 12;
 
 /// Cornell box in few patches, a texel of three channels each.

@@ -52,7 +52,7 @@ pub(super) struct RayEngineSubject {
     profile: Profile,
     executors: SubjectExecutors,
     mesh: Mesh,
-    /// Views of the search, and the one that is held back.
+    /// View of the search, and the held-back view.
     views: [(RayBatch, JudgedRays); 2],
     programs: PixelPrograms,
 }
@@ -78,7 +78,7 @@ impl RayEngineSubject {
         Ok(Self { profile, executors, mesh, views, programs })
     }
 
-    /// Measures a view.
+    /// Traces a view on a device, and measures its errors.
     fn measured(
         &self,
         (view, judged): &(RayBatch, JudgedRays),
@@ -154,7 +154,7 @@ impl PrecisionSubject for RayEngineSubject {
         &MEASURES
     }
 
-    /// At most one ray in a thousand is wrong. Leaks alone would not do as a goal: a format in which every ray hits
+    /// At most one ray in a thousand is wrong. Leaks alone are no sufficient goal: a format in which every ray hits
     /// something has none.
     fn default_goal(&self) -> Goal {
         at_most("wrong", 0.001)
@@ -174,8 +174,8 @@ impl PrecisionSubject for RayEngineSubject {
         Ok(sampler.results())
     }
 
-    /// Follows the first ray that goes wrong with one bit less and not before, or `worst` if there is none, on the
-    /// triangle that it hits exactly and those that it hits on the three devices.
+    /// Follows the first ray that becomes wrong with one bit less, otherwise `worst`, on its exact triangle and on the
+    /// triangles that it hits on the three devices.
     fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
         let judged = &self.views[0].1;
         let [exact, mixed, less] = devices.all();

@@ -19,7 +19,7 @@ const PICTURE: u32 = 64;
 /// Input of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SystemInput {
-    /// That of the search.
+    /// Input of the search.
     Searched,
     /// Another view or light.
     HeldBack,
@@ -39,7 +39,7 @@ pub(super) trait SystemRun: fmt::Debug {
     /// run the programs.
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError>;
 
-    /// Width and height of the picture, if the values are one.
+    /// Width and height of the picture, if the values form one.
     fn size(&self) -> Option<[u32; 2]> {
         Some([PICTURE; 2])
     }

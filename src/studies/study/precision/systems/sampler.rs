@@ -14,9 +14,9 @@ use crate::study::precision::subject::{
     FragmentResults, InstructionResults, RoundedInstruction, SampledResults, StudiedProgram,
 };
 
-/// Fragments of a draw that are kept, at most.
+/// Maximum number of fragments kept per draw.
 const KEPT: usize = 128;
-/// Pixels of a draw that are traced, at least, if it has so many: a pixel may have thousands of fragments.
+/// Minimum number of pixels traced per draw, if there are as many: a pixel may have thousands of fragments.
 const PIXELS: usize = 16;
 
 /// Samples the results of instructions in the exact run of a system. Its draws are traced again with the program of
@@ -74,8 +74,8 @@ impl ResultSampler {
 }
 
 impl DrawWatcher for ResultSampler {
-    /// Samples the draws of a program with the numbers 0, 1, 2, 4, 8 and so on: errors that grow from draw to draw are
-    /// included.
+    /// Samples the draws of a program with the numbers 0, 1, 2, 4, 8 and so on, to include errors that grow from draw
+    /// to draw.
     fn before(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
         let digest = call.pixel_program.digest();
         let Some(index) = self.programs.iter().position(|program| program.digest() == digest) else { return Ok(()) };
@@ -85,7 +85,7 @@ impl DrawWatcher for ResultSampler {
         if number > 0 && !number.is_power_of_two() {
             return Ok(());
         }
-        // Formats of instructions are none of the registers', in which results are.
+        // This program has no formats of instructions: results are in the registers' format.
         let (profile, program) = (machine.profile(), &self.programs[index]);
         let (sample, exact) = Sample::new(machine, call)?;
         let first = found.fragments[index];
@@ -108,27 +108,27 @@ impl DrawWatcher for ResultSampler {
 struct Sample {
     /// Pixels with fragments of the sample.
     pixels: Vec<(u32, u32)>,
-    /// Those fragments, among all of the pixels.
+    /// Indices of the sampled fragments among all fragments of these pixels.
     kept: Vec<usize>,
 }
 
 impl Sample {
-    /// Traces pixels all over the target until there are enough fragments, or no pixels left, and keeps evenly spread
-    /// ones, which are returned too. Which ones does not depend on formats: a fragment is traced where its triangle
-    /// covers the pixel.
+    /// Traces pixels spread over the target until there are enough fragments, or no pixels left; keeps and returns
+    /// evenly spread fragments. The choice does not depend on formats: a fragment is traced where its triangle covers
+    /// the pixel.
     fn new(machine: &Machine, call: &DrawCall<'_>) -> Result<(Self, Vec<FragmentTrace>), MachineError> {
         let [width, height] = machine.target_size(call)?;
         let mut order = spread(width * height).map(|at| (at % width, at / width)).peekable();
         let (mut pixels, mut traced) = (Vec::new(), Vec::new());
         while order.peek().is_some() && (pixels.len() < PIXELS || traced.iter().map(Vec::len).sum::<usize>() < KEPT) {
-            // As many again, as each call sets up all triangles.
+            // Doubles the number of pixels, since each call sets up all triangles.
             let more: Vec<_> = order.by_ref().take(pixels.len().max(PIXELS)).collect();
             traced.extend(machine.trace_pixels(call, &more)?);
             pixels.extend(more);
         }
         let step = traced.iter().map(Vec::len).sum::<usize>().div_ceil(KEPT).max(1);
         let (mut sample, mut exact) = (Self { pixels: Vec::new(), kept: Vec::new() }, Vec::new());
-        // Numbers of the next fragment, among all and among those of pixels of the sample.
+        // Index of the next fragment among all fragments, and among fragments of sampled pixels.
         let (mut next, mut next_of_sample) = (0, 0);
         for (pixel, fragments) in pixels.into_iter().zip(traced) {
             let (first, count, before) = (next, fragments.len(), exact.len());
@@ -154,8 +154,7 @@ impl Sample {
     }
 }
 
-/// Numbers below `count`, each once, in an order whose beginnings are spread over all of them: steps of the golden
-/// section.
+/// The numbers below `count`, each once, in an order whose prefixes are evenly spread: steps of the golden section.
 pub fn spread(count: u32) -> impl Iterator<Item = u32> {
     let divides = |step: u32| (2..=step).any(|d| step.is_multiple_of(d) && count.is_multiple_of(d));
     let section = ((f64::from(count) * 0.618) as u32).max(1);

@@ -14,9 +14,9 @@ use crate::study::precision::subject::StepResult;
 /// Draws in which a pixel is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FollowedDraws {
-    /// Those into targets of this width and height.
+    /// Draws into targets of this width and height.
     IntoTargets([u32; 2]),
-    /// The one with this number, from 0, of those of the program with this digest.
+    /// One draw: the digest of its program, and its number among the draws of that program, from 0.
     Draw(u64, usize),
 }
 
@@ -30,7 +30,7 @@ pub(super) struct FollowedPixel {
 
 #[derive(Debug, Default)]
 struct FoundFragments {
-    /// Number of draws seen of the program that is followed in one.
+    /// Number of draws seen of the followed program.
     draws: usize,
     /// Digest of the program of each fragment.
     fragments: Vec<(u64, FragmentTrace)>,
@@ -89,7 +89,7 @@ pub(super) struct KeptTargets {
 /// Texel in which two runs differ most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DifferentTexel {
-    /// Number of the draw, from 0, of those of the program.
+    /// Number of the draw among the draws of the program, from 0.
     pub(super) draw: usize,
     pub(super) pixel: [u32; 2],
 }

@@ -50,9 +50,9 @@ pub struct SegmentedCompression<'a> {
     pub hats: BasisWidth,
     /// The reflectance.
     pub reflectance: &'a Reflectance,
-    /// How segments are compressed.
+    /// Options of compression.
     pub options: SegmentOptions,
-    /// How they are coded.
+    /// Options of coding.
     pub code: CodeOptions,
     /// Folder of finished segments, and the prefix of their names.
     pub kept: Option<(&'a KeptResults, &'a str)>,
@@ -72,8 +72,8 @@ impl SegmentedCompression<'_> {
         Ok(self.whole(found))
     }
 
-    /// As [`Self::run`], for all segments, for those of a part, or out of parts. Errors: those of [`Self::run`], and
-    /// [`InputError`](crate::error::InputError) of parts.
+    /// Like [`Self::run`], in a whole run, for the segments of a part, or from merged parts. Fails as [`Self::run`]
+    /// does, and with [`InputError`](crate::error::InputError) of parts.
     pub fn run_split(
         &self,
         split: &SplitRun,
@@ -119,7 +119,7 @@ impl SegmentedCompression<'_> {
         (coded, CompressionTally { segments: tallies })
     }
 
-    /// A segment from its transfer, which took some seconds.
+    /// Compresses and codes a segment, whose transfer took `seconds` to compute.
     fn segment(&self, found: TransferSegment, seconds: f64) -> Result<(CodedSegment, SegmentTally), StudyError> {
         let TransferSegment { segment, vertices, signal } = found;
         let start = Instant::now();

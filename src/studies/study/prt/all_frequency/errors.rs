@@ -9,17 +9,17 @@ use crate::transfer::Vertices;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 
-/// Per vertex of a model.
+/// Errors of coded transfer per vertex of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CodedErrors {
     /// The squared error.
     pub squared_errors: Vec<f64>,
-    /// The squares of the raw matrix.
+    /// Sum of squares of the raw matrix.
     pub squares: Vec<f64>,
 }
 
-/// Computes the raw matrices again, one segment after the other. A segment coded as empty has the matrix's squares as
-/// its error. Panics if what is coded belongs to other vertices or another reflectance.
+/// Recomputes the raw matrices segment by segment. The error of an empty segment is its raw matrix's sum of squares.
+/// Panics if the coded transfer is of other vertices or another reflectance.
 pub fn coded_errors(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: BasisWidth,

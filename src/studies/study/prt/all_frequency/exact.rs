@@ -14,7 +14,7 @@ use crate::transfer::light::{Decimation, DistantLight, HaarLight, LightTruncatio
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 
-/// The coefficients of a light, of them `keep` of largest area times magnitude; `None`: all.
+/// The coefficients of a light: the `keep` largest by area times magnitude, or all.
 pub(in crate::study) fn coefficients(
     (light, decimation): (&DistantLight, Decimation),
     keep: Option<usize>,
@@ -23,8 +23,8 @@ pub(in crate::study) fn coefficients(
     light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area)
 }
 
-/// Per light, and per vertex, m rows of three channels. Matrices, which take nearly all the time, are computed once for
-/// all lights.
+/// Transferred radiance per light and vertex: m rows of three channels. The matrices, which take nearly all the time,
+/// are computed once for all lights.
 pub(in crate::study) fn transferred(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: BasisWidth,

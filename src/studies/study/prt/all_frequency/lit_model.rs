@@ -11,11 +11,11 @@ use crate::transfer::light::{Decimation, DistantLight};
 pub struct LitModel {
     /// Names, camera and exposure.
     pub view: LitView,
-    /// Its mesh.
+    /// The model's mesh.
     pub mesh: Mesh,
-    /// Its vertices.
+    /// The model's vertices.
     pub vertices: Vertices,
-    /// Per material the surface's color.
+    /// Surface color per material.
     pub colors: Vec<[f64; 3]>,
     /// Visibility, coded transfer or both: coded transfer is drawn.
     pub file: AllFrequencyFile,
@@ -25,6 +25,6 @@ pub struct LitModel {
     pub light: DistantLight,
     /// Decimation of the light.
     pub decimation: Decimation,
-    /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
+    /// Number of light coefficients kept, the largest by area times magnitude; `None` for all.
     pub keep: Option<usize>,
 }

@@ -12,7 +12,7 @@ use crate::study::StudyError;
 use crate::transfer::Vertices;
 use crate::transfer::light::HaarLight;
 
-/// Transferred radiance, by one way or the other.
+/// Transferred radiance, from coded transfer or from raw matrices.
 pub(super) enum Transferred {
     Coded(TransferredRadiance),
     Exact { rows: usize, values: Vec<[f64; 3]> },
@@ -52,7 +52,7 @@ impl<'a> Part<'a> {
         self.shader.is_some()
     }
 
-    /// Steps 2 and 3, or the raw matrices where nothing is coded.
+    /// Transferred radiance by steps 2 and 3, or by raw matrices if transfer is not coded.
     pub(super) fn transferred(&self, light: &HaarLight, times: &mut FrameTimes) -> Result<Transferred, StudyError> {
         let Some(shader) = &self.shader else { return Ok(self.exact(self.file, light)?) };
         let light = light.singles();
@@ -65,7 +65,7 @@ impl<'a> Part<'a> {
         Ok(Transferred::Coded(transferred))
     }
 
-    /// By raw matrices of a file.
+    /// Transferred radiance by the raw matrices of a file.
     pub(super) fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, InputError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
@@ -75,7 +75,7 @@ impl<'a> Part<'a> {
         Ok(Transferred::Exact { rows, values })
     }
 
-    /// Step 4.
+    /// Exit radiance: step 4.
     pub(super) fn radiance(&self, transferred: &Transferred, camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
         let start = Instant::now();
         let of = |vertex: usize, row: usize| match transferred {

@@ -27,18 +27,18 @@ const CLUSTER_PICTURES: usize = 3;
 pub struct AllFrequencyRendering {
     /// The model, its transfer, the light and the camera.
     pub lit: LitModel,
-    /// The ground below it.
+    /// The ground below the model.
     pub ground: Option<RenderedGround>,
 }
 
 /// The ground below a model, with transfer of its own.
 #[derive(Debug)]
 pub struct RenderedGround {
-    /// Its mesh.
+    /// The ground's mesh.
     pub mesh: Mesh,
-    /// Its vertices.
+    /// The ground's vertices.
     pub vertices: Vertices,
-    /// Per material its color.
+    /// Color per material.
     pub colors: Vec<[f64; 3]>,
     /// Visibility, coded transfer or both.
     pub file: AllFrequencyFile,
@@ -73,12 +73,12 @@ impl Study for AllFrequencyRendering {
     }
 }
 
-/// Step 4 of all parts, vertices after one another.
+/// Exit radiance (step 4) of all parts' vertices, in order.
 fn radiance(parts: &[Part<'_>], transferred: &[Transferred], camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
     parts.iter().zip(transferred).flat_map(|(part, transferred)| part.radiance(transferred, camera, times)).collect()
 }
 
-/// Multiplications of rendering, and its time here.
+/// Adds the multiplications of rendering, and the measured time.
 fn time(parts: &[Part<'_>], light: &HaarLight, times: FrameTimes, found: &mut Findings) {
     let light = light.singles();
     let sums = parts.iter().map(|part| part.multiplies(&light));
@@ -152,7 +152,7 @@ impl AllFrequencyRendering {
         found.field("least_radiance", json!(least));
     }
 
-    /// Uncompressed transfer beside the coded, and where they differ.
+    /// Compares pictures of coded and uncompressed transfer.
     fn compare(
         &self,
         seen: &SeenSurface,

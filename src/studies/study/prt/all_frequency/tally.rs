@@ -5,17 +5,17 @@ use serde::{Deserialize, Serialize};
 /// Error and size of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SegmentTally {
-    /// The segment.
+    /// Index of the segment.
     pub segment: usize,
-    /// Vertices at which it is not 0.
+    /// Number of vertices at which the segment is not 0.
     pub vertices: usize,
-    /// Their clusters.
+    /// Number of clusters of these vertices.
     pub clusters: usize,
-    /// The squares of its transfer.
+    /// Sum of squares of the segment's transfer.
     pub squares: f64,
-    /// The squared error of its compression.
+    /// Squared error of compression.
     pub squared_error: f64,
-    /// The squared error after coding.
+    /// Squared error after coding.
     pub coded_squared_error: f64,
     /// Time of transfer, compression and coding, in seconds.
     pub seconds: [f64; 3],
@@ -29,7 +29,7 @@ pub struct CompressionTally {
 }
 
 impl CompressionTally {
-    /// A figure summed over segments.
+    /// Sums a figure over segments.
     pub fn sum(&self, of: impl Fn(&SegmentTally) -> f64) -> f64 {
         self.segments.iter().map(of).sum()
     }

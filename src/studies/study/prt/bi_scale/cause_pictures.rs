@@ -1,5 +1,5 @@
-//! Pictures between one by rays and that of transfer, each with one more approximation of transfer, and their
-//! differences.
+//! A sequence of pictures from the ray-traced one to the picture from transfer, each with one more approximation, and
+//! their differences.
 
 use crate::bi_scale::shade::TracedRung;
 use crate::picture::metrics::{ErrorSums, value_error};
@@ -8,30 +8,29 @@ use crate::report::{Cell, Table};
 /// The pictures.
 #[derive(Clone, Debug)]
 pub(in crate::study) struct CausePictures {
-    /// Change of each picture against the previous one, except for the first: in a word, and in full.
+    /// Approximation that each picture from the second on adds to the previous one: a word, and a sentence.
     pub(in crate::study) causes: Vec<(&'static str, String)>,
-    /// One by rays, ..., that of transfer.
+    /// The ray-traced picture first, the picture from transfer last.
     pub(in crate::study) pictures: Vec<Vec<[f64; 3]>>,
 }
 
 impl CausePictures {
-    /// That by rays.
+    /// The ray-traced picture.
     pub(in crate::study) fn exact(&self) -> &[[f64; 3]] {
         self.pictures.first().map_or(&[], Vec::as_slice)
     }
 
-    /// That of transfer.
+    /// The picture from transfer.
     pub(in crate::study) fn drawn(&self) -> &[[f64; 3]] {
         self.pictures.last().map_or(&[], Vec::as_slice)
     }
 
-    /// That by rays whose patches are textures, as those of transfer are.
+    /// The ray-traced picture with patches as textures, as in transfer.
     pub(in crate::study) fn textured(&self) -> &[[f64; 3]] {
         self.pictures.get(TracedRung::Texture as usize).map_or(&[], Vec::as_slice)
     }
 
-    /// The root mean square of two pictures' differences in percent of that of the picture by rays; 0 where that is
-    /// black.
+    /// Root mean square of two pictures' difference, in percent of that of the ray-traced picture; 0 if that is black.
     pub(in crate::study) fn apart(&self, one: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
         let whole: f64 = self.exact().iter().flatten().map(|value| value * value).sum();
         if whole > 0.0 { 100.0 * (differences(one, other).0 / whole).sqrt() } else { 0.0 }

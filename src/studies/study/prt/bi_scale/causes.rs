@@ -1,4 +1,4 @@
-//! A picture compared with one by rays, and its error divided among causes: each picture in between adds one
+//! Compares a picture with a ray-traced one, and divides its error among causes: each picture in between adds one
 //! approximation of transfer.
 
 use glam::DMat3;
@@ -21,10 +21,10 @@ use crate::transfer::light::CubeLight;
 use crate::transfer::ray_length;
 use crate::transfer::visibility::VisibilitySampling;
 
-/// Pixels between two signs of progress.
+/// Number of pixels between progress reports.
 const BLOCK: usize = 256;
 
-/// The pictures of all steps; the last is that of transfer.
+/// The pictures of all steps; the last is the picture from transfer.
 type Pictures = Vec<Vec<[f64; 3]>>;
 
 /// Pictures that separate the errors of a rendering by cause.
@@ -38,14 +38,14 @@ pub(super) struct Causes<'a> {
 impl<'a> Causes<'a> {
     pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
         let values = rendering.file.values().ok_or_else(no_mesh_transfer)?;
-        // Values without a unit are means of any number of samples.
+        // Values without a fixed unit are means over an unknown number of samples.
         let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
         let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
         let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
         Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine(&DMat3::IDENTITY)? })
     }
 
-    /// All pictures; `drawn` is that of transfer.
+    /// All pictures; `drawn` is the picture from transfer.
     pub(super) fn pictures(
         &self,
         pixels: &[Option<SurfacePixel>],
@@ -54,7 +54,7 @@ impl<'a> Causes<'a> {
     ) -> CausePictures {
         let mut pictures = self.rungs(pixels, cube, progress);
         let mut causes = self.names();
-        // A matrix alone is drawn in f64 as it is.
+        // Without biclusters, `drawn` already uses the matrix in f64.
         if self.rendering.file.biclusters.is_some()
             && let Some(local) = LocalLight::exact(&self.rendering.file, cube)
         {
@@ -112,7 +112,7 @@ impl<'a> Causes<'a> {
     }
 }
 
-/// Findings of the pictures, with the picture by rays.
+/// Findings of the pictures, with the ray-traced picture.
 pub(super) fn report(
     rendering: &BiScaleRendering,
     found_pictures: &CausePictures,

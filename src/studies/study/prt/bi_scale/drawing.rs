@@ -58,7 +58,7 @@ impl<'a> BiScaleDrawing<'a> {
         LocalLight::new(&self.rendering.file, cube).ok_or_else(no_mesh_transfer)
     }
 
-    /// Equation 3 at all pixels with L~; black where there is nothing.
+    /// Equation 3 at all pixels with L~; black where no surface is visible.
     pub(in crate::study) fn shade(&self, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let color = |b: &mut Vec<[f64; 3]>, pixel: &Option<SurfacePixel>| {
             let pixel = pixel.as_ref();
@@ -67,8 +67,8 @@ impl<'a> BiScaleDrawing<'a> {
         self.pixels.par_iter().map_init(Vec::new, color).collect()
     }
 
-    /// The pictures between one by rays and `drawn`, that of transfer. Fails if the light is invalid, or the file is
-    /// not transfer of a mesh.
+    /// The pictures from the ray-traced one to `drawn`, the picture from transfer. Fails if the light is invalid, or
+    /// the file is not transfer of a mesh.
     pub(in crate::study) fn causes(
         &self,
         cube: &CubeLight,

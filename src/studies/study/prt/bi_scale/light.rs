@@ -1,4 +1,4 @@
-//! Light times transfer: by biclusters in f32 where there are any, else by rows in f64.
+//! Light times transfer: by biclusters in f32 if a file has any, otherwise by rows in f64.
 
 use std::time::Instant;
 
@@ -20,8 +20,8 @@ pub struct LocalLight {
 }
 
 impl LocalLight {
-    /// The light times a file's transfer, by its biclusters if it has any; `None` if it has neither these nor a matrix.
-    /// Panics if the transfer has not a column per light texel.
+    /// The light times a file's transfer, by its biclusters if it has any, otherwise by its matrix; `None` without
+    /// both. Panics if the number of columns is not that of light texels.
     pub fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
         let gather = Gather::new(biclusters);

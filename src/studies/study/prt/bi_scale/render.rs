@@ -78,7 +78,7 @@ impl BiScaleRendering {
         found.table(FoundTable::from(table).csv("textures").field("textures"));
     }
 
-    /// Times of the steps here.
+    /// Adds the measured times of the steps.
     fn time(&self, pixels: &[Option<SurfacePixel>], times: StepTimes, found: &mut Findings) {
         let lights = self.textures.first().map_or(0, |texture| texture.samples.light().directions().len());
         let shown_pixels = pixels.iter().flatten().count();

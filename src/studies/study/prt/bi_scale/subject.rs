@@ -12,9 +12,9 @@ use crate::transfer::light::DistantLight;
 pub struct BiScaleRendering {
     /// Names, camera and exposure.
     pub view: LitView,
-    /// Its mesh.
+    /// The model's mesh.
     pub surface: TexturedSurface,
-    /// Its transfer.
+    /// The model's transfer.
     pub file: BiScaleFile,
     /// The textures that its triangles name.
     pub textures: Vec<SurfaceTexture>,
@@ -31,11 +31,11 @@ pub struct SurfaceTexture {
     pub name: String,
     /// Its samples.
     pub samples: BidirectionalTexture,
-    /// The patch that it was made of, if it is known.
+    /// The patch that the texture was made from, if known.
     pub patch: Option<MesoPatch>,
 }
 
-/// Error of a file that is a matrix of something else than a mesh.
+/// Error for a file whose matrix is not transfer of a mesh.
 pub(super) fn no_mesh_transfer() -> StudyError {
     let help = "name what `crossbar bi-scale precompute` wrote, or its biclusters";
     let what = "expected transfer of a mesh, found another matrix";

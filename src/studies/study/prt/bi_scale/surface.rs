@@ -21,13 +21,13 @@ pub struct TexturedSurface {
     pub mesh: Mesh,
     /// Its vertices.
     pub vertices: Vertices,
-    /// The number of each triangle's texture.
+    /// Texture index per triangle.
     texture_of: Vec<u32>,
     /// Repetitions of a patch along an edge of the unit square of texture coordinates.
     repeat: f64,
 }
 
-/// A mesh with normals of its triangles, smooth over edges up to an angle in degrees (section VII).
+/// Gives a mesh normals that are smooth over edges up to an angle in degrees (section VII).
 pub fn creased(mesh: &Mesh, degrees: f64) -> Mesh {
     mesh.creased(on_circle(degrees / 360.0)[0])
 }
@@ -42,8 +42,8 @@ pub(super) struct SurfacePixel {
 }
 
 impl TexturedSurface {
-    /// A mesh, its vertices, a texture's number per triangle, and how often patches repeat where texture coordinates
-    /// grow by 1. Fails if the mesh has no texture coordinates, or there is not a texture per triangle.
+    /// Creates a surface. `texture_of` is a texture index per triangle, `repeat` the number of patches per unit of
+    /// texture coordinates. Fails if the mesh has no texture coordinates, or there is not a texture per triangle.
     pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, StudyError> {
         if mesh.texcoords().is_none() {
             let what = "the model has no texture coordinates, which say where on it a patch lies";
@@ -72,7 +72,7 @@ impl TexturedSurface {
         self.shown(hit.triangle, (at, weights(at, places).to_array()), eye)
     }
 
-    /// The shaded point of a triangle at a place with its weights.
+    /// The shaded point of a triangle, from its position and barycentric weights.
     fn shown(&self, triangle: u32, (at, weights): (DVec3, [f64; 3]), eye: DVec3) -> SurfacePixel {
         let corners = self.vertices.triangles()[triangle as usize];
         let frame = pixel_frame(&self.vertices, corners, weights);
@@ -83,7 +83,7 @@ impl TexturedSurface {
                 *into += weight * self.repeat * f64::from(along);
             }
         }
-        // An eye on the surface has no direction; none is drawn from there.
+        // An eye on the surface has no view direction; no picture is drawn from there.
         let view = frame.to_local(unit(eye - at).unwrap_or(frame.normal()));
         SurfacePixel {
             triangle,

@@ -23,12 +23,12 @@ pub struct PixelErrors {
     pub visible: f64,
     /// Number of pixels that are not finite where the others are, or the reverse.
     pub not_finite: u64,
-    /// Root mean square of the rest, in 255ths.
+    /// Root mean square of the finite pixels, in 255ths.
     finite_rms: f64,
 }
 
 impl PixelErrors {
-    /// For pixels, row by row, against others; pixels that show nothing do not count.
+    /// Compares pixels, row by row, with expected ones; pixels that show nothing do not count.
     pub(super) fn of(seen: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let shown = seen.iter().zip(found.iter().zip(expected)).filter(|(seen, _)| seen.is_some());
         let off: Vec<[f64; 3]> =
@@ -51,7 +51,7 @@ impl PixelErrors {
     }
 }
 
-/// Pixels as a target of fractions holds them, if it is one.
+/// Clamps pixels as a fixed-point target does, if `is_clamped`.
 pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
     let held = |color: &[f64; 3]| if is_clamped { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
     pixels.iter().map(held).collect()
@@ -69,7 +69,7 @@ pub(super) struct ComparedPicture<'a> {
 
 impl<'a> ComparedPicture<'a> {
     /// Compares pictures by visible surface. If the target or the vertices hold fractions, the host's picture is
-    /// clamped alike.
+    /// clamped too.
     pub(super) fn new(
         seen: &[Option<SeenPixel>],
         drawn: &'a [[f64; 3]],

@@ -36,7 +36,7 @@ pub(super) fn times(time: &FrameTime) -> Table {
     table
 }
 
-/// The rate, and what it waits for; without a full stop.
+/// Frame rate and its bottleneck, without a full stop.
 pub(super) fn rate(time: &FrameTime, card: &str) -> String {
     let rate = shown(time.per_second(), Quantity::Measured);
     let waits = time.bottleneck.map_or_else(String::new, |bottleneck| format!(", whose draws wait for {bottleneck}"));

@@ -1,4 +1,4 @@
-//! The card that draws a picture, and the parts of a study of it that are the same for every system.
+//! The card that draws a picture, and the code that the studies of all systems share.
 
 use refsim::device::Profile;
 use refsim::event::Event;

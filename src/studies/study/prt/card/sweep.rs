@@ -20,7 +20,7 @@ pub struct PictureVariant {
     pub below_zero: Option<u64>,
 }
 
-/// A row per variant; a column of pixels below 0 where one of them counts these.
+/// A row per variant, with a column of pixels below 0 if a variant counts these.
 pub fn variants_table(variants: &[PictureVariant]) -> Table {
     let counts = variants.iter().any(|variant| variant.below_zero.is_some());
     let last = if counts { "below_zero" } else { "" };

@@ -1,4 +1,4 @@
-//! The same reflectance by spherical harmonics, by integrals on both sides.
+//! Spherical harmonics of a reflectance, by integrals over both directions.
 
 use crate::all_frequency::factor::{DiscSamples, ProductErrors, harmonic_errors};
 use crate::error::InputError;
@@ -14,7 +14,7 @@ pub(super) struct HarmonicRow {
     pub(super) errors: ProductErrors,
 }
 
-/// All orders; none where the texels are fewer than the functions.
+/// Errors of all orders that have fewer functions than there are texels.
 pub(super) fn rows(disc: &DiscSamples) -> Result<Vec<HarmonicRow>, InputError> {
     let orders = ORDERS.filter(|&order| disc.counts().iter().all(|&count| count > function_count(order)));
     orders.map(|order| Ok(HarmonicRow { order, errors: harmonic_errors(disc.samples(), order)? })).collect()

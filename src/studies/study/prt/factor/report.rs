@@ -99,7 +99,7 @@ impl BrdfFactors {
         found.field("split_pair", json!(pair));
     }
 
-    /// A sphere by f, by the table and by the terms.
+    /// Pictures of a sphere by f, by the table and by the terms.
     fn pictures(&self, found: &mut Findings, table: &ProductTable, factors: &ProductFactors) -> Result<(), StudyError> {
         let limit = self.sampling.limit;
         let of_formula =
@@ -131,7 +131,7 @@ impl BrdfFactors {
         Ok(())
     }
 
-    /// Errors between texels, where f is known there.
+    /// Adds errors between texels, if f is known there.
     fn between(&self, found: &mut Findings, factors: &ProductFactors) {
         let limit = self.sampling.limit;
         let Some(errors) = self.subject.with_product(|product| ProductErrors::between_texels(product, limit, factors))

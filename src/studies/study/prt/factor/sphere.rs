@@ -10,8 +10,8 @@ use crate::picture::Picture;
 /// Pixels along an edge.
 pub(super) const SIZE: u32 = 160;
 
-/// Directions towards the lights, not yet of length 1, and their irradiances across them: one before the sphere, one
-/// that grazes it. z is up, the eye looks along y.
+/// Directions towards the lights, not normalised, and their irradiances: a frontal light, and a grazing one. z is up,
+/// the eye looks along y.
 const LIGHTS: [(DVec3, f64); 2] = [(DVec3::new(-0.5, -0.6, 0.62), PI), (DVec3::new(0.9, 0.35, 0.1), 0.5 * PI)];
 
 /// Radiance of each pixel towards the eye, rows from the top; 0 beside the sphere. `f` is reflectance times cosine by

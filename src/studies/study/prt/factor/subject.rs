@@ -24,7 +24,7 @@ pub struct BrdfFactors {
     pub subject: FactorSubject,
     /// How f is sampled; a table is used unchanged.
     pub sampling: FactorSampling,
-    /// m; `None` for ten, or the rank of the table where that is less.
+    /// m; `None` for ten, or the rank of the table if that is less.
     pub terms: Option<usize>,
 }
 
@@ -39,7 +39,7 @@ impl BrdfFactors {
 }
 
 impl FactorSubject {
-    /// Calls with f as a formula; `None` for a table.
+    /// Calls `of` with f as a formula; `None` for a table.
     pub(super) fn with_product<T>(&self, of: impl FnOnce(&dyn ProductFunction) -> T) -> Option<T> {
         match self {
             Self::Lobe(lobe) => Some(of(lobe)),

@@ -23,7 +23,7 @@ const PER_CLUSTER: f64 = 200.0;
 /// Texels along an edge of the cube map whose texel centers are the normals for counting segments.
 const NORMALS: usize = 48;
 
-/// Columns of Table 1: the models in the names of their figures, those of the columns, and the rows of a matrix.
+/// Columns of Table 1: the model and the column in names of figures, and the rows of a matrix.
 const COLUMNS: [(&str, &str, usize); 6] = [
     ("bunny", "bunny", M),
     ("teapot", "teapot", M),
@@ -81,7 +81,7 @@ impl Column {
         self.omega / ratio(self.nonempty() / self.clusters, self.segment_numbers())
     }
 
-    /// Multiplications per frame by clusters, by dense representatives, and by vertices.
+    /// Multiplications per frame, by clusters and by vertices.
     fn multiplies(&self) -> [f64; 2] {
         let clusters = self.clusters * N as f64 * self.segment_numbers() * 3.0;
         [clusters, self.nonempty() * (N * self.rows * 3) as f64]

@@ -41,7 +41,7 @@ pub(super) enum TableModel {
 /// Segments that are compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SegmentChoice {
-    /// [`SAMPLED_SEGMENTS`]; the others are taken to be of the same size per vertex that holds them.
+    /// [`SAMPLED_SEGMENTS`]; the other segments are assumed to have the same size per vertex.
     Sampled,
     All,
 }

@@ -42,7 +42,7 @@ impl SharedResult for ModelVisibility {
     }
 }
 
-/// Biclusters of the same with the directions of both tables.
+/// Biclusters of a model's transfer, with the directions of both tables.
 impl SharedResult for ClusteredModel {
     type Key = TransferModel;
 

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::report::{Cell, Table};
 
-/// Signal, its name, and the same in the names of its figures.
+/// Signal, its name, and its name in names of figures.
 const MODELS: [(usize, &str, &str); 2] = [(BUDDHA, "Buddha", "buddha"), (BIRD, "bird", "bird")];
 
 const HOW: &str = "Overdraw is the mean number of clusters, or superclusters, of a triangle's vertices. Reclassification may add {} % of the error; superclusters \
@@ -41,7 +41,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         for (column, above) in [(1, 0), (2, 0), (3, 1), (3, 2)] {
             let figure = format!("overdraw-{id}-{}-over-{}", COLUMN_IDS[column], COLUMN_IDS[above]);
             let row = solved(&figure, found.overdraw[column] / found.overdraw[above])?;
-            // Superclusters of other clusters may have more of a border.
+            // Superclusters of other clusters may have a longer border.
             rows.push(if (column, above) == (3, 2) { row } else { row.confined([0.0, 1.0], NEVER_MORE) });
         }
         originals.push(found.overdraw[0]);

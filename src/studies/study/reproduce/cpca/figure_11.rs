@@ -13,8 +13,8 @@ use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
 const VECTORS: [usize; 4] = [2, 4, 8, 12];
-/// Signal, its name, the same in the names of its figures, and the figure of its frames per second with 8 vectors:
-/// those are printed elsewhere too.
+/// Signal, its name, its name in names of figures, and the figure of its frames per second with 8 vectors, which is
+/// printed elsewhere too.
 const MODELS: [(usize, &str, &str, &str); 2] =
     [(BUDDHA, "Buddha", "buddha", "cpca/rate-buddha-gloss-anis"), (BIRD, "bird", "bird", "cpca/rate-cpca")];
 

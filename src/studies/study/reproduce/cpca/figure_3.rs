@@ -12,7 +12,7 @@ const CLUSTERS: usize = 256;
 const FIGURE_4: usize = 3;
 /// Maximum number of vectors of the rows; static and iterative curves extend further, for comparison.
 const VECTORS: usize = 8;
-/// Number of vectors by which they extend further.
+/// Number of further vectors of the static and iterative curves.
 const MORE: usize = 6;
 /// Maximum number of rounds of redistribution.
 const ROUNDS: usize = 20;
@@ -69,7 +69,7 @@ fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64
     (0..=VECTORS).map(error).collect()
 }
 
-/// Number of vectors at which a curve falls to an error, interpolated logarithmically; the last for lower errors.
+/// Number of vectors at which a curve falls to an error, interpolated logarithmically; the last if it stays above.
 pub fn reaching(curve: &[f64], error: f64) -> f64 {
     let Some(at) = (1..curve.len()).find(|&at| curve[at] <= error) else { return (curve.len() - 1) as f64 };
     let [above, below] = [curve[at - 1], curve[at]];

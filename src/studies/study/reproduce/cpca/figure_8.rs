@@ -14,7 +14,7 @@ use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
-/// Signal, its name, the same in the names of its figures, and the figure of its frames per second in Table 1.
+/// Signal, its name, its name in names of figures, and the figure of its frames per second in Table 1.
 const MODELS: [(usize, &str, &str, &str); 2] = [
     (HEAD, "head", "head", "cpca/rate-head-gloss-iso"),
     (GLOSSY_BUDDHA, "Buddha", "buddha", "cpca/rate-buddha-gloss-iso"),

@@ -1,8 +1,8 @@
 //! "Clustered Principal Components": its figures on compression, Table 1, the table of section 7, and the appendix.
 //!
-//! The paper's models and BRDFs are not available. Ours, made by code, have its vertex counts, or a sixteenth or less
-//! of them with the same fraction of the clusters ([`ModelSize`]): the number of points per cluster is the same. The
-//! rows on errors and overdraw compare which of two is larger.
+//! The paper's models and BRDFs are not available. Our models, made by code, have the printed numbers of vertices, or
+//! at most a sixteenth of them with the same fraction of the clusters ([`ModelSize`]), so the number of points per
+//! cluster is the same. The rows on errors and overdraw compare which of two is larger.
 
 pub(super) mod appendix;
 pub(super) mod coherence;

@@ -84,8 +84,8 @@ pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, StudyError>
     Ok(Contradiction::between(figure, other.value, &how))
 }
 
-/// Rows on printed rates, and a table of the time per unit. Per signal its index, its name, and the same in the names
-/// of its figures.
+/// Rows on printed rates, and a table of the time per unit. A signal is an index, a name, and its name in names of
+/// figures.
 pub(super) fn rates(
     models: &[(usize, &'static str, &'static str)],
     shared: &Shared,

@@ -47,9 +47,9 @@ impl<'a> ModelView<'a> {
         self.seen.colors(radiance, [0.0; 3])
     }
 
-    /// Relative difference of a picture from another one of the same model and camera: root mean square of the difference over
-    /// that of the other. `wanted` selects pixels by the cosine between view and normal, at the vertex with the largest
-    /// weight.
+    /// Difference of a picture from another one of the same model and camera: root mean square of the difference over
+    /// that of the other picture. `wanted` selects pixels by the cosine between view and normal, at the vertex with the
+    /// largest weight.
     pub(super) fn difference(
         &self,
         clustering: Option<&Clustering>,

@@ -3,8 +3,8 @@
 use std::iter::Peekable;
 
 /// Returns the value of an expression; `figure` has the values of figures by name. Operators of equal rank are taken
-/// from left to right, each rounded to f64. Fails if the text is not an expression, in a sentence, or the errors of
-/// `figure`.
+/// from left to right, each rounded to f64. Fails with a sentence if the text is not an expression, and as `figure`
+/// does.
 pub(super) fn evaluate(text: &str, figure: &dyn Fn(&str) -> Result<f64, String>) -> Result<f64, String> {
     // Names have hyphens, so that an operator is a word of its own.
     let spaced = text.replace('(', " ( ").replace(')', " ) ");

@@ -2,7 +2,7 @@
 //!
 //! The files lie within the package, so that the program contains them. They state the bound of every judged figure
 //! apart from any result; the program refuses a file whose bounds were changed without a list of the changes. A figure
-//! that follows from other printed ones alone has the expression of its row, too.
+//! that follows from other printed figures alone also has the expression of its row.
 
 mod expression;
 mod file;
@@ -26,15 +26,15 @@ static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
     Ok(figures)
 });
 
-/// Holds a paper's file against its statements, and parses its figures; errors are sentences. Fails if the file is
-/// malformed, or states other bounds than it did.
+/// Checks a paper's file against its statement digests, and parses its figures; errors are sentences. Fails if the file
+/// is malformed, or its bounds differ from their statements.
 pub fn parse_figures(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
     statement::verify(text)?;
     file::parse(paper, text)
 }
 
 /// Returns the printed, implied and inferred figures of all papers, in the order of their files. Fails if a file is
-/// malformed, or states other bounds than it did.
+/// malformed, or its bounds differ from their statements.
 pub fn figures() -> Result<&'static [PaperFigure], StudyError> {
     FIGURES.as_deref().map_err(|reason| papers_error(reason))
 }

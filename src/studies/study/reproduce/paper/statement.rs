@@ -1,8 +1,8 @@
 //! Statements of bounds: a digest per date, and the changes since.
 //!
 //! A figure's value, unit, place, bound and reading are stated once. A later change is in the figure's `changed`, with
-//! its date, its reason and the old value; undone, the figures have the digest of their date again. So a bound or a
-//! reading cannot be moved after a result exists without saying so.
+//! its date, its reason and the old value. With all changes undone, the figures must have the digest of their date. So
+//! a bound or a reading cannot be moved after a result exists without saying so.
 
 use sha2::{Digest, Sha256};
 

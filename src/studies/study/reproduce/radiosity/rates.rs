@@ -15,7 +15,7 @@ use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, p
 const SIZES: [u32; 9] = [1524, 1536, 1539, 1540, 1541, 1542, 1543, 1544, 1600];
 /// Inputs of the inferred number of patches.
 const CHOSE_N: &str = "141 and 190 MFLOP/s, which chose the number of patches";
-/// Those of them that its rate on the card depends on: the host's pair alone leaves the same numbers of patches.
+/// Inputs that the rate on the card depends on: the host's rates alone leave the same numbers of patches.
 const HOST_CHOSE_N: &str = "190 MFLOP/s and 40 iterations/s of the host, which chose the number of patches";
 
 const HOW: &str = "Neither the number of patches nor that of passes is printed. Both printed pairs of rates mean {} million operations an iteration; \

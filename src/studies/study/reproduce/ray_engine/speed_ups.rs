@@ -15,12 +15,12 @@ use crate::report::{Cell, Table};
 /// Passes in flight in the asynchronous run.
 const IN_FLIGHT: usize = 4;
 
-/// Line of Tables 3 to 5 with its run. That of 5 to 15 triangles and 64 rays is printed in all three and is one figure,
-/// whose row is in Table 3.
+/// Line of Tables 3 to 5 with its run. The line of 5 to 15 triangles and 64 rays is printed in all three tables; it is
+/// one figure, with its row in Table 3.
 pub(super) struct SpeedUpRun {
     /// Name in its table.
     pub(super) name: &'static str,
-    /// Table of the line.
+    /// Name of the table that prints the line.
     pub(super) place: &'static str,
     pub(super) row: PaperRow,
     pub(super) run: Rc<Run>,
@@ -51,7 +51,7 @@ impl SpeedUps {
         self.lines.iter().filter(|line| line.place == place).collect()
     }
 
-    /// Rows of the figures that are printed first in this table.
+    /// Rows of the figures that this table is the first to print.
     pub(super) fn rows(&self, place: &'static str) -> Vec<PaperRow> {
         self.lines_of(place)
             .into_iter()

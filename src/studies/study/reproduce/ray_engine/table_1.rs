@@ -18,7 +18,7 @@ struct PrintedScene {
     polygons: &'static str,
     tick: &'static str,
     job: Option<Job>,
-    /// `R_min`.
+    /// Number of rays at which a cell's cache is sent to the card (`R_min`).
     rays: usize,
 }
 

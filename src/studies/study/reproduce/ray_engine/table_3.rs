@@ -71,7 +71,7 @@ fn passes(lines: &[&SpeedUpRun]) -> String {
     )
 }
 
-/// Paragraph on the largest step of the sweep, of its last row: the infinitely fast card.
+/// Paragraph on the largest step of the sweep's last row, the infinitely fast card.
 fn octree(found: &SpeedUps) -> String {
     let settings = found.under(&found.host_leaf, PLACE);
     let fast = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);

@@ -47,7 +47,7 @@ pub(super) const CLASSICAL_TEAPOT: Job =
 #[derive(Clone, Debug)]
 pub(super) struct Workload {
     pub(super) mesh: Mesh,
-    /// In the order in which they were cast.
+    /// Bundles in the order in which they were cast.
     pub(super) bundles: Vec<Vec<Ray>>,
     /// Work of a host that casts them without card and ray tree.
     pub(super) alone: HostOnly,

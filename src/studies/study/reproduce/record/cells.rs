@@ -15,7 +15,7 @@ const QUANTITIES: [(&str, Quantity); 5] = [
     ("error", Quantity::Error),
 ];
 
-/// Formats a cell, as in `decimals2 0.125 *`; rows that were folded are their text.
+/// Formats a cell, as in `decimals2 0.125 *`; folded rows become their text.
 pub(super) fn coded(cell: &Cell) -> String {
     match cell {
         Cell::Empty => String::new(),

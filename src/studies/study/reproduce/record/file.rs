@@ -31,7 +31,7 @@ struct RecordedRow {
     figure: String,
     device: String,
     method: Method,
-    /// Printed values that ours was predicted from, or calibrated on; counted without either.
+    /// Printed values that predicted ours; a value that is neither predicted nor calibrated was counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     predicted_from: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -37,7 +37,7 @@ pub(super) fn findings(entry: &ReproduceEntry, full_size: bool, shared: &Shared)
     }
 }
 
-/// Holds the rows of a run at full size against those of the entry's record.
+/// Compares the rows of a run at full size with the entry's record.
 pub fn compared(record: &'static EntryRecord, mut found: EntryFindings) -> EntryFindings {
     let source = |row: &PaperRow| match record.values(&row.target.id) {
         None => RowSource::Computed,
@@ -49,7 +49,7 @@ pub fn compared(record: &'static EntryRecord, mut found: EntryFindings) -> Entry
     EntryFindings { record: Some(RecordStatus::Computed { made: record.made(), differ }), ..found }
 }
 
-/// Returns `true` if numbers have the same bits; one NaN is as good as another.
+/// Returns `true` if numbers have the same bits; all NaN are equal.
 fn same_bits(some: impl Iterator<Item = f64>, others: impl Iterator<Item = f64>) -> bool {
     let bits = |value: f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
     some.map(bits).eq(others.map(bits))

@@ -9,8 +9,8 @@ pub enum Bound {
     Print,
     /// Within this fraction of the paper's value.
     Relative(f64),
-    /// Within this fraction of the gain of the paper's value over another one that calibrated the model. Predicting
-    /// only that other value is outside.
+    /// Within this fraction of the gain of the paper's value over a value that calibrated the model. A prediction of no
+    /// gain is outside the bound.
     Gain {
         /// Fraction of the gain.
         share: f64,
@@ -44,8 +44,8 @@ impl Bound {
         }
     }
 
-    /// Returns `true` if a value lies within the bound only because the printed value was rounded. A bound of every
-    /// printed digit is not such a case.
+    /// Returns `true` if a value lies within the bound only because the printed value was rounded; always `false` for a
+    /// bound of every printed digit.
     pub fn needs_rounding(&self, (printed, rounding): (f64, f64), value: f64) -> bool {
         let within = |[low, high]: [f64; 2]| (low..=high).contains(&value);
         let held = |rounding: f64| self.interval(printed, rounding).is_some_and(within);

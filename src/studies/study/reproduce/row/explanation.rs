@@ -2,8 +2,8 @@
 
 use crate::study::reproduce::prose::number;
 
-/// Setting of a sweep that reaches a value that the row misses. Created by [`super::Sweep::explain`] alone, from values
-/// of the run.
+/// Setting of a sweep at which a row that misses its bound lies within it. Created by [`super::Sweep::explain`] alone,
+/// from values of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     pub(super) sweep: &'static str,

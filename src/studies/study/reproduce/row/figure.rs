@@ -50,15 +50,15 @@ pub enum MissClass {
     #[serde(rename = "hardware timing unknown")]
     #[strum(to_string = "hardware timing unknown")]
     HardwareTiming,
-    /// Ours is another method, or another model of the same thing, knowingly.
+    /// Our method or model deliberately differs from the paper's.
     #[serde(rename = "ours differs")]
     #[strum(to_string = "ours differs")]
     OursDiffers,
-    /// The same with less error, storage or work than is printed.
+    /// Our result has less error, storage or work than printed.
     #[serde(rename = "ours differs, for the better")]
     #[strum(to_string = "ours differs, for the better")]
     OursBetter,
-    /// Another place of the paper speaks against the figure, and ours agrees with neither.
+    /// Another place of the paper contradicts the figure, and our value agrees with neither.
     #[serde(rename = "paper contradicts")]
     #[strum(to_string = "paper contradicts")]
     PaperContradicts,
@@ -85,7 +85,7 @@ pub struct PaperFigure {
     pub origin: Origin,
     /// Bound of the row that judges it, or the reason why there is none.
     pub judgement: Judgement,
-    /// Date on which the judgement was stated: that of its last change, or of its statement.
+    /// Date on which the judgement was stated or last changed.
     pub stated: String,
     /// Class of its miss, where its row is missed.
     pub missed: Option<MissClass>,

@@ -23,8 +23,8 @@ pub enum Method {
     Solver,
 }
 
-/// Method of a modelled frame rate. A host that is busy all of the frame decides the rate alone: the work that follows
-/// from printed sizes, at a calibrated rate.
+/// Method of a modelled frame rate. A host that is busy for the whole frame decides the rate alone, so the method is an
+/// equation: work from printed sizes, at a calibrated rate.
 impl From<&FrameTime> for Method {
     fn from(time: &FrameTime) -> Self {
         if time.host >= time.frame { Self::Equation } else { Self::Pipeline }
@@ -43,7 +43,7 @@ pub enum Dependence {
     /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so agreement is
     /// not evidence.
     Calibrated {
-        /// Printed values that determined it.
+        /// Printed values that determined the constant.
         on: &'static str,
     },
     /// Count: from a run that uses no time and no printed value.

@@ -160,14 +160,14 @@ impl PaperRow {
     }
 
     /// Returns `true` if the bound admits every value that the computation can give. The ends of the range do not
-    /// count: equal values have no order, but they are those of a method that changes nothing.
+    /// count: there two values are equal, as with a method that changes nothing.
     fn cannot_fail(&self) -> bool {
         let range = self.confined.map(|(range, _)| range).zip(self.interval());
         range.is_some_and(|([least, most], [low, high])| low <= least.next_up() && most.next_down() <= high)
     }
 
-    /// Returns `true` if the paper contradicts itself and ours agrees with one of the values: which of them is right is
-    /// then not for us to judge. A value that agrees with none is missed whichever is right.
+    /// Returns `true` if the paper contradicts itself and our value agrees with one of its values: no verdict can tell
+    /// which of them is right. A value that agrees with neither is missed in any case.
     pub(super) fn is_contradictory(&self) -> bool {
         let rounding = self.target.rounding();
         let agrees = |printed: f64| {

@@ -1,14 +1,14 @@
-//! Runs that values of rows are from.
+//! Sources of the values of rows.
 
-/// Run that the value of a row is from.
+/// Source of a row's value.
 #[derive(Clone, Copy, Debug, PartialEq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum RowSource {
-    /// This run.
+    /// Computed in this run.
     Computed,
-    /// A recorded run at full size.
+    /// Read from a recorded run at full size.
     Recorded,
-    /// A recorded run at full size, and this one, with the same bits.
+    /// Computed in this run at full size; the recorded value has the same bits.
     #[strum(to_string = "recorded and computed")]
     Confirmed,
     /// Computed in this run at full size; the recorded value has other bits.

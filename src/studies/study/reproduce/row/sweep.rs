@@ -25,10 +25,9 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Explains rows outside their bounds by one setting at which they lie within them: the one that explains most
-    /// rows, of equals the first. A single card or host must satisfy all rows, so that a setting explains nothing if
-    /// any row leaves its bound there that is within it now. Calibrated rows are never explained, and contradictory
-    /// ones are ignored.
+    /// Explains rows outside their bounds by one setting at which they lie within them: the first of the settings that
+    /// explain most rows. A single card or host must satisfy all rows: a setting explains nothing if a row leaves its
+    /// bound there that is within it now. Calibrated rows are never explained, and contradictory ones are ignored.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         let open = |row: &PaperRow| {

@@ -1,5 +1,5 @@
-//! Modelled time of passes 1 and 3 and of the map's levels, on a model with as many faces as one of the paper's. Pass 2 is
-//! timed by [`super::gather`].
+//! Modelled time of passes 1 and 3 and of the map's levels, on a model with as many faces as one of the paper's.
+//! [`super::gather`] times pass 2.
 
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
@@ -52,7 +52,7 @@ pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCo
     Ok(FrameCost { light, levels, view })
 }
 
-/// Loads a model with links that are all alike: time does not depend on values.
+/// Loads a model with identical links: time does not depend on values.
 fn model_on(profile: Profile, model: CardModel) -> Result<SubsurfaceCard, Box<dyn std::error::Error + Send + Sync>> {
     let side = model.side();
     let textures = vec![Texels::from_fn([side as usize; 2], |_, _| [1.0 / 16.0; 4]); LINKS / 4];

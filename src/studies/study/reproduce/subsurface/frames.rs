@@ -21,7 +21,7 @@ const OTHER_CARD: &str = "fx5800";
 /// Clocks of one evaluation of R_d on the host of section 3: two exponentials, two square roots and two quotients in
 /// sequence, of 95, 27 and 20 clocks each, from memory of the manufacturer's optimisation guide. A guess.
 const EVALUATION_CLOCKS: f64 = 2.0 * (95.0 + 27.0 + 20.0);
-/// Its clock in Hz (Tom's Hardware).
+/// Clock of this host in Hz (Tom's Hardware).
 const HOST_HZ: f64 = 2.083e9;
 
 const HOW: &str = "The first and the third pass are drawn on stand-ins of as many faces, by vertex as the text has it, with the transmittance towards the \

@@ -34,7 +34,7 @@ pub(super) struct Variant {
     pub(super) fixed: bool,
     pub(super) map: MapFormat,
     pub(super) half: bool,
-    /// Textures of links along an edge of one that holds them as tiles.
+    /// Number of link textures along an edge of a texture that holds them as tiles.
     pub(super) tiles: Option<u32>,
 }
 
@@ -44,7 +44,7 @@ impl Variant {
     }
 }
 
-/// The format that the rows have.
+/// Map format of the rows.
 pub(super) const EIGHT: MapFormat = MapFormat::Unorm8 { scale: 0.25 };
 
 /// All variants, those with fixed links first.
@@ -57,7 +57,7 @@ pub(super) const VARIANTS: [Variant; 9] = [
     Variant::new("adaptive, 8-bit map", false, EIGHT, false),
     Variant::new("adaptive, fp16 map", false, MapFormat::Fp16, false),
     Variant::new("adaptive, fp32 map", false, MapFormat::Fp32, false),
-    // As many textures of 512 x 512 texels lie in one of 2048 x 2048; of the larger atlas, in four of them.
+    // A texture of 2048 x 2048 holds all link textures of 512 x 512; the larger atlas needs four.
     Variant { tiles: Some(4), ..Variant::new("adaptive, 8-bit map, tiled links", false, EIGHT, false) },
 ];
 

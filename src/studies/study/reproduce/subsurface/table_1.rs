@@ -41,7 +41,7 @@ impl PrintedFrame {
         (DISPLAY / self.rate).round()
     }
 
-    /// Milliseconds of a pass, counted from 1.
+    /// Milliseconds of pass number `pass`, from 1.
     pub(super) fn milliseconds(&self, pass: usize) -> f64 {
         1e3 / self.rate * self.shares[pass - 1] / 100.0
     }
@@ -56,7 +56,7 @@ impl PrintedFrame {
 pub(super) const DISPLAY: f64 = 60.0;
 /// Largest relative difference of a rate from a whole number of periods.
 const LOCKED_WITHIN: f64 = 0.03;
-/// Sum of three shares of whole per cents that are all of a frame, at least.
+/// Minimum sum of three shares, each rounded to a per cent, that make a whole frame.
 const ALL_BUT_ROUNDING: f64 = 98.5;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];

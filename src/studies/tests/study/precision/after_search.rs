@@ -100,8 +100,8 @@ impl PrecisionSubject for Counted {
     }
 }
 
-/// A longer search begins where the last ended, finds what one without it finds, and believes no value of another
-/// subject or of a program that has changed.
+/// A longer search continues where the last ended, finds the same result as without it, and uses no value of another
+/// subject or of a changed program.
 #[test]
 fn a_search_goes_on_where_the_last_ended() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -78,7 +78,7 @@ fn each_system_is_run_with_formats_of_its_instructions() {
     }
 }
 
-/// Instructions of a system that are sampled, at most.
+/// Maximum number of instructions of a system that are sampled.
 const SAMPLED: usize = 24;
 
 /// Each instruction is sampled in the same fragments in the exact run and when it is rounded. Single precision rounds

@@ -28,7 +28,7 @@ fn only_a_difference_from_the_record_fails() {
     assert_eq!([&missed, &differs].map(|found| findings(found).verdict()), [Verdict::Done, Verdict::Failed]);
 }
 
-/// A figure, and more of another kind.
+/// Sentences about one figure, and about several.
 #[test]
 fn sentences_agree_with_their_numbers() {
     let of = |values: &[(f64, RowSource)]| findings(&found(values)).conclusions().join(" ");

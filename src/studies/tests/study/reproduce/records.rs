@@ -34,7 +34,7 @@ fn record(value: f64) -> &'static EntryRecord {
     Box::leak(Box::new(EntryRecord::parse(ENTRY, &text).expect("what was written")))
 }
 
-/// A record gives the findings of its run again. Verdicts follow from bounds and are not in the file.
+/// A record restores the findings of its run. Verdicts follow from bounds and are not in the file.
 #[test]
 fn records_round_trip() {
     let (full, judged) = (found(10.0), record(10.0).findings().expect("the figures"));

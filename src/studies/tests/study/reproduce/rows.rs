@@ -85,8 +85,8 @@ fn a_figure_that_its_paper_contradicts_is_missed_by_a_value_that_agrees_with_nei
     assert_eq!(verdicts, [RowVerdict::Contradictory, RowVerdict::Missed]);
 }
 
-/// A bound that admits every possible value judges nothing; one that a possible value misses does. Equal values have no
-/// order, and do not save a row whose order is impossible to reverse.
+/// A bound that admits every possible value judges nothing; a bound that a possible value misses does. Equal values
+/// have no order, and do not save a row whose order is impossible to reverse.
 #[test]
 fn what_cannot_fail_is_met_by_construction() {
     let confined = |range, bound| bounded(row(15.6), bound).confined(range, "a tree").verdict();

@@ -9,7 +9,7 @@ use crate::study::StudyError;
 use crate::study::prt::card::{PictureVariant, PixelErrors};
 use crate::transfer::light::HaarLight;
 
-/// Bits that are tried, as far as the file has more.
+/// Numbers of bits to try, if the file has more.
 const BITS: [u8; 5] = [8, 10, 12, 14, 15];
 
 /// Choices of a file.
@@ -30,7 +30,7 @@ pub(super) fn ways_to_code(coded: &CodedTransfer) -> u64 {
     1 + choices(coded).len() as u64
 }
 
-/// Sums and pixels in f64, so that the code alone differs.
+/// Varies the code alone: sums and pixels are in f64.
 pub(super) fn coarse_codes(
     study: &AllFrequencyOnCard,
     coded: &CodedTransfer,

@@ -14,7 +14,7 @@ use crate::card::{CardError, MeshView, seen_pixels};
 use crate::scene::Camera;
 use crate::study::prt::card::{PictureVariant, PixelErrors};
 
-/// Bits of G that are tried.
+/// Numbers of bits of G to try.
 const BITS: [u32; 5] = [8, 10, 12, 14, 16];
 /// Sets of texture coordinates of ps_2_0.
 const SETS: usize = 8;
@@ -37,7 +37,7 @@ impl Choice {
     }
 }
 
-/// Nothing made coarse: G in single precision, filtered by the program; a channel per pass where all three do not fit.
+/// The finest options: G in single precision, filtered by the program; one channel per pass if three do not fit.
 fn fine(terms: usize) -> ProductOptions {
     let all = SetLayout { terms, channels: 3, view: ViewNumbers::default() };
     ProductOptions {
@@ -48,7 +48,7 @@ fn fine(terms: usize) -> ProductOptions {
     }
 }
 
-/// For a reflectance of several terms.
+/// Choices for a reflectance of several terms.
 fn choices_of_products(terms: usize) -> Vec<Choice> {
     let fine = fine(terms);
     let mut all = vec![Choice::pixels("none", "fp32 throughout", "ideal-fp32", fine)];
@@ -85,7 +85,7 @@ fn choices_of_products(terms: usize) -> Vec<Choice> {
     all
 }
 
-/// Colors of vertices. For a diffuse surface, which has one term, these are the only choices.
+/// Choices for vertex colors. A diffuse surface, which has one term, has no other choices.
 fn choices_of_colors() -> Vec<Choice> {
     let floats = ProductPlace::Vertices(VertexColors::Floats);
     let mut all = vec![Choice::new("vertex colors", "floats, fp32", "ideal-fp32", floats)];
@@ -110,8 +110,8 @@ pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
     choices(mesh).len() as u64
 }
 
-/// Draws a mesh into floats in many ways, and compares each picture with what the host computes in f64 of the same
-/// numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with
+/// Draws a mesh into floats in many ways, and compares each picture with one that the host computes in f64 from the
+/// same numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with
 /// [`CardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
 pub fn factored_precision(
     mesh: TransferredMesh<'_>,

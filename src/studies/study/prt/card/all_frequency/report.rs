@@ -82,7 +82,7 @@ fn conclude(drawing: &FactoredDrawing, found: &mut Findings) {
 }
 
 impl AllFrequencyOnCard {
-    /// Step by step from light to picture.
+    /// Adds the error of each step from light to picture.
     fn blame(
         &self,
         steps: &HostSteps,

@@ -44,7 +44,7 @@ impl AllFrequencyOnCard {
         let cut = self.cut(self.lit.keep)?;
         let (transferred, multiplies) = match &self.lit.file.coded {
             Some(coded) => by_shader(coded, &cut.light)?,
-            // Every light coefficient that is not 0, in the raw matrix of every vertex.
+            // Each non-zero light coefficient is multiplied in the raw matrix of every vertex.
             None => {
                 let per_vertex = 3 * (self.lit.file.reflectance.terms() * cut.kept * self.lit.vertices.len()) as u64;
                 (self.raw(&self.lit.file, &cut.light)?, Multiplies { per_cluster: 0, per_vertex })

@@ -35,7 +35,7 @@ impl BiScaleOnCard {
         Ok(CardLight { local, counts: card.counts(), log })
     }
 
-    /// The display.
+    /// Draws the display pass.
     pub(super) fn draw(
         &self,
         local: &[[f32; 3]],
@@ -66,7 +66,7 @@ impl BiScaleOnCard {
     }
 }
 
-/// Numbers of single precision as such of double.
+/// Converts single to double precision.
 pub(super) fn doubles(local: &[[f32; 3]]) -> Vec<[f64; 3]> {
     local.iter().map(|rgb| rgb.map(f64::from)).collect()
 }

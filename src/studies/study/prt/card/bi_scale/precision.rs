@@ -22,7 +22,7 @@ struct CardDrawing {
     target: TexelFormat,
 }
 
-/// All in single precision.
+/// Single precision throughout.
 const FINE: CardDrawing = CardDrawing {
     light: LightFormat::Fp32,
     options: DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LocalFormat::Fp32 },
@@ -55,7 +55,7 @@ pub(super) fn count() -> u64 {
     ways().len() as u64
 }
 
-/// Draws each way on the study's card. Pixels are compared with equation 3 in f64 from L~ in f64.
+/// Draws each variant on the study's card. Pixels are compared with equation 3 in f64 from L~ in f64.
 pub(super) fn variants(
     study: &BiScaleOnCard,
     light: &[[f64; 3]],

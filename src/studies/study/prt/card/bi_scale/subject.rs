@@ -20,7 +20,7 @@ use crate::transfer::light::{Decimation, DistantLight};
 pub struct BiScaleOnCard {
     /// Names, camera and exposure.
     pub view: LitView,
-    /// Its vertices.
+    /// The model's vertices.
     pub vertices: Vertices,
     /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
     pub coordinates: Vec<[[f32; 2]; 3]>,
@@ -28,7 +28,7 @@ pub struct BiScaleOnCard {
     pub biclusters: Biclustering,
     /// The textures.
     pub textures: Vec<BidirectionalTexture>,
-    /// The number of each triangle's texture.
+    /// Texture index per triangle.
     pub texture_of: Vec<u32>,
     /// The light.
     pub light: DistantLight,
@@ -68,7 +68,7 @@ impl BiScaleOnCard {
         Ok(())
     }
 
-    /// L: of each light texel red, green and blue times its solid angle.
+    /// L: red, green and blue of each light texel, times its solid angle.
     pub(super) fn light_texels(&self) -> Result<Vec<[f64; 3]>, InputError> {
         let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
         Ok(side_by_side(light_vectors(&cube)))

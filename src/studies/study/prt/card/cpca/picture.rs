@@ -69,7 +69,7 @@ impl CardDrawing<'_> {
     }
 }
 
-/// Linear radiance of what pixels show from exit coefficients of the vertices.
+/// Linear radiance of visible pixels, from exit coefficients of the vertices.
 pub(super) fn on_host(
     study: &OnCard,
     seen: &[Option<SeenPixel>],

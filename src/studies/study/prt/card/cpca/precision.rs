@@ -13,9 +13,9 @@ use crate::study::prt::card::PictureVariant;
 use crate::study::prt::card::difference::{PixelErrors, held};
 use crate::study::prt::no_cpca_card;
 
-/// Maps as fine as the reference picture has them.
+/// Side of the reference picture's maps, in texels.
 const FINE: usize = 512;
-/// Maps that are tried.
+/// Sides of maps to try, in texels.
 const SIDES: [usize; 5] = [8, 16, 32, 64, 128];
 
 /// A variant of the reference.

@@ -17,7 +17,7 @@ use crate::transfer::file::PrtMeaning;
 pub struct OnCard {
     /// Names, camera and exposure.
     pub view: LitView,
-    /// Its vertices, the points of the clusters.
+    /// The model's vertices, the points of the clusters.
     pub vertices: Vertices,
     /// Meaning of the numbers of a vertex.
     pub meaning: PrtMeaning,

@@ -76,7 +76,7 @@ struct Methods<'a> {
 }
 
 impl Methods<'_> {
-    /// Colors of the model or the ground. They are a piece of the work, and so are segments.
+    /// Colors of the model or the ground. Like segments, they are kept as a piece of the work.
     fn colors(
         &self,
         subject: (&VisibilityMaps, &dyn ProductFunction, &Reflectance),

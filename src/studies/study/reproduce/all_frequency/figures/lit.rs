@@ -17,7 +17,7 @@ pub(super) struct Surface<'a> {
     pub(super) maps: &'a VisibilityMaps,
     pub(super) reflectance: &'a Reflectance,
     pub(super) color: [f64; 3],
-    /// Where its pieces are kept, and their name.
+    /// Keeper of finished pieces, and the prefix of their names.
     pub(super) pieces: (&'a Shared, &'a str),
 }
 

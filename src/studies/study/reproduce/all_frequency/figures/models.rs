@@ -51,7 +51,7 @@ pub(super) fn cook_torrance() -> [NamedLobe; 2] {
     [("textbook", lobe), ("distribution alone", bare(lobe))]
 }
 
-/// End of the names of files of a form: none for the textbooks'.
+/// Suffix of file names per form: empty for the textbooks' form.
 pub(super) fn ending(form: &str) -> String {
     if form == "textbook" { String::new() } else { format!("-{}", form.replace(' ', "-")) }
 }

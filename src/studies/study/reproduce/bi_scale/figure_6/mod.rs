@@ -75,8 +75,7 @@ fn lights() -> Result<[LightChannels; 2], StudyError> {
     Ok([of(DistantLight::Sky(HARD_SUN))?, of(DistantLight::RedAndBlue)?])
 }
 
-/// Rows on sizes and on losses. That the artifacts of the other storages are severe is not a figure: their errors are
-/// in the table.
+/// Rows on sizes and losses. "Severe" artifacts of other storages are no printed number: the table shows their errors.
 fn rows(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Vec<PaperRow>, StudyError> {
     let sum = biclusters.sum().on(HOST)?;
     let given_back = (0..matrix.rows()).filter(|&row| matrix.row(row) == sum.row(row)).count();

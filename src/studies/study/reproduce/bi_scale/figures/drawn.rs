@@ -14,7 +14,7 @@ pub(super) const ORDER: usize = 5;
 /// Colors of a figure.
 pub(super) struct DrawnFigure {
     pub(super) causes: CausePictures,
-    /// By low-frequency light.
+    /// Colors by low-frequency light.
     pub(super) smooth: Vec<[f64; 3]>,
 }
 
@@ -32,7 +32,7 @@ impl DrawnFigure {
         Ok(Self { causes, smooth: drawing.shade(&low) })
     }
 
-    /// Errors of a picture relative to that by rays, and to that by rays with the same textures, in percent.
+    /// Errors of a picture in percent, relative to the ray-traced picture without and with the textures of transfer.
     pub(super) fn errors(&self, picture: &[[f64; 3]]) -> [f64; 2] {
         [self.causes.exact(), self.causes.textured()].map(|other| self.causes.apart(other, picture))
     }
