@@ -1,10 +1,10 @@
 //! Environment mapping: mirrors show a cube map of their surroundings, drawn by a card.
 //!
 //! What the Ray Engine's Figure 1 shows beside traced reflections. The map has the scene without its mirrors, seen from
-//! the middle of what the picture shows of them, in bytes; a vertex program reflects the view, and the pixel program looks the reflected vector up. So
+//! the point of them nearest to the middle of theirs in the picture, in bytes; a vertex program reflects the view, and the pixel program looks the reflected vector up. So
 //! reflections are those of things infinitely far away: they neither touch what they reflect nor meet each other.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use refsim::device::Profile;
 use refsim::machine::{Executor, Machine, TextureId};
 use refsim::num::Format;
@@ -60,16 +60,17 @@ pub fn render<'a>(
     let plain = Settings { depth: 0, ..settings.clone() };
     let mut picture = whitted::render(scene, camera, &plain, caster, watch)?;
     let mirrors: Vec<u32> = (0..scene.mesh().len() as u32).filter(|&at| reflectance(scene, at).is_some()).collect();
-    let point = |(pixel, hit): (usize, &Option<Hit>)| {
-        let hit = hit.filter(|hit| mirrors.binary_search(&hit.triangle).is_ok())?;
-        let [x, y] = [pixel % camera.width() as usize, pixel / camera.width() as usize].map(|at| at as u32);
-        Some(wide(camera.eye()) + f64::from(hit.t) * wide(camera.direction(x, y)))
-    };
-    let seen: Vec<DVec3> = picture.first.iter().enumerate().filter_map(point).collect();
-    if seen.is_empty() {
-        return Ok(picture);
-    }
-    let map = map(scene, &mirrors, seen.iter().sum::<DVec3>() / seen.len() as f64, &plain)?;
+    let pixel = |at: usize| [at % camera.width() as usize, at / camera.width() as usize].map(|at| at as u32);
+    let is_mirror = |hit: &Hit| mirrors.binary_search(&hit.triangle).is_ok();
+    let seen: Vec<(DVec2, DVec3)> = (0..)
+        .zip(&picture.first)
+        .filter_map(|(at, hit)| Some((pixel(at), hit.filter(is_mirror)?)))
+        .map(|([x, y], hit)| (DVec2::new(x.into(), y.into()), f64::from(hit.t) * wide(camera.direction(x, y))))
+        .collect();
+    let middle = seen.iter().map(|seen| seen.0).sum::<DVec2>() / seen.len().max(1) as f64;
+    let far = |seen: &(DVec2, DVec3)| seen.0.distance_squared(middle);
+    let Some((_, place)) = seen.iter().min_by(|one, other| far(one).total_cmp(&far(other))) else { return Ok(picture) };
+    let map = map(scene, &mirrors, wide(camera.eye()) + *place, &plain)?;
     let texels = drawn(scene, camera, &mirrors, &map, card).map_err(|error| InputError::of("", error))?;
     for (color, texel) in picture.color.iter_mut().zip(&texels.texels).filter(|(_, texel)| texel[3] != 0.0) {
         *color = [texel[0], texel[1], texel[2]].map(f64::from);
