@@ -43,18 +43,18 @@ const BUDGET: u64 = 10_000;
 
 /// Find the fewest bits that meet a goal: for an expression, or for the pixel programs of a case or a system
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, group(clap::ArgGroup::new("subject").required(true).args(["case", "expr", "fpcore"])))]
 pub(super) struct Args {
     /// The case, a TOML file; or a shader in WGSL; or ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
-    #[arg(value_name = "CASE.toml|SHADER.wgsl|SYSTEM", required_unless_present_any = ["expr", "fpcore"])]
+    #[arg(value_name = "CASE.toml|SHADER.wgsl|SYSTEM")]
     case: Option<PathBuf>,
 
     /// An expression, as `sqrt(x + 1) - sqrt(x)`, in place of a case
-    #[arg(long, value_name = "EXPRESSION", conflicts_with_all = ["case", "fpcore"], allow_hyphen_values = true)]
+    #[arg(long, value_name = "EXPRESSION", allow_hyphen_values = true)]
     expr: Option<String>,
 
     /// Expressions in FPCore, the language of FPBench and Herbie
-    #[arg(long, value_name = "FILE.fpcore", conflicts_with = "case")]
+    #[arg(long, value_name = "FILE.fpcore")]
     fpcore: Option<PathBuf>,
 
     /// Bounds of a variable; may be given several times [default: all numbers]
