@@ -58,10 +58,10 @@ impl PhotonMap {
         Self { photons, axes }
     }
 
-    /// Returns the sum of `value` over the photons around a point per unit area, from the `nearest` photons (at least
-    /// 2) within `radius` on surfaces with a similar normal. The k-th photon determines the area, pi r^2, and the k - 1
-    /// others the sum, which is unbiased for evenly distributed photons. If fewer than `nearest` photons are within the
-    /// radius, all count, divided by the area of the radius.
+    /// Returns the sum of `value` over the photons around a point per unit area, from the `nearest` photons within
+    /// `radius` on surfaces with a similar normal; `nearest` is at least 2. The k-th photon determines the area, pi
+    /// r^2, and the k - 1 others the sum, which is unbiased for evenly distributed photons. If fewer than `nearest`
+    /// photons are within the radius, all count, divided by the area of the radius.
     pub fn density(
         &self,
         at: DVec3,

@@ -103,8 +103,8 @@ impl Dipole {
         self.disc_at(0.0, r)
     }
 
-    /// The integral of R_d over a disc of radius `rho`, as seen from the point `height` above its centre: `G(sqrt(rho^2
-    /// + height^2)) - G(height)`, to full precision even if the disc is small or far away.
+    /// The integral of R_d over a disc of radius `rho`, from the point `height` above its centre, to full
+    /// precision even if the disc is small or far away. It is `G(sqrt(rho^2 + height^2)) - G(height)`.
     pub fn disc_at(&self, height: f64, rho: f64) -> f64 {
         if rho.is_infinite() {
             return self.beyond(height);

@@ -1,8 +1,8 @@
 //! Beams: volumes that contain all rays of a bucket, tested against cells (section 5.3, after Arvo and Kirk 1987).
 //!
 //! All rays of a bucket pass through one face of the unit cube, so along the face's axis k they share a sign, and their
-//! slopes along the other axes u are bounded. Each bound is a plane with all rays on one side: along a ray, `p_u - most
-//! * p_k` never exceeds its largest value at an origin. No ray meets a cell on the other side of such a plane.
+//! slopes along the other axes u are bounded. Each bound is a plane with all rays on one side: `p_u - most * p_k` along
+//! a ray never exceeds its largest value at an origin. No ray meets a cell on the other side of such a plane.
 
 use glam::DVec3;
 

@@ -5,8 +5,8 @@
 //! - sampler 0: scattered irradiance, a rectangle; sampler 1: transmittances by cosine, 1-D.
 //! - `p[0]`: factor from scattered irradiance times transmittance (exact: half of it) to the picture; w: smallest
 //!   squared distance to a light. `p[1]`: eye; w: smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta; table:
-//!   scale and offset from cosine to coordinate; w: shininess. `p[3]`: ambient light. Per light: `p[4]` position (w =
-//!   1) or direction towards the light (w = 0), `p[5]` attenuation k0, k1, k2, `p[6]` diffuse, `p[7]` specular.
+//!   scale and offset from cosine to coordinate; w: shininess. `p[3]`: ambient light. Per light: `p[4]` position (w 1)
+//!   or direction to the light (w 0), `p[5]` attenuation k0, k1, k2, `p[6]` diffuse, `p[7]` specular.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
