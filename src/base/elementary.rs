@@ -1,4 +1,4 @@
-//! Elementary functions with the same bits on every platform, by libm: those of the standard library vary.
+//! Elementary functions by libm, with the same bits on every platform; the standard library's results vary.
 
 /// Natural logarithm.
 pub fn ln(x: f64) -> f64 {
@@ -20,7 +20,7 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// e to the power x, less 1, without cancellation near 0.
+/// e to the power x minus 1, without cancellation near 0.
 pub fn exp_m1(x: f64) -> f64 {
     libm::expm1(x)
 }

@@ -1,4 +1,4 @@
-//! The one error of every room for input that it cannot use.
+//! The error type of all modules for invalid input.
 
 use std::error::Error;
 use std::fmt;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 pub use crate::{ensure, input_error};
 
-/// A file and, where something is wrong in one line of it, the line, from 1.
+/// A file and, where known, the line of the error, counted from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FilePlace {
     /// The file.
@@ -36,9 +36,9 @@ impl fmt::Display for FilePlace {
     }
 }
 
-/// Error: an argument that the function does not accept. The message has the expected and the found value.
+/// An argument that a function does not accept. The message states the expected and the found value.
 ///
-/// Two errors are equal if they are displayed alike under one code.
+/// Two errors are equal if their code and displayed text are.
 #[derive(Clone)]
 pub struct InputError(Box<ErrorParts>);
 
@@ -53,27 +53,27 @@ struct ErrorParts {
 
 #[derive(Clone, Debug)]
 enum Cause {
-    /// The message names the consequence.
+    /// The message states the consequence of this source.
     Source(Arc<dyn Error + Send + Sync>),
-    /// The message is this error's own, so that the chain of sources starts behind it.
+    /// The message is the text of this error, so the chain of sources begins with this error's own source.
     Shown(Arc<dyn Error + Send + Sync>),
 }
 
 impl InputError {
-    /// An error with a code for programs, which is empty where the caller gives the code of its step
-    /// ([`Self::coded`]). [`input_error`] formats the message.
+    /// An error with a code for programs; the code is empty if the caller sets it by [`Self::coded`]. [`input_error`]
+    /// formats the message.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
         Self(Box::new(ErrorParts { code, message: message.into(), help: None, place: None, cause: None }))
     }
 
-    /// Another error, shown unchanged.
+    /// Wraps another error, whose message is shown unchanged.
     pub fn of(code: &'static str, error: impl Error + Send + Sync + 'static) -> Self {
         let mut shown = Self::new(code, error.to_string());
         shown.0.cause = Some(Cause::Shown(Arc::new(error)));
         shown
     }
 
-    /// Replaces the code by that of the step that needed the input.
+    /// Replaces the code by the code of the step that needed the input.
     #[must_use]
     pub fn coded(mut self, code: &'static str) -> Self {
         self.0.code = code;
@@ -87,7 +87,7 @@ impl InputError {
         self
     }
 
-    /// Adds the file, or its line, which the message begins with.
+    /// Adds the file, or its line, with which the message begins.
     #[must_use]
     pub fn at(mut self, place: impl Into<FilePlace>) -> Self {
         self.0.place = Some(place.into());
@@ -151,8 +151,8 @@ impl miette::Diagnostic for InputError {
     }
 }
 
-/// An [`InputError`]: its code, the message as for [`format!`], and what to do behind `; help`. An error without a code
-/// has the message alone.
+/// Creates an [`InputError`] from a code, a message as for [`format!`], and advice after `; help`. Without a code, the
+/// message is the only argument.
 ///
 /// ```
 /// use crossbar_base::error::input_error;
@@ -171,7 +171,7 @@ macro_rules! input_error {
     };
 }
 
-/// Returns an [`input_error`] unless the condition, the first argument, holds.
+/// Returns an [`input_error`] unless the first argument, a condition, is true.
 #[macro_export]
 macro_rules! ensure {
     ($condition:expr, $($error:tt)+) => {

@@ -4,9 +4,9 @@
 //! [`reflectance`] is accurate where little is transmitted, [`transmittance`] where little is reflected: neither
 //! suffers from cancellation there. Their sum is 1 up to rounding.
 
-/// Fresnel reflectance of a boundary, in [0, 1]: the mean of both polarisations. `cosine` is that of the angle to the
-/// normal on the side of the light, `ratio` the index of that side over that of the other. 1 under total internal
-/// reflection.
+/// Fresnel reflectance of a boundary, in [0, 1]: the mean of both polarisations. `cosine` is the cosine of the angle
+/// between light and normal, `ratio` the refractive index on the light's side divided by the index on the other side. 1
+/// under total internal reflection.
 pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
     let cosine = cosine.clamp(0.0, 1.0);
     let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
@@ -19,28 +19,29 @@ pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
     (across * across + along * along) / 2.0
 }
 
-/// Fresnel transmittance of a boundary, in [0, 1]: 1 less the mean of both polarisations' reflectances.
+/// Fresnel transmittance of a boundary, in [0, 1]: 1 minus the mean of both polarisations' reflectances.
 ///
 /// `eta` is the index of refraction of the far side relative to the near one: above 1 for light that enters the medium,
-/// below 1 for light that leaves it. `cosine` is that of the angle on the near side. 0 for light along the surface or
-/// from behind it (cosine not above 0), and under total internal reflection.
+/// below 1 for light that leaves it. `cosine` is the cosine of the angle on the near side. The result is 0 if the
+/// cosine is not above 0 (light along the surface or from behind), and under total internal reflection.
 pub fn transmittance(eta: f64, cosine: f64) -> f64 {
     let c = cosine.min(1.0);
     // The square of eta times the cosine on the far side.
     let square = (eta - 1.0) * (eta + 1.0) + c * c;
-    // The cosine itself, because `min` drops NaN.
+    // `cosine` instead of `c`, because `min` drops NaN.
     if !(cosine > 0.0 && square > 0.0) {
         return 0.0;
     }
     let far = square.sqrt();
     let across = c + far;
     let along = eta * eta * c + far;
-    // 1 - ((c - far) / across)^2 = 4 c far / across^2, and so for the other polarisation: no difference of near values.
+    // 1 - ((c - far) / across)^2 = 4 c far / across^2, and likewise for the other polarisation; this avoids
+    // cancellation.
     (2.0 * c * far * (1.0 / (across * across) + (eta / along) * (eta / along))).min(1.0)
 }
 
 /// Fresnel reflectance in Cook and Torrance's form, from the reflectance at normal incidence, in [0, 1), which
-/// determines the index. `cosine` is in [0, 1].
+/// determines the refractive index. `cosine` is in [0, 1].
 pub fn dielectric(normal_incidence: f64, cosine: f64) -> f64 {
     let root = normal_incidence.sqrt();
     reflectance(cosine, (1.0 - root) / (1.0 + root))

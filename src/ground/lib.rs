@@ -1,5 +1,5 @@
-//! Shared ground of Crossbar's systems: linear algebra, quadrature, pictures, functions on the sphere, rays on the
-//! host, meshes in texels, scenes and their files, cards that compute. `crossbar` re-exports these rooms.
+//! Modules that Crossbar's systems share: linear algebra, quadrature, pictures, functions on the sphere, rays on the
+//! host, texture atlases of meshes, scenes and their files, cards that compute. `crossbar` re-exports these modules.
 
 use crossbar_base::{elementary, error, geom};
 

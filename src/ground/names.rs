@@ -3,8 +3,8 @@
 /// Maximum length of a name for which a suggestion is made.
 const LONGEST: usize = 80;
 
-/// Returns the name nearest to what was found, if it is near: at most one letter in three is wrong, missing,
-/// superfluous or swapped with the next. Case is ignored. Among equally near names the first.
+/// Returns the name nearest to `found`, the first of equals, if at most one letter in three is wrong, missing,
+/// superfluous or swapped with the next. Case is ignored.
 pub fn nearest<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters = found.chars().take(LONGEST + 1).count();
     if letters > LONGEST {
@@ -21,7 +21,7 @@ pub fn did_you_mean<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -
     nearest(found, names).map(|name| format!("did you mean `{name}`? ")).unwrap_or_default()
 }
 
-/// Like [`did_you_mean`], for serde's messages on unknown fields and variants, which quote what was found and then the
+/// Like [`did_you_mean`], for serde's messages on unknown fields and variants, which quote the unknown name, then the
 /// known names.
 pub fn did_you_mean_field(message: &str) -> String {
     if !message.starts_with("unknown ") {

@@ -53,8 +53,8 @@ pub const SIXTEEN: [GaussPoint; 16] = rule([
 /// Maximum number of points of a rule by [`gauss_legendre`].
 pub const MAX_POINTS: usize = 1024;
 
-/// Number of steps of Newton's method: from the asymptotic roots, three reach the last bits and two more change
-/// nothing.
+/// Number of steps of Newton's method: from the asymptotic roots, three steps are exact to the last bits; two are a
+/// reserve.
 const NEWTON_STEPS: usize = 5;
 
 /// Computes the rule with 1 to [`MAX_POINTS`] points on [0, 1], by Newton's method on the roots of the Legendre
@@ -62,7 +62,7 @@ const NEWTON_STEPS: usize = 5;
 pub fn gauss_legendre(points: usize) -> Vec<GaussPoint> {
     assert!((1..=MAX_POINTS).contains(&points), "1 to {MAX_POINTS} points");
     let polynomial = |x: f64| legendre_polynomials(x).nth(points).unwrap_or_default();
-    // Roots come in pairs; the negative one of each pair is found.
+    // Roots come in pairs of opposite sign; this finds the negative root of each pair.
     let negative = |i: usize| {
         let turns = (i as f64 + 0.75) / (points as f64 + 0.5) / 2.0;
         let mut x = if 2 * i + 1 == points { 0.0 } else { -elementary::on_circle(turns)[0] };
@@ -93,7 +93,7 @@ pub fn legendre_polynomials(x: f64) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// Sixteen points of an interval and their weights, which sum to its length.
+/// Sixteen points of an interval with weights that sum to its length.
 pub fn integral_points(from: f64, to: f64) -> [GaussPoint; 16] {
     SIXTEEN.map(|(x, weight)| (from + (to - from) * x, (to - from) * weight))
 }
@@ -103,8 +103,8 @@ pub fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
     integral_points(from, to).iter().map(|&(x, weight)| weight * value(x)).sum()
 }
 
-/// Integral from 0 to `to` of a function that varies fast near 0: sixteen points in each of `panels` intervals, every
-/// one half as long as the next; the first begins at 0.
+/// Integral from 0 to `to` of a function that varies fast near 0, by sixteen points in each of `panels` intervals. The
+/// first begins at 0; each is half as long as the next.
 pub fn graded_integral(to: f64, panels: u32, value: impl Fn(f64) -> f64) -> f64 {
     let mut sum = 0.0;
     let mut end = to;

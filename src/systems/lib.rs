@@ -1,5 +1,5 @@
-//! Six published systems of global illumination on emulated cards, what systems 4 to 6 share, and renderers on the
-//! host. No system sees another. `crossbar` re-exports these rooms.
+//! Six published systems of global illumination on emulated cards, modules that systems 4 to 6 share, and renderers on
+//! the host. Systems do not import each other. `crossbar` re-exports these modules.
 
 use crossbar_base::{elementary, error, geom};
 use crossbar_ground::{atlas, card, fresnel, io, linalg, picture, quadrature, scene, sphere, tracer};

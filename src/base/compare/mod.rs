@@ -1,10 +1,10 @@
 //! The only definition of equality: of numbers, pictures, and traces of a program.
 //!
-//! - [`f32_ulps`]: how far apart two f32 are; it needs no emulator, the others do.
-//! - [`Number`]: two patterns are equal if their bits are, where both have the same layout; across layouts if they are
-//!   the same number. [`ulps`] is how far apart they are.
-//! - [`images`], [`depths`]: two surfaces are equal if every stored bit is; the difference as statistics.
-//! - [`first_difference`]: where two traces of one pixel part: the pass, the stage, the instruction, the component.
+//! - [`f32_ulps`]: distance between two f32 in ULPs; the only function here that needs no emulator.
+//! - [`Number`]: two patterns of one layout are equal if their bits are; two of different layouts, if their values are.
+//!   [`ulps`] is their distance.
+//! - [`images`], [`depths`]: comparison of every stored bit of two surfaces, with statistics of the difference.
+//! - [`first_difference`]: the pass, stage, instruction and component at which two traces of one pixel first differ.
 
 mod single;
 

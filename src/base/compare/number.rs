@@ -38,20 +38,20 @@ pub struct Compared {
     pub right: String,
     /// Bits of the right value, hexadecimal.
     pub right_bits: String,
-    /// Distance in units of the last place of `unit`; `None` where one is not finite.
+    /// Distance in units of the last place of `unit`; `None` if a value is not finite.
     pub ulps: Option<f64>,
     /// Format whose last place is counted.
     pub unit: String,
 }
 
 impl Number {
-    /// Converts to a double, which represents every number of every format exactly; NaN and infinities as such.
+    /// Converts to a double exactly, for every number of every format; NaN and infinities stay NaN and infinities.
     pub fn double(&self) -> f64 {
         to_f64(&self.format, self.bits)
     }
 
-    /// Returns `true` if two numbers are equal: if their bits are, for the same layout (sizes of the fields), so that 0
-    /// and -0 differ; if their values are, for different layouts. NaN equals NaN.
+    /// Returns `true` if two numbers are equal. Numbers of one layout (sizes of the fields) are compared by bits, so
+    /// that 0 and -0 differ; numbers of different layouts by value. NaN equals NaN.
     pub fn equals(&self, other: &Self) -> bool {
         if self.format.kind == other.format.kind {
             let nan = self.format.is_nan(self.bits) && other.format.is_nan(other.bits);
@@ -98,11 +98,12 @@ impl Number {
     }
 }
 
-/// Distance of two numbers, and the format whose last place is counted.
+/// Distance of two numbers, and the format whose last place is its unit; `None` if they are not equal and one is NaN or
+/// infinite.
 ///
-/// With one layout this is the number of steps between neighbouring numbers from one to the other. With two it is the
-/// exact difference divided by the last place, at the larger of the two magnitudes, of the format whose last place is
-/// the larger there. `None` if one of them is not finite, or NaN, and they are not equal.
+/// Within one layout the distance is the number of steps between neighbouring numbers. Across two layouts it is the
+/// exact difference in units of the last place, at the larger of the two magnitudes, of the format that is coarser
+/// there.
 pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
     let (a, b) = (left.double(), right.double());
     if (left.format.kind, left.format.encoding) == (right.format.kind, right.format.encoding) {
@@ -169,7 +170,7 @@ impl Compared {
     }
 }
 
-/// Value of a channel as a double, ratios rounded once.
+/// Value of a channel as a double; a normalised value is rounded once.
 pub(super) fn channel_double(channel: Channel, bits: u32) -> f64 {
     decode_channel(channel, bits, SignedTexelMinimum::BelowMinusOne).to_f64()
 }

@@ -14,7 +14,7 @@ use super::{
     side::{TraceSide, component},
 };
 
-/// Register that an instruction read, on both sides: before swizzle and modifier.
+/// Value on both sides of a register that an instruction read, before swizzle and modifier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operand {
     /// The register's four components.
@@ -23,8 +23,8 @@ pub struct Operand {
     pub differs: bool,
 }
 
-/// Returns the registers read by step `k` of two traces that agree in all earlier steps. Registers that hold no numbers
-/// are omitted.
+/// Returns the registers read by step `k` of two traces that agree in all earlier steps. Registers without numbers are
+/// omitted.
 pub(super) fn operands(
     left: (&TraceSide<'_>, &FragmentTrace),
     right: (&TraceSide<'_>, &FragmentTrace),
@@ -55,7 +55,6 @@ pub(super) fn operands(
         .collect()
 }
 
-/// Registers of an instruction's sources, each once; a matrix's rows one by one.
 fn registers_read(instruction: &Instruction) -> Vec<Register> {
     let rows = instruction.opcode.matrix().map_or(1, |(rows, _)| rows);
     let mut registers = Vec::new();
@@ -87,7 +86,7 @@ impl RegisterValues {
         let mut state = Self(delivered.collect());
         let steps = &shading.steps[..k.min(shading.steps.len())];
         let at = shading.steps.get(k).map_or(usize::MAX, |step| step.instruction);
-        // The second of a co-issued pair reads the registers as before the pair.
+        // The second instruction of a co-issued pair reads the registers as they were before the pair.
         let paired = side.program.instructions.get(at).is_some_and(|i| i.coissue);
         let steps = if paired { &steps[..steps.len().saturating_sub(1)] } else { steps };
         let phase = side.program.phase_marker();

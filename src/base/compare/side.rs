@@ -13,7 +13,7 @@ use refsim::{
 pub struct TraceSide<'a> {
     /// Pixel program; both sides run the same text.
     pub program: &'a Program,
-    /// Format of its registers.
+    /// Format of the program's registers.
     pub format: Format,
     /// Constants as this side's instructions read them.
     pub constants: &'a ResolvedConstants,

@@ -1,7 +1,7 @@
 //! Distance of two f32 numbers, and the text of a number.
 
-/// Number of f32 steps from one number to the other: both zeros are one number, and two NaN are 0 steps apart. `None`
-/// if one of them is not finite, or NaN, and they are not equal.
+/// Number of f32 steps between two numbers. -0 and +0 are 0 steps apart, and so are two NaN. `None` if the numbers are
+/// not equal and one is NaN or infinite.
 ///
 /// ```
 /// # extern crate crossbar_base as crossbar;
@@ -21,7 +21,7 @@ pub fn f32_ulps(left: f32, right: f32) -> Option<u64> {
     (left.is_finite() && right.is_finite()).then(|| step(left).abs_diff(step(right)))
 }
 
-/// Shortest text that reads back to the same number: plain near one, with an exponent far from it.
+/// Shortest text that reads back to the same number, with an exponent if the number is far from 1.
 pub(crate) fn shortest(real: f64) -> String {
     let plain = real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&real.abs());
     if plain { format!("{real}") } else { format!("{real:e}") }

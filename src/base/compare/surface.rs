@@ -18,8 +18,8 @@ pub struct SurfaceDifference {
     pub pixels: u64,
     /// Number of pixels with a differing bit.
     pub different: u64,
-    /// Largest difference between two numbers, at the first pixel that has it. A difference from a value that is not
-    /// finite is larger than all others.
+    /// Largest difference between two numbers, with the first pixel that has it. A difference is infinite if one value
+    /// is not finite.
     pub largest: Option<Largest>,
     /// For each pixel, row by row, `true` if it differs.
     #[serde(skip)]
@@ -31,7 +31,7 @@ pub struct SurfaceDifference {
 pub struct Largest {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Absolute difference; infinite where one side is not finite.
+    /// Absolute difference; infinite if a value is not finite.
     #[serde(serialize_with = "finite_or_text")]
     pub difference: f64,
     /// Both values.
@@ -68,7 +68,7 @@ fn distance(left: f64, right: f64) -> f64 {
     if distance.is_nan() { f64::INFINITY } else { distance }
 }
 
-/// Compares the stored bits of two images of one size and format, level 0. `None` if size or format differ.
+/// Compares the stored bits of two images at level 0. `None` if size or format differ.
 pub fn images(name: &str, left: &Image, right: &Image) -> Option<SurfaceDifference> {
     let (width, height) = (left.width(), left.height());
     if (right.width(), right.height(), right.format()) != (width, height, left.format()) {
@@ -87,7 +87,7 @@ pub fn images(name: &str, left: &Image, right: &Image) -> Option<SurfaceDifferen
     }))
 }
 
-/// Compares the bits of two depth buffers of one size and format. `None` if size or format differ.
+/// Compares the bits of two depth buffers. `None` if size or format differ.
 pub fn depths(name: &str, left: &DepthSurface, right: &DepthSurface) -> Option<SurfaceDifference> {
     let (width, height) = (left.width(), left.height());
     if (right.width(), right.height(), right.format()) != (width, height, left.format()) {
@@ -101,7 +101,7 @@ pub fn depths(name: &str, left: &DepthSurface, right: &DepthSurface) -> Option<S
     }))
 }
 
-/// Depth format as a channel of a texel; the 24-bit float reads as the single that it is equal to.
+/// Depth format as a channel of a texel; a 24-bit float is converted to the f32 of equal value.
 fn depth_channel(format: DepthFormat) -> Channel {
     let (bits, class) = match format {
         DepthFormat::Unorm16 => (16, ChannelClass::Unorm),
@@ -112,7 +112,6 @@ fn depth_channel(format: DepthFormat) -> Channel {
     Channel { shift: 0, bits, class, stored_from: 0 }
 }
 
-/// Bits of [`depth_channel`] for a stored depth.
 fn depth_bits(format: DepthFormat, stored: u32) -> u32 {
     if format == DepthFormat::Float24 { format.to_format(stored, Format::FP32) } else { stored }
 }

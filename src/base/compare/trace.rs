@@ -17,7 +17,7 @@ use super::{
     surface::{compared_depths, differing_channels},
 };
 
-/// Formats of the render targets, the same on both sides.
+/// Formats of the render targets, equal on both sides.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetFormats<'a> {
     /// Color targets.
@@ -51,20 +51,20 @@ pub enum TraceStage {
     Coverage { left: Option<FragmentPass>, right: Option<FragmentPass> },
     /// Interpolated values of the rasteriser.
     Input,
-    /// An input register: the interpolated value brought to the register format.
+    /// An input register: the interpolated value converted to the register format.
     Delivered,
     /// Result of an instruction, by its index in the program.
     Instruction { index: usize },
     /// Write mask of an instruction: its predicate.
     Mask { index: usize, left: Mask, right: Mask },
-    /// Index of the next instruction: a branch. `None` where the program has ended.
+    /// A branch: the index of the next instruction, `None` at the end of the program.
     Flow { left: Option<usize>, right: Option<usize> },
-    /// Output of the program that no register shows: kill, depth, clamped color. With the instruction, if only one can
-    /// be the cause.
+    /// Output of the program that no register shows: kill, depth, clamped color. `instruction` is the cause if only one
+    /// instruction can be.
     Output { instruction: Option<usize> },
     /// Result of the alpha test or the depth test.
     Test { left: FragmentFate, right: FragmentFate },
-    /// Stored value: quantising, blending, masking; or the executor's own draw, which computes less than its trace.
+    /// Stored value: the cause is quantisation, blending or masking, or the executor draws other values than it traces.
     Merge,
 }
 
@@ -77,11 +77,11 @@ pub struct TraceDifference {
     pub passes: [usize; 2],
     /// Stage at which they differ.
     pub stage: TraceStage,
-    /// Values that differ there, the first component first.
+    /// Values that differ at the stage, in the order of components.
     pub values: Vec<Compared>,
     /// Operands of the instruction, where [`Self::stage`] is one.
     pub operands: Vec<Operand>,
-    /// First instruction of the same fragment that writes a different value, where the stage is an earlier one.
+    /// The fragment's first instruction that writes a different value, if `stage` is before all instructions.
     pub instruction: Option<Box<TraceDifference>>,
 }
 
@@ -89,8 +89,8 @@ fn pass(index: usize, fragment: &FragmentTrace) -> FragmentPass {
     FragmentPass { index, instance: fragment.instance, triangle: fragment.triangle, part: fragment.part }
 }
 
-/// Finds the first difference between two traces of one pixel: in the first pass that differs, the first stage, and
-/// there the first step. `None` if they are equal; flags are not compared, since a GPU knows none.
+/// Finds the first difference between two traces of one pixel: the first differing pass, its first differing stage, and
+/// the first step in it. `None` if the traces are equal. Flags are not compared, because a GPU has none.
 pub fn first_difference(
     left: &TraceSide<'_>,
     right: &TraceSide<'_>,
@@ -166,7 +166,7 @@ impl Pair<'_> {
         (Number { format: self.left.format, bits: a }, Number { format: self.right.format, bits: b })
     }
 
-    /// Components of `names` in which two vectors of register values differ.
+    /// Components in which two vectors of register values differ.
     fn registers(&self, name: impl Fn(usize) -> String, a: [u32; 4], b: [u32; 4], mask: Mask) -> Vec<Compared> {
         let pairs = mask.components().map(|c| (c, self.numbers(a[c], b[c])));
         pairs.filter(|(_, (a, b))| !a.equals(b)).map(|(c, (a, b))| Compared::registers(name(c), &a, &b)).collect()
@@ -262,7 +262,7 @@ impl Pair<'_> {
         (!values.is_empty()).then_some((TraceStage::Output { instruction: None }, values))
     }
 
-    /// Returns the only instruction with one of these opcodes that the fragment ran.
+    /// Returns the instruction with one of these opcodes that the fragment executed; `None` unless it is the only one.
     fn only(&self, opcodes: &[Opcode]) -> Option<usize> {
         let instructions = &self.left.program.instructions;
         let mut ran = self.a.shading.steps.iter().map(|step| step.instruction);

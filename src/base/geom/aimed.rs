@@ -1,7 +1,7 @@
 //! Rays aimed at shared edges and at vertices.
 //!
-//! The target is a point of the edge (in f64), the direction `target - eye` rounded to f32: so a ray passes an edge
-//! within the rounding of f32, on one side or the other, and only exact arithmetic can decide which.
+//! The direction is `target - eye`, computed in f64 and rounded to f32. So a ray passes its edge within the rounding of
+//! f32, and only exact arithmetic can decide on which side.
 
 use glam::DVec3;
 
@@ -19,8 +19,8 @@ pub struct Aimed {
 }
 
 /// Generates `per_edge` rays from `eye` to random points strictly inside every edge that two or more triangles share.
-/// The same seed gives the same rays. An edge so near the eye, or so far, that the direction vanishes or overflows is
-/// omitted.
+/// The same seed gives the same rays. An edge is omitted if it is so near the eye, or so far from it, that the
+/// direction vanishes or overflows.
 pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> Vec<Aimed> {
     let stream = CounterRng::new(seed);
     let mut rays = Vec::new();
@@ -30,7 +30,7 @@ pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> V
         }
         let [from, to] = edge.vertices.map(|vertex| wide(mesh.positions()[vertex as usize]));
         for sample in 0..per_edge {
-            // Half a step off, so that neither end is hit.
+            // Half a step is added, so that neither end is hit.
             let at = stream.unit(u64::from(target), u64::from(sample), 0) + 0.5 / 16_777_216.0;
             let point = from + at * (to - from);
             rays.extend(aim(eye, point).map(|ray| Aimed { ray, target }));

@@ -17,13 +17,13 @@ pub struct Candidate {
 /// Verdict on a hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum HitVerdict {
-    /// Correct: the first triangle, or one that ties with it at exactly the same t; or a correct miss.
+    /// Correct: the first triangle, a triangle hit at exactly the same t, or a correct miss.
     Right,
     /// No hit where there is a surface: a hole.
     Leak,
     /// A hit where there is no surface.
     FalseHit,
-    /// A hit of a triangle that is not the first.
+    /// A hit of a triangle behind the first.
     WrongTriangle {
         /// `true` if it shares an edge or a vertex with a first triangle.
         adjacent: bool,
@@ -35,11 +35,11 @@ pub enum HitVerdict {
 pub struct TError {
     /// |t - exact|, correctly rounded.
     pub absolute: f64,
-    /// |t - exact| / exact, correctly rounded; 0 if both are zero, infinite if only the exact t is.
+    /// |t - exact| / exact, correctly rounded; 0 if both t are zero, infinite if only the exact t is zero.
     pub relative: f64,
 }
 
-/// Verdict with the error of t where both sides have one.
+/// Verdict with the error of t if both sides hit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judgement {
     /// Verdict on the hit.

@@ -7,9 +7,9 @@ use super::vector::{area_vector, narrow, place_bits, unit, wide};
 use glam::DVec3;
 
 impl Mesh {
-    /// Returns the mesh with a normal per corner: the mean of the triangles at the corner's position whose normals lie
-    /// within an angle of the corner's own triangle, weighted by area. `cosine` is that of the angle. Vertices with
-    /// several normals are repeated; triangles keep their order, vertices their texture coordinates.
+    /// Returns the mesh with a normal per corner: the area-weighted mean over the triangles at the corner's position
+    /// whose normals lie within an angle of the normal of the corner's triangle. `cosine` is the cosine of that angle.
+    /// Vertices with several normals are duplicated; the order of triangles and the texture coordinates do not change.
     #[must_use]
     pub fn creased(&self, cosine: f64) -> Self {
         let areas: Vec<DVec3> = self.iter_corners().map(|corners| area_vector(corners.map(wide))).collect();

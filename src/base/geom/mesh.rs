@@ -76,7 +76,7 @@ impl Mesh {
         Ok(Self { positions, triangles, ..Self::default() })
     }
 
-    /// Adds a normal per vertex, of any length; a zero vector where none is known.
+    /// Adds a normal per vertex, of any length; the zero vector means that the normal is unknown.
     ///
     /// # Errors
     /// [`InputError`] if there is not one finite normal per vertex.
@@ -134,12 +134,12 @@ impl Mesh {
         &self.positions
     }
 
-    /// Normals per vertex as they were given; `None` for a mesh without. [`Mesh::vertex_normals`] computes them.
+    /// Given normals per vertex; `None` without. [`Mesh::vertex_normals`] computes missing normals.
     pub fn normals(&self) -> Option<&[[f32; 3]]> {
         (!self.normals.is_empty()).then_some(&self.normals)
     }
 
-    /// Texture coordinates per vertex; `None` for a mesh without.
+    /// Texture coordinates per vertex; `None` for a mesh without texture coordinates.
     pub fn texcoords(&self) -> Option<&[[f32; 2]]> {
         (!self.texcoords.is_empty()).then_some(&self.texcoords)
     }
@@ -193,8 +193,8 @@ impl Mesh {
         self.corners(triangle).map_or(0.0, |corners| area_vector(corners.map(wide)).length() / 2.0)
     }
 
-    /// Computes normals per vertex: the mean of the adjoining triangles, weighted by area, at length 1; zero where the
-    /// mean has no direction.
+    /// Computes normals per vertex: the normalised area-weighted mean of the adjoining triangles' normals; zero if the
+    /// mean is zero.
     pub fn vertex_normals(&self) -> Vec<DVec3> {
         let mut normals = vec![DVec3::ZERO; self.positions.len()];
         for (corners, indices) in self.iter_corners().zip(&self.triangles) {
@@ -204,7 +204,7 @@ impl Mesh {
         normals.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::ZERO)).collect()
     }
 
-    /// Returns the same triangles without attributes, with vertices at the same position merged: files repeat vertices
+    /// Returns the same triangles without attributes, and merges vertices at the same position. Files repeat vertices
     /// where normals or texture coordinates jump, which would disconnect [`Mesh::adjacency`].
     pub fn welded(&self) -> Self {
         let mut welder = Welder::default();
@@ -234,7 +234,7 @@ pub struct Welder {
 }
 
 impl Welder {
-    /// Returns the index of the vertex at a position, new or known. -0 and +0 are equal.
+    /// Returns the index of the vertex at a position, and adds the vertex if it is new. -0 and +0 are equal.
     pub fn vertex(&mut self, position: [f32; 3]) -> u32 {
         let next = self.positions.len() as u32;
         let index = *self.index.entry(place_bits(position)).or_insert(next);

@@ -6,9 +6,9 @@ use super::{Adjacency, Mesh};
 impl Mesh {
     /// Returns the triangles to flip so that neighbours traverse their common edge in opposite directions, in ascending
     /// order. Corners at the same position count as one vertex. In each connected surface the smaller part is flipped;
-    /// of equal parts the one without its first triangle. Only edges of exactly two triangles connect, and a surface
-    /// without a consistent orientation (a Moebius strip) is left unchanged. Triangles whose area is within the
-    /// rounding of their corners take no part.
+    /// if the parts are equal, the part without the surface's first triangle. Triangles are connected only by edges of
+    /// exactly two triangles. A surface without a consistent orientation (a Moebius strip) is left unchanged. Triangles
+    /// whose area is uncertain after rounding of their corners are ignored.
     ///
     /// ```
     /// # extern crate crossbar_base as crossbar;
@@ -25,7 +25,7 @@ impl Mesh {
     pub fn misoriented(&self) -> Vec<u32> {
         let (welded, ids) = self.welded_with_area();
         let adjacency = welded.adjacency();
-        // `Some(true)` if a triangle has the orientation of the first of its surface.
+        // `Some(true)` if a triangle has the orientation of its surface's first triangle.
         let mut same_way: Vec<Option<bool>> = vec![None; welded.len()];
         let mut wrong = Vec::new();
         for first in 0..welded.len() as u32 {
@@ -37,8 +37,7 @@ impl Mesh {
         wrong.into_iter().map(|triangle| ids[triangle as usize]).collect()
     }
 
-    /// [`Mesh::welded`] without the triangles that have no certain area ([`has_certain_area`]), and the ids of those
-    /// that are left.
+    /// [`Mesh::welded`] without the triangles that fail [`has_certain_area`], and the ids of the remaining triangles.
     pub fn welded_with_area(&self) -> (Self, Vec<u32>) {
         let mut welded = self.welded();
         let with_area = (0..).zip(self.iter_corners()).filter(|(_, corners)| has_certain_area(corners));
@@ -47,7 +46,7 @@ impl Mesh {
         (welded, ids)
     }
 
-    /// Flips some triangles: exchanges their second and third corners. Ids that do not exist are ignored.
+    /// Flips triangles: exchanges their second and third corners. Ids that do not exist are ignored.
     #[must_use]
     pub fn turned_round(mut self, triangles: &[u32]) -> Self {
         self.turn_round(triangles);
@@ -55,7 +54,7 @@ impl Mesh {
     }
 }
 
-/// Returns the part of a triangle's surface to flip; empty if there is none.
+/// Returns the triangles to flip in the surface of triangle `first`; empty if there are none.
 fn smaller_part(mesh: &Mesh, adjacency: &Adjacency, first: u32, same_way: &mut [Option<bool>]) -> Vec<u32> {
     let (mut parts, mut orientable, mut waiting) = ([Vec::new(), Vec::new()], true, vec![first]);
     same_way[first as usize] = Some(true);

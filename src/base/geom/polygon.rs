@@ -2,8 +2,8 @@
 //!
 //! A polygon is projected along the axis of the largest component of its normal, which drops one coordinate and rounds
 //! nothing. If the fan around the first corner covers the polygon, it is the result; otherwise ears are cut off until
-//! one triangle is left. Either way a polygon of n corners gives n - 2 triangles. A point inside a polygon without
-//! fault lies in exactly one of them, or on their edges.
+//! one triangle is left. Either way a polygon of n corners gives n - 2 triangles. A point inside a polygon without a
+//! [`PolygonFault`] lies in exactly one triangle, or on edges of triangles.
 
 use std::cmp::Ordering;
 
@@ -13,14 +13,14 @@ use thiserror::Error;
 use super::exact::winding;
 use super::vector::{place_bits, unit, wide};
 
-/// Largest number of corners of a polygon that is not convex: the time grows with their square.
+/// Largest number of corners of a non-convex polygon: the time grows with the square of their number.
 pub const MAX_CORNERS: usize = 4096;
 /// Largest distance between corners along the normal of a flat polygon, relative to the polygon's size.
 const FLATNESS: f64 = 1e-4;
 /// Largest distance along the normal, relative to the largest coordinate, for the rounding to f32.
 const ROUNDING: f64 = 1.0 / (1 << 21) as f64;
 
-/// A reason for which a polygon of four corners or more has no certain interior.
+/// The reason why a polygon of at least four corners has no certain interior.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Error)]
 pub enum PolygonFault {
@@ -38,7 +38,7 @@ pub enum PolygonFault {
     TooLong,
 }
 
-/// Cuts a polygon with finite corners into triangles, given as indices of its corners, in the polygon's sense.
+/// Cuts a polygon with finite corners into triangles, given as indices of its corners, with the polygon's winding.
 ///
 /// ```
 /// # extern crate crossbar_base as crossbar;
@@ -75,13 +75,13 @@ pub fn triangulate(outline: &[[f32; 3]]) -> (Vec<[usize; 3]>, Option<PolygonFaul
     (clipped.unwrap_or(fan), fault)
 }
 
-/// The sum of the cross products of successive corners seen from the first: the normal, of twice the area's length.
+/// Normal with twice the area as length: the sum of cross products of successive corners relative to the first.
 fn normal(outline: &[[f32; 3]]) -> DVec3 {
     let first = wide(outline[0]);
     outline.windows(2).map(|pair| (wide(pair[0]) - first).cross(wide(pair[1]) - first)).fold(DVec3::ZERO, |a, b| a + b)
 }
 
-/// The corners without one coordinate, counter-clockwise; `None` if the area is zero along every axis.
+/// The corners projected along a coordinate axis, counter-clockwise; `None` if the area is zero along every axis.
 fn projection(outline: &[[f32; 3]]) -> Option<Vec<[f32; 2]>> {
     let size = normal(outline).abs().to_array();
     let mut axes = [0, 1, 2];
@@ -98,15 +98,15 @@ fn projection(outline: &[[f32; 3]]) -> Option<Vec<[f32; 2]>> {
     })
 }
 
-/// The sense of the triangle of three corners.
+/// Winding of the triangle of three corners.
 fn turn(flat: &[[f32; 2]], triangle: [usize; 3]) -> Ordering {
     winding(&triangle.map(|corner| flat[corner % flat.len()]))
 }
 
-/// Returns `true` if all corners are strictly convex and the outline runs round once.
+/// Returns `true` if all corners are strictly convex and the outline goes round exactly once.
 fn is_convex(flat: &[[f32; 2]]) -> bool {
     let at = |corner: usize| flat[corner % flat.len()];
-    // Going round once, the outline changes between left and right twice.
+    // An outline that goes round once changes between left and right twice.
     let changes = (0..flat.len()).filter(|&i| (at(i) < at(i + 1)) != (at(i + 1) < at(i + 2))).count();
     changes == 2 && (0..flat.len()).all(|i| turn(flat, [i, i + 1, i + 2]) == Ordering::Greater)
 }
@@ -117,13 +117,13 @@ fn repeats(outline: &[[f32; 3]]) -> bool {
     places.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// Returns `true` if edges have common points other than the corner between two that follow each other.
+/// Returns `true` if two edges meet anywhere but at the common corner of successive edges.
 fn touches_itself(flat: &[[f32; 2]]) -> bool {
     let n = flat.len();
     let at = |corner: usize| flat[corner % n];
     let folds =
         |i: usize| turn(flat, [i, i + 1, i + 2]) == Ordering::Equal && (at(i) < at(i + 1)) == (at(i + 2) < at(i + 1));
-    // Edges that follow each other share a corner.
+    // Successive edges share a corner.
     let meets = |i: usize| (i + 2..n).any(|j| (i, j) != (0, n - 1) && meet([at(i), at(i + 1)], [at(j), at(j + 1)]));
     (0..n).any(|i| folds(i) || meets(i))
 }
@@ -153,7 +153,7 @@ fn is_bent(outline: &[[f32; 3]]) -> bool {
     high - low > FLATNESS * size + ROUNDING * largest
 }
 
-/// Cuts off ears; `None` if there are none, which only an outline with a contact can lack.
+/// Cuts off ears; `None` if no ear is left, which only happens if the outline touches itself.
 fn clip_ears(flat: &[[f32; 2]]) -> Option<Vec<[usize; 3]>> {
     let mut left: Vec<usize> = (0..flat.len()).collect();
     let mut triangles = Vec::with_capacity(left.len() - 2);
@@ -167,7 +167,7 @@ fn clip_ears(flat: &[[f32; 2]]) -> Option<Vec<[usize; 3]>> {
         let tip = tip.or_else(|| tips.find(|&i| turn(flat, ear(i)) == Ordering::Equal))?;
         triangles.push(ear(tip));
         left.remove(tip % n);
-        // The next search goes on from here, so that it seldom tests a corner in vain again.
+        // The next search continues here, so that it seldom tests failed corners again.
         start = tip % n;
     }
     let last = [left[0], left[1], left[2]];
@@ -175,8 +175,8 @@ fn clip_ears(flat: &[[f32; 2]]) -> Option<Vec<[usize; 3]>> {
     (turn(flat, last) != Ordering::Less).then_some(triangles)
 }
 
-/// Returns `true` if a corner is convex and no other corner lies in its triangle. A triangulation without overlap
-/// follows from this alone: each triangle has the sense of the polygon, and their senses add up to the polygon's.
+/// Returns `true` if a corner is convex and no other corner lies in its triangle. This alone ensures a triangulation
+/// without overlap: each triangle has the polygon's winding, and the signed areas add up to the polygon's.
 fn is_ear(flat: &[[f32; 2]], left: &[usize], ear: [usize; 3]) -> bool {
     let corners = ear.map(|corner| flat[corner]);
     let [a, b, c] = corners;

@@ -1,4 +1,4 @@
-//! A counter-based random number generator: numbers depend on their index, never on the order of drawing.
+//! A counter-based random number generator.
 
 /// Counter-based random number generator: each number is a function of (seed, index, sample, dimension) alone, so
 /// threads may draw them in any order.

@@ -1,9 +1,8 @@
 //! The Utah teapot: 32 bicubic Bezier patches, tessellated at any rate into one mesh with shared vertices.
 //!
 //! **Arithmetic.** The control points are whole numbers of 1/100000 and the parameters are i/N, so every point of the
-//! grid is a fraction of two integers. It is computed exactly and rounded to f32 once. Two patches that share a border
-//! therefore give bit-identical points on it, from whichever side they are evaluated, and welding by bit identity
-//! closes the seams: no epsilon, and no evaluation order to agree on.
+//! grid is a fraction of two integers. It is computed exactly and rounded to f32 once. Two patches therefore give
+//! bit-identical points on their common border, and welding by bit identity closes the seams without an epsilon.
 //!
 //! **Watertightness.** For N >= 2 every edge belongs to exactly two triangles that traverse it in opposite directions,
 //! except 16 N boundary edges: the rims that the published surface itself leaves open.
@@ -17,9 +16,9 @@
 //!
 //! Body and bottom are joined. At the poles of lid and bottom a patch's first row is a single point, so that each
 //! column has one triangle instead of two: there are `64 N^2 - 8 N` triangles, and none is degenerate. N = 1 is a
-//! special case: the rings of handle and spout have two vertices, so that both collapse to double sheets, whose end
-//! edges have two triangles (only the 8 edges of mouth and lid are open); the middle edge of the handle has four; and
-//! the last stretch of the spout, whose four corners are collinear, is omitted (52 triangles).
+//! special case: the rings of handle and spout have two vertices, so that both collapse to double sheets. The end edges
+//! of the sheets have two triangles, so only the 8 edges of mouth and lid are open; the middle edge of the handle has
+//! four triangles. The last segment of the spout, whose four corners are collinear, is omitted. 52 triangles remain.
 //!
 //! The lower end of the handle shares a corner with the body (control point 69): the two parts share that vertex, but
 //! no edge. Front faces (counter-clockwise) face outwards; z is up and the spout points along +x.
@@ -31,8 +30,7 @@ use super::mesh::{Mesh, Welder};
 use super::teapot_table::{PATCHES, POINTS, UNITS};
 use crate::error::{InputError, ensure};
 
-/// Maximum rate of tessellation (4 million triangles; beyond it the slivers at the poles approach the resolution of
-/// f32).
+/// Maximum rate of tessellation: 4 million triangles. Beyond it, slivers at the poles approach f32 resolution.
 pub const MAX_RATE: u32 = 256;
 
 /// Part of the teapot.
@@ -110,7 +108,8 @@ pub fn tessellate(rate: u32) -> Result<Teapot, InputError> {
             for column in 0..side - 1 {
                 let at = row * side + column;
                 let [a, b, c, d] = [grid[at], grid[at + 1], grid[at + side + 1], grid[at + side]];
-                // The patches' own orientation faces inwards. At a pole a = b, and one triangle remains.
+                // The published patches face inwards, so the winding is reversed. At a pole a = b, and one triangle
+                // remains.
                 for [p, q, r] in [[a, b, c], [a, c, d]] {
                     let corners = [p, q, r].map(|index| welder.position(index));
                     if !is_degenerate(&corners) {

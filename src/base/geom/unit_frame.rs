@@ -1,4 +1,4 @@
-//! Coordinates in units of a body's own size, so that single precision is independent of the unit of length.
+//! Coordinates relative to a body's size, so that errors in single precision do not depend on the unit of length.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ pub struct UnitFrame {
 }
 
 impl UnitFrame {
-    /// Creates the frame of a body's points; without points, the scene's own coordinates.
+    /// Creates the frame of a body's points; without points, the frame is the scene's.
     pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
         let bounds = points.into_iter().fold(None, |bounds: Option<[DVec3; 2]>, p| {
             Some(bounds.map_or([p, p], |[low, high]| [low.min(p), high.max(p)]))
@@ -20,7 +20,7 @@ impl UnitFrame {
         Self { center: low / 2.0 + high / 2.0, unit: power_of_two_above((high / 2.0 - low / 2.0).length()) }
     }
 
-    /// Converts a point of the scene to these coordinates.
+    /// Converts a point of the scene to the frame's coordinates.
     pub fn of_scene(&self, point: DVec3) -> DVec3 {
         (point - self.center) / self.unit
     }

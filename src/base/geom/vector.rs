@@ -1,5 +1,4 @@
-//! Conversion of mesh coordinates to f64 and back, and a normalisation with one rounding per component, which glam's
-//! vectors lack.
+//! Conversion of mesh coordinates to f64 and back, and normalisation with one rounding per component, which glam lacks.
 
 use glam::DVec3;
 
@@ -25,8 +24,8 @@ pub fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Returns the coordinate axis along which a direction has its smallest component, the first of equals: far from
-/// parallel to it.
+/// Returns the coordinate axis along which a direction has its smallest component, the first of equals. The axis is far
+/// from parallel to the direction.
 pub fn least_axis(direction: DVec3) -> DVec3 {
     let size = direction.abs();
     if size.x <= size.y && size.x <= size.z {
@@ -38,7 +37,7 @@ pub fn least_axis(direction: DVec3) -> DVec3 {
     }
 }
 
-/// The bits of a place, by which equal ones are found: -0 and +0 are one.
+/// Bits of a position as a key for equal positions: -0 becomes +0.
 pub fn place_bits(place: [f32; 3]) -> [u32; 3] {
     place.map(|value| (value + 0.0).to_bits())
 }

@@ -12,11 +12,11 @@ use crate::geom::{ExactT, Hit, Ray};
 
 /// Kind of a wrong hit; the worst first.
 ///
-/// The last three can result from rounding in a correct intersector: [`DisagreementKind::Silhouette`] and
-/// [`DisagreementKind::Start`] are correct for a ray within a few ULPs of the one given
-/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), [`Disagreement::right_for`]. A leak is correct for
-/// no nearby ray: at an edge whose two triangles face the same way, seen along the ray, every nearby ray hits one of
-/// the two.
+/// Rounding in a correct intersector can cause the last three kinds. [`DisagreementKind::Silhouette`] and
+/// [`DisagreementKind::Start`] are correct for a ray within a few ULPs of the given ray
+/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), which is [`Disagreement::right_for`]. A leak is
+/// correct for no nearby ray: at an edge whose two triangles face the same way, seen along the ray, every nearby ray
+/// hits one of the two.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -25,11 +25,11 @@ pub enum DisagreementKind {
     NoSuchTriangle,
     /// No hit where there is a surface: a hole.
     Leak,
-    /// A triangle behind the first one, which was missed: a hole through which something else is seen.
+    /// A triangle behind the first one, which was missed: a hole through which another surface is visible.
     LeakThrough,
     /// A hit where the ray hits nothing.
     FalseHit,
-    /// A triangle that the ray hits from behind, where only fronts count.
+    /// A triangle that the ray hits from behind, although only front sides can be hit.
     BackFace,
     /// A triangle unrelated to the correct one.
     WrongTriangle,
@@ -38,10 +38,11 @@ pub enum DisagreementKind {
     /// The correct triangle, at a t beyond the tolerance.
     TOff,
     /// A surface missed, or hit, beside its silhouette: the result is correct for a ray whose direction differs by a
-    /// few ULPs. If a surface was missed in front of another, it suffices that such a ray hits nothing in front of
-    /// half-way to the other: seen from far away, triangles are smaller than an ULP. If a triangle was hit, it suffices
-    /// that such a ray passes the vertex or edge which it shares with the first one, or a corner of it as far away: at
-    /// a vertex of the silhouette, triangles that face away tie with those in front of them.
+    /// few ULPs. If a surface was missed in front of another, it suffices that such a ray hits nothing in the first
+    /// half of the distance to the other, because distant triangles are smaller than an ULP. If a triangle was hit, it
+    /// suffices that such a ray passes near the vertex or edge that the triangle shares with the first one, or near a
+    /// corner of the triangle at the same t: at a vertex of the silhouette, triangles that face away tie with triangles
+    /// in front of them.
     Silhouette,
     /// A surface missed, or hit, where the ray starts: the result is correct for an origin moved a few ULPs along the
     /// ray.
@@ -66,13 +67,13 @@ impl DisagreementKind {
         Self::NearTie,
     ];
 
-    /// Returns `true` if an existing surface was missed, for this ray and every nearby ray: a hole.
+    /// Returns `true` if an existing surface was missed, for this ray and all nearby rays: a hole.
     #[must_use]
     pub const fn is_leak(self) -> bool {
         matches!(self, Self::Leak | Self::LeakThrough)
     }
 
-    /// Returns `true` if a surface was hit that does not exist, for this ray and every nearby ray.
+    /// Returns `true` if a surface was hit that does not exist, for this ray and all nearby rays.
     #[must_use]
     pub const fn is_false_hit(self) -> bool {
         matches!(self, Self::NoSuchTriangle | Self::FalseHit | Self::BackFace | Self::WrongTriangle)
@@ -106,7 +107,7 @@ impl fmt::Display for DisagreementKind {
 /// Exact first hit of a ray.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Expected {
-    /// All triangles at the first t, in ascending order: each is correct.
+    /// All triangles at the first t, in ascending order; each is a correct answer.
     pub triangles: Vec<u32>,
     /// First t, in multiples of the ray's direction; serialized as the nearest double.
     #[serde(serialize_with = "nearest_double")]
@@ -121,7 +122,7 @@ fn nearest_double<S: serde::Serializer>(t: &ExactT, serializer: S) -> Result<S::
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Disagreement {
-    /// Index of the ray among those that were judged.
+    /// Index of the ray among all judged rays.
     pub ray: usize,
     /// Aim of the ray, if known.
     pub aim: Option<Aim>,
@@ -136,22 +137,23 @@ pub struct Disagreement {
     /// Hit of the intersector, if there is one.
     #[serde(serialize_with = "found")]
     pub found: Option<Hit>,
-    /// Number of f32 steps between the found t and the exact first t rounded to f32. `None` where only one side has a
-    /// t, or one is not finite.
+    /// Number of f32 steps between the found t and the exact first t rounded to f32. `None` if only one side has a t,
+    /// or a t is not finite.
     pub t_ulps: Option<u64>,
-    /// Exact t at which the ray hits the triangle that was found, from either side, if it does; serialized as the
+    /// Exact t at which the ray hits the triangle that was found, from either side, if at all; serialized as the
     /// nearest double.
     #[serde(serialize_with = "nearest_double_if_any")]
     pub met_at: Option<ExactT>,
-    /// A ray within a few ULPs of this one for which the same triangle, or the same miss, is exactly correct. Searched
-    /// for unless the triangle does not exist or is the correct one.
+    /// A ray within a few ULPs of this one for which the found triangle, or the miss, is exactly correct. Not searched
+    /// for if the triangle does not exist or is the correct one.
     #[serde(serialize_with = "ray_if_any")]
     pub right_for: Option<Ray>,
-    /// If there is no such ray: this ray, or one within a few ULPs, that passes, within as many ULPs, the vertex or
-    /// edge which the triangle found shares with the first one that it hits, or a corner of it as far away.
+    /// If `right_for` is `None`: this ray, or a ray within a few ULPs, that passes within as many ULPs of the vertex or
+    /// edge that the found triangle shares with the first triangle of that ray, or of a corner of the found triangle at
+    /// the same t.
     #[serde(serialize_with = "ray_if_any")]
     pub touched_by: Option<Ray>,
-    /// Corners of the triangle that was found; if none was, or its id does not exist, of the expected one.
+    /// Corners of the found triangle, or of the expected one if no triangle was found or its id does not exist.
     pub corners: Option<[[f32; 3]; 3]>,
 }
 
@@ -168,7 +170,7 @@ fn nearest_double_if_any<S: serde::Serializer>(t: &Option<ExactT>, serializer: S
     t.as_ref().map(ExactT::to_f64).serialize(serializer)
 }
 
-/// Serializes a hit: JSON has no infinity and no NaN, for which t is null, and its bits are given.
+/// Serializes a hit. JSON has no infinity and no NaN: such a t is null, and its bits are given.
 fn found<S: serde::Serializer>(hit: &Option<Hit>, serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Found {
@@ -185,7 +187,7 @@ fn found<S: serde::Serializer>(hit: &Option<Hit>, serializer: S) -> Result<S::Ok
 }
 
 impl Disagreement {
-    /// Returns the ray, as it was given.
+    /// Returns the ray with its original bits.
     ///
     /// # Errors
     /// [`InputError`] if the fields have been changed and are not a valid ray any more.
@@ -193,8 +195,8 @@ impl Disagreement {
         Ray::new(self.origin, self.direction)
     }
 
-    /// Returns `true` if rounding explains the result: it is correct for a ray within a few ULPs, or names a neighbour
-    /// of the correct triangle where such a ray passes their common edge or vertex, or the two t cannot be told apart
+    /// Returns `true` if rounding explains the result: it is correct for a ray within a few ULPs, or it names a
+    /// neighbour of the correct triangle and such a ray passes their common edge or vertex, or the two t are equal
     /// within the tolerance.
     #[must_use]
     pub fn is_rounding(&self) -> bool {
@@ -205,8 +207,7 @@ impl Disagreement {
         }
     }
 
-    /// Formats the ray and [`Disagreement::corners`] as Rust source, to be pasted into a test: every number reads back
-    /// to the same bits.
+    /// Formats the ray and [`Disagreement::corners`] as Rust source for a test; numbers read back to the same bits.
     #[must_use]
     pub fn literal(&self) -> String {
         let Self { origin, direction, .. } = self;
@@ -239,7 +240,7 @@ impl Disagreement {
     }
 }
 
-/// Vector displayed in parentheses; -0 shows its sign, and every f32 has enough digits to be read back.
+/// Vector displayed in parentheses, with the sign of -0 and enough digits to read back the same bits.
 struct ShownVector([f32; 3]);
 
 impl fmt::Display for ShownVector {
@@ -249,7 +250,7 @@ impl fmt::Display for ShownVector {
     }
 }
 
-/// Shortest text that reads back to the same f32: plain near one, with an exponent far from it.
+/// Shortest text that reads back to the same f32, with an exponent if the number is far from 1.
 pub(super) fn short(x: f32) -> String {
     let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
     if plain { format!("{x}") } else { format!("{x:e}") }

@@ -1,4 +1,4 @@
-//! Comparison of numbers and hits that must be equal, or nearly.
+//! Comparison of numbers and hits that must be equal, or equal within a tolerance.
 
 use std::fmt;
 
@@ -10,10 +10,10 @@ use crate::geom::Hit;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unequal {
     what: &'static str,
-    /// Criterion: `in their bits`, `by more than 1 ULP`.
+    /// Violated criterion: `in their bits`, `by more than 1 ULP`.
     beyond: String,
     lengths: [usize; 2],
-    /// Number of entries that differ; 0 if the lengths do.
+    /// Number of entries that differ; 0 if the lengths differ.
     pub different: usize,
     first: String,
     worst: String,
@@ -39,7 +39,8 @@ pub(super) struct EqualityCheck {
     pub(super) beyond: String,
 }
 
-/// Compares two lists. `apart` returns the distance of two entries if it is too large, `text` describes an entry.
+/// Compares two lists. `apart` returns the distance between two entries if it exceeds the allowed difference; `text`
+/// describes an entry.
 pub(super) fn compare<T: Copy>(
     check: EqualityCheck,
     [left, right]: [&[T]; 2],
@@ -88,7 +89,7 @@ fn numbers(at: usize, left: f32, right: f32) -> String {
     format!("[{at}] {} and {}: {far}", number(left), number(right))
 }
 
-/// Checks that two lists of numbers have the same bits; +0 and -0 differ, and so do two NaN of different bits.
+/// Checks that two lists of numbers have the same bits; +0 and -0 differ, and so do two NaN with different bits.
 ///
 /// ```
 /// # extern crate crossbar_base as crossbar;
@@ -107,7 +108,7 @@ pub fn bits_equal(left: &[f32], right: &[f32]) -> Result<(), Unequal> {
 }
 
 /// Checks that corresponding numbers of two lists are at most `most` steps of f32 apart. +0 and -0 are 0 steps apart,
-/// and so are two NaN; an infinity, or NaN, is too far from everything else.
+/// and so are two NaN; any other distance from NaN or infinity is too large.
 ///
 /// # Errors
 /// [`Unequal`] names the first and the largest difference.

@@ -1,22 +1,22 @@
-//! The oracle for other people's tests: your mesh, your rays and your hits in; every disagreement with exact arithmetic
-//! out.
+//! An oracle for tests of ray-triangle intersectors: it takes a mesh, rays and your hits, and returns every
+//! disagreement with exact arithmetic.
 //!
 //! An [`Oracle`] decides first hits on the f32 values as given ([`crate::geom::exact`]) and classifies each result that
 //! differs as a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the correct triangle, a t too far
-//! off. Ties are judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right. Rounding
-//! is judged fairly too: beside an outline, where the two triangles of an edge face opposite ways, a miss is right for
-//! a ray a few ULPs away ([`DisagreementKind::Silhouette`]), and [`Oracle::assert_watertight`] lets it pass; where they
-//! face the same way, a miss is a hole for every ray nearby. [`hard_rays`] generates rays on which intersectors differ.
-//! The `assert_*` functions panic where they are called, with the report; the functions without `assert_` give it back
-//! as a [`Result`].
+//! off. If several triangles are hit at exactly the same t, as on a shared edge, each is a correct answer. Beside a
+//! silhouette, where the two triangles of an edge face opposite ways, a miss is correct for a ray a few ULPs away
+//! ([`DisagreementKind::Silhouette`]), and [`Oracle::assert_watertight`] accepts it. Where the two triangles face the
+//! same way, a miss is a hole for all nearby rays. [`hard_rays`] generates rays on which intersectors differ. The
+//! `assert_*` functions panic with the report at the caller's location; the functions without `assert_` return it as a
+//! [`Result`].
 //!
 //! Three assertions, each stronger than the one before:
 //!
-//! | assertion | lets pass |
+//! | assertion | accepts |
 //! |---|---|
 //! | [`Oracle::assert_watertight`] | everything but leaks |
-//! | [`Oracle::assert_faithful`] | what is right for a ray a few ULPs away: no leaks, no false hits |
-//! | [`Oracle::assert_agrees`] | nothing: the exact answer, with t within the tolerance |
+//! | [`Oracle::assert_faithful`] | results that are correct for a ray a few ULPs away: no leaks, no false hits |
+//! | [`Oracle::assert_agrees`] | only the exact answer, with t within the tolerance |
 //!
 //! ```
 //! # extern crate crossbar_base as crossbar;

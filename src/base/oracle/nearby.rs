@@ -1,11 +1,11 @@
 //! Rays within a few ULPs of a given one, and the vertices and edges that such rays pass.
 //!
-//! Intersectors round. The test of Woop, Benthin and Wald, for one, is exact for a scene whose vertices, relative to
-//! the ray's origin, are each off by at most five roundings of f32. So its result beside a silhouette is correct for a
-//! ray close to the given one, and not an error. **Nearby** is a ray from the same origin whose direction differs in
-//! each of its two smaller components by some ULPs of the largest; or, for a hit where the ray starts, one of the same
-//! direction whose origin is moved along it by some ULPs of the largest coordinate. Such rays are tried one by one, in
-//! exact arithmetic, so the ray that is found proves the verdict.
+//! Intersectors round. The test of Woop, Benthin and Wald, for example, is exact for a scene whose vertices, relative
+//! to the ray's origin, are each displaced by at most five roundings of f32. So its result beside a silhouette is
+//! correct for a ray close to the given one, and not an error. A **nearby** ray has the same origin, and the two
+//! smaller components of its direction differ by some ULPs of the largest component. For a hit near the ray's start, a
+//! nearby ray has the same direction, and its origin is moved along it by some ULPs of the largest coordinate. Nearby
+//! rays are tested one by one in exact arithmetic, so the ray that is found proves the verdict.
 
 use glam::{DVec2, DVec3};
 
@@ -46,8 +46,8 @@ impl ImagePlane {
         Self { origin, direction, depth, across, unit }
     }
 
-    /// Difference between the ray's direction and that towards a point, in units; `None` for a point that is not in
-    /// front.
+    /// Difference between the ray's direction and the direction to a point, in `unit`s; `None` for a point that is not
+    /// in front.
     fn offset(&self, point: [f32; 3]) -> Option<DVec2> {
         let to = wide(point) - self.origin;
         let scale = self.direction[self.depth] / to[self.depth];
@@ -56,8 +56,8 @@ impl ImagePlane {
     }
 }
 
-/// Iterates over rays of other directions from the same origin, nearest first: on each ring the corners, the middles of
-/// the sides, and the points between.
+/// Iterates over nearby rays from the same origin, nearest first: on each ring the corners, the midpoints of the sides,
+/// then the other points.
 pub(super) fn turned(ray: &Ray, ulps: u32) -> impl Iterator<Item = Ray> {
     let (plane, origin) = (ImagePlane::of(ray), ray.origin());
     rings(ulps)
@@ -78,8 +78,8 @@ pub(super) fn turned(ray: &Ray, ulps: u32) -> impl Iterator<Item = Ray> {
         })
 }
 
-/// Iterates over rays of the same direction from other origins along it, nearest first, if a hit at `t` is within their
-/// reach. The unit is that of the largest coordinate among the origin and some points.
+/// Iterates over nearby rays of the same direction, nearest origin first; none if a hit at `t` is out of their reach.
+/// Origins are ULPs of the largest coordinate of origin and points apart.
 pub(super) fn moved(
     ray: &Ray,
     points: impl IntoIterator<Item = [f32; 3]>,
@@ -104,15 +104,15 @@ pub(super) fn passes_contact(mesh: &Mesh, ray: &Ray, [a, b]: [u32; 2], ulps: u32
     let reach = f64::from(ulps) * std::f64::consts::SQRT_2;
     let near = |from: [f32; 3], to: [f32; 3]| match (plane.offset(from), plane.offset(to)) {
         (Some(from), Some(to)) => distance_to_segment(from, to) <= reach,
-        // The edge crosses the plane of the ray's origin.
+        // The edge reaches behind the ray's origin.
         (Some(_), None) | (None, Some(_)) => true,
         (None, None) => false,
     };
     mesh.contact(a, b) != Contact::None && shared.iter().any(|&from| shared.iter().any(|&to| near(from, to)))
 }
 
-/// Returns `true` if a ray passes within `ulps` ULPs of a corner of a triangle that is as far away as `t`, up to as
-/// many ULPs.
+/// Returns `true` if a ray passes within `ulps` ULPs of a corner of a triangle whose own t equals `t` within as many
+/// ULPs.
 pub(super) fn passes_corner_at(mesh: &Mesh, ray: &Ray, triangle: u32, t: f64, ulps: u32) -> bool {
     let plane = ImagePlane::of(ray);
     let (reach, step) = (f64::from(ulps) * std::f64::consts::SQRT_2, f64::from(ulps) * ulp(t.abs() as f32));
@@ -122,7 +122,6 @@ pub(super) fn passes_corner_at(mesh: &Mesh, ray: &Ray, triangle: u32, t: f64, ul
     mesh.corners(triangle).into_iter().flatten().any(|corner| near(corner) && (distance(corner) - t).abs() <= step)
 }
 
-/// Distance of the origin of coordinates from a segment.
 fn distance_to_segment(from: DVec2, to: DVec2) -> f64 {
     let along = to - from;
     let length = along.length_squared();

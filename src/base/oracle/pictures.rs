@@ -1,4 +1,4 @@
-//! Comparison of pictures that must be equal, or nearly.
+//! Comparison of pictures that must be equal, or equal within a tolerance.
 
 use super::disagreement::short;
 use super::equal::{EqualityCheck, Unequal, compare};
@@ -14,7 +14,7 @@ mod sealed {
 
 /// Channel value of a pixel: a number type with a successor. Implemented for u8, u16 and f32 only.
 pub trait Sample: Copy + sealed::Sealed {
-    /// Number of steps from this number to the other; `None` where one is not finite and they differ.
+    /// Number of steps to the other number; `None` if the numbers differ and one is not finite.
     fn steps(self, other: Self) -> Option<u64>;
 
     /// Formats the number in decimal.

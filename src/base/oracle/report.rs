@@ -9,9 +9,7 @@ use super::Tolerance;
 use super::disagreement::{Disagreement, DisagreementKind};
 use crate::geom::Sides;
 
-/// Maximum number of disagreements listed in text.
 const LISTED: usize = 10;
-/// Maximum number of disagreements listed in JSON.
 const LISTED_IN_JSON: usize = 1000;
 
 /// Result of an oracle. At most ten disagreements are listed as text, and 1000 as JSON, the worst first;
@@ -85,13 +83,13 @@ impl Report {
         DisagreementKind::ALL.into_iter().map(|kind| (kind, self.count(kind))).filter(|&(_, count)| count > 0)
     }
 
-    /// Returns the report of some kinds alone.
+    /// Returns the report reduced to some kinds.
     #[must_use]
     pub fn only(self, wanted: impl Fn(DisagreementKind) -> bool) -> Self {
         self.retain(|wrong| wanted(wrong.kind))
     }
 
-    /// Returns the report of some disagreements alone.
+    /// Returns the report reduced to some disagreements.
     #[must_use]
     pub fn retain(mut self, wanted: impl Fn(&Disagreement) -> bool) -> Self {
         self.disagreements.retain(wanted);

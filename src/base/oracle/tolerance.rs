@@ -5,7 +5,7 @@ use std::fmt;
 use crate::geom::ExactT;
 use crate::geom::classify::t_error;
 
-/// Tolerance of t with respect to the exact one: either criterion suffices.
+/// Tolerance of t with respect to the exact t. A t within either limit is accepted.
 ///
 /// ```
 /// # extern crate crossbar_base as crossbar;
@@ -18,7 +18,7 @@ use crate::geom::classify::t_error;
 pub struct Tolerance {
     /// Maximum number of f32 steps from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: any t.
     pub ulps: u32,
-    /// Maximum distance from the exact t, in multiples of the ray's direction. For t near 0, where steps of f32 are
+    /// Maximum distance from the exact t, in multiples of the ray's direction. It is for t near 0, where f32 steps are
     /// tiny.
     pub absolute: f64,
 }
@@ -33,7 +33,7 @@ impl Tolerance {
         Self { ulps, absolute: 0.0 }
     }
 
-    /// Accepts also t within this distance, in multiples of the ray's direction.
+    /// Also accepts t within this distance, in multiples of the ray's direction.
     #[must_use]
     pub const fn or_absolute(self, absolute: f64) -> Self {
         Self { absolute, ..self }

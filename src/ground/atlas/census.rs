@@ -19,13 +19,13 @@ pub struct Census {
     pub boundary_edges: usize,
     /// Number of edges of more than two faces.
     pub crowded_edges: usize,
-    /// Number of times that a face traverses an edge in the same direction as another face.
+    /// Number of face pairs that traverse a common edge in the same direction.
     pub orientation_conflicts: usize,
     /// Number of faces without area.
     pub faces_without_area: usize,
     /// Number of faces that lie on an earlier face: with the same three corners, or in its plane and on the same side
-    /// of a common edge, as where a polygon is listed twice and was cut along other diagonals. Losses by rounding
-    /// coordinates to f32 do not count.
+    /// of a common edge, as when a polygon is listed twice and cut along different diagonals. Differences within the
+    /// rounding of coordinates to f32 are ignored.
     pub duplicate_faces: usize,
 }
 

@@ -7,21 +7,20 @@ use super::surface::AtlasSurface;
 use crate::geom::vector::wide;
 use crate::geom::{Adjacency, Mesh};
 
-/// Distance to a face without a path.
 pub(super) const UNREACHED: u64 = u64::MAX;
 
-/// Link from a face to one that shares an edge with it.
+/// Link from a face to a neighbour across an edge.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FaceLink {
     /// Index of the other face in the graph.
     pub(super) to: u32,
-    /// Distance of the centres across the edge, in whole units, at least 1: integers add without rounding.
+    /// Distance between the faces' centres across the edge, in whole units, at least 1. Sums of integers are exact.
     pub(super) length: u32,
     /// Length of the common edge, in the same units.
     pub(super) edge: u32,
 }
 
-/// Faces with their links. The links of a face are the part of `links` from its start to the next face's.
+/// Faces with their links. The links of a face are the range of `links` from its start to the next face's start.
 #[derive(Debug, Clone)]
 pub(super) struct FaceGraph {
     faces: Vec<u32>,
@@ -30,7 +29,8 @@ pub(super) struct FaceGraph {
 }
 
 impl FaceGraph {
-    /// Builds the graph of all faces of a mesh. Where an edge has more than two faces, each is linked to the next only.
+    /// Builds the graph of all faces of a mesh. If an edge has more than two faces, each face is linked to the next one
+    /// only.
     pub(super) fn of_mesh(surface: &AtlasSurface, welded: &Mesh, adjacency: &Adjacency) -> Self {
         let unit_per_length = units_per_length(welded);
         let mut pairs: Vec<(u32, FaceLink)> = Vec::with_capacity(surface.len() * 3);
@@ -90,8 +90,8 @@ impl FaceGraph {
         found
     }
 
-    /// Connected parts of the faces of each side: per face the number of its part, counted from 0 in the order of their
-    /// first faces, and the number of parts.
+    /// Connected parts of the faces on each side: each face's part, numbered from 0 in the order of the parts' first
+    /// faces, and the number of parts.
     pub(super) fn parts(&self, side: impl Fn(u32) -> bool) -> (Vec<u32>, u32) {
         let mut part = vec![u32::MAX; self.len()];
         let (mut count, mut open) = (0, Vec::new());
@@ -123,7 +123,7 @@ impl FaceGraph {
         (0..self.len() as u32).filter(|&face| !second[face as usize]).map(across).sum()
     }
 
-    /// Splits the graph: the faces of each side, with the links within it.
+    /// Splits the graph into the faces of each side, with the links between them.
     pub(super) fn halves(&self, second: &[bool]) -> [Self; 2] {
         let mut place = vec![0; self.len()];
         let mut counts = [0, 0];
@@ -147,8 +147,7 @@ impl FaceGraph {
     }
 }
 
-/// Number of units per length, such that the longest link of a mesh fits into 32 bits: 2^30 for the diagonal of its
-/// box.
+/// Units per length such that the longest link of a mesh fits into 32 bits: the bounding box's diagonal is 2^30 units.
 fn units_per_length(mesh: &Mesh) -> f64 {
     let diagonal = mesh.bounds().map_or(0.0, |[low, high]| (wide(high) - wide(low)).length());
     if diagonal > 0.0 { f64::from(1_u32 << 30) / diagonal } else { 0.0 }

@@ -8,7 +8,7 @@ use super::place::FacePlace;
 use super::surface::AtlasSurface;
 use super::texel::{Cluster, Texel};
 
-/// Factor of a radius, so that rounding leaves nothing outside.
+/// Factor that enlarges a radius, so that rounding leaves no point outside.
 const ROUNDING: f64 = 1.0 + 1e-14;
 
 /// Computes the clusters of each level, the finest first.
@@ -27,7 +27,7 @@ pub(super) fn levels(surface: &AtlasSurface, places: &[FacePlace], texels: &[Tex
     levels
 }
 
-/// Computes the clusters of the level above one of `width` clusters per row.
+/// Computes the clusters of the next coarser level; `width` is the finer level's number of clusters per row.
 fn coarser(finer: &[Cluster], width: u32) -> Vec<Cluster> {
     let (width, half) = (width as usize, width as usize / 2);
     let of_four = |at: usize| {
@@ -47,7 +47,7 @@ fn find_radii(
     clusters: &mut [Cluster],
 ) {
     let (size, width) = (1_u32 << level, side >> level);
-    // Clusters that lie within one face.
+    // Clusters that lie within one face:
     clusters.par_iter_mut().enumerate().for_each(|(at, cluster)| {
         let [x, y] = [at as u32 % width * size, at as u32 / width * size];
         let face = texels[(y * side + x) as usize].face;
@@ -58,7 +58,7 @@ fn find_radii(
             cluster.radius = part.farthest(cluster.point) * ROUNDING;
         }
     });
-    // Faces that lie within one cluster.
+    // Faces that lie within one cluster:
     for (face, place) in (0..).zip(places).filter(|(_, place)| place.width < size) {
         let cluster = &mut clusters[((place.y >> level) * width + (place.x >> level)) as usize];
         let farthest = farthest(surface.corners(face), cluster.point) * ROUNDING;

@@ -1,4 +1,4 @@
-//! Measures that splits of clusters optimise.
+//! Measures of faces that the splits of clusters optimise.
 
 use std::ops::RangeInclusive;
 
@@ -9,7 +9,6 @@ use super::surface::AtlasSurface;
 /// Allowed number of faces in the first half of a cluster.
 pub(super) type SplitLimits = RangeInclusive<usize>;
 
-/// Measures of each face of the mesh.
 #[derive(Debug)]
 pub(super) struct FaceMeasures {
     centers: Vec<DVec3>,
@@ -39,11 +38,10 @@ impl FaceMeasures {
         self.normals[face as usize]
     }
 
-    /// Target number of texels of a face: its area over that of a mean texel, but at least [`LEAST_DEMAND`].
+    /// Target number of texels of a face: its area divided by the mean texel area, but at least [`LEAST_DEMAND`].
     pub(super) fn demand(&self, face: u32) -> f64 {
         self.demands[face as usize]
     }
 }
 
-/// Minimum demand: every face has a texel, however small it is.
 const LEAST_DEMAND: f64 = 1.0;

@@ -83,7 +83,7 @@ impl Atlas {
         self.side
     }
 
-    /// All texels, row by row. Every one lies on a face.
+    /// All texels, row by row. Every texel lies on a face.
     pub fn texels(&self) -> &[Texel] {
         &self.texels
     }
@@ -135,8 +135,7 @@ impl Atlas {
         self.surface.welded()
     }
 
-    /// Returns `true` if the normals are those of the mesh; otherwise they are the means of the faces around each
-    /// vertex.
+    /// Returns `true` if the mesh has normals; otherwise each vertex has the mean normal of its faces.
     pub const fn has_given_normals(&self) -> bool {
         self.surface.has_given_normals()
     }
@@ -163,8 +162,8 @@ impl Atlas {
         TexelPart::new(&self.places[face as usize], self.surface.corners(face), [x, y], [x + 1.0, y + 1.0])
     }
 
-    /// `n` x `n` points that stratify a texel's part, row by row: the mean points of parts of equal area. Their mean is
-    /// that of the texel.
+    /// `n` x `n` points that stratify a texel's part, row by row: the centroids of subdivisions of equal area. Their
+    /// mean is the texel's mean point.
     pub fn points(&self, texel: u32, n: u32) -> impl Iterator<Item = DVec3> {
         let face = self.texels[texel as usize].face;
         let [x, y] = self.column_and_row(texel);
@@ -180,7 +179,7 @@ impl Atlas {
         [f64::from(texel % self.side), f64::from(texel / self.side)]
     }
 
-    /// Face as a card draws it into the atlas, and from it.
+    /// Face as two triangles, for drawing it into the atlas or with texels from the atlas.
     pub fn drawn(&self, face: u32) -> DrawnFace {
         let place = self.places[face as usize];
         let [a, b, c] = place.in_turn(self.surface.corners(face));
@@ -194,7 +193,7 @@ impl Atlas {
         DrawnFace { triangles: [[a, b, m], [a, m, c]], bounds: place.bounds() }
     }
 
-    /// Face as a card draws it as one triangle, from the atlas.
+    /// Face as one triangle, for drawing it with texels from the atlas.
     pub fn drawn_whole(&self, face: u32) -> WholeFace {
         let place = self.places[face as usize];
         let [positions, normals] = [self.surface.corners(face), self.surface.normals(face)];
@@ -216,7 +215,6 @@ pub fn require_side(side: u32) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Checks that `faces` faces fit into an atlas of this side.
 fn check(faces: usize, side: u32) -> Result<(), InputError> {
     require_side(side)?;
     let texels = |side: u32| u64::from(side) * u64::from(side);
@@ -239,7 +237,7 @@ fn check(faces: usize, side: u32) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Returns the rectangle of each face: that of its leaf.
+/// Returns the rectangle of each face: its leaf's rectangle.
 fn places(surface: &AtlasSurface, tree: &ClusterTree) -> Vec<FacePlace> {
     let mut rectangles = vec![[0; 4]; surface.len()];
     for leaf in tree.nodes().iter().filter(|node| node.faces == 1) {

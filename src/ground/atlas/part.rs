@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::place::FacePlace;
 
-/// Part of a face under a rectangle of its texels: one or two flat convex polygons, as the diagonal of the face's
-/// rectangle divides it.
+/// Part of a face under a rectangle of its texels: one or two flat convex polygons, because the diagonal of the face's
+/// rectangle may divide it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TexelPart {
     corners: [[DVec3; 5]; 2],

@@ -1,11 +1,12 @@
 //! A face's rectangle of texels, and the map between the rectangle and the face.
 //!
-//! The corners of the rectangle, in turn, are the corners a and b of the face, the middle m of the edge from b to c,
-//! and c. The triangles (a, b, m) and (a, m, c) have equal areas on both sides, so the map is affine in each,
-//! continuous across the diagonal, and keeps the ratio of areas: every texel of a face has the same area.
+//! The corners of the rectangle, in turn, map to the corners a and b of the face, the middle m of the edge from b to c,
+//! and c. The triangles (a, b, m) and (a, m, c) have equal areas in the rectangle and in the face, so the map is affine
+//! in each triangle, continuous across the diagonal, and preserves ratios of areas: every texel of a face has the same
+//! area.
 //!
-//! With (u, v) from 0 to 1 along the sides from a to b and from a to c, and s the smaller of the two, the weights of
-//! the corners are 1 - u - v + s of a, u - s/2 of b and v - s/2 of c.
+//! With (u, v) from 0 to 1 along the sides from a to b and from a to c, and s the smaller of the two, the barycentric
+//! weights are 1 - u - v + s for a, u - s/2 for b and v - s/2 for c.
 
 use glam::DVec3;
 
@@ -27,8 +28,8 @@ pub struct FacePlace {
 }
 
 impl FacePlace {
-    /// Chooses the placement of a face in a rectangle: of the six possible, the one with the squarest texels, of equals
-    /// the first, by corner, then untransposed.
+    /// Chooses the placement of a face in a rectangle: the one of the six with the squarest texels. Ties are broken by
+    /// corner, then in favour of the untransposed placement.
     pub(super) fn squarest([x, y, width, height]: [u32; 4], corners: [DVec3; 3]) -> Self {
         let mut best: Option<(f64, Self)> = None;
         for first in 0..3_u8 {
@@ -43,8 +44,8 @@ impl FacePlace {
         best.map_or(Self { x, y, width, height, first: 0, transposed: false }, |(_, place)| place)
     }
 
-    /// Sum of the squared sides of a texel's image, in both halves. All placements have the same area, so that the
-    /// smallest sum is the squarest image: the sum over the area is smallest, 2 per half, for a square.
+    /// Sum of the squared sides of a texel's image, in both halves. All placements have the same area, so the smallest
+    /// sum belongs to the squarest image: sum / area is at least 2 per half, its value for a square.
     fn stretch(&self, corners: [DVec3; 3]) -> f64 {
         let [a, b, c] = self.in_turn(corners);
         let [along_u, along_v] = if self.transposed { [self.height, self.width] } else { [self.width, self.height] };
@@ -53,13 +54,13 @@ impl FacePlace {
         ((b - a).length_squared() + far) / along_u + ((c - a).length_squared() + far) / along_v
     }
 
-    /// Reorders values per corner of the face, by index, to the order of corners a, b and c.
+    /// Reorders one value per corner from the face's index order to the order of corners a, b and c.
     pub fn in_turn<T: Copy>(&self, of: [T; 3]) -> [T; 3] {
         let first = usize::from(self.first) % 3;
         [of[first], of[(first + 1) % 3], of[(first + 2) % 3]]
     }
 
-    /// Reorders values of corners a, b and c to the face's order by index: the inverse of [`FacePlace::in_turn`].
+    /// Reorders values of corners a, b and c to the face's index order: the inverse of [`FacePlace::in_turn`].
     pub fn by_index<T: Copy>(&self, [a, b, c]: [T; 3]) -> [T; 3] {
         match self.first {
             0 => [a, b, c],
@@ -73,7 +74,7 @@ impl FacePlace {
         self.width * self.height
     }
 
-    /// Returns `true` if a texel of the atlas is one of the face's.
+    /// Returns `true` if a texel of the atlas belongs to the face.
     pub fn contains(&self, x: u32, y: u32) -> bool {
         (self.x..self.x + self.width).contains(&x) && (self.y..self.y + self.height).contains(&y)
     }
@@ -85,8 +86,8 @@ impl FacePlace {
         [x + 0.5, y + 0.5, x + width - 0.5, y + height - 0.5]
     }
 
-    /// Barycentric weights, by corner index, at texel coordinates of the face's rectangle, to which they are clamped.
-    /// Exact where the coordinates are multiples of 2^-20 texels.
+    /// Barycentric weights, by corner index, at texel coordinates, which are clamped to the face's rectangle. Exact if
+    /// the coordinates are multiples of 2^-20 texels.
     pub fn weights(&self, x: f64, y: f64) -> [f64; 3] {
         let [u, v] = self.local(x, y);
         self.weights_of(u, v, u.min(v))
@@ -102,8 +103,8 @@ impl FacePlace {
         [x + width * along_x, y + height * along_y]
     }
 
-    /// Barycentric weights, by corner index, at the mean point of a rectangle within the face's own: exact means, also
-    /// of rectangles that the diagonal crosses.
+    /// Barycentric weights, by corner index, at the mean point of a rectangle within the face's rectangle. The means
+    /// are exact, even if the diagonal crosses the rectangle.
     pub fn mean_weights(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> [f64; 3] {
         let ([u0, v0], [u1, v1]) = (self.local(x0, y0), self.local(x1, y1));
         let [u, v] = [(u0 + u1) / 2.0, (v0 + v1) / 2.0];
@@ -111,7 +112,7 @@ impl FacePlace {
             u.min(v)
         } else {
             // min(u, v) = u - max(u - v, 0), and the integral of max(u - v, 0) over the rectangle is a sum of four
-            // sixths of cubes, one per corner.
+            // terms t^3 / 6, one per corner.
             let cube = |t: f64| if t > 0.0 { t * t * t / 6.0 } else { 0.0 };
             let excess = cube(u1 - v0) - cube(u1 - v1) - cube(u0 - v0) + cube(u0 - v1);
             u - excess / ((u1 - u0) * (v1 - v0))
@@ -132,7 +133,7 @@ impl FacePlace {
     fn weights_of(&self, u: f64, v: f64, least: f64) -> [f64; 3] {
         let half = least / 2.0;
         let [b, c] = [u - half, v - half];
-        // u + v - least is the larger of the two if both belong to one point.
+        // u + v - least is the larger of u and v, where both belong to one point.
         self.by_index([1.0 - (u + v - least), b, c])
     }
 }

@@ -40,13 +40,13 @@ pub struct LevelQuality {
     pub compactness: f64,
     /// Fifth percentile of the compactness.
     pub low_compactness: f64,
-    /// Mean radius, relative to that of a disc of the mean area.
+    /// Mean radius, relative to a disc of the mean area.
     pub radius: f64,
-    /// Number of nodes of the tree of this size that have more than one face.
+    /// Number of tree nodes of this size with more than one face.
     pub nodes: usize,
-    /// Number of these that are connected.
+    /// Number of connected nodes among [`Self::nodes`].
     pub connected: usize,
-    /// Number of these that are simply connected.
+    /// Number of simply connected nodes among [`Self::nodes`].
     pub simply_connected: usize,
 }
 
@@ -110,7 +110,6 @@ fn level_quality(atlas: &Atlas, topologies: &[Topology], level: u32) -> LevelQua
     }
 }
 
-/// Computes the topology of each node of a tree.
 fn topologies(tree: &ClusterTree, welded: &Mesh, adjacency: &Adjacency) -> Vec<Topology> {
     let mut place = vec![0; tree.order().len()];
     (0..).zip(tree.order()).for_each(|(at, &face)| place[face as usize] = at);
@@ -121,8 +120,8 @@ fn topologies(tree: &ClusterTree, welded: &Mesh, adjacency: &Adjacency) -> Vec<T
     tree.nodes().par_iter().map(of).collect()
 }
 
-/// Connects faces along their common edges and computes the topology of the result. Vertices count once per fan of
-/// faces, so that a cluster that touches itself at a vertex has no hole there.
+/// Connects faces along their common edges and computes the topology of the result. A vertex is counted once per fan of
+/// faces, so that contact of a cluster with itself at a vertex is not a hole.
 fn topology(faces: &[u32], first: u32, place: &[u32], welded: &Mesh, adjacency: &Adjacency) -> Topology {
     let mut corners = Classes::new(3 * faces.len());
     let mut parts = Classes::new(faces.len());
@@ -148,7 +147,7 @@ fn topology(faces: &[u32], first: u32, place: &[u32], welded: &Mesh, adjacency: 
         }
     }
     let connected = parts.count == 1;
-    // Euler's characteristic, 1 of a disc and 2 of a sphere, is at least 1.
+    // The Euler characteristic, 1 for a disc and 2 for a sphere, is at least 1.
     Topology { connected, simply: connected && corners.count + faces.len() > edges }
 }
 

@@ -6,11 +6,11 @@ use super::measures::{FaceMeasures, SplitLimits};
 /// Maximum number of faces for exhaustive search.
 pub(super) const MOST: usize = 8;
 
-/// Weight of the spread of two halves relative to their unevenness: both lie between 0 and 1.
+/// Weight of the halves' spread against a weight of 1 for their unevenness; both measures are in [0, 1].
 const SPREAD: f64 = 0.25;
 
-/// Splits a cluster of 2 to [`MOST`] faces: within the limits, into the fewest connected parts; of such splits, the
-/// most even and compact. `true` marks the second half.
+/// Splits a cluster of 2 to [`MOST`] faces: within the limits, into the fewest connected parts; among such splits, the
+/// most even and compact one. `true` marks the second half.
 pub(super) fn cut(graph: &FaceGraph, measures: &FaceMeasures, limits: SplitLimits) -> Vec<bool> {
     let count = graph.len();
     let linked: Vec<u32> =
@@ -18,7 +18,7 @@ pub(super) fn cut(graph: &FaceGraph, measures: &FaceMeasures, limits: SplitLimit
     let all = (1_u32 << count) - 1;
     let whole = moments(graph, measures, all);
     let mut best: Option<(u32, f64, u32)> = None;
-    // The last face is always in the second half: the other cuts are these with the halves exchanged.
+    // The last face is always in the second half: the remaining cuts are the same with the halves exchanged.
     for first in 1..1_u32 << (count - 1) {
         let second = all & !first;
         if !limits.contains(&(first.count_ones() as usize)) {
@@ -62,7 +62,7 @@ fn parts(linked: &[u32], set: u32) -> u32 {
     count
 }
 
-/// Demand of a set of faces, and the sum of the squared distances of their centres from the mean.
+/// Demand of a set of faces, and the sum of squared distances of the faces' centres from their mean.
 fn moments(graph: &FaceGraph, measures: &FaceMeasures, set: u32) -> (f64, f64) {
     let faces = || (0..graph.len()).filter(|face| set >> face & 1 == 1).map(|face| graph.faces()[face]);
     let demand = faces().map(|face| measures.demand(face)).sum();

@@ -1,9 +1,9 @@
-//! Splits of large clusters: an order of the faces; every prefix is a candidate half.
+//! Splits of large clusters: the faces are ordered, and every prefix of the order is a candidate half.
 //!
-//! Given two faces far apart, A and B, faces are ordered by the difference of their distances from A and from B. The
-//! predecessor of a face on the shortest path from A precedes it, and the one on the shortest path from B follows it,
-//! so that both halves of any split are connected. Only faces with equal differences, of a part connected to the rest
-//! by one face, can violate that; distances are integers, so that rounding cannot.
+//! Given two faces far apart, A and B, faces are ordered by the difference of their distances from A and from B. A
+//! face's predecessor on the shortest path from A precedes it in the order, and its predecessor on the shortest path
+//! from B follows it, so both halves of any split are connected. The only exception is faces with equal differences in
+//! a part that one face connects to the rest. Distances are integers, so rounding causes no other.
 
 use glam::DVec3;
 
@@ -12,7 +12,8 @@ use super::measures::{FaceMeasures, SplitLimits};
 use crate::elementary::on_circle;
 use crate::geom::vector::{least_axis, unit};
 
-/// Maximum difference of two halves, as a fraction of the demand, that is accepted to keep a part of the mesh whole.
+/// Maximum difference of two halves, as a fraction of the demand, that is accepted to avoid dividing a part of the
+/// mesh.
 const WHOLE_PARTS: f64 = 1.0 / 32.0;
 
 /// Maximum difference, as a fraction of the demand, that is accepted to make both halves connected before other seeds
@@ -29,7 +30,7 @@ struct Halves {
     uneven: f64,
 }
 
-/// Splits a connected cluster: by the shortest flat cut with connected halves, otherwise by paths.
+/// Splits a connected cluster: by the shortest flat cut with connected halves, otherwise by shortest paths.
 pub(super) fn cut_connected(graph: &FaceGraph, measures: &FaceMeasures, limits: SplitLimits) -> Vec<bool> {
     if let Some(flat) = cut_flat(graph, measures, &limits) {
         return flat;
@@ -85,7 +86,8 @@ fn plane(normal: DVec3) -> [DVec3; 2] {
     [right, normal.cross(right)]
 }
 
-/// Splits a cluster of several parts, in their order along the longest axis: between parts, or through the middle one.
+/// Splits a cluster of several parts, in their order along the longest axis: between two parts, or through the middle
+/// part.
 pub(super) fn cut_parts(
     graph: &FaceGraph,
     measures: &FaceMeasures,
@@ -109,7 +111,7 @@ pub(super) fn cut_parts(
     if let Some(k) = between.filter(|&k| k == at || uneven(k) <= WHOLE_PARTS * total) {
         return second_of(&order, k);
     }
-    // Through a part: its faces in the order of a sweep.
+    // The cut goes through a part, whose faces are ordered by a sweep.
     let cut = part[order[at] as usize];
     let from = order.partition_point(|&face| place[part[face as usize] as usize] < place[cut as usize]);
     let within = self::order(graph, measures, axis, |face| part[face as usize] == cut);
@@ -117,7 +119,7 @@ pub(super) fn cut_parts(
     cut_order(graph, measures, &limits, &order).second
 }
 
-/// Rank of each part along an axis, by the mean of its centres.
+/// Rank of each part along an axis, by the mean of its faces' centres.
 fn part_places(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, part: &[u32], parts: u32) -> Vec<u32> {
     let mut sums = vec![(0.0, 0.0); parts as usize];
     for (&of, &face) in part.iter().zip(graph.faces()) {
@@ -168,8 +170,8 @@ fn demand(graph: &FaceGraph, measures: &FaceMeasures, faces: &[u32]) -> f64 {
     faces.iter().map(|&face| measures.demand(graph.faces()[face as usize])).sum()
 }
 
-/// Finds the best split of an order: the number of faces of the first half, within the limits, with which the halves'
-/// demands are most equal.
+/// Finds the best split of an order: the number of faces of the first half, within the limits, that makes the halves'
+/// demands most equal.
 fn best_cut(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits, order: &[u32]) -> usize {
     let half = demand(graph, measures, order) / 2.0;
     let mut best = (f64::INFINITY, *limits.start());
@@ -196,8 +198,8 @@ fn second_of(order: &[u32], at: usize) -> Vec<bool> {
     second
 }
 
-/// Makes halves of several parts connected: of each half the part of the largest demand stays, the others move to the
-/// other half. `None` if that violates the limits or does not suffice.
+/// Makes halves of several parts connected: in each half, the part of the largest demand stays, and the other parts
+/// move to the other half. `None` if the result violates the limits or is not connected.
 fn mend(
     graph: &FaceGraph,
     measures: &FaceMeasures,

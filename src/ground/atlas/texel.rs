@@ -5,7 +5,7 @@ use glam::DVec3;
 /// Surface under one texel, in the mesh's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Texel {
-    /// Face that it lies on.
+    /// Face under the texel.
     pub face: u32,
     /// Mean point of the part.
     pub point: DVec3,
@@ -20,7 +20,7 @@ pub struct Texel {
 pub struct Cluster {
     /// Area of the surface.
     pub area: f64,
-    /// Mean point: that of its texels, weighted by area; their unweighted mean if no texel has an area.
+    /// Mean point of the texels, weighted by area; unweighted if no texel has an area.
     pub point: DVec3,
     /// Radius of a ball about the mean point that contains the surface.
     pub radius: f64,

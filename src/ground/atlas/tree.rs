@@ -4,7 +4,7 @@ use super::graph::FaceGraph;
 use super::measures::FaceMeasures;
 use super::{small, sweep};
 
-/// Minimum number of faces from which the halves of a cluster are processed in parallel.
+/// Minimum number of faces of a cluster whose halves are processed in parallel.
 const SIDE_BY_SIDE: usize = 2048;
 
 /// Node of the tree: a cluster of faces and its rectangle of texels.
@@ -32,7 +32,7 @@ pub struct ClusterTree {
 }
 
 impl ClusterTree {
-    /// Builds the tree of the faces of a graph, at least one, over a square with at least as many texels.
+    /// Builds the tree of a graph's faces, at least one, over a square with at least one texel per face.
     pub(super) fn new(graph: FaceGraph, measures: &FaceMeasures, side: u32) -> Self {
         let count = graph.len();
         let mut nodes = vec![ClusterNode::default(); 2 * count - 1];
@@ -47,7 +47,7 @@ impl ClusterTree {
         &self.nodes
     }
 
-    /// Faces in the order of the leaves: those of a node are contiguous.
+    /// Faces in the order of the leaves; the faces of a node are contiguous.
     pub fn order(&self) -> &[u32] {
         &self.order
     }
@@ -91,8 +91,8 @@ fn grow(graph: FaceGraph, measures: &FaceMeasures, node: ClusterNode, nodes: &mu
 
 /// Splits a cluster of at least two faces into halves with `capacity` texels each: `true` marks the second half.
 ///
-/// Neither half has more faces than texels. Both are connected where the cluster is, if such a split is found; within
-/// that constraint, their demands are as equal as possible.
+/// Neither half has more faces than texels. Both halves of a connected cluster are connected if such a split is found;
+/// within that constraint, their demands are as equal as possible.
 fn cut(graph: &FaceGraph, measures: &FaceMeasures, capacity: usize) -> Vec<bool> {
     let count = graph.len();
     let limits = count.saturating_sub(capacity).max(1)..=capacity.min(count - 1);

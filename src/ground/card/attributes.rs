@@ -1,4 +1,4 @@
-//! Attributes of vertices, as bits of single precision.
+//! Attributes of vertices, as the bits of f32.
 
 use rayon::prelude::*;
 use refsim::machine::{AttributeStream, StepRate, VertexStreams};
@@ -9,7 +9,7 @@ use super::CardError;
 /// The values of an attribute register, one per vertex.
 pub type Attribute = Vec<[u32; 4]>;
 
-/// Three numbers, rounded once, and a fourth.
+/// Attribute of three numbers, each rounded once to f32, and a fourth.
 pub fn attribute([x, y, z]: [f64; 3], w: f32) -> [u32; 4] {
     [x as f32, y as f32, z as f32, w].map(f32::to_bits)
 }
@@ -21,7 +21,7 @@ pub fn vertex_streams<'a>(attributes: impl IntoIterator<Item = &'a Attribute>) -
     VertexStreams { vertex_count: streams.first().map_or(0, |first| first.data.len()), instance_count: 1, streams }
 }
 
-/// Attributes register by register, from the attributes of each of `vertices` vertices.
+/// Transposes the attributes of `vertices` vertices into one attribute per register.
 pub fn by_register(
     registers: usize,
     vertices: usize,
@@ -31,7 +31,8 @@ pub fn by_register(
     (0..registers).map(|register| by_vertex.iter().map(|vertex| vertex[register]).collect()).collect()
 }
 
-/// Refuses attributes that overflow single precision. Fails with [`CardError::Input`], which says `what` was expected.
+/// Refuses attributes that overflow single precision. Fails with [`CardError::Input`]; `what` is the expectation in its
+/// message.
 pub fn check_finite(what: &str, attributes: &[Attribute]) -> Result<(), CardError> {
     let mut numbers = attributes.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
     match numbers.find(|value| !value.is_finite()) {
@@ -40,7 +41,7 @@ pub fn check_finite(what: &str, attributes: &[Attribute]) -> Result<(), CardErro
     }
 }
 
-/// A number that a vertex holds in half precision, as programs read it.
+/// Rounds a number to half precision and back, as programs read a half-precision attribute.
 pub fn through_half(value: f32) -> f32 {
     let half = ops::convert(&Format::FP32, Format::FP16, value.to_bits()).bits;
     f32::from_bits(ops::convert(&Format::FP16, Format::FP32, half).bits)

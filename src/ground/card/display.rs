@@ -1,4 +1,5 @@
-//! A mesh drawn from a camera, for all systems that display one: front faces only, as rays of the host hit them.
+//! A mesh drawn from a camera, for all systems that display one. Only front faces are drawn, as rays of the host hit
+//! only front faces.
 
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -48,9 +49,9 @@ impl MeshView {
 pub enum KeptFragments {
     /// The nearest ones, by the depth test, which also fills the depth buffer.
     Nearest,
-    /// Those at the depths left by earlier draws, replacing the target's contents.
+    /// Fragments at the depths left by earlier draws; they replace the target's contents.
     Visible,
-    /// The same, added to the target's contents.
+    /// Fragments at the depths left by earlier draws; they are added to the target's contents.
     Added,
 }
 
@@ -88,8 +89,8 @@ impl DepthPrograms {
     }
 }
 
-/// A card that displays a mesh, which it has in units of the mesh's own size: the scene's unit of length does not
-/// matter.
+/// A card that displays a mesh. Positions are in units of the mesh's size, so that the scene's unit of length has no
+/// effect.
 #[derive(Debug)]
 pub struct MeshDisplay {
     machine: Machine,
@@ -107,7 +108,7 @@ impl MeshDisplay {
         Self::in_frame(machine, frame, positions)
     }
 
-    /// A mesh with positions that are already in a frame, with w = 1.
+    /// A mesh whose positions are already in `frame`, with w = 1.
     pub fn in_frame(machine: Machine, frame: UnitFrame, positions: Attribute) -> Self {
         Self { machine, frame, positions, target: ViewTarget::default() }
     }
@@ -117,7 +118,7 @@ impl MeshDisplay {
         &self.machine
     }
 
-    /// The emulated card, for work beside the display.
+    /// The emulated card, for work other than display.
     pub fn machine_mut(&mut self) -> &mut Machine {
         &mut self.machine
     }
@@ -132,9 +133,9 @@ impl MeshDisplay {
         &self.positions
     }
 
-    /// The target after `draw`, which is 0 where nothing is drawn; and if `is_logged` the log of the draws, without the
-    /// read-back. Fails with [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the card has no
-    /// such target, and the errors of `draw`.
+    /// Returns the target after `draw`, which is 0 where nothing is drawn, and if `is_logged` the log of the draws
+    /// without the read-back. Fails with [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the
+    /// card has no such target, and the errors of `draw`.
     pub fn show(
         &mut self,
         view: &MeshView,

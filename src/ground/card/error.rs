@@ -1,4 +1,4 @@
-//! The error of every use of a card by a system.
+//! The error type for a system's use of a card.
 
 use std::fmt::Display;
 

@@ -1,5 +1,5 @@
-//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; and frames whose log follows
-//! from sizes and counts alone.
+//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; also for frames whose log
+//! follows from sizes and counts alone.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ pub struct FrameTime {
     pub triangles: u64,
     /// Number of draws.
     pub calls: usize,
-    /// The bottleneck of the draws that take the most time together; `None` without draws.
+    /// The bottleneck whose draws take the most time together; `None` without draws.
     pub bottleneck: Option<Bottleneck>,
 }
 
@@ -72,7 +72,7 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
         let frames: Vec<Event> = std::iter::repeat_n(log, frames).flatten().cloned().collect();
         Ok(replay(&frames, &model, &options)?.timeline)
     };
-    // The time that one more frame adds leaves out the start, in which card and host wait for each other.
+    // The difference excludes the start of the sequence, in which card and host wait for each other.
     let (fewer, more) = (span(FRAMES - 1)?, span(FRAMES)?);
     let mut time = FrameTime {
         frame: fewer.makespan().until(more.makespan()),
@@ -103,20 +103,19 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
     Ok(time)
 }
 
-/// Bytes per attribute.
 const ATTRIBUTE_BYTES: u64 = 16;
 
-/// Host work as an event of a log.
+/// Log event of host work.
 pub fn host_work(operation: HostOperation, operations: u64) -> Event {
     Event::Host(HostWork { kind: operation, operations })
 }
 
-/// The log of a frame whose pixels take no time, from numbers of triangles alone.
+/// The log of a frame from numbers of triangles alone; pixels take no time.
 #[derive(Clone, Debug)]
 pub struct UnseenFrame {
     run_per_triangle: f64,
     pixel: Arc<ProgramWork>,
-    /// The events so far.
+    /// The events of the frame.
     pub log: Vec<Event>,
 }
 
@@ -128,7 +127,7 @@ impl UnseenFrame {
         Self { run_per_triangle, pixel: Arc::new(ProgramWork::new(&program, FlowConstants::default())), log }
     }
 
-    /// Draws triangles, whose vertices have so many `attributes` and take so many `slots`.
+    /// Draws triangles with this number of `attributes` and of vertex program `slots` per vertex.
     pub fn draw(&mut self, triangles: u64, slots: u64, attributes: u64) {
         let run = (triangles as f64 * self.run_per_triangle).round() as u64;
         let mut counts = DrawEvents {
@@ -154,7 +153,7 @@ impl UnseenFrame {
         })));
     }
 
-    /// A pass: new programs and constants, and a draw.
+    /// Adds a pass: new programs, new constants, and a draw.
     pub fn pass(&mut self, constants: u32, triangles: u64, slots: u64, attributes: u64) {
         self.log.push(Event::StateChange { changes: 2, constants });
         self.draw(triangles, slots, attributes);

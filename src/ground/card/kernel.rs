@@ -67,7 +67,6 @@ impl KernelText {
         Ok((text, program))
     }
 
-    /// The text before, in and after the repeated part.
     fn parts(&self) -> [&'static str; 3] {
         let [begin, end] = MARKS;
         let (head, rest) = self.text.split_once(begin).unwrap_or((self.text, ""));
@@ -75,11 +74,11 @@ impl KernelText {
         [head, body, tail]
     }
 
-    /// The program's text for a block of `texels` texels, unrolled because these languages have no loops.
+    /// The program's text for a block of `texels` texels, unrolled because the languages lack loops.
     pub fn unrolled(&self, texels: usize) -> String {
         let [head, body, tail] = self.parts();
         let mut text = String::with_capacity(head.len() + texels * body.len() + tail.len() + 40);
-        // Notes before a program are `//` lines; comments of the language can follow only after its first word.
+        // Notes before a program are `//` lines; the language's own comments may only follow its first word.
         text.push_str(head);
         let _ = writeln!(text, "# {texels} texels");
         text.extend(std::iter::repeat_n(body, texels));
@@ -93,12 +92,12 @@ impl KernelText {
         instructions(head) + instructions(tail)
     }
 
-    /// Number of instructions per texel: those of the repeated part.
+    /// Number of instructions per texel, in the repeated part.
     pub fn per_texel(&self) -> usize {
         instructions(self.parts()[1])
     }
 
-    /// The largest number of texels for a program with a limit of instructions.
+    /// The largest number of texels per block within a limit of instructions.
     pub fn block(&self, max_instructions: usize) -> usize {
         max_instructions.saturating_sub(self.overhead()) / self.per_texel().max(1)
     }
@@ -138,11 +137,11 @@ pub fn instructions(text: &str) -> usize {
     text.lines().filter(|line| !line.starts_with("//") && line.trim_end().ends_with(';')).count()
 }
 
-/// Instructions of a vertex program that make the position: rows of the projection in c0 to c3.
+/// Instructions of a vertex program that project the position by the matrix rows in c0 to c3.
 pub const TO_CLIP: &str = "dp4 oPos.x, v0, c0\ndp4 oPos.y, v0, c1\ndp4 oPos.z, v0, c2\ndp4 oPos.w, v0, c3\n";
 
-/// Instructions of a vertex program that leave the view vector in r0, and tangent and bitangent in r1 and r2. The eye
-/// is in c4; `tangent` and `normal` are attribute registers.
+/// Instructions of a vertex program that compute the view vector in r0, the tangent in r1 and the bitangent in r2. The
+/// eye is in c4; `tangent` and `normal` are attribute registers.
 pub fn local_view(tangent: usize, normal: usize) -> String {
     format!(
         "; the view vector along tangent, bitangent and normal\nadd r0.xyz, c4, -v0\nmov r1.xyz, v{tangent}\n\
@@ -150,7 +149,7 @@ pub fn local_view(tangent: usize, normal: usize) -> String {
     )
 }
 
-/// Instructions of a pixel program that leave the coordinates of a `view` vector in a parabolic map in r0. c0 is
+/// Instructions of a pixel program that compute in r0 the parabolic map coordinates of the vector `view`. c0 is
 /// [`PARABOLIC`].
 pub fn parabolic(view: &str) -> String {
     format!(
@@ -163,7 +162,7 @@ pub fn parabolic(view: &str) -> String {
 /// The constants of [`parabolic`]: 1, 1/2, and the least denominator.
 pub const PARABOLIC: &str = "def c0, 1, 0.5, 0.00000095367431640625, 0\n";
 
-/// A program that is written out from sizes.
+/// A program whose text is generated from sizes.
 pub trait WrittenKernel {
     /// The name used in messages.
     fn name(&self) -> String;
@@ -176,7 +175,6 @@ pub trait WrittenKernel {
         checked(profile, format!("`{}`", self.name()), &self.text())
     }
 
-    /// Name and text.
     fn listed(&self) -> (String, String) {
         (self.name(), self.text())
     }

@@ -8,7 +8,7 @@ use refsim::texture::TexelFormat;
 
 use super::{FullScreenPass, nearest, new_target};
 
-/// The levels below a texture, each half as wide and high as the one before (rounded down, at least 1), down to one
+/// The levels below a texture, each half as wide and high as the level before (rounded down, at least 1), down to one
 /// texel.
 #[derive(Clone, Debug)]
 pub struct Levels {
@@ -29,9 +29,9 @@ impl Levels {
         &self.targets
     }
 
-    /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the point
-    /// of that level under the fragment's center, in texels: the common corner of the four texels that the fragment
-    /// covers. Fails with [`MachineError`] if the card refuses a draw.
+    /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the
+    /// fragment's center in texels of that level: the common corner of the four texels that the fragment covers. Fails
+    /// with [`MachineError`] if the card refuses a draw.
     pub fn fill(
         &self,
         machine: &mut Machine,

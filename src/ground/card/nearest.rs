@@ -1,4 +1,4 @@
-//! Targets in which the nearest fragment stays.
+//! Targets that keep the nearest fragment by a depth test.
 
 use refsim::machine::{DepthId, DrawCall, Machine, MachineError, TextureId};
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
@@ -27,7 +27,8 @@ impl NearestTarget {
         Ok(Self { color, depth: machine.create_depth(depth, width, height)? })
     }
 
-    /// Colors of 0, and the largest depth. Fails with [`MachineError`] for another machine than the target's.
+    /// Clears the colors to 0 and the depths to the largest depth. Fails with [`MachineError`] for another machine than
+    /// the target's.
     pub fn clear(&self, machine: &mut Machine) -> Result<(), MachineError> {
         machine.clear_target(self.color, [0; 4])?;
         machine.clear_depth(self.depth, 1.0_f32.to_bits())
@@ -41,13 +42,13 @@ impl NearestTarget {
     }
 }
 
-/// The target of pictures: kept from one to the next while format and size stay.
+/// The target of pictures, reused while format and size do not change.
 #[derive(Debug, Default)]
 pub(super) struct ViewTarget(Option<(NearestTarget, TexelFormat, [u32; 2])>);
 
 impl ViewTarget {
-    /// The target for a picture, with a depth buffer of 24 bits: the last one, if that is like it. Fails as
-    /// [`NearestTarget::new`] does.
+    /// The target for a picture, with a depth buffer of 24 bits: the previous target, if it has this format and size.
+    /// Fails as [`NearestTarget::new`] does.
     pub(super) fn of(
         &mut self,
         machine: &mut Machine,

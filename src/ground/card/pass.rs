@@ -21,7 +21,7 @@ pub const BILINEAR: SamplerState = SamplerState {
     ..SamplerState::NEAREST_CLAMP
 };
 
-/// Textures that are read without filtering and clamped at their borders.
+/// Pairs textures with a sampler state without filtering that clamps at borders.
 pub fn nearest<const N: usize>(textures: [TextureId; N]) -> [ReadTexture; N] {
     textures.map(|texture| (texture, SamplerState::NEAREST_CLAMP))
 }
@@ -36,7 +36,7 @@ pub fn constants(values: impl IntoIterator<Item = [f32; 4]>) -> Constants {
 pub struct FullScreenPass<'a> {
     /// The pixel program.
     pub program: &'a CheckedProgram,
-    /// Its constants.
+    /// The program's constants.
     pub constants: &'a Constants,
     /// The textures of samplers 0, 1 and so on.
     pub textures: &'a [ReadTexture],
@@ -49,8 +49,8 @@ pub struct FullScreenPass<'a> {
 }
 
 impl FullScreenPass<'_> {
-    /// Draws it, with the texture coordinates of [`full_screen_quad`]. Fails with [`MachineError`] if the card refuses
-    /// the draw.
+    /// Draws the quad with the texture coordinates of [`full_screen_quad`]. Fails with [`MachineError`] if the card
+    /// refuses the draw.
     pub fn draw<const SETS: usize>(
         &self,
         machine: &mut Machine,
@@ -68,8 +68,7 @@ impl FullScreenPass<'_> {
         machine.draw(&call)
     }
 
-    /// Draws it with one set of coordinates, TEX0, which counts `size` texels over the quad. Fails as [`Self::draw`]
-    /// does.
+    /// Draws the quad with one set of coordinates, TEX0, from 0 to `size` in texels. Fails as [`Self::draw`] does.
     pub fn draw_counting(&self, machine: &mut Machine, size: [usize; 2]) -> Result<DrawEvents, MachineError> {
         let [width, height] = size.map(|side| side as f32);
         self.draw(machine, |u, v| [[u * width, v * height, 0.0, 1.0]])
@@ -91,12 +90,12 @@ impl PingPong {
         self.0[pass % 2]
     }
 
-    /// The target that a pass may read: the one that the pass before has written.
+    /// The target that a pass may read: the output of the previous pass.
     pub fn read_by(&self, pass: usize) -> TextureId {
         self.0[(pass + 1) % 2]
     }
 
-    /// Takes the target that a pass has written, and gives another one for it.
+    /// Exchanges the target that a pass has written for `other`.
     pub fn exchange(&mut self, pass: usize, other: &mut TextureId) {
         std::mem::swap(&mut self.0[pass % 2], other);
     }

@@ -11,7 +11,7 @@ pub struct Texels {
     pub width: usize,
     /// Number of rows.
     pub height: usize,
-    /// Red, green, blue, alpha; `width * height` of them.
+    /// Red, green, blue and alpha of `width * height` texels.
     pub texels: Vec<[f32; 4]>,
 }
 
@@ -42,7 +42,7 @@ impl Texels {
     fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
         let extents = extents([self.width, self.height]);
         if format == TexelFormat::Rgba32f {
-            // The bits are stored as they are, which is the fast path for large matrices.
+            // Fast path for large matrices: f32 bits are stored unchanged.
             let bytes = self.texels.as_flattened().iter().flat_map(|value| value.to_le_bytes()).collect();
             return Image::from_bytes(format, TextureKind::Rectangle, extents, 1, bytes);
         }
@@ -50,7 +50,7 @@ impl Texels {
         Image::from_values(format, TextureKind::Rectangle, extents, Format::FP32, &bits, TargetRounding::Nearest)
     }
 
-    /// The texels of an image with one level; components that the format lacks have the values that the card reads.
+    /// The texels of an image with one level; components missing from the format have the values that the card reads.
     fn from_image(image: &Image) -> Self {
         let [width, height] = [image.width(), image.height()].map(|side| side as usize);
         let value = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
@@ -119,7 +119,7 @@ pub fn new_texture(
     machine.create_texture(Image::from_values(format, kind, extents, Format::FP32, &bits, TargetRounding::Nearest)?)
 }
 
-/// Extents for an image; sizes beyond 32 bits become the largest, which it refuses.
+/// Extents for an image; sizes beyond 32 bits become u32::MAX, which the image refuses.
 fn extents([width, height]: [usize; 2]) -> [u32; 3] {
     let extent = |size| u32::try_from(size).unwrap_or(u32::MAX);
     [extent(width), extent(height), 1]

@@ -1,8 +1,7 @@
 //! Cube maps as a comma-separated table: the header `face,row,column,r,g,b`, then a line per texel, in any order.
 //!
-//! Faces are Direct3D's, 0 to 5 or +x, -x, +y, -y, +z, -z, as they look from inside the cube; rows count from the top,
-//! columns from the left, from 0. Radiances are finite; those of truncated
-//! light may lie below 0.
+//! Faces are Direct3D's, 0 to 5 or +x, -x, +y, -y, +z, -z, as seen from inside the cube; rows count from the top,
+//! columns from the left, from 0. Radiances are finite; a truncated expansion of light may give values below 0.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -17,8 +16,8 @@ pub const MAX_BYTES: u64 = 1 << 26;
 const HEADER: [&str; 6] = ["face", "row", "column", "r", "g", "b"];
 const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 
-/// Reads the texels of a cube map of a side from a file, by face, row and column. Fails with [`InputError`], with the
-/// path, and the line where there is one.
+/// Reads the texels of a cube map from a file, by face, row and column. Fails with [`InputError`], with the path, and
+/// the line where there is one.
 pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     parse_cube_table(&read_file(path, "table of light", MAX_BYTES)?, path, side)
 }
@@ -28,7 +27,7 @@ pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputE
 pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     assert!(side > 0, "a texel along an edge");
     let place_of = |at: usize| [at / (side * side), at / side % side, at % side];
-    // Each texel with its line; 0 while there is none.
+    // Each texel with its line in the file; line 0 until it is read.
     let mut texels = vec![([0.0; 3], 0); 6 * side * side];
     for_each_row(bytes, name, &HEADER, "texel", &mut |line, record| {
         let (at, radiance) = parse_texel(record, side)?;
@@ -52,7 +51,7 @@ pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f
     Ok(texels.into_iter().map(|(radiance, _)| radiance).collect())
 }
 
-/// The table of a cube map's texels, in their order. Panics if there are not the texels of six faces of this side.
+/// The table of a cube map's texels, in their order. Panics unless there are 6 `side`^2 texels.
 pub fn write_cube_table(texels: &[[f64; 3]], side: usize) -> String {
     assert_eq!(texels.len(), 6 * side * side, "six faces of side {side}");
     let mut text = HEADER.join(",") + "\n";
@@ -63,7 +62,7 @@ pub fn write_cube_table(texels: &[[f64; 3]], side: usize) -> String {
     text
 }
 
-/// The number of a row's texel, and its radiance.
+/// The index of a row's texel, and its radiance.
 fn parse_texel(record: &csv::ByteRecord, side: usize) -> Result<(usize, [f64; 3]), InputError> {
     let fields: Vec<&[u8]> = record.iter().collect();
     let [face, row, column, r, g, b] = fields[..] else {

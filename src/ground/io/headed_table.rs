@@ -5,8 +5,8 @@ use std::path::Path;
 use super::quoted;
 use crate::error::{FilePlace, InputError, input_error};
 
-/// Calls `each` with the line and the fields of every row; `per` is what a row describes. Fails with [`InputError`] for
-/// text that is not a table, for another header, and the errors of `each` with the row's line.
+/// Calls `each` with the line and the fields of every row; `per` names in messages the subject of a row. Fails with
+/// [`InputError`] for text that is not a table, for another header, and the errors of `each` with the row's line.
 pub(super) fn for_each_row(
     bytes: &[u8],
     name: &Path,

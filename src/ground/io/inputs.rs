@@ -1,7 +1,7 @@
 //! The files that this process has opened to read.
 //!
-//! All reading of this room begins in one function, which notes the path here. So a part of a computation knows every
-//! file that its result depends on, also those that no option names: materials of a model, textures, factors.
+//! All reading of `io` begins in one function, which notes the path here. So a part of a divided run knows every file
+//! that its result depends on, including files that no option names: materials of a model, textures, factors.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub(super) fn note(path: &Path) {
     }
 }
 
-/// The paths of all files that this process has opened to read so far, sorted, each once, as they were opened.
+/// The paths of all files that this process has opened to read so far, as they were opened, sorted, without repetition.
 pub fn files_read() -> Vec<PathBuf> {
     OPENED.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
 }

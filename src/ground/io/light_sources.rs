@@ -11,10 +11,10 @@ use crate::error::{InputError, input_error};
 pub const MAX_BYTES: u64 = 1 << 24;
 const HEADER: [&str; 7] = ["x", "y", "z", "degrees", "r", "g", "b"];
 
-/// A line of the table, its numbers finite.
+/// A row of the table; all numbers are finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSourceRow {
-    /// Towards the source.
+    /// Direction towards the source.
     pub towards: [f64; 3],
     /// Angular radius in degrees.
     pub degrees: f64,

@@ -51,7 +51,7 @@ pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8
     })
 }
 
-/// The part of a line before its comment, which is a word that begins with `#` and all after it.
+/// The part of a line before its comment, which begins at a word that begins with `#`.
 pub(super) fn before_comment(text: &[u8]) -> &[u8] {
     let begins = |at: &usize| text[*at] == b'#' && (*at == 0 || text[at - 1].is_ascii_whitespace());
     &text[..(0..text.len()).find(begins).unwrap_or(text.len())]

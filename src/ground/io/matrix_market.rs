@@ -1,9 +1,9 @@
 //! Sparse matrices as Matrix Market files: `%%MatrixMarket matrix coordinate real general`, comments, a line with the
 //! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
 //!
-//! The fields `integer` and `pattern`, whose entries are 1, and the symmetries `symmetric` and `skew-symmetric` are
-//! read too. Real numbers are rounded to the nearest f64. Arrays, which are dense, and complex and Hermitian matrices
-//! are refused, and so are integers that f64 does not hold exactly, and real numbers that round to 0 or infinity.
+//! The reader also accepts the fields `integer` and `pattern` (all entries are 1), and the symmetries `symmetric` and
+//! `skew-symmetric`. Real numbers are rounded to the nearest f64. It refuses dense arrays, complex and Hermitian
+//! matrices, integers that f64 cannot represent exactly, and real numbers that round to 0 or infinity.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -15,10 +15,10 @@ use crate::error::{FilePlace, InputError, input_error};
 
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
-/// Rows and columns that any file may have (2^24). A longer file may have as many as it has bytes, so the size of a
-/// file bounds the size of its matrix.
+/// Number of rows and of columns that every file may have (2^24). A file of more bytes may have as many rows or columns
+/// as bytes, so the size of a file bounds the size of its matrix.
 pub const ANY_SIZE: usize = 1 << 24;
-/// The shortest line of an entry, `1 1`, and its end.
+/// Length of the shortest line of an entry: `1 1` and a line feed.
 const SHORTEST: usize = 4;
 
 /// A sparse matrix by its entries.
@@ -28,8 +28,8 @@ pub struct CoordinateMatrix {
     pub rows: usize,
     /// Number of columns.
     pub columns: usize,
-    /// Row and column from 0, and value; row by row, columns increasing, each place once. Values are finite, and may be
-    /// 0.
+    /// Row and column from 0, and value; row by row, columns increasing, without repetition. Values are finite, and may
+    /// be 0.
     pub entries: Vec<(u32, u32, f64)>,
 }
 
@@ -94,8 +94,8 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
     Ok(CoordinateMatrix { rows, columns, entries })
 }
 
-/// The text of a matrix of entries `(row, column, value)`, counted from 0, row by row.
-/// Values have the shortest digits that read back to the same numbers.
+/// The text of a matrix given as entries `(row, column, value)`, counted from 0, row by row. Values have the shortest
+/// digits that read back to the same numbers.
 pub fn write_matrix_market(
     [rows, columns, count]: [usize; 3],
     comment: &str,
@@ -106,7 +106,7 @@ pub fn write_matrix_market(
     comment.lines().try_for_each(|line| writeln!(out, "% {line}"))?;
     writeln!(out, "{rows} {columns} {count}")?;
     for (row, column, value) in entries {
-        // All digits of a number far from 1 would be hundreds of zeros.
+        // Without an exponent, a number far from 1 would have hundreds of zeros.
         if value == 0.0 || (1e-5..1e16).contains(&value.abs()) {
             writeln!(out, "{} {} {value}", row + 1, column + 1)?;
         } else {
@@ -150,20 +150,20 @@ impl Banner {
         let symmetry = match symmetry {
             "general" => Symmetry::General,
             "symmetric" => Symmetry::Symmetric,
-            // Entries that are all 1 are not the negatives of others.
+            // A `pattern` matrix, whose entries are all 1, cannot be skew-symmetric.
             "skew-symmetric" if field != Field::Pattern => Symmetry::Skew,
             _ => return None,
         };
         Some(Self { field, symmetry })
     }
 
-    /// Largest number of matrix entries per line.
+    /// Largest number of matrix entries that one line describes.
     fn copies(self) -> usize {
         if self.symmetry == Symmetry::General { 1 } else { 2 }
     }
 }
 
-/// Rows, columns and entries; rows and columns that 32 bits can name.
+/// Numbers of rows, columns and entries; rows and columns are within 32 bits.
 fn sizes(line: &[u8]) -> Option<[usize; 3]> {
     let [rows, columns, count] = words(line)[..] else { return None };
     let [rows, columns, count] = [whole(rows)?, whole(columns)?, whole(count)?];
@@ -228,7 +228,7 @@ impl EntryReader<'_> {
         Ok(())
     }
 
-    /// A place along an edge, from 0.
+    /// Parses a row or column index and counts it from 0.
     fn place(&self, line: usize, what: &'static str, found: &[u8], most: usize) -> Result<u32, InputError> {
         let place = whole(found).filter(|place| (1..=most).contains(place));
         let wrong = || {

@@ -54,18 +54,19 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Largest number of bytes read from a device (1 MiB), which may be endless. Files and pipes have limits by their kind.
+/// Largest number of bytes read from a device (1 MiB), which may be endless. Files and pipes have limits by file
+/// format.
 const MAX_DEVICE_BYTES: u64 = 1 << 20;
 
-/// The bytes of a file, up to one more than `limit`, by which the reader notices that it is longer. A device with more
-/// than [`MAX_DEVICE_BYTES`] is an error.
+/// Opens a file to read up to `limit` + 1 bytes; the last byte tells the reader that the file is too long. A device
+/// with more than [`MAX_DEVICE_BYTES`] is an error.
 pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
     let opened = open_unnoted(path, limit)?;
     inputs::note(path);
     Ok(opened)
 }
 
-/// [`open_limited`] of a file that is not an input.
+/// Like [`open_limited`], for a file that is not an input.
 fn open_unnoted(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
     let file = File::open(path)?;
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
@@ -108,7 +109,7 @@ pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     contents(open_limited(path, limit)?, limit)
 }
 
-/// [`read_limited`] of a kept result of an earlier run, which decides no result and is not among the
+/// Like [`read_limited`], for a cached result of an earlier run, which affects no result and is not one of the
 /// [inputs](files_read).
 pub fn read_kept(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     contents(open_unnoted(path, limit)?, limit)

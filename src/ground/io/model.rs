@@ -15,7 +15,6 @@ use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::scene::Scene;
 
-/// The format of a model.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ModelFormat {
     Obj,
@@ -74,8 +73,8 @@ pub fn load_scene(path: &Path) -> Result<Scene, InputError> {
     load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }
 
-/// [`load_mesh`] with options, and notes on the model: unless it is to stay as it is, triangles that face another way
-/// than their neighbours are turned round ([`Mesh::misoriented`]). Fails as [`load_mesh`] does.
+/// Like [`load_mesh`], with options, and notes on the model. Unless `strict`, triangles whose winding is opposite to
+/// their neighbours' are flipped ([`Mesh::misoriented`]). Fails as [`load_mesh`] does.
 pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     let bytes = load_model(path)?;
     let format = ModelFormat::of(&bytes, path);
@@ -91,7 +90,7 @@ pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<M
     Ok((mesh.turned_round(&wrong), notes))
 }
 
-/// [`load_scene`] with options, and notes on the model: unless it is to stay as it is, its triangles are repaired as by
+/// Like [`load_scene`], with options, and notes on the model. Unless `strict`, its triangles are repaired as by
 /// [`load_mesh_with`], and its materials as described in [`super::scene_obj::mtl`]. Fails as [`load_scene`] does.
 pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), InputError> {
     let bytes = load_model(path)?;
@@ -124,7 +123,7 @@ fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path, strict: bool) -> Resu
     }
 }
 
-/// The rotation that brings the requested axis to z, for coordinates as returned by the format's reader.
+/// The rotation of the requested axis to z, for coordinates from the format's reader.
 fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
     match (options.up?, format == ModelFormat::Gltf) {
         (UpAxis::Y, false) => Some(|[x, y, z]| [x, -z, y]),
@@ -134,7 +133,7 @@ fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -
     }
 }
 
-/// The triangles to turn round, and notes on defects of a mesh. An edge belongs to its triangles that have an area.
+/// The triangles to flip, and notes on defects of a mesh. Edges count only triangles with an area.
 fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
     let wrong = mesh.misoriented();
     let crowded = mesh.welded_with_area().0.edges().iter().filter(|edge| !edge.is_manifold()).count();

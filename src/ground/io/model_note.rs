@@ -14,15 +14,15 @@ pub enum ModelNote {
     Scaled { place: FilePlace, material: String, sum: f32 },
     /// Transparency of a material that is not glass was ignored.
     Opaque { place: FilePlace, material: String, passes: f32 },
-    /// A glossy material without an exponent above 0 got the default.
+    /// A glossy material without an exponent above 0 got the default exponent.
     Exponent { place: FilePlace, material: String, exponent: f32 },
-    /// No library has a material, so that its faces are grey.
+    /// No library has a material; its faces are grey.
     Unknown { place: FilePlace, material: String },
     /// Faces of four corners or more that have no certain interior.
     Polygons { fault: PolygonFault, faces: usize, first: String },
     /// Data after the last triangle or element of a file.
     Trailing { bytes: usize, last: &'static str },
-    /// Triangles with the opposite winding of their neighbours were turned round.
+    /// Triangles with winding opposite to their neighbours' were flipped.
     TurnedRound { triangles: usize },
     /// Triangles without area.
     Degenerate { triangles: usize },

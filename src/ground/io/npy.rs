@@ -1,5 +1,5 @@
-//! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order. As a table, the
-//! first axis gives the rows, and all others together the columns. Where f32 is read, f8 is rounded to the nearest.
+//! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order. In a table, the
+//! first axis counts the rows, and the other axes together the columns. f8 is rounded to nearest if f32 is requested.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -32,9 +32,9 @@ fn type_error(name: &Path, found: &str) -> InputError {
 /// Numbers along any number of axes, in C order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberArray<T = f32> {
-    /// Length of each axis: at least one axis, each of length 1 or more.
+    /// Length of each axis. There is at least one axis, and each length is at least 1.
     pub shape: Vec<usize>,
-    /// All numbers, as many as the product of the shape.
+    /// All numbers; their number is the product of the shape.
     pub values: Vec<T>,
 }
 
@@ -49,7 +49,7 @@ pub fn parse_npy<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTabl
     parse_npy_array(bytes, name).map(NumberTable::from)
 }
 
-/// An array of any type of 1 to 8 bytes, in C order; its numbers are still bytes.
+/// An array of any type of 1 to 8 bytes, in C order, with its numbers as raw bytes.
 #[derive(Debug)]
 pub(super) struct NpyView<'a> {
     /// Byte order, kind and size, such as `<f4`.
@@ -57,7 +57,7 @@ pub(super) struct NpyView<'a> {
     /// Bytes of a number.
     pub(super) size: usize,
     pub(super) shape: Vec<usize>,
-    /// As many bytes as shape and type require.
+    /// The numbers' bytes, as many as shape and type require.
     pub(super) data: &'a [u8],
 }
 
@@ -187,7 +187,7 @@ impl Header {
     }
 }
 
-/// Stores a value that was found, unless there was one before; returns the text after it.
+/// Stores a value, unless one is stored already; returns the text after it.
 fn keep<'a, T>(
     slot: &mut Option<T>,
     found: Option<(T, &'a str)>,
@@ -227,17 +227,18 @@ pub fn parse_numbers<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<Number
     if bytes.starts_with(MAGIC) { parse_npy(bytes, name) } else { parse_number_table(bytes, name) }
 }
 
-/// [`parse_numbers`] from a file of at most `limit` bytes, which is a `what`.
+/// [`parse_numbers`] from a file of at most `limit` bytes; `what` is the kind of file in messages.
 pub fn load_numbers<T: TableNumber>(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<T>, InputError> {
     parse_numbers(&read_file(path, what, limit)?, path)
 }
 
-/// The numbers of an array of NumPy's with its shape, from a file of at most `limit` bytes, which is a `what`.
+/// The numbers and the shape of a NumPy array, from a file of at most `limit` bytes; `what` is the kind of file in
+/// messages.
 pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<NumberArray, InputError> {
     parse_npy_array(&read_file(path, what, limit)?, path)
 }
 
-/// Numbers, or patterns of a number format.
+/// Numbers, or bit patterns of a number format.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NumbersOrCodes {
     /// Of type f2, f4 or f8.
@@ -246,8 +247,8 @@ pub enum NumbersOrCodes {
     Codes(NumberArray<u64>),
 }
 
-/// An array of floats, or of unsigned integers in little-endian order, from a file of at most `limit` bytes, which is a
-/// `what`.
+/// An array of floats, or of unsigned integers in little-endian order, from a file of at most `limit` bytes; `what` is
+/// the kind of file in messages.
 pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Result<NumbersOrCodes, InputError> {
     let bytes = read_file(path, what, limit)?;
     let view = view(&bytes, path)?;
@@ -269,7 +270,7 @@ pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Res
     })
 }
 
-/// The number of a half-precision pattern.
+/// Converts a half-precision bit pattern.
 fn half(word: u64) -> f64 {
     let (sign, field, fraction) = ((word >> 15) << 63, word >> 10 & 31, word & 1023);
     let size = match field {
@@ -290,14 +291,14 @@ pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Writes numbers of any shape as an array of little-endian f4, in version 1. Panics if the number of values differs
-/// from the shape's product, or a header cannot hold all axes.
+/// from the shape's product, or the axes do not fit into a header.
 pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> io::Result<()> {
     assert_eq!(values.len(), shape.iter().product::<usize>(), "as many as the shape says");
     out.write_all(&beginning("<f4", shape))?;
     values.iter().try_for_each(|value| out.write_all(&value.to_le_bytes()))
 }
 
-/// The header of an array, in version 1.
+/// The first bytes and header of an array, in version 1.
 pub(super) fn beginning(descr: &str, shape: &[usize]) -> Vec<u8> {
     let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
     // A Python tuple of one element has a trailing comma.

@@ -1,8 +1,8 @@
 //! NumPy's archives of arrays (`.npz`): a ZIP archive whose members are `.npy` files, stored without compression, as
-//! `numpy.savez` writes them. Equal contents have equal bytes: members have no time, and are in the order in which they
-//! were written.
+//! `numpy.savez` writes them. Equal contents give equal bytes: members have no time stamp, and stay in the order of
+//! writing.
 //!
-//! Reading never allocates more than the file holds: arrays are slices of the file until they are taken.
+//! Reading never allocates more than the file holds: arrays are slices of the file until they are taken out.
 
 use std::borrow::Borrow;
 use std::collections::BTreeMap;
@@ -40,7 +40,7 @@ impl<'a> NpzReader<'a> {
             return Err(refused("expected a .npz file, found other first bytes".to_owned()));
         }
         let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(|error| refused(error.to_string()))?;
-        // Bytes that belong to many members would be read as often.
+        // Bytes shared by many members would be read once per member.
         let overlap = zip.has_overlapping_entries().map_err(|error| refused(error.to_string()))?;
         if overlap || zip.has_duplicate_names() {
             return Err(refused("expected members apart from each other, found one twice".to_owned()));
@@ -63,7 +63,7 @@ impl<'a> NpzReader<'a> {
         Ok(Self { name, arrays })
     }
 
-    /// The error of an invalid value.
+    /// Creates the error for an invalid value.
     pub fn refuse(&self, field: &str, expected: impl Display, found: impl Display) -> InputError {
         input_error!("crossbar::npz::field" =>
             "{field}: expected {expected}, found {found}"; help "docs/npz.md says what belongs there")
@@ -90,7 +90,7 @@ impl<'a> NpzReader<'a> {
     /// with [`InputError`]; also if a value is out of the range of `T`.
     pub fn integers<T: TryFrom<i64>>(&mut self, field: &str, shape: &[usize]) -> Result<Vec<T>, InputError> {
         let array = self.take(field, shape, &["|u1", "|i1", "<u2", "<i2", "<u4", "<i4", "<i8"])?;
-        // Shifted up to 64 bits and down again, a negative number stays one.
+        // Shifting up to 64 bits and down again extends the sign.
         let (is_signed, unused) = (array.descr.contains('i'), 64 - 8 * array.size);
         let number = |bits: u64| if is_signed { (bits << unused).cast_signed() >> unused } else { bits.cast_signed() };
         let convert = |value| T::try_from(value).map_err(|_| value);
@@ -123,7 +123,7 @@ impl<'a> NpzReader<'a> {
         }
     }
 
-    /// Says that no array is left.
+    /// Checks that no array is left.
     pub fn finish(self) -> Result<(), InputError> {
         match self.arrays.keys().next() {
             Some(left) => Err(self.refuse("arrays", "no others", quoted(left.as_bytes()))),
@@ -152,7 +152,7 @@ pub struct NpzWriter<'a> {
     zip: ZipWriter<StreamWriter<&'a mut dyn Write>>,
 }
 
-/// Bytes that are written at a time.
+/// Number of bytes per write.
 const BUFFERED: usize = 1 << 16;
 
 impl<'a> NpzWriter<'a> {
@@ -166,7 +166,7 @@ impl<'a> NpzWriter<'a> {
         self.put(name, ('u', 1), &[bytes.len()], bytes.iter().map(|&byte| byte.into()))
     }
 
-    /// Writes integers in the least type that holds all of them.
+    /// Writes integers in the smallest type that holds all of them.
     pub fn integers<T: Into<i64>>(
         &mut self,
         name: &str,

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
-/// Reasons why a text is not a number in single or double precision. The text itself is quoted by callers, who know its
-/// place.
+/// Reasons why a text is not a number in single or double precision. Callers, who know the text's place, quote it.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected {}", self.expected())]
@@ -20,7 +19,7 @@ pub enum NumberError {
 }
 
 impl NumberError {
-    /// The expectation, as text between "expected" and "found".
+    /// The text between "expected" and "found" in a message.
     pub const fn expected(self) -> &'static str {
         match self {
             Self::NoNumber => "a number",
@@ -43,7 +42,7 @@ pub fn parse_f64(text: &str) -> Result<f64, NumberError> {
     if number.is_finite() { Ok(number) } else { Err(not_finite(text, NumberError::TooLargeForDouble)) }
 }
 
-/// The names of infinities and NaN contain no digits.
+/// Tells a number that overflowed from an infinity or NaN given by name, which contains no digits.
 fn not_finite(text: &str, too_large: NumberError) -> NumberError {
     if text.contains(|c: char| c.is_ascii_digit()) { too_large } else { NumberError::NotFinite }
 }

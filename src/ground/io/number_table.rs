@@ -1,8 +1,8 @@
 //! Tables of numbers, row by row: comma-separated values, and NumPy's arrays ([`super::npy`]).
 //!
-//! Comma-separated: a row per line, as many numbers in each; a first line without any number is a header. Numbers are
-//! read as f64 where they are computed with as such, and as f32 where they are stored so ([`TableNumber`]): signals, as
-//! `.npz` files hold them.
+//! In comma-separated values each line is a row, all rows have equally many numbers, and a first line without any
+//! number is a header. Numbers are read as f64 for computation, or as f32 ([`TableNumber`]) for signals, which `.npz`
+//! files store as f32.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::error::{FilePlace, InputError, input_error};
 /// Longest file that is read, in bytes (2 GiB).
 pub const MAX_BYTES: u64 = 1 << 31;
 
-/// Rows of as many numbers each, row by row. They may be infinite or NaN if the file format allows it.
+/// Rows of equally many numbers, row by row. They may be infinite or NaN if the file format allows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberTable<T = f32> {
     /// Numbers per row.

@@ -1,13 +1,13 @@
 //! Wavefront OBJ.
 //!
-//! Used are `v`, `vt`, `vn` and `f`: groups, objects, materials, colors, lines and points are ignored, so that the
+//! The reader uses `v`, `vt`, `vn` and `f`. It ignores groups, objects, materials, colors, lines and points, so the
 //! whole file is one mesh. A face of n corners becomes n - 2 triangles ([`crate::geom::polygon`]). Triangle ids follow
-//! the order of the file, from 0. Vertices are numbered by first use; unused ones are dropped. Degenerate triangles are
-//! kept, because they have an id in that order; no ray hits them. A word that begins with `#` begins a comment.
+//! the order of the file, from 0. Vertices are numbered by first use; unused vertices are dropped. Degenerate triangles
+//! are kept, because they count in the order of ids; no ray hits them. A word that begins with `#` begins a comment.
 //!
 //! Texture coordinates and normals have indices of their own in the file. If all corners have them, each combination of
-//! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise they are
-//! dropped.
+//! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise texture
+//! coordinates and normals are dropped.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -43,7 +43,7 @@ pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_obj(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
-/// [`parse_obj`]; unless `strict`, faces with a fault are accepted and noted.
+/// Like [`parse_obj`]; unless `strict`, faces with a fault are accepted and noted.
 pub(super) fn read_obj(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
@@ -75,7 +75,7 @@ pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// A corner with the requested indices.
+/// Text of a corner with the requested indices.
 fn corner<T: fmt::Display>([v, vt, vn]: [T; 3], texcoords: bool, normals: bool) -> String {
     match (texcoords, normals) {
         (false, false) => format!("{v}"),
@@ -105,7 +105,7 @@ impl ObjReader {
         Self { name: name.into(), ..Self::default() }
     }
 
-    /// Checks one line, given as words and as text.
+    /// Reads one line, given as words and as text.
     pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), InputError> {
         match words.split_first() {
             Some((&b"v", numbers)) => self.vertex(line, text, numbers),
@@ -133,7 +133,7 @@ impl ObjReader {
 
     fn texcoord(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), InputError> {
         let uv = match numbers {
-            // The coordinate of a one-dimensional texture; v is 0 by default.
+            // A one-dimensional texture has only u; v is 0 by default.
             &[u] => [self.number(line, u)?, 0.0],
             // A third number is the depth of a volume texture.
             &[u, v] | &[u, v, _] => self.numbers(line, [u, v])?,
@@ -183,8 +183,8 @@ impl ObjReader {
         Ok(())
     }
 
-    /// An index of the file, negative ones counted back from the last element, as one from 1. Indices to elements that
-    /// have not been read yet are accepted and remembered.
+    /// Converts an index of the file to one counted from 1; a negative index counts back from the last element. Indices
+    /// of elements that have not been read yet are accepted and remembered.
     fn place(&mut self, line: usize, target: usize, index: i64) -> Result<u32, InputError> {
         let count = self.count(target);
         let place = match index {
@@ -200,12 +200,10 @@ impl ObjReader {
         place.ok_or_else(|| self.out_of_range(line, target, index))
     }
 
-    /// Number of elements of one of [`TARGETS`].
     fn count(&self, target: usize) -> usize {
         [self.positions.len(), self.texcoords.len(), self.normals.len()][target]
     }
 
-    /// The faces, with their lines.
     pub(super) fn faces(&self) -> &Faces<ObjCorner> {
         &self.faces
     }
@@ -234,7 +232,7 @@ impl ObjReader {
         self.faces.triangles(|corner| self.positions[corner[0] as usize - 1], named, strict)
     }
 
-    /// The mesh of these triangles; if `attributes`, with texture coordinates and normals where all corners have them,
+    /// The mesh of these triangles; if `attributes`, with texture coordinates and normals that all corners have;
     /// otherwise with positions alone.
     pub(super) fn mesh(&self, triangles: &[[ObjCorner; 3]], attributes: bool) -> Result<Mesh, InputError> {
         let all = |target: usize| attributes && self.faces.corners().iter().all(|corner| corner[target] > 0);

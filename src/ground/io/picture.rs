@@ -13,7 +13,7 @@ fn decode_error(path: &Path, reason: InputError) -> InputError {
     reason.coded("").at(path)
 }
 
-/// A picture file with a parsed header and no decoded pixel.
+/// A picture file with a parsed header and undecoded pixels.
 #[derive(Debug)]
 pub struct PictureFile {
     path: PathBuf,
@@ -22,8 +22,8 @@ pub struct PictureFile {
 }
 
 impl PictureFile {
-    /// Reads a file; its first bytes determine the format, not its name. Fails with [`InputError`], with the path, for
-    /// what [`PictureSize::of`] refuses too.
+    /// Reads a file; its first bytes, not its name, determine the format. Fails with [`InputError`], with the path,
+    /// also for files that [`PictureSize::of`] refuses.
     pub fn open(path: &Path) -> Result<Self, InputError> {
         let bytes = read_file(path, "picture", MAX_BYTES)?;
         match PictureSize::of(&bytes) {

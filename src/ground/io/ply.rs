@@ -1,9 +1,8 @@
 //! PLY, the format of scanned models: ASCII and both binary encodings, read with ply-rs-bw.
 //!
-//! Used are the elements `vertex` (`x y z`; `nx ny nz`; `s t`, `u v` or `texture_u texture_v`) and `face`
-//! (`vertex_indices` or `vertex_index`); all others are ignored. A face of n corners becomes
-//! n - 2 triangles ([`crate::geom::polygon`]). Vertices are those of the file, in its order; degenerate triangles are
-//! kept, as in OBJ files.
+//! The reader uses the elements `vertex` (`x y z`; `nx ny nz`; `s t`, `u v` or `texture_u texture_v`) and `face`
+//! (`vertex_indices` or `vertex_index`), and ignores all others. A face of n corners becomes n - 2 triangles
+//! ([`crate::geom::polygon`]). Vertices keep the file's order, and degenerate triangles are kept, as in OBJ files.
 //!
 //! The file is read element by element, so that an error names the line or the element, and no memory is allocated by a
 //! count in the header alone.
@@ -36,12 +35,13 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_ply(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
-/// [`parse_ply`]; unless `strict`, faulty faces are accepted and data after the last element are ignored, with notes.
+/// Like [`parse_ply`]; unless `strict`, faulty faces are accepted and data after the last element are ignored, with
+/// notes.
 pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
     not_utf_16(bytes, name)?;
     let bytes = unmarked(bytes);
-    // As the format's description has it; modern writers do not use it.
+    // The format's description ends lines with CR; modern writers do not.
     let line_end = if bytes.starts_with(b"ply\r") && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
     let (header, lines, data) = header(bytes, line_end, name)?;
     let has = |element: &str, property: &[&str]| {
@@ -146,13 +146,11 @@ fn header<'a>(bytes: &'a [u8], line_end: u8, name: &Path) -> Result<(Header, usi
 struct Data<'a> {
     name: &'a Path,
     encoding: Encoding,
-    /// Number of lines read so far.
     line: usize,
     line_end: u8,
     rest: &'a [u8],
 }
 
-/// The place of an element, for messages.
 struct ElementPlace<'a> {
     name: &'a Path,
     element: &'a str,
@@ -171,7 +169,7 @@ impl ElementPlace<'_> {
 }
 
 impl<'a> Data<'a> {
-    /// The next element, which has this index among those of its kind.
+    /// The next element; `index` is its index among elements of its type.
     fn next<'b>(&mut self, element: &'b ElementDef, index: usize) -> Result<(Record, ElementPlace<'b>), InputError>
     where
         'a: 'b,
@@ -214,7 +212,7 @@ impl<'a> Data<'a> {
     }
 }
 
-/// A line whose numbers have digits on both sides of their points, which ply-rs-bw expects: `1.` becomes `1.0`.
+/// Completes numbers to digits on both sides of the point, which ply-rs-bw expects: `1.` becomes `1.0`.
 fn with_digits(line: &str) -> Cow<'_, str> {
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
     let mut plain = String::new();

@@ -1,12 +1,12 @@
 //! Rays and hits as comma-separated tables.
 //!
-//! Rays: the header `ox,oy,oz,dx,dy,dz`, then a ray a line. Numbers are rounded to the nearest f32; directions are not
-//! renormalised. Refused are numbers that are not finite, or overflow f32, and a direction of zero.
+//! Rays: the header `ox,oy,oz,dx,dy,dz`, then one ray per line. Numbers are rounded to the nearest f32; directions are
+//! not renormalised. Numbers that are not finite or overflow f32, and zero directions, are refused.
 //!
 //! Hits: the header `ray,triangle,t`, then a line per ray in the order of the rays. `triangle` counts from 0 in the
 //! order of the mesh file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the
-//! same f32, or beyond f32 to the same f64. On a card whose format overflows below that, a hit has the `inf` that the
-//! card computed.
+//! same f32, or beyond f32 to the same f64. If a card's format overflows at a smaller value, a hit has the `inf` that
+//! the card computed.
 
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -34,7 +34,7 @@ fn header_error(name: &Path, found: &str) -> InputError {
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, InputError> {
     let mut limited = open_limited(path, MAX_BYTES).map_err(|source| unreadable(path, source))?;
     let rays = read_rays(&mut limited, path);
-    // A table that was cut may be broken where it was cut.
+    // A table that exceeds the limit is cut there, which may break a row.
     if limited.limit() == 0 { Err(too_long_error("table", path, MAX_BYTES)) } else { rays }
 }
 
@@ -51,7 +51,7 @@ pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, InputError> {
 fn read_rays(mut input: impl Read, name: &Path) -> Result<Vec<Ray>, InputError> {
     let mut head = Vec::new();
     input.by_ref().take(MAX_HEADER_BYTES).read_to_end(&mut head).map_err(|source| unreadable(name, source))?;
-    // A file of another kind may be a single line of any length.
+    // A file of another format may be a single line of any length.
     if head.len() as u64 == MAX_HEADER_BYTES && !head.contains(&b'\n') {
         return Err(header_error(name, &quoted(&head)));
     }

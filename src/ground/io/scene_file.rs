@@ -66,19 +66,19 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
     numbers.map(|number| number.0)
 }
 
-/// Endings of models.
+/// File name extensions of models.
 const MODELS: [&str; 5] = ["obj", "ply", "stl", "gltf", "glb"];
 
 fn is_model(path: &Path) -> bool {
     MODELS.iter().any(|known| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)))
 }
 
-/// Reads a scene: a model by the name's ending, else a scene file.
+/// Reads a scene: a model if the file name has a model's extension, else a scene file.
 pub fn load(path: &Path) -> Result<Scene, InputError> {
     load_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }
 
-/// [`load`] with options for the model, and what the user should know of it. Views and point lights stay as they are.
+/// Like [`load`], with options for the model and notes on it. Views and point lights are not changed.
 pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), InputError> {
     if is_model(path) {
         return load_scene_with(path, options);
@@ -103,8 +103,8 @@ pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<Model
     Ok((scene, notes))
 }
 
-/// The mesh's path, the views and the lights of a scene file's text. Fails with [`InputError`], without those of the
-/// mesh.
+/// Reads the mesh's path, the views and the lights from a scene file's text. Fails with [`InputError`]; the mesh is not
+/// read.
 pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLight>), InputError> {
     let file: File = toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");

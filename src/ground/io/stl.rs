@@ -1,9 +1,8 @@
 //! STL, binary and ASCII.
 //!
-//! Triangles are in the order of the file; corners with the same position, bit for bit, become one vertex. The file's
-//! normals, which are those of the triangles, are ignored, as are names and colors. ASCII files may hold several
-//! solids, in letters of either case. Binary data are recognised by their length, because some begin with the word
-//! `solid` of the ASCII format.
+//! Triangles are in the order of the file; corners with bit-identical positions become one vertex. The file's normals,
+//! which are redundant, are ignored, as are names and colors. ASCII files may contain several solids, in upper or lower
+//! case. Binary data are recognised by their length, because some begin with the word `solid` of the ASCII format.
 
 use std::path::Path;
 
@@ -15,7 +14,7 @@ use crate::error::{FilePlace, InputError};
 use crate::geom::mesh::{Mesh, Welder};
 use crate::io::error::{element_error, mesh_error, syntax_error};
 
-/// Bytes before the triangles of binary data: a header, and their number.
+/// Bytes before the triangles of binary data: a header, and the number of triangles.
 const HEAD: usize = 84;
 /// Bytes per triangle: twelve numbers, and an attribute.
 const TRIANGLE: usize = 50;
@@ -28,7 +27,7 @@ pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_stl(bytes, name, true).map(|(mesh, _)| mesh)
 }
 
-/// [`parse_stl`]; unless `strict`, bytes after the last triangle are passed over and noted.
+/// Like [`parse_stl`]; unless `strict`, bytes after the last triangle are ignored with a note.
 pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh, Vec<ModelNote>), InputError> {
     within_limit(bytes, name)?;
     let syntax = |expected: &'static str, found: String| Err(syntax_error(name, expected, found));
@@ -64,19 +63,20 @@ pub(super) fn read_stl(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     mesh.map(|mesh| (mesh, notes)).map_err(|reason| mesh_error(name, reason))
 }
 
-/// True for the contents of an STL file: binary data with the length that they state, or text that begins as ASCII STL.
+/// True for the contents of an STL file: binary data with the length that their header states, or text that begins as
+/// ASCII STL.
 pub(super) fn is_stl(bytes: &[u8]) -> bool {
     claimed_length(bytes) == Some(bytes.len() as u64) || is_text(bytes)
 }
 
-/// The length of binary data as their head states it.
+/// The length of binary data that their header states.
 fn claimed_length(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(HEAD - 4..HEAD)?.try_into().ok()?;
     Some(HEAD as u64 + TRIANGLE as u64 * u64::from(u32::from_le_bytes(count)))
 }
 
-/// True for text whose first word is `solid`. Binary data have a zero among the bytes of their head, unless they have
-/// more triangles than any file that is read.
+/// True for text whose first word is `solid`. Binary data have a zero byte in their header, unless they have more
+/// triangles than the size limit allows.
 fn is_text(bytes: &[u8]) -> bool {
     let text = unmarked(bytes).trim_ascii_start();
     let word = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
@@ -105,7 +105,8 @@ fn ascii(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, InputError> {
         while text.keyword(&["facet", "endsolid"])? == 0 {
             text.keyword(&["normal"])?;
             for _ in 0..3 {
-                // Any word but the next keyword: without area a triangle has no normal, and writers have many NaNs.
+                // Any word but the next keyword is accepted: a triangle without area has no normal, and writers spell
+                // NaN in many ways.
                 let word = text.word();
                 if word.is_none_or(|word| word.eq_ignore_ascii_case(b"outer")) {
                     return Err(text.wrong("three numbers of a normal", word));
@@ -130,13 +131,13 @@ fn ascii(bytes: &[u8], name: &Path) -> Result<Vec<Corners>, InputError> {
     Ok(soup)
 }
 
-/// The words of a text with their lines, without the names of solids.
+/// The words of a text with their line numbers, without the names of solids.
 fn text_words(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     lines(bytes).flat_map(|(line, text)| without_names(&words(text)).into_iter().map(move |word| (line, word)))
 }
 
-/// The words of a line without the names of solids. A name runs to the end of its line, or to a `facet normal` in the
-/// same line, for a whole file may be one line.
+/// The words of a line without the names of solids. A name extends to the end of its line, or to a `facet normal` in
+/// the same line, because a whole file may be one line.
 fn without_names<'a>(mut words: &[&'a [u8]]) -> Vec<&'a [u8]> {
     let mut kept = Vec::new();
     while let Some((&word, after)) = words.split_first() {
@@ -147,7 +148,7 @@ fn without_names<'a>(mut words: &[&'a [u8]]) -> Vec<&'a [u8]> {
             let facet =
                 |pair: &[&[u8]]| pair[0].eq_ignore_ascii_case(b"facet") && pair[1].eq_ignore_ascii_case(b"normal");
             let Some(facet) = after.windows(2).position(facet) else { break };
-            // Another solid begins between the end of this one and the facet.
+            // Another solid may begin between the end of a solid and the facet.
             let solid = |word: &&[u8]| ends && word.eq_ignore_ascii_case(b"solid");
             words = &after[after[..facet].iter().rposition(solid).unwrap_or(facet)..];
         }
@@ -170,7 +171,7 @@ impl<'a> Text<'a> {
         Some(word)
     }
 
-    /// The index of the next word among the expected ones.
+    /// The index of the next word among the expected words.
     fn keyword(&mut self, expected: &[&str]) -> Result<usize, InputError> {
         let word = self.word();
         self.known(word, expected)

@@ -8,7 +8,7 @@ use super::{Matrix, dot};
 /// Rows per partial sum of a product with columns. Affects the bits of the result.
 const BLOCK: usize = 32;
 
-/// Number of elements below which work stays on one thread.
+/// Number of elements below which one thread does the work.
 const MIN_PARALLEL_ELEMENTS: usize = 1 << 15;
 
 /// Bidiagonal form of a matrix with at least as many rows as columns, with the reflections of its rows and of its
@@ -35,7 +35,7 @@ impl Bidiagonal {
         for k in 0..columns {
             let (left, diagonal) = Reflection::onto(column, 0);
             found.diagonal.push(diagonal);
-            // Applies the update of the last step, fused with the product of this step's reflection.
+            // Applies the previous step's update, fused with the product of this step's reflection.
             let product = rest.updated_product(k, update.take(), left.as_ref());
             if k + 1 == columns {
                 found.left.push(left);
@@ -70,8 +70,8 @@ impl Bidiagonal {
     }
 }
 
-/// Rank-two update of a step, subtracted from the trailing rows and columns: from element (i, j) `left[i] beside[j] +
-/// product[i] right[j]`. Vectors start at the first row and column after the step.
+/// Rank-two update of a step: `left[i] beside[j] + product[i] right[j]` is subtracted from trailing element (i, j).
+/// Vectors start at the first row and column after the step.
 struct RankTwoUpdate {
     left: Vec<f64>,
     beside: Vec<f64>,
@@ -79,7 +79,7 @@ struct RankTwoUpdate {
     right: Vec<f64>,
 }
 
-/// Matrix during the reduction: rows and columns from the current step on are still to be reduced.
+/// Matrix during the reduction; rows and columns from the current step on are not reduced yet.
 struct Trailing {
     rows: usize,
     columns: usize,
@@ -105,8 +105,8 @@ impl Trailing {
         (self.rows - step) * (self.columns - step) < MIN_PARALLEL_ELEMENTS
     }
 
-    /// Applies the update of the last step, and returns the product of the reflection's axis with the columns from
-    /// `step` on, divided by its half: block by block of rows, the blocks added in order.
+    /// Applies the previous step's update, and returns the product of the reflection's axis with the columns from
+    /// `step` on, divided by the reflection's `half`. Partial sums of blocks of rows are added in order.
     fn updated_product(&mut self, step: usize, update: Option<RankTwoUpdate>, left: Option<&Reflection>) -> Vec<f64> {
         let (columns, small, width) = (self.columns, self.is_small(step), self.columns - step);
         let first_block = step / BLOCK;
@@ -131,7 +131,7 @@ impl Trailing {
             sum
         };
         let values = &mut self.values[first_block * BLOCK * columns..];
-        // The same blocks on one thread as on several, so that the sums have the same bits.
+        // One thread uses the same blocks as several, so that the sums have the same bits.
         let sums: Vec<Vec<f64>> = if small {
             values.chunks_mut(BLOCK * columns).enumerate().map(block_of).collect()
         } else {
@@ -147,7 +147,7 @@ impl Trailing {
         product
     }
 
-    /// Computes the update of a step, from its reflections and the product of the first with the trailing columns.
+    /// Computes the update of a step from its reflections and the left reflection's product with the trailing columns.
     fn update(
         &self,
         step: usize,

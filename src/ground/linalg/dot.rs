@@ -4,8 +4,8 @@
 const LANES: usize = 8;
 
 /// Inner product of two vectors, up to the length of the shorter one. Element k is added to partial sum k mod 8; the
-/// eight are folded as a tree. With n elements the error is at most `(n / 8 + 4) 2^-53` times the sum of the products'
-/// magnitudes.
+/// eight sums are added as a tree. With n elements the error is at most `(n / 8 + 4) 2^-53` times the sum of the
+/// products' magnitudes.
 #[inline(always)]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];

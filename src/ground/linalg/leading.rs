@@ -1,8 +1,9 @@
 //! The largest eigenvalues of a symmetric matrix with their eigenvectors.
 //!
 //! The matrix is reduced to tridiagonal form by Householder reflections, and diagonalised by implicit QL rotations. The
-//! rotations are recorded and applied only to the requested columns, so `count` vectors of n cost O(n^2 count) beside
-//! the 4/3 n^3 operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
+//! rotations are recorded and applied only to the requested columns, so `count` of the n vectors cost O(n^2 count)
+//! operations in addition to 4/3 n^3 for the reduction. [`SymmetricEigen`](super::SymmetricEigen), which computes all n
+//! vectors, costs several times more.
 
 use super::reflection::{Reflection, inverse_power_of_two, largest};
 use super::tridiagonal::{diagonalise, rotated};
@@ -24,9 +25,9 @@ pub struct LeadingEigen {
 
 impl LeadingEigen {
     /// Decomposes a symmetric matrix (only the lower triangle is read): computes the eigenvectors of its `count`
-    /// largest eigenvalues, or of all if it has fewer. Inlined, so that the caller can compile it for wider vector
-    /// instructions, which change no bit. Fails with [`InputError`] if an element is not finite, the iteration does not
-    /// converge, or a pair does not satisfy A v = lambda v. Panics if the matrix is not square.
+    /// largest eigenvalues, or of all if it has fewer. The function is inlined, so that the caller can compile it for
+    /// wider vector instructions, which change no bit. Fails with [`InputError`] if an element is not finite, the
+    /// iteration does not converge, or a pair does not satisfy A v = lambda v. Panics if the matrix is not square.
     #[inline(always)]
     pub fn new(matrix: &Matrix, count: usize) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");
@@ -64,7 +65,7 @@ impl LeadingEigen {
     }
 }
 
-/// Negates a vector whose component of largest magnitude, the first of equals, is negative.
+/// Negates a vector if its component of largest magnitude (the first of equals) is negative.
 pub fn make_largest_positive(vector: &mut [f64]) {
     let mut largest = 0.0_f64;
     vector.iter().for_each(|&value| largest = if value.abs() > largest.abs() { value } else { largest });
@@ -86,7 +87,7 @@ struct Lower {
 struct Tridiagonal {
     diagonal: Vec<f64>,
     beside: Vec<f64>,
-    /// In the order in which they transform a vector of the tridiagonal matrix to one of the original.
+    /// Reflections in the order that transforms a vector of the tridiagonal matrix to a vector of the original matrix.
     reflections: Vec<Reflection>,
 }
 
@@ -114,7 +115,8 @@ impl Lower {
         sums.into_iter().fold(0.0, f64::max)
     }
 
-    /// Product of the leading rows and columns, as many as `vector` has elements, with it.
+    /// Product of the leading rows and columns with `vector`; the number of its elements is the number of rows and
+    /// columns.
     #[inline(always)]
     fn times(&self, vector: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; vector.len()];

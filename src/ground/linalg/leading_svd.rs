@@ -1,10 +1,10 @@
 //! All singular values of a matrix, with the vectors of the largest.
 //!
-//! Reflections of rows and columns reduce the matrix to bidiagonal form. Its singular values are the eigenvalues, each
-//! with both signs, of the symmetric tridiagonal matrix with zeros in the diagonal and the elements of the two
-//! diagonals beside it in turn (Golub and Kahan 1965), whose eigenvectors are right and left vector in turn. Since
-//! nothing is squared, values are accurate to a few roundings of the largest, where those of Q^T Q would lose half of
-//! the digits.
+//! Reflections of rows and columns reduce the matrix to bidiagonal form. Its singular values, with both signs, are the
+//! eigenvalues of a symmetric tridiagonal matrix (Golub and Kahan 1965): the diagonal is zero, and the off-diagonal
+//! elements alternate between the bidiagonal's two diagonals. The elements of an eigenvector are alternately elements
+//! of the right and the left singular vector. Nothing is squared, so values are accurate to a few roundings of the
+//! largest; eigenvalues of Q^T Q would lose half of the digits.
 
 use rayon::prelude::*;
 
@@ -58,7 +58,7 @@ impl LeadingSvd {
         let mut scaled = matrix.clone();
         scaled.par_rows_mut().for_each(|row| row.iter_mut().for_each(|value| *value *= scale));
         let bidiagonal = Bidiagonal::new(scaled);
-        // Right and left in turn, from the right.
+        // Elements of right and left vectors alternate, the right one first.
         let mut beside = vec![0.0; 2 * columns - 1];
         beside.iter_mut().step_by(2).zip(&bidiagonal.diagonal).for_each(|(to, &from)| *to = from);
         beside.iter_mut().skip(1).step_by(2).zip(&bidiagonal.above).for_each(|(to, &from)| *to = from);
@@ -79,7 +79,7 @@ impl LeadingSvd {
         Ok(found)
     }
 
-    /// Transforms the tridiagonal matrix's vectors to the matrix's, and checks them.
+    /// Transforms the tridiagonal matrix's eigenvectors to singular vectors of the matrix, and checks them.
     fn fill(
         &mut self,
         matrix: &Matrix,
@@ -98,7 +98,7 @@ impl LeadingSvd {
             normalise(&mut left);
             normalise(&mut right);
             let product: Vec<f64> = matrix.times(&right).into_iter().map(|value| value * scale).collect();
-            // Beside a small value rounding mixes the vectors of it and of its negative.
+            // For a small value, rounding mixes the vectors of the value and of its negative.
             if dot(&product, &left) < 0.0 {
                 left.iter_mut().for_each(|value| *value = -*value);
             }
@@ -127,7 +127,7 @@ impl LeadingSvd {
     }
 }
 
-/// Empty matrix of vectors with this many elements.
+/// Matrix without vectors, whose vectors would have this many elements.
 fn none(elements: usize) -> Matrix {
     Matrix::zeros([0, elements]).expect("no elements")
 }

@@ -1,17 +1,16 @@
 //! The direct solver: Gaussian elimination with partial pivoting.
 //!
-//! Panels of columns are eliminated from all rows behind them at once, rows in parallel. Each element has its products
-//! subtracted one after the other in the order of the pivots, so that panels, tiles and threads change no bit: it is
-//! what elimination column by column, as nalgebra's, gives.
+//! Panels of columns are eliminated from all rows below them at once, rows in parallel. Products are subtracted from
+//! each element one by one in the order of the pivots, so panels, tiles and threads change no bit: the result equals
+//! elimination column by column, as in nalgebra.
 
 use rayon::prelude::*;
 
 use super::Matrix;
 use crate::error::{InputError, input_error};
 
-/// Number of columns of a panel.
 const PANEL: usize = 64;
-/// Number of columns that are updated at once, so that those of a panel's rows stay in a core's cache.
+/// Number of columns that are updated at once, so that a panel's rows stay in a core's cache.
 const TILE: usize = 256;
 /// Number of rows per parallel task.
 const ROWS: usize = 16;
@@ -22,7 +21,7 @@ pub struct Lu {
     size: usize,
     /// Row by row: U on and above the diagonal, L below it, whose diagonal is 1.
     values: Vec<f64>,
-    /// The row of the matrix that each row comes from.
+    /// For each row, its row index in the matrix.
     order: Vec<usize>,
 }
 
@@ -68,7 +67,7 @@ impl Lu {
         Ok(())
     }
 
-    /// Subtracts the multiples of a factored panel's rows from the columns to the right of it.
+    /// Subtracts the multiples of a factored panel's rows from the columns to the right of the panel.
     fn eliminate_panel(&mut self, first: usize, end: usize) {
         let size = self.size;
         let (above, below) = self.values.split_at_mut(end * size);
@@ -101,7 +100,7 @@ impl Lu {
         }
     }
 
-    /// Solves for the x for which the matrix times x is `right`. Panics if `right` does not have one element per row.
+    /// Solves A x = `right`. Panics if `right` does not have one element per row.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
         assert_eq!(right.len(), self.size, "one element per row");
         let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();
@@ -116,12 +115,11 @@ impl Lu {
     }
 }
 
-/// `into` less `factor` times `row`.
 fn subtract(into: &mut [f64], factor: f64, row: &[f64]) {
     into.iter_mut().zip(row).for_each(|(value, other)| *value -= factor * other);
 }
 
-/// `into` less all factors times their rows, in their order: four at a time, so that `into` is read and written less.
+/// Subtracts all factors times their rows from `into`, in order, four rows per pass over `into`.
 fn subtract_all<'a>(into: &mut [f64], factors: &[f64], row: impl Fn(usize) -> &'a [f64]) {
     let (fours, rest) = factors.as_chunks::<4>();
     for (at, &[f, g, h, i]) in fours.iter().enumerate() {

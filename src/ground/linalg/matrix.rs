@@ -11,7 +11,7 @@ pub const MAX_SQUARE: usize = 16_384;
 /// Maximum number of elements of a matrix: 2 GiB of f64.
 pub const MAX_ELEMENTS: usize = MAX_SQUARE * MAX_SQUARE;
 
-/// Number of elements below which products stay on one thread.
+/// Number of elements below which one thread computes products.
 const MIN_PARALLEL_ELEMENTS: usize = 1 << 16;
 
 /// Matrix of f64, stored by rows.
@@ -95,7 +95,7 @@ impl Matrix {
         self.values.par_chunks_exact(self.columns.max(1)).map(|row| dot(row, vector)).collect()
     }
 
-    /// Product with a matrix, one [`dot`] per element. Panics if the other does not have as many rows as this one has
+    /// Product with a matrix, one [`dot`] per element. Panics unless `other` has as many rows as this matrix has
     /// columns.
     pub fn product(&self, other: &Self) -> Result<Self, InputError> {
         assert_eq!(self.columns, other.rows, "as many rows as columns");

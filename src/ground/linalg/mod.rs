@@ -2,10 +2,10 @@
 //!
 //! - [`Matrix`]: a dense matrix by rows, and its products; [`dot`]: the inner product;
 //! - [`Lu`], blocked and parallel; [`SymmetricEigen`], by nalgebra;
-//! - [`LeadingEigen`], [`LeadingSvd`]: all eigenvalues or singular values, and only the vectors of the largest.
+//! - [`LeadingEigen`], [`LeadingSvd`]: all eigenvalues or singular values, but only the vectors of the largest.
 //!
-//! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its
-//! `std` feature is on (docs/decisions/0016).
+//! Products do not use nalgebra, because with its `std` feature it chooses its kernel, and so the order of sums, by the
+//! processor (docs/decisions/0016).
 
 mod bidiagonal;
 mod dot;

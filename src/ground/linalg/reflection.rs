@@ -2,8 +2,8 @@
 
 use super::dot;
 
-/// Squared length below which part of a vector counts as 0 relative to a largest element of at least 1: far below all
-/// rounding errors, and far above underflow of its square.
+/// Squared length below which part of a vector counts as 0, if the largest element is at least 1: far below all
+/// rounding errors, and its square is far above underflow.
 const NEGLIGIBLE_SQUARE: f64 = 1e-60;
 
 /// Householder reflection I - axis axis^T / half, on the first components.
@@ -18,8 +18,9 @@ impl Reflection {
         vector.iter_mut().zip(&self.axis).for_each(|(value, axis)| *value -= along * axis);
     }
 
-    /// Returns the reflection that maps a vector to a multiple of the unit vector of component `at`, its first or its
-    /// last, and that multiple; `None` if the other components are 0, or the whole vector counts as 0.
+    /// Returns the reflection that maps a vector to a multiple of the unit vector of component `at` (the first or the
+    /// last), and the factor of that vector. The reflection is `None` if the other components are 0, or the whole
+    /// vector counts as 0.
     pub(super) fn onto(mut axis: Vec<f64>, at: usize) -> (Option<Self>, f64) {
         let Some(&kept) = axis.get(at) else { return (None, 0.0) };
         let others = if at == 0 { &axis[1..] } else { &axis[..at] };
@@ -35,14 +36,14 @@ impl Reflection {
     }
 }
 
-/// The largest of some magnitudes; NaN, which `f64::max` ignores, if one is.
+/// The largest of some magnitudes; NaN if one is NaN, which `f64::max` would ignore.
 pub(super) fn largest(magnitudes: impl Iterator<Item = f64>) -> f64 {
     magnitudes.fold(0.0, |most, value| if most.is_nan() || value <= most { most } else { value })
 }
 
-/// Power of two that scales a magnitude into [1, 2); 1 for 0.
+/// Power of two whose product with a magnitude is in [1, 2); 1 for 0.
 pub(super) fn inverse_power_of_two(magnitude: f64) -> f64 {
     let exponent = (magnitude.to_bits() >> 52) & 0x7ff;
-    // Beyond these, the inverse would not be a normal number.
+    // Beyond these exponents, the inverse would not be a normal number.
     if magnitude == 0.0 { 1.0 } else { f64::from_bits((2046 - exponent.clamp(1, 2045)) << 52) }
 }

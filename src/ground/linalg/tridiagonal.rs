@@ -3,7 +3,7 @@
 use crate::error::InputError;
 use crate::linalg::factor::no_convergence_error;
 
-/// Maximum QL sweeps per eigenvalue before it counts as not converged.
+/// Number of QL sweeps after which an eigenvalue counts as not converged.
 const MAX_SWEEPS: usize = 100;
 
 /// Rotation of columns `first` and `first + 1`.
@@ -37,7 +37,7 @@ pub(super) fn diagonalise(diagonal: &mut [f64], beside: &mut [f64]) -> Result<Ve
 /// Performs one implicit QL sweep over an unreduced block, from its last pair to its first.
 fn sweep_once(diagonal: &mut [f64], beside: &mut [f64], block: std::ops::Range<usize>, rotations: &mut Vec<Rotation>) {
     let first = block.start;
-    // The shift: the eigenvalue of the first 2 x 2 block that is nearer to its first element.
+    // The shift is the eigenvalue of the first 2 x 2 block that is nearer to the block's first element.
     let half = (diagonal[first + 1] - diagonal[first]) / (2.0 * beside[first]);
     let shift = diagonal[first] - beside[first] / (half + (half * half + 1.0).sqrt().copysign(half));
     let mut along = diagonal[block.end] - shift;
@@ -65,10 +65,10 @@ fn sweep_once(diagonal: &mut [f64], beside: &mut [f64], block: std::ops::Range<u
     beside[first] = along;
 }
 
-/// Columns of the product of all rotations, vector after vector.
+/// The requested columns of the product of all rotations, one after the other.
 pub(super) fn rotated(size: usize, columns: &[usize], rotations: &[Rotation]) -> Vec<f64> {
     let count = columns.len();
-    // Row by row while they turn, so that all vectors turn together.
+    // Stored by rows during the rotations, so that one rotation turns all vectors together.
     let mut rows = vec![0.0; size * count];
     columns.iter().enumerate().for_each(|(vector, &column)| rows[column * count + vector] = 1.0);
     for &Rotation { first, cosine, sine } in rotations.iter().rev() {

@@ -82,7 +82,7 @@ impl Picture {
         Self { width, height, channels: ["R", "G", "B"].into_iter().enumerate().map(channel).collect() }
     }
 
-    /// Adds a channel. Fails with [`InputError`] unless it has one sample per pixel, and at least one.
+    /// Adds a channel. Fails with [`InputError`] unless it has one sample per pixel, and at least one sample.
     pub fn with(mut self, name: &str, unit: ChannelUnit, samples: Samples) -> Result<Self, InputError> {
         let (width, height, found) = (self.width, self.height, samples.len() as u64);
         let expected = u64::from(width) * u64::from(height);
@@ -103,7 +103,7 @@ impl Picture {
         self.height
     }
 
-    /// Channels, in the order in which they were added, or in that of the file.
+    /// Channels, in the order of addition, or in the file's order.
     pub fn channels(&self) -> &[PictureChannel] {
         &self.channels
     }
@@ -116,8 +116,8 @@ impl Picture {
         })
     }
 
-    /// Returns linear red, green and blue per pixel; for a picture with only the channel `Y`, three times that. Fails
-    /// with [`InputError`] if it has neither.
+    /// Returns linear red, green and blue per pixel; a picture with only the channel `Y` gives `Y` three times. Fails
+    /// with [`InputError`] if it has no such channels.
     pub fn linear(&self) -> Result<Vec<[f32; 3]>, InputError> {
         let found = || self.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ");
         let color = |names: [&str; 3]| Some([self.floats(names[0])?, self.floats(names[1])?, self.floats(names[2])?]);

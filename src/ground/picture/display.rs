@@ -10,12 +10,12 @@ pub fn clip(value: f64) -> f64 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }
 
-/// sRGB encoding of a linear value in [0, 1], in [0, 1].
+/// sRGB encoding of a linear value; both are in [0, 1].
 pub fn curve(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * crate::elementary::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
-/// Inverse of [`curve`]: linear value of an encoded one, both in [0, 1].
+/// Inverse of [`curve`]: linear value of an encoded value; both are in [0, 1].
 pub fn decode(value: f64) -> f64 {
     if value <= 0.040_45 { value / 12.92 } else { crate::elementary::pow((value + 0.055) / 1.055, 2.4) }
 }

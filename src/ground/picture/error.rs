@@ -1,4 +1,4 @@
-//! Errors of pictures, with the formats and limits that they name.
+//! Errors of pictures, and the formats and limits in their messages.
 
 use crate::error::{InputError, input_error};
 

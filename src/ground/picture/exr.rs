@@ -57,7 +57,7 @@ pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>
     Ok(file.into_inner())
 }
 
-/// Converts text to the format's; `None` if it is empty.
+/// Converts text to the file format's text type; `None` if it is empty.
 fn text(text: &str) -> Option<Text> {
     let escaped = |c: char| if u8::try_from(c).is_ok() { c.to_string() } else { c.escape_unicode().to_string() };
     Text::new_or_none(text.chars().map(escaped).collect::<String>()).filter(|_| !text.is_empty())
@@ -67,7 +67,7 @@ fn broken(error: exr::error::Error) -> InputError {
     decode_error(PictureFormat::Exr, error.to_string())
 }
 
-/// Returns the size of the window that takes the most memory, of pixels or of display, from the headers.
+/// Returns the size of the data or display window that takes the most memory, from the headers.
 pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, InputError> {
     /// Bytes of a chunk besides its data: entry in the offset table, coordinate and length.
     const PER_CHUNK: u64 = 16;
@@ -79,7 +79,7 @@ pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, InputError> {
             let [width, height] = [window.width(), window.height()].map(|side| side as u64);
             require_size(width, height, channels, 4)?;
             require_length(PictureFormat::Exr, [width, height], header.chunk_count as u64 * PER_CHUNK, bytes.len())?;
-            // Within the limit, which is below 2^32.
+            // Sizes are within the limit, which is below 2^32.
             let found = PictureSize { width: width as u32, height: height as u32, channels };
             if found.samples() > largest.samples() {
                 largest = found;
@@ -89,9 +89,9 @@ pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, InputError> {
     Ok(largest)
 }
 
-/// The first layer of an EXR file whose [`size`] is right, in its largest resolution: the reader allocates by the
-/// header. Halves become singles. The picture is the display window: where the data window has no pixels, samples are
-/// 0, and pixels outside the display window are left out.
+/// Decodes the first layer of an EXR file, in its largest resolution. Callers check [`size`] first, because the reader
+/// allocates by the header. Halves become singles. The picture is the display window: samples outside the data window
+/// are 0, and pixels outside the display window are dropped.
 pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
     let image = exr::prelude::read()
         .no_deep_data()
@@ -114,7 +114,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
         let reason = format!("no pixel of the data window ({data}) lies in the display window ({display})");
         return Err(decode_error(PictureFormat::Exr, reason));
     }
-    // Within the limit, which is below 2^32.
+    // Sizes are within the limit, which is below 2^32.
     let mut picture = Picture::new(windows.display.size.width() as u32, windows.display.size.height() as u32);
     for channel in layer.channel_data.list {
         let name = channel.name.to_string();
@@ -137,7 +137,7 @@ struct Windows {
 }
 
 impl Windows {
-    /// Coordinates on an axis that both windows have.
+    /// Coordinates on an axis that both windows contain.
     fn shared(&self, axis: usize) -> Range<i64> {
         let [[from, to], [first, last]] = [self.data, self.display].map(|window| {
             let (start, size) = if axis == 0 {
@@ -150,14 +150,14 @@ impl Windows {
         from.max(first)..to.min(last)
     }
 
-    /// Samples of the display window, row by row, out of those of the data window.
+    /// Samples of the display window, row by row, taken from the data window.
     fn displayed<T: Copy + Default>(&self, samples: Vec<T>) -> Vec<T> {
         if self.data == self.display {
             return samples;
         }
         let (columns, mut shown) = (self.shared(0), vec![T::default(); self.display.size.area()]);
         let width = (columns.end - columns.start) as usize;
-        // Not negative: both windows have the place.
+        // Not negative, because both windows contain the position.
         let at = |window: &IntegerBounds, row: i64| {
             let [x, y] = [columns.start - i64::from(window.position.x()), row - i64::from(window.position.y())];
             y as usize * window.size.width() + x as usize

@@ -1,9 +1,8 @@
-//! Pictures as numbers and as files: named channels of samples, read from OpenEXR, Radiance HDR and PNG and written as
-//! these.
+//! Pictures as numbers and as files: named channels of samples, read from and written to OpenEXR, Radiance HDR and PNG.
 //!
 //! A [`Picture`] holds measured or read values in single precision. An [`RgbImage`] is for display: 8 bits per channel,
-//! encoded from linear light by the curve in [`display`]. All functions work on bytes in memory; `io::picture` reads
-//! files.
+//! encoded from linear light by the sRGB curve of [`display`]. All functions work on bytes in memory; `io::picture`
+//! reads files.
 
 mod channels;
 pub mod display;

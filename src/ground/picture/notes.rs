@@ -1,7 +1,6 @@
 //! Provenance notes in picture files.
 
-/// Text for the files of a picture, and the camera of the picture. There is no date: the same picture gives the same
-/// bytes.
+/// Text for a picture's files, and the picture's camera. Notes have no date, so that equal pictures give equal bytes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PictureNotes {
     /// Program with its version: `Software` in PNG, `software` in EXR.

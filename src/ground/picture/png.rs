@@ -54,12 +54,12 @@ pub fn png_with_notes(image: &RgbImage, notes: &PictureNotes) -> Result<Vec<u8>,
     let mut encoder = ::png::Encoder::new(&mut file, image.width(), image.height());
     encoder.set_color(::png::ColorType::Rgb);
     encoder.set_depth(::png::BitDepth::Eight);
-    // As in files without notes.
+    // The same compression as in files without notes.
     encoder.set_compression(::png::Compression::Fast);
     encoder.set_filter(::png::Filter::Adaptive);
     for (keyword, text) in [("Software", &notes.software), ("Comment", &notes.comments)] {
         if !text.is_empty() {
-            // The format ends text with a zero.
+            // PNG ends text with a zero byte, so text must not contain one.
             encoder.add_itxt_chunk(keyword.to_owned(), text.replace('\0', "")).map_err(refused)?;
         }
     }

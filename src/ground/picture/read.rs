@@ -14,10 +14,9 @@ use crate::elementary::pow;
 use crate::error::{InputError, input_error};
 use crate::picture::error::decode_error;
 
-/// First bytes of Radiance HDR files, and the variant that other programs write.
+/// First bytes of Radiance HDR files, and of a variant that other programs write.
 const RADIANCE: &[u8] = b"#?RADIANCE";
 const RGBE: &[u8] = b"#?RGBE";
-/// Bytes per sample of a [`Picture`].
 const SAMPLE_BYTES: u64 = 4;
 
 /// Detects the format of a file by its first bytes.
@@ -32,9 +31,9 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
 }
 
 impl PictureSize {
-    /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. For an EXR file it
-    /// is that of the largest layer. Fails with [`InputError`] for a header that is broken, for more than the limits,
-    /// and for more pixels than so many bytes can encode.
+    /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. The size of an EXR
+    /// file is its largest layer's. Fails with [`InputError`] for a broken header, for a size beyond the limits, and
+    /// for more pixels than the file's bytes can encode.
     pub fn of(bytes: &[u8]) -> Result<Self, InputError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::size(bytes),
@@ -52,10 +51,10 @@ impl PictureSize {
 
 impl Picture {
     /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
-    /// linear): sRGB values, or linear ones where a gAMA or cICP chunk says how to decode them. Radiance HDR gives
-    /// linear values, divided by the factors of its EXPOSURE and COLORCORR lines. The first layer of an EXR file is
-    /// read, as large as the display window, with 0 outside the layer's pixels. Fails with [`InputError`], those of
-    /// [`PictureSize::of`] before any pixel is decoded.
+    /// linear): sRGB values, or linear values if a gAMA or cICP chunk specifies the decoding. Radiance HDR gives linear
+    /// values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file, the first layer is read; the
+    /// picture has the size of the display window, with 0 outside the layer's pixels. Fails with [`InputError`]; the
+    /// errors of [`PictureSize::of`] come before any pixel is decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, InputError> {
         PictureSize::of(bytes)?;
         match format_of(bytes) {
@@ -76,16 +75,16 @@ impl Picture {
     }
 }
 
-/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, without decoding to light. Fails with
-/// [`InputError`], those of [`PictureSize::of`] before any pixel is decoded.
+/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, not converted to linear light. Fails
+/// with [`InputError`]; the errors of [`PictureSize::of`] come before any pixel is decoded.
 pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, InputError> {
     size_of(bytes, PictureFormat::Png)?;
     Ok(decoded(bytes, PictureFormat::Png)?.into_rgba16())
 }
 
-/// A Radiance HDR file as the decoder reads it: with the first line of two that it accepts, and without header lines
-/// that have white space around the name of their variable. Radiance compares from the first column up to `=`, so these
-/// lines have no meaning; the decoder would obey them.
+/// Rewrites a Radiance HDR file for the decoder: with a first line that the decoder accepts, and without header lines
+/// that have white space around their variable's name. Radiance compares names from the first column up to `=` and so
+/// ignores these lines, but the decoder would apply them.
 fn with_known_header(bytes: &[u8]) -> Cow<'_, [u8]> {
     let spaced = |line: &[u8]| {
         let name = line.iter().position(|&byte| byte == b'=').map_or(&b""[..], |end| &line[..end]);
@@ -107,7 +106,7 @@ fn with_known_header(bytes: &[u8]) -> Cow<'_, [u8]> {
 fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], InputError> {
     let refused = |reason: String| decode_error(PictureFormat::Hdr, reason);
     let header = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| refused(error.to_string()))?.metadata();
-    // Ward's tools write none; others say with it that pixels are not linear, each by a rule of its own.
+    // Ward's tools write no GAMMA; other programs mark non-linear pixels with it, each by its own rule.
     let is_curve = |value: &str| value.trim().parse() != Ok(1.0);
     if let Some((_, found)) = header.custom_attributes.iter().find(|(key, value)| key == "GAMMA" && is_curve(value)) {
         let found: String = found.trim().chars().take(20).collect();
@@ -155,8 +154,7 @@ fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, InputErr
 }
 
 /// Exponent by which samples of a PNG file become linear light; `None` for sRGB's curve, which is also the default.
-/// Among the chunks that define it, cICP takes precedence over sRGB, and sRGB over gAMA. ICC profiles and
-/// chromaticities are not looked at.
+/// cICP takes precedence over sRGB, and sRGB over gAMA. ICC profiles and chromaticities are ignored.
 fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, InputError> {
     let refused = |reason: String| decode_error(PictureFormat::Png, reason);
     let reader = ::png::Decoder::new(Cursor::new(bytes)).read_info().map_err(|error| refused(error.to_string()))?;
@@ -177,11 +175,11 @@ fn png_exponent(bytes: &[u8]) -> Result<Option<f64>, InputError> {
         None if info.srgb.is_some() => return Ok(None),
         None => {}
     }
-    // In units of 1 / 100,000; the reader skips a chunk of 0, which means nothing.
+    // The unit is 1 / 100,000. The reader skips a meaningless gAMA of 0.
     Ok(info.gama_chunk.map(|gamma| 1e5 / f64::from(gamma.into_scaled())))
 }
 
-/// Converts codes k of n bits to k / (2^n - 1), and colors to its power where there is an exponent.
+/// Converts codes k of n bits to k / (2^n - 1), and raises colors to the power `exponent`, if there is one.
 fn from_png(image: &DynamicImage, exponent: Option<f64>) -> Result<Picture, InputError> {
     // k / 255 is 257 k / 65535, to the bit.
     let (alpha, image) = (image.color().has_alpha(), image.to_rgba16());

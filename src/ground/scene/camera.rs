@@ -6,7 +6,7 @@ use crate::error::{InputError, ensure, input_error};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Ray, UnitFrame};
 
-/// Maximum field of view, as the tangent of its half.
+/// Maximum tangent of half the field of view.
 const MAX_TANGENT: f32 = 1e6;
 
 /// Sine of the smallest angle between `up` and the view.
@@ -51,7 +51,7 @@ impl Camera {
         width: u32,
         height: u32,
     ) -> Result<Self, InputError> {
-        // Checked first, because callers derive the eye from it.
+        // This is checked first, because callers derive the eye from the tangent.
         if !(tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT) {
             return Err(input_error!(
                 "expected a tangent of half the vertical field of view above 0 and up to 1000000, found \
@@ -118,7 +118,7 @@ impl Camera {
         narrow(self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5))
     }
 
-    /// Returns the ray through the centre of a pixel, unnormalised. Panics: never for pixels of the picture: their
+    /// Returns the ray through the centre of a pixel, unnormalised. Never panics for pixels of the picture, whose
     /// direction is finite and not zero.
     pub fn ray(&self, x: u32, y: u32) -> Ray {
         Ray::new(self.eye, self.direction(x, y)).expect("a pixel's direction is finite and not zero")
@@ -150,8 +150,8 @@ impl Camera {
     }
 
     /// Rows of the matrix from a body's frame, with w = 1, to clip space: x to the right, y up, z from 0 at the body's
-    /// near side to w at its far one, w the distance along the view. A body around the eye is clipped 0.001 units in
-    /// front of it.
+    /// near side to w at its far side, w the distance along the view. If the eye is inside the body, the near plane is
+    /// 0.001 units in front of the eye.
     pub fn clip_rows(&self, frame: &UnitFrame) -> [[f32; 4]; 4] {
         let eye = frame.of_scene(wide(self.eye));
         let per_square = |v: DVec3| v / v.dot(v);

@@ -7,7 +7,7 @@ pub type Color = [f32; 3];
 /// Scattering model of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
-    /// Lambert: the same radiance in all directions. Both sides of a triangle scatter.
+    /// Lambert: equal radiance in all directions. Both sides of a triangle scatter.
     Diffuse {
         /// Reflectance.
         albedo: Color,
@@ -27,7 +27,8 @@ pub enum Surface {
         /// Reflectance.
         reflectance: Color,
     },
-    /// A smooth dielectric boundary, air in front and glass behind: reflects and refracts by Fresnel's equations.
+    /// A smooth dielectric boundary that reflects and refracts by Fresnel's equations, with air in front and glass
+    /// behind.
     Glass {
         /// Index of refraction behind the front face, above 0.
         index: f32,
@@ -39,11 +40,11 @@ pub enum Surface {
 /// Named surface with its emission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Name: that of the MTL file.
+    /// Name, as in the MTL file.
     pub name: String,
     /// Scattering model.
     pub surface: Surface,
-    /// Radiance emitted by front faces, the same in all directions; zero for a surface that does not emit.
+    /// Radiance emitted by front faces, equal in all directions; zero for a surface that does not emit.
     pub emission: Color,
 }
 

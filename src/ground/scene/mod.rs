@@ -1,7 +1,7 @@
 //! Scenes and cameras.
 //!
 //! - [`built`]: scenes built by the project, by name;
-//! - [`camera`]: pinhole cameras, whose rays are the same bits everywhere;
+//! - [`camera`]: pinhole cameras, whose rays have the same bits everywhere;
 //! - [`material`]: scattering and emission of surfaces;
 //! - [`model`]: triangles with materials, lights and views.
 

@@ -10,12 +10,12 @@ use crate::geom::vector::{area_vector, narrow, unit, wide};
 pub struct PointLight {
     /// Position.
     pub position: [f32; 3],
-    /// Radiant intensity, the same in all directions: irradiance at distance r, perpendicular to the direction, is
+    /// Radiant intensity, equal in all directions: irradiance at distance r, perpendicular to the direction, is
     /// `intensity / r^2`.
     pub intensity: Color,
 }
 
-/// Named view of a scene. [`View::camera`] makes a camera of it for a size of picture.
+/// Named view of a scene. [`View::camera`] creates its camera for a picture size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
     /// Name on the command line.
@@ -63,7 +63,7 @@ pub struct Scene {
 
 impl Scene {
     /// Creates a scene from triangles with one material each. `normals` are unit normals at each triangle's corners, or
-    /// zero for the triangle's own; an empty list makes all triangles flat. Fails with [`InputError`] if the lists are
+    /// zero for a flat triangle; an empty list makes all triangles flat. Fails with [`InputError`] if the lists are
     /// inconsistent.
     pub fn new(
         mesh: Mesh,
@@ -85,7 +85,7 @@ impl Scene {
                 materials.len()
             ));
         }
-        // One representation for scenes without smooth normals.
+        // Scenes without smooth normals have an empty list only.
         let normals = if normals.iter().all(|corners| *corners == [[0.0; 3]; 3]) { Vec::new() } else { normals };
         Ok(Self { mesh, materials, material_of, normals, point_lights: Vec::new(), views: Vec::new() })
     }
@@ -116,8 +116,8 @@ impl Scene {
         (normals != [[0.0; 3]; 3]).then_some(normals)
     }
 
-    /// Returns the triangles with their normals, one vertex per corner: those of a flat triangle are its own. The mesh
-    /// is unchanged if no triangle has normals.
+    /// Returns the triangles with their normals, one vertex per corner; a flat triangle has its geometric normal. The
+    /// mesh is unchanged if no triangle has normals.
     pub fn mesh_with_normals(&self) -> Mesh {
         if self.normals.is_empty() {
             return self.mesh.clone();
@@ -132,7 +132,7 @@ impl Scene {
         mesh.unwrap_or_else(|_| self.mesh.clone())
     }
 
-    /// Rotates mesh and normals; views and lights stay.
+    /// Rotates mesh and normals; views and lights do not change.
     #[must_use]
     pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         self.normals.iter_mut().flatten().for_each(|normal| *normal = rotation(*normal));

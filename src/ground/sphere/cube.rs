@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::elementary::atan2;
 
-/// Face of a cube around the origin, at distance 1, with the directions of its texels.
+/// Face of a cube around the origin, at distance 1, with the axes of its texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceAxes {
     /// Center.
@@ -26,7 +26,7 @@ pub const CUBE_FACES: [FaceAxes; 6] = [
 ];
 
 impl FaceAxes {
-    /// Returns the point of the face, and its density of solid angle, at fractions of its width and height.
+    /// Returns the point at fractions of the face's width and height, and the density of solid angle there.
     pub(super) fn at(&self, [u, v]: [f64; 2]) -> (DVec3, f64) {
         let point = self.center + (2.0 * u - 1.0) * self.right + (2.0 * v - 1.0) * self.down;
         let length = point.length();
@@ -80,7 +80,7 @@ impl CubeMap {
         [face, column, row]
     }
 
-    /// Solid angle of a texel, the same on all faces, in steradians.
+    /// Solid angle of a texel in steradians, equal on all faces.
     pub fn solid_angle(self, column: usize, row: usize) -> f64 {
         face_solid_angle(self.side, column, row)
     }
@@ -92,8 +92,8 @@ pub(super) fn face_solid_angle(side: usize, column: usize, row: usize) -> f64 {
     rectangle_solid_angle([edge(column), edge(row)], [edge(column + 1), edge(row + 1)])
 }
 
-/// Solid angle of the rectangle from x0, y0 to x1, y1 in the plane at distance 1 from the eye, relative to (0, 0): two
-/// triangles (van Oosterom and Strackee, 1983), whose triple product is the rectangle's area, without cancellation.
+/// Solid angle of the rectangle from x0, y0 to x1, y1 in the plane at distance 1 from the eye, relative to (0, 0), as
+/// two triangles (van Oosterom and Strackee, 1983). Their triple product is the rectangle's area, so nothing cancels.
 fn rectangle_solid_angle([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
     let corner = |x, y| DVec3::new(x, y, 1.0);
     let [a, b, c, d] = [corner(x0, y0), corner(x1, y0), corner(x1, y1), corner(x0, y1)];

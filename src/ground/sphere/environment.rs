@@ -12,8 +12,8 @@ use crate::quadrature::{GaussPoint, gauss_legendre};
 
 impl HarmonicLight {
     /// Projects a picture of the whole sphere, with constant radiance over each pixel. Its shape determines its layout.
-    /// Pixels that show no direction are not read. Fails with [`InputError`] if no layout has the shape, there is no
-    /// color, or a pixel is NaN or infinite. Panics if the order is not 1 to 10.
+    /// Pixels that show no direction are not read. Fails with [`InputError`] if no layout has this shape, the picture
+    /// has no color, or a pixel is NaN or infinite. Panics if the order is not 1 to 10.
     pub fn from_picture(order: usize, picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self::projected(project(&grid, order, &pixels)))
@@ -29,7 +29,7 @@ pub struct EnvironmentPicture {
 
 impl EnvironmentPicture {
     /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read. Fails with
-    /// [`InputError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
+    /// [`InputError`] if no layout has this shape, the picture has no color, or a pixel is NaN or infinite.
     pub fn new(picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self { grid, pixels })
@@ -70,7 +70,7 @@ fn check(pixels: &[[f32; 3]], columns: usize, shows: impl Fn(usize, usize) -> bo
     Ok(())
 }
 
-/// Projects the function that is constant over each texel; texels row by row, of three channels.
+/// Projects a function that is constant over each texel; texels have three channels, row by row.
 ///
 /// The solid angle is exact; the mean of a harmonic over a texel is computed by a Gauss rule, with more points where
 /// texels are large. Rows are summed one by one, then added in order: the bits do not depend on the number of threads.
@@ -121,12 +121,12 @@ fn texel(
     if whole > 0.0 {
         means[..count].iter_mut().for_each(|mean| *mean /= whole);
     } else {
-        // A sliver at the rim of a probe, between the rule's points.
+        // A sliver at the rim of a probe may contain no point of the rule.
         harmonics(order, grid.at(texel, 0.5, 0.5).0, &mut means[..count]);
     }
 }
 
-/// Gauss rule for a texel of a picture with the square of this number of texels.
+/// Gauss rule for a texel of a picture with `side`^2 texels.
 fn rule_for(side: usize) -> Vec<GaussPoint> {
     gauss_legendre(match side {
         0..24 => 8,

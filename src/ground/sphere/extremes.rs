@@ -11,15 +11,15 @@ use super::rule::DirectionRule;
 const STARTS: usize = 16;
 /// Maximum number of steps of the search.
 const MAX_STEPS: usize = 100;
-/// Minimum step, in radians: far below the scale at which a smooth peak changes its value.
+/// Minimum step, in radians; over such a step the value at a smooth peak does not change.
 const SHORTEST_STEP: f64 = 1e-10;
-/// Step of finite differences, in radians: the error is its square times third derivatives.
+/// Step of finite differences, in radians; the error is its square times third derivatives.
 const STENCIL: f64 = 1e-4;
 
 /// Minimum and maximum of a function on the sphere, with their directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extremes {
-    /// Minimum: negative where light rings.
+    /// Minimum; negative if the light rings.
     pub least: f64,
     /// Direction of the minimum.
     pub least_at: DVec3,
@@ -61,8 +61,8 @@ fn peaks(directions: &[DVec3], values: &[f64], sign: f64, apart: f64) -> Vec<DVe
     starts
 }
 
-/// Climbs to a local maximum by Newton's method in the tangent plane, with finite differences; along the gradient where
-/// the surface is not concave. A step that does not climb is halved.
+/// Climbs to a local maximum by Newton's method in the tangent plane, with finite differences, or along the gradient
+/// where the function is not concave. A step that does not climb is halved.
 fn climb(coefficients: &[f64], sign: f64, start: DVec3, mut longest: f64) -> (f64, DVec3) {
     let (mut value, mut at) = (sign * evaluate(coefficients, start), start);
     for _ in 0..MAX_STEPS {

@@ -10,7 +10,7 @@ pub const MAX_ORDER: usize = 10;
 
 /// Factors of the recurrences, by l and m.
 struct Recurrence {
-    /// y_mm without (x + iy)^m, by m.
+    /// y_mm without the factor (x + iy)^m, by m.
     diagonal: [f64; MAX_ORDER],
     /// Factor of z times the band below.
     rise: [[f64; MAX_ORDER]; MAX_ORDER],
@@ -38,7 +38,7 @@ static RECURRENCE: LazyLock<Recurrence> = LazyLock::new(|| {
     table
 });
 
-/// Factor of y_(l-1)m in z y_lm, which is also that of y_lm in z y_(l-1)m: sqrt((l^2 - m^2) / (4 l^2 - 1)).
+/// Factor of y_(l-1)m in z y_lm, and of y_lm in z y_(l-1)m: sqrt((l^2 - m^2) / (4 l^2 - 1)).
 pub(super) fn coupling(l: usize, m: usize) -> f64 {
     (((l * l - m * m) as f64) / (4.0 * (l * l) as f64 - 1.0)).sqrt()
 }
@@ -64,8 +64,8 @@ pub fn function_band(index: usize) -> (usize, isize) {
 }
 
 /// Evaluates the n^2 functions of an order at a unit direction, by index l (l + 1) + m. For m > 0, y_lm has the factor
-/// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m. Panics if the order is not 1 to [`MAX_ORDER`], or `into` has not
-/// n^2 values.
+/// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m. Panics if the order is not 1 to [`MAX_ORDER`], or `into` does not
+/// have n^2 values.
 pub fn harmonics(order: usize, direction: DVec3, into: &mut [f64]) {
     assert_eq!(into.len(), function_count(order), "values of order {order}");
     let table = &*RECURRENCE;
@@ -104,7 +104,7 @@ pub fn order_with(functions: usize) -> Option<usize> {
     (1..=MAX_ORDER).find(|&order| function_count(order) == functions)
 }
 
-/// Converts coefficients to D3DX's functions, or back: D3DX has the Condon-Shortley sign (-1)^m.
+/// Converts coefficients to D3DX's functions, or back; they have the Condon-Shortley sign (-1)^m.
 pub fn swap_d3dx_signs(coefficients: &mut [f64]) {
     for (index, coefficient) in coefficients.iter_mut().enumerate() {
         if function_band(index).1 % 2 != 0 {

@@ -12,10 +12,11 @@ use crate::quadrature;
 
 /// Gram matrix A of harmonics over the hemisphere, A_ik the integral of y_i y_k, with its inverse and spectrum.
 ///
-/// Functions of different m are orthogonal there too, so A falls into blocks; within a block, products of functions
-/// whose bands differ by an even number integrate to half of their integral over the sphere, 1/2 or 0. Each block is
-/// M^T M, where M holds the functions at the points of a rule that is exact for their products; inverse and spectrum
-/// come from the singular values of M, so only the square root of A's condition is lost to rounding.
+/// Functions of different m are orthogonal over the hemisphere too, so A is block diagonal. Within a block, the product
+/// of functions whose bands differ by an even number has half of its integral over the sphere, 1/2 or 0. Each block is
+/// M^T M, where M contains the functions at the points of a rule that is exact for their products. Inverse and spectrum
+/// come from the singular values of M, so rounding errors are amplified only by the square root of A's condition
+/// number.
 #[derive(Clone, Debug)]
 pub struct Hemisphere {
     order: usize,
@@ -31,9 +32,9 @@ impl Hemisphere {
         Self::without(order, &[]).expect("nothing is dropped")
     }
 
-    /// Builds the matrix of the functions of an order except for some, given by index: section 6.1 drops l = 1, m = 0,
-    /// index 2, of order 5. Fails with [`InputError`] if a dropped function is unknown or named twice, or nothing is
-    /// left. Panics if the order is not 1 to 10.
+    /// Builds the matrix of the functions of an order except those with the indices `dropped`; section 6.1 drops l = 1,
+    /// m = 0 (index 2) of order 5. Fails with [`InputError`] if a dropped function is unknown or named twice, or
+    /// nothing is left. Panics if the order is not 1 to 10.
     pub fn without(order: usize, dropped: &[usize]) -> Result<Self, InputError> {
         let count = function_count(order);
         let mut kept = vec![true; count];
@@ -108,9 +109,9 @@ impl Hemisphere {
     /// Computes the least-squares coefficients A^-1 b of a function f, where b are the integrals of f y_k over the
     /// hemisphere.
     ///
-    /// It works in the basis of A's eigenvectors, so that rounding errors are amplified only along those that hardly
-    /// change the function on the hemisphere: its values there lose only the square root of the condition number.
-    /// Panics if there is not one integral per function.
+    /// It works in the basis of A's eigenvectors, so that rounding errors are amplified only along eigenvectors that
+    /// hardly change the function on the hemisphere: in values there, the amplification is only the square root of the
+    /// condition number. Panics if there is not one integral per function.
     pub fn least_squares(&self, b: &[f64]) -> Vec<f64> {
         assert_eq!(b.len(), self.functions.len(), "an integral per function");
         let mut coefficients = vec![0.0; b.len()];
@@ -134,8 +135,8 @@ impl Hemisphere {
     }
 }
 
-/// For each Gauss point z in [0, 1] the root of its weight, and the functions of an order at (sqrt(1 - z^2), 0, z),
-/// where the azimuthal factor of m >= 0 is 1.
+/// For each Gauss point z in [0, 1], the square root of its weight, and the functions of an order at (sqrt(1 - z^2), 0,
+/// z), where the azimuthal factor of m >= 0 is 1.
 fn radial(order: usize) -> Vec<(f64, Vec<f64>)> {
     let points = quadrature::gauss_legendre(order).into_iter();
     let values = points.map(|(z, weight)| {

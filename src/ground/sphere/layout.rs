@@ -1,7 +1,7 @@
 //! Layouts of pictures of the whole sphere: lat-long, angular probe, cube cross.
 //!
-//! In all three the picture's middle is +y, its right +x, and up is +z, as seen by a viewer in a scene with z up: -Z,
-//! +X and +Y in y-up conventions.
+//! In all three layouts the picture's middle is +y, its right +x, and its top +z, as a viewer sees a scene with z up.
+//! In y-up conventions these are -Z, +X and +Y.
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,14 +21,15 @@ pub enum EnvironmentLayout {
     /// circle. Pixels beyond it are ignored.
     #[strum(to_string = "angular probe")]
     AngularProbe,
-    /// Six squares, 4 x 3 or 3 x 4: a cube unfolded, seen from inside. Around the middle lie right, left, up and down;
-    /// the back is beyond the right one (4 x 3), or beyond the lower one, upside down (3 x 4). The rest is ignored.
+    /// An unfolded cube seen from inside, six squares of 4 x 3 or 3 x 4. Around the middle square are the right, left,
+    /// upper and lower ones; the back is beyond the right square (4 x 3), or upside down beyond the lower square (3 x
+    /// 4). Other squares are ignored.
     #[strum(to_string = "cube cross")]
     CubeCross,
 }
 
 impl EnvironmentLayout {
-    /// Layout of pictures of a shape, if there is one: each layout has shapes of its own.
+    /// The layout of pictures of this shape, if there is one; no two layouts share a shape.
     pub fn of(width: u32, height: u32) -> Option<Self> {
         let [w, h] = [u64::from(width), u64::from(height)];
         let cross = (3 * w == 4 * h && h % 3 == 0) || (4 * w == 3 * h && w % 3 == 0);
@@ -42,7 +43,7 @@ impl EnvironmentLayout {
     }
 }
 
-/// Texels of a picture in a layout that its shape fits.
+/// Texels of a picture in the layout of its shape.
 #[derive(Debug)]
 pub(super) struct LayoutGrid {
     layout: EnvironmentLayout,
@@ -85,7 +86,7 @@ impl LayoutGrid {
         row * width + column
     }
 
-    /// Pixel of a cross: on the face of the direction's largest component, the first of equals.
+    /// Pixel of a cross, on the face of the direction's largest component (the first of equals).
     fn cross_pixel(&self, direction: DVec3) -> usize {
         let side = self.cross_side();
         let tiles = (0..self.height / side).flat_map(|row| (0..self.width / side).map(move |column| [column, row]));
@@ -108,7 +109,7 @@ impl LayoutGrid {
         [edge(column), -edge(row + 1), edge(column + 1), -edge(row)]
     }
 
-    /// Face of a cross that a pixel belongs to, and its column and row on it.
+    /// Face of a cross that contains a pixel, and the pixel's column and row on the face.
     fn cross_texel(&self, column: usize, row: usize) -> Option<(FaceAxes, usize, usize)> {
         let wide = self.width > self.height;
         let side = self.width / if wide { 4 } else { 3 };
@@ -136,7 +137,7 @@ impl LayoutGrid {
         [self.width, self.height]
     }
 
-    /// Solid angle of a pixel, 0 if it covers none.
+    /// Solid angle of a pixel, 0 if it shows no direction.
     pub(super) fn solid_angle(&self, column: usize, row: usize) -> f64 {
         match self.layout {
             EnvironmentLayout::LatLong => {
@@ -151,14 +152,14 @@ impl LayoutGrid {
         }
     }
 
-    /// Returns the direction at u, v in [0, 1] of a pixel that covers a solid angle, and a density proportional to
-    /// solid angle per du dv.
+    /// Returns the direction at u, v in [0, 1] of a pixel that shows directions, and a density proportional to solid
+    /// angle per du dv.
     pub(super) fn at(&self, texel: [usize; 2], u: f64, v: f64) -> (DVec3, f64) {
         let [column, row] = texel.map(|at| at as f64);
         match self.layout {
             EnvironmentLayout::LatLong => {
                 let [cos_polar, sin_polar] = on_circle((row + v) / (2.0 * self.height as f64));
-                // From +y towards +x.
+                // Azimuth from +y towards +x.
                 let [cos, sin] = on_circle((column + u) / self.width as f64 - 0.5);
                 (DVec3::new(sin * sin_polar, cos * sin_polar, cos_polar), sin_polar)
             }
@@ -190,9 +191,9 @@ fn probe_direction(x: f64, y: f64) -> (DVec3, f64) {
 
 /// Solid angle of a pixel within the unit circle of an angular probe.
 ///
-/// It is the integral of (1 - cos(pi r)) dphi around the pixel's part of the disk, counter-clockwise. Along a straight
-/// edge that is F(r) (x dy - y dx) with F = (1 - cos(pi r)) / r^2, which is smooth everywhere, and 2 dphi along the
-/// rim.
+/// The solid angle is the integral of (1 - cos(pi r)) dphi around the pixel's part of the disk, counter-clockwise.
+/// Along a straight edge the integrand is F(r) (x dy - y dx) with F = (1 - cos(pi r)) / r^2, which is smooth
+/// everywhere; along the rim it is 2 dphi.
 fn probe_solid_angle([left, bottom, right, top]: [f64; 4], rule: &[GaussPoint]) -> f64 {
     let density = |r: f64| {
         let (sin, _) = sin_cos(PI / 2.0 * r);
@@ -219,7 +220,7 @@ fn probe_solid_angle([left, bottom, right, top]: [f64; 4], rule: &[GaussPoint]) 
     sum.max(0.0)
 }
 
-/// Part from a to b of the line at distance `offset` from the middle that lies in the unit circle.
+/// Part inside the unit circle of the segment from a to b on a line at distance `offset` from the middle.
 fn cut(offset: f64, a: f64, b: f64) -> Option<[f64; 2]> {
     let square = (1.0 - offset) * (1.0 + offset);
     let half = (square >= 0.0).then(|| square.sqrt())?;

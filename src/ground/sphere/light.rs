@@ -11,7 +11,7 @@ use crate::elementary::sin_cos;
 use crate::error::{InputError, ensure, input_error};
 use crate::quadrature::legendre_polynomials;
 
-/// Distant radiance as coefficients of an order: red, green and blue.
+/// Distant radiance as coefficients of one order, for red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HarmonicLight {
     channels: [Vec<f64>; 3],
@@ -21,13 +21,13 @@ impl HarmonicLight {
     /// Directions and radiances of the disks of [`Self::red_and_blue`].
     pub const RED_AND_BLUE_DISKS: [(DVec3, [f64; 3]); 2] =
         [(DVec3::new(0.8, 0.6, 0.0), [6.0, 0.3, 0.3]), (DVec3::new(-0.8, 0.6, 0.0), [0.3, 0.3, 6.0])];
-    /// Their angular radius, in radians.
+    /// Angular radius of these disks, in radians.
     pub const RED_AND_BLUE_RADIUS: f64 = PI / 6.0;
-    /// Radiance around them.
+    /// Radiance around these disks.
     pub const RED_AND_BLUE_SURROUNDING: [f64; 3] = [0.15; 3];
 
-    /// Creates a light from coefficients by channel. Fails with [`InputError`] unless all channels have the n^2 of an
-    /// order.
+    /// Creates a light from coefficients by channel. Fails with [`InputError`] unless all channels have the n^2
+    /// coefficients of one order.
     pub fn new(channels: [Vec<f64>; 3]) -> Result<Self, InputError> {
         let found = channels.each_ref().map(Vec::len);
         let fits = (1..=MAX_ORDER).any(|order| found == [order * order; 3]);
@@ -35,7 +35,6 @@ impl HarmonicLight {
         Ok(Self { channels })
     }
 
-    /// Creates a light from coefficients whose number is that of an order.
     pub(super) const fn projected(channels: [Vec<f64>; 3]) -> Self {
         Self { channels }
     }
@@ -59,8 +58,9 @@ impl HarmonicLight {
     }
 
     /// Creates a light with constant radiance from a disk around a direction of any length, with an angular radius of
-    /// `radius` radians; black elsewhere. In closed form. Fails with [`InputError`] if the direction is zero, the
-    /// radius is not above 0 and up to pi, or a channel is not finite. Panics if the order is not 1 to 10.
+    /// `radius` radians; black elsewhere. The coefficients are computed in closed form. Fails with [`InputError`] if
+    /// the direction is zero, the radius is not in (0, pi], or a channel is not finite. Panics if the order is not 1 to
+    /// 10.
     pub fn disk(order: usize, direction: DVec3, radius: f64, radiance: [f64; 3]) -> Result<Self, InputError> {
         if !(radius > 0.0 && radius <= PI) {
             return Err(input_error!("expected an angular radius above 0 and up to pi radians, found {radius}"));
@@ -74,8 +74,8 @@ impl HarmonicLight {
     }
 
     /// Creates a light of a red disk from +x and a blue one from -x, both from somewhat behind an object seen along +y,
-    /// in a dim white surrounding: similar to the light of Figure 7, which is not published. Panics if the order is not
-    /// 1 to 10.
+    /// in a dim white surrounding: similar to the light of Figure 7, which was not published. Panics if the order is
+    /// not 1 to 10.
     pub fn red_and_blue(order: usize) -> Self {
         let [red, blue] = Self::RED_AND_BLUE_DISKS
             .map(|(towards, color)| Self::disk(order, towards, Self::RED_AND_BLUE_RADIUS, color));
@@ -93,7 +93,7 @@ impl HarmonicLight {
         &self.channels
     }
 
-    /// Radiance from a unit direction, evaluated from the coefficients, so that it rings.
+    /// Radiance from a unit direction, evaluated from the coefficients, including ringing.
     pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
         let mut y = [0.0; MAX_ORDER * MAX_ORDER];
         let y = &mut y[..self.channels[0].len()];
@@ -101,7 +101,7 @@ impl HarmonicLight {
         self.channels.each_ref().map(|channel| channel.iter().zip(y.iter()).map(|(c, y)| c * y).sum())
     }
 
-    /// Sum of two lights, to the lower of the two orders.
+    /// Sum of two lights, truncated to the lower order.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         let sum = |channel: usize| {
@@ -137,7 +137,8 @@ pub(super) fn unit(direction: DVec3) -> Result<DVec3, InputError> {
 
 /// Integrals of P_0 to P_(n-1) from cos(radius) to 1.
 ///
-/// For l > 0 that is (1 - x^2) P_l'(x) / (l (l + 1)) at x = cos(radius): without cancellation, however small the disk.
+/// For l > 0 the integral is (1 - x^2) P_l'(x) / (l (l + 1)) at x = cos(radius), without cancellation even for small
+/// disks.
 fn cap_integrals(order: usize, radius: f64) -> Vec<f64> {
     let (sin, x) = sin_cos(radius);
     let (half, _) = sin_cos(radius / 2.0);

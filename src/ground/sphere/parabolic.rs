@@ -1,4 +1,4 @@
-//! Parabolic maps (Heidrich and Seidel 1999): the hemisphere around z in the unit circle of a square of texels.
+//! Parabolic maps (Heidrich and Seidel 1999): the hemisphere around +z, mapped to a disk in a square of texels.
 
 use glam::DVec3;
 
@@ -7,15 +7,15 @@ use crate::elementary::atan2;
 /// Texels of a parabolic map around +z. With s = x / (1 + z) and t = y / (1 + z), texture coordinates are ((s + 1) / 2,
 /// (t + 1) / 2): columns run along x, rows along y.
 ///
-/// The circle s^2 + t^2 = 1 is the horizon. Texels beyond it take part in filtering, so their directions, which lie
-/// below the horizon, are evaluated too. The corners are at z = -1/3.
+/// The circle s^2 + t^2 = 1 is the horizon. Filtering reads texels beyond it, so their directions, which are below the
+/// horizon, are evaluated too. The corners are at z = -1/3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ParabolicMap {
     side: usize,
 }
 
 impl ParabolicMap {
-    /// Creates a map with `side` texels along an edge; the paper has 32. Panics if there are none.
+    /// Creates a map with `side` texels along an edge; the paper uses 32. Panics if there are none.
     pub const fn new(side: usize) -> Self {
         assert!(side > 0, "a texel along an edge");
         Self { side }
@@ -41,7 +41,7 @@ impl ParabolicMap {
         Self::coordinates_of(direction)
     }
 
-    /// Like [`Self::coordinates`], which do not depend on the size of the map.
+    /// [`Self::coordinates`] without a map: they do not depend on its size.
     pub fn coordinates_of(direction: DVec3) -> [f64; 2] {
         [direction.x, direction.y].map(|along| 0.5 + 0.5 * along / (1.0 + direction.z))
     }

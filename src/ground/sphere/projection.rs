@@ -91,8 +91,8 @@ impl HemisphereProjection {
     }
 }
 
-/// Coefficients of g / z, where g is the part of odd l + m of the function with these coefficients: it is 0 at z = 0,
-/// so that the quotient is again a polynomial, one degree lower.
+/// Coefficients of g / z, where g is the part of odd l + m of the function with these coefficients. g is 0 at z = 0, so
+/// that the quotient is a polynomial, one degree lower.
 fn divided_by_z(order: usize, g: &[f64]) -> Vec<f64> {
     let mut quotient = vec![0.0; g.len()];
     for index in (0..g.len()).rev().filter(|&index| HemisphereProjection::ScaledOddReflection.uses(order, index)) {

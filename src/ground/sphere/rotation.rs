@@ -10,11 +10,11 @@ use crate::elementary::on_circle;
 use crate::error::{InputError, ensure, input_error};
 use crate::linalg::dot;
 
-/// Maximum deviation of an element of R^T R from the identity: frames computed in f64 pass, those rounded to f32 do
-/// not.
+/// Maximum deviation of an element of R^T R from the identity: it accepts frames computed in f64, but not frames
+/// rounded to f32.
 pub const MAX_SKEW: f64 = 1e-9;
 
-/// Directions of a rule for one order, with weight times harmonics of each.
+/// Directions of a rule for one order, and the product of weight and harmonics for each direction.
 struct RotationRule {
     directions: Vec<DVec3>,
     weighted: Vec<f64>,
@@ -25,7 +25,7 @@ static RULES: [OnceLock<RotationRule>; MAX_ORDER] = [const { OnceLock::new() }; 
 
 /// Rotation of coefficients: one matrix per band.
 ///
-/// Element (i, j) is the integral of y_i(R v) y_j(v), by a rule that is exact for it.
+/// Element (i, j) is the integral of y_i(R v) y_j(v), computed by a rule that is exact for this integrand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HarmonicRotation {
     order: usize,
@@ -97,8 +97,8 @@ fn first_of_band(l: usize) -> usize {
     (0..l).map(|l| (2 * l + 1) * (2 * l + 1)).sum()
 }
 
-/// Builds a rule with half of the directions: products of two functions of a band are the same at opposite points, so
-/// that rings above the equator count twice.
+/// Builds a rule with half of the directions: products of two functions of a band are equal at opposite points, so
+/// rings above the equator have double weight.
 fn rotation_rule(order: usize) -> RotationRule {
     let whole = DirectionRule::sphere(2 * order - 2);
     let mut rule = RotationRule { directions: Vec::new(), weighted: Vec::new() };

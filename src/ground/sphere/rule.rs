@@ -13,16 +13,16 @@ use crate::quadrature::{self, legendre_polynomials};
 pub const MAX_DEGREE: usize = 1023;
 
 /// Quadrature rule: directions and weights over the sphere, or over the hemisphere z >= 0, which integrate polynomials
-/// in x, y, z of a degree exactly. Weights sum to the solid angle, 4 pi or 2 pi.
+/// in x, y, z up to a degree exactly. Weights sum to the solid angle, 4 pi or 2 pi.
 ///
-/// Gauss-Legendre points in z times equidistant azimuths: floor(d / 2) + 1 rings of d + 1 directions for degree d,
-/// rings in ascending order of z. Every second ring is rotated by half a step.
+/// The directions are Gauss-Legendre points in z times equidistant azimuths: floor(d / 2) + 1 rings of d + 1 directions
+/// for degree d, rings in ascending order of z. Every second ring is rotated by half a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionRule {
     directions: Vec<DVec3>,
     weights: Vec<f64>,
     degree: usize,
-    /// Directions of a ring.
+    /// Number of directions of a ring.
     azimuths: usize,
 }
 
@@ -38,11 +38,11 @@ impl DirectionRule {
         Self::between(0.0, degree)
     }
 
-    /// Over the hemisphere z >= 0: about as many directions as [`Self::hemisphere`] of degree `size`, with many
-    /// different heights, and exact only up to degree `degree`. There are floor(size / 2) + 1 rings of as many pairs of
-    /// opposite directions; no two pairs of columns have a height in common. So the height of an occluder that is the
-    /// same all around is resolved to a fraction of a ring. With fewer than degree + 3 rings it is the rule of
-    /// [`Self::hemisphere`].
+    /// Creates a rule over the hemisphere z >= 0 with about as many directions as [`Self::hemisphere`] of degree
+    /// `size`, at many different heights, and exact only up to degree `degree`. There are floor(size / 2) + 1 rings and
+    /// as many pairs of opposite columns; no two pairs of columns share a height. So the height of an occluder that is
+    /// equally high all around is resolved to a fraction of a ring. With fewer than degree + 3 rings, the rule is
+    /// [`Self::hemisphere`]'s.
     ///
     /// Each column integrates polynomials in z exactly. The part of azimuthal frequency m of a polynomial in x, y and z
     /// is a polynomial in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.
@@ -140,8 +140,7 @@ impl DirectionRule {
     }
 }
 
-/// A number near the golden ratio's share of `count`, without common divisor: its multiples put phases that follow each
-/// other far apart.
+/// A number near 0.382 `count` (the golden section), coprime to `count`: its multiples put successive phases far apart.
 fn step(count: usize) -> usize {
     let share = (count * 382).div_ceil(1000).max(1);
     let common = |mut a: usize, mut b: usize| {
@@ -153,15 +152,15 @@ fn step(count: usize) -> usize {
     (share..).find(|&step| common(step, count) == 1).unwrap_or(1)
 }
 
-/// Heights more than the degree plus one that a column has: with so many, every weight is more than 0.8 of that of the
-/// plain sum.
+/// Number of heights of a column beyond the degree plus one: enough for every weight to exceed 0.8 of the plain sum's
+/// weight.
 const SPARE: usize = 2;
 
-/// Heights from 0 to 1 and their weights, which sum to 1 and integrate polynomials in z of a degree exactly.
+/// Heights from 0 to 1 and their weights, which sum to 1 and integrate polynomials in z up to a degree exactly.
 ///
 /// With z = (1 - cos a) / 2, the angles a are equidistant from 0 to pi, the first at a share `phase` of a step. The
-/// weights are those of the plain sum over angles, `sin(a) pi / (2 count)`, times 1 and a polynomial in z: of all
-/// exact ones those that differ least. `None` if the heights are too few for that.
+/// weights are the plain sum's over angles, `sin(a) pi / (2 count)`, times 1 plus a polynomial in z; of all exact
+/// weights these differ least from the plain sum's. `None` if there are too few heights.
 fn column(count: usize, phase: f64, degree: usize) -> Option<Vec<(f64, f64)>> {
     if count < degree + 1 + SPARE {
         return None;
@@ -182,7 +181,7 @@ fn column(count: usize, phase: f64, degree: usize) -> Option<Vec<(f64, f64)>> {
     let size = degree + 1;
     let products = (0..size * size).map(|at| sum(&|values| values[at / size] * values[at % size]));
     let products = Matrix::new([size; 2], products.collect()).ok()?;
-    // The integral of the first polynomial is 1, of the others 0.
+    // The integral of the first polynomial is 1, that of the others 0.
     let missing: Vec<f64> = (0..size).map(|i| f64::from(u8::from(i == 0)) - sum(&|values| values[i])).collect();
     let factors = Lu::new(&products).ok()?.solve(&missing);
     let change = |values: &[f64]| -> f64 { values.iter().zip(&factors).map(|(value, factor)| value * factor).sum() };

@@ -1,7 +1,8 @@
 //! Singular values by rotations of columns (one-sided Jacobi; Hestenes 1958).
 //!
-//! For the small matrices of the hemisphere it finds the smallest singular value as accurately as the condition number
-//! allows, and singular vectors orthogonal to rounding; bidiagonalisation leaves residuals of 1e-11 there.
+//! For the small matrices of the hemisphere, the method finds the smallest singular value as accurately as the
+//! condition number allows, and singular vectors that are orthogonal up to rounding. Bidiagonalisation leaves residuals
+//! of 1e-11 for them.
 
 use crate::linalg::dot;
 

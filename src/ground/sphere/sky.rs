@@ -12,13 +12,13 @@ use crate::error::{InputError, ensure};
 pub const SUN_RADIUS: f64 = 0.004_654;
 
 /// Degree of the rule over the sky: doubling it changes the coefficients of 10 orders by less than 1e-5 of the first.
-/// The sky has a peak around the sun, of no finite degree.
+/// The sky's peak around the sun has no finite degree.
 const SKY_DEGREE: usize = 255;
 
 /// CIE standard clear sky (Kittler 1967; CIE publication 22, 1973) over z >= 0, a sun, and a ground below.
 ///
-/// Relative to the zenith the sky is f(gamma) phi(z) / (f(zenith angle of the sun) phi(1)), gamma the angle from the
-/// sun, f(gamma) = 0.91 + 10 e^(-3 gamma) + 0.45 cos^2 gamma and phi(z) = 1 - e^(-0.32 / z).
+/// Relative to the zenith, the sky's radiance is f(gamma) phi(z) / (f(zenith angle of the sun) phi(1)), where gamma is
+/// the angle from the sun, f(gamma) = 0.91 + 10 e^(-3 gamma) + 0.45 cos^2 gamma and phi(z) = 1 - e^(-0.32 / z).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClearSky {
     /// Direction of the sun, of any length, z > 0.
@@ -38,9 +38,9 @@ impl ClearSky {
         Ok(relative(self.sun_direction()?, direction))
     }
 
-    /// Computes the coefficients of sky, sun and ground. Sun and ground are in closed form. Fails with [`InputError`]
-    /// if the sun's direction is zero or is not above the horizon, or a color is not finite. Panics if the order is not
-    /// 1 to 10.
+    /// Computes the coefficients of sky, sun and ground. Sun and ground are computed in closed form. Fails with
+    /// [`InputError`] if the sun's direction is zero or is not above the horizon, or a color is not finite. Panics if
+    /// the order is not 1 to 10.
     pub fn light(&self, order: usize) -> Result<HarmonicLight, InputError> {
         assert!((1..=MAX_ORDER).contains(&order), "an order from 1 to {MAX_ORDER}, not {order}");
         let sun = self.sun_direction()?;

@@ -1,4 +1,4 @@
-//! Facts of the rooms, beside the laws of `tests/laws`.
+//! Unit tests of the modules; property tests are in `tests/laws`.
 
 mod atlas;
 mod card;

@@ -2,12 +2,12 @@
 
 use crate::geom::Hit;
 
-/// Relative margin in t by which traversal continues beyond the best hit: an fp32 t is no more precise, and the next
-/// cell may hold a triangle whose rounded t is smaller.
+/// Relative margin in t by which traversal continues beyond the best hit: an fp32 t may be that inexact, so the next
+/// cell may contain a triangle whose rounded t is smaller.
 pub(super) const T_MARGIN: f64 = 1e-5;
 
-/// Nearest hit so far; at equal t the lowest triangle, as on a card that draws triangles in order with a `less` depth
-/// test.
+/// Nearest hit so far; at equal t the triangle with the lowest index, as on a card that draws triangles in order with a
+/// `less` depth test.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Best(Option<(f32, u32)>);
 
@@ -19,12 +19,13 @@ impl Best {
         }
     }
 
-    /// Returns `true` if cells that the ray enters at `t` of its own direction cannot hold a nearer hit.
+    /// Returns `true` if a cell that the ray enters at `t`, in multiples of its own direction, cannot contain a nearer
+    /// hit.
     pub fn settles(&self, t: f64, power: f64) -> bool {
         self.0.is_some_and(|(best, _)| f64::from(best) * power * (1.0 + T_MARGIN) < t)
     }
 
-    /// Hit that was recorded, its t along the ray's own direction.
+    /// The recorded hit, with t in multiples of the ray's own direction.
     pub fn hit(&self, power: f64) -> Option<Hit> {
         // A depth buffer has no -0.
         self.0.map(|(t, triangle)| Hit { triangle, t: (f64::from(t) * power) as f32 + 0.0 })

@@ -16,13 +16,14 @@ impl From<CastError> for InputError {
     }
 }
 
-/// Ray caster: finds hits for bundles of rays of any size. Large bundles give an implementation room to sort them.
+/// Ray caster: finds hits for bundles of rays of any size. Large bundles allow an implementation to sort rays.
 pub trait Caster {
     /// Returns the first hit of each ray, in the order of the rays. Fails with [`CastError`] if the caster fails.
     fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError>;
 
-    /// Returns per ray whether anything is hit before t = 1: for shadow rays, whose directions end at the light. Faster
-    /// than [`Self::cast`] in casters that can stop at any hit. Fails with [`CastError`] if the caster fails.
+    /// Returns for each ray whether it hits anything before t = 1: for shadow rays, whose direction vector ends at the
+    /// light. Faster than [`Self::cast`] in casters that can stop at any hit. Fails with [`CastError`] if the caster
+    /// fails.
     fn occluded(&mut self, rays: &[Ray]) -> Result<Vec<bool>, CastError> {
         Ok(self.cast(rays)?.into_iter().map(is_occluder).collect())
     }

@@ -44,7 +44,7 @@ pub struct HostTracer {
     sides: Sides,
     /// Scale of single-precision coordinates; a power of two.
     scale: f64,
-    /// Second copy of the octree and its lists, laid out for rays that the host traces alone.
+    /// Second copy of the octree and its lists in a compact layout, for rays that the host traces alone.
     compact: Compact,
     packets: Packets,
     level: SimdLevel,
@@ -88,9 +88,9 @@ impl HostTracer {
         (hit[0], counts)
     }
 
-    /// Returns `true` if anything is hit before `t_max`, in multiples of the ray's direction, that is, if the t of the
-    /// first hit is smaller, unless rounding alone made it so (the triangle lies in cells beyond `t_max`, as in exact
-    /// arithmetic). Cheaper than [`Self::nearest`], since any hit will do.
+    /// Returns `true` if anything is hit before `t_max`, in multiples of the ray's direction: if the t of the first hit
+    /// is smaller. A hit is ignored if its t is smaller by rounding alone, that is, if its triangle lies only in cells
+    /// beyond `t_max`. Cheaper than [`Self::nearest`], because any hit suffices.
     pub fn occluded_before(&self, ray: &Ray, t_max: f32) -> (bool, HostCounts) {
         let mut occluded = [false];
         let counts = self.occluded_each(std::slice::from_ref(ray), t_max, &mut occluded);
@@ -130,7 +130,7 @@ impl HostTracer {
         for (i, ray) in rays.iter().enumerate() {
             let host = self.host_ray(ray);
             // The leaf that blocked an earlier ray often blocks this one too. Only a certain hit may replace the walk,
-            // which finds rounded hits only in the cells that the ray crosses.
+            // because the walk finds rounded hits only in cells that the ray crosses.
             if let Some(leaf) = blocker.filter(|_| ANY) {
                 let mut best = Best::default();
                 counts.tests += self.packets.test::<BOTH>(leaf, &host, &mut best);
@@ -149,14 +149,14 @@ impl HostTracer {
     }
 
     /// Returns `true` if a ray certainly hits a triangle before `t_max` in exact arithmetic. Then it crosses a cell
-    /// that holds the triangle, and traversal would find the same.
+    /// that contains the triangle, and traversal would give the same answer.
     fn is_certain(&self, ray: &Ray, triangle: u32, t_max: f32) -> bool {
         let guess = filter::guess(ray, &self.corners[triangle as usize], self.sides);
         matches!(guess, Guess::Hit { high, .. } if high < f64::from(t_max))
     }
 
-    /// Returns the nearest hit; with `ANY`, the nearest or any hit before `t_max`, whose leaf is stored in `blocker`,
-    /// or `None` if there is none before `t_max`.
+    /// Returns the nearest hit. With `ANY`, returns any hit before `t_max` and stores its leaf in `blocker`; `None` if
+    /// there is none.
     #[inline(always)]
     fn walk<const BOTH: bool, const ANY: bool>(
         &self,
@@ -187,8 +187,8 @@ impl HostTracer {
         (best.hit(host.power), HostCounts { rays: 1, traversal, tests })
     }
 
-    /// Returns the first hit, with the cells marked in `gpu` tested as the card tests them: every triangle of the cell.
-    /// Uses [`Octree::traverse`]; without marks, hit and counts are those of [`Self::nearest`].
+    /// Returns the first hit by [`Octree::traverse`]. In cells marked in `gpu`, every triangle of the cell is tested,
+    /// as on the card; without marks, hit and counts equal those of [`Self::nearest`].
     pub fn nearest_in(&self, ray: &Ray, gpu: Option<&GpuCells>) -> (Option<Hit>, HostCounts) {
         let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);
@@ -215,7 +215,7 @@ impl HostTracer {
         best.hit(host.power)
     }
 
-    /// Returns the first hits of rays in any number, traced on all worker threads; the result does not depend on the
+    /// Returns the first hits of any number of rays, traced on all worker threads; the result does not depend on the
     /// number of threads.
     ///
     /// ```
@@ -236,14 +236,14 @@ impl HostTracer {
         all(rays, |rays, hits| self.nearest_each(rays, hits))
     }
 
-    /// Runs [`Self::occluded_before`] on rays in any number, on all worker threads, with one `t_max`: 1 for rays whose
-    /// directions end at a light. Triangles that blocked one ray are tried first for the next, so neighbouring rays
-    /// should be consecutive.
+    /// Runs [`Self::occluded_before`] on any number of rays, on all worker threads, with one `t_max`, which is 1 for
+    /// rays whose direction vectors end at a light. Triangles that blocked one ray are tried first for the next, so
+    /// neighbouring rays should be consecutive.
     pub fn occluded_all(&self, rays: &[Ray], t_max: f32) -> (Vec<bool>, HostCounts) {
         all(rays, |rays, occluded| self.occluded_each(rays, t_max, occluded))
     }
 
-    /// Offers every hit of these triangles, by their numbers.
+    /// Tests the triangles with these indices, and offers the hits to `best`.
     pub fn test(&self, triangles: &[u32], ray: &HostRay, best: &mut Best) {
         for &id in triangles {
             if let Some(t) = self.triangles[id as usize].hit(ray, self.sides) {
@@ -253,7 +253,7 @@ impl HostTracer {
     }
 }
 
-/// Traces rays in parallel and returns the answers in the order of the rays, with their total cost.
+/// Traces rays in parallel; returns the results in the order of the rays, and the total cost.
 fn all<T: Clone + Default + Send>(
     rays: &[Ray],
     trace: impl Fn(&[Ray], &mut [T]) -> HostCounts + Sync,

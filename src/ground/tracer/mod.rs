@@ -7,8 +7,8 @@
 //! - [`offset`]: offsets of ray ends from surfaces.
 //!
 //! `OctreeParameters::default` is tuned for this tracer. [`Octree::traverse`](octree::Octree::traverse) with
-//! [`HostTracer::nearest_in`], and [`HostTracer::nearest_of_all`] without an octree, are the plain forms that the fast
-//! ones are tested against; [`crate::geom::exact`] decides whether a hit is correct.
+//! [`HostTracer::nearest_in`], and [`HostTracer::nearest_of_all`] without an octree, are the plain references for tests
+//! of the fast forms; [`crate::geom::exact`] decides whether a hit is correct.
 
 mod best;
 mod cast;

@@ -1,11 +1,11 @@
-//! Offsets of ray ends from surfaces, so that no ray hits the triangle that it leaves or the one that it goes to.
+//! Offsets of ray ends from surfaces, so that no ray hits the triangle at its start or at its end.
 //!
 //! One policy for all ray casters: points are lifted along the triangle's normal, to the side that the ray leaves by,
-//! at both ends of a segment. The distance depends on what is known of the point:
+//! at both ends of a segment. The distance depends on the position of the point:
 //!
-//! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of what rounding can do to the ray's origin and to
-//!   the test of that triangle;
-//! - it lies *near* triangles, as a point of a patch whose four corners are flat only up to f32 does:
+//! - it lies *on* a triangle: [`SurfacePoint::clearance`], a bound of rounding errors in the ray's origin and in the
+//!   test of that triangle;
+//! - it lies *near* triangles, such as a point of a patch whose four corners are coplanar only up to f32:
 //!   [`scene_clearance`], a fixed fraction of the scene.
 
 use glam::DVec3;
@@ -67,7 +67,7 @@ impl SurfacePoint {
     /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most u times the
     /// sum of its magnitudes; twice that is used. The test finds the side from n . ao. One rounding per component of
     /// ao, ab and ac, three of the cross product and four of the dot product make at most (1 + 2 + 2 + 4) u of the sum
-    /// of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: in lengths, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is at
+    /// of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: as a length, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is at
     /// most the triangle's size plus `reach`.
     #[must_use]
     pub fn clearance(&self, reach: f64) -> f64 {
@@ -82,8 +82,8 @@ impl SurfacePoint {
         narrow(self.at + side * self.clearance(reach) * self.normal)
     }
 
-    /// Returns the ray to a point of another triangle, clear of both: it hits something before t = 1 if and only if
-    /// something lies between. `None` if f32 cannot represent its direction.
+    /// Returns the ray to a point of another triangle, clear of both triangles: it hits something before t = 1 if and
+    /// only if something lies between the points. `None` if f32 cannot represent its direction.
     #[must_use]
     pub fn ray_to(&self, other: &Self) -> Option<Ray> {
         let way = other.at - self.at;

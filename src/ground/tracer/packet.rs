@@ -1,4 +1,4 @@
-//! Triangles eight at a time: the test of `triangle_test.rs` on lanes, for the vector units of the host.
+//! The test of `triangle_test.rs` on eight triangles at a time, for the vector units of the host.
 
 use super::triangle_test::{HostRay, HostTriangle, scaled_corners};
 use glam::Vec3;
@@ -13,8 +13,8 @@ type Lanes = [f32; LANES];
 /// One corner per lane, by component.
 type Corners = [Lanes; 3];
 
-/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a degenerate one, which nothing hits.
-/// Edges and normal are recomputed each time, which costs less than loading them.
+/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a degenerate triangle, which no ray
+/// hits. Edges and normal are recomputed each time, which costs less than loading them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 struct Packet {

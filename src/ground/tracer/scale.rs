@@ -1,4 +1,4 @@
-//! Scaling by powers of two, which brings any unit of length into the range of single precision without rounding.
+//! Scaling by powers of two, which brings lengths of any unit into the range of single precision without rounding.
 
 use glam::DVec3;
 use refsim::num::power_of_two;
@@ -6,8 +6,7 @@ use refsim::num::power_of_two;
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 
-/// Largest magnitude of scaled corners: the squares of their lengths are then in the middle of the exponent range of
-/// single precision.
+/// Largest magnitude of scaled corners, which puts squared lengths in the middle of single precision's exponent range.
 const MAX_CORNER: f64 = 4.0;
 
 /// Scale of a mesh's corners for the single-precision triangle test.
@@ -16,8 +15,8 @@ pub fn mesh_scale(mesh: &Mesh) -> f64 {
     in_single_precision(scale_into(low.max(high), MAX_CORNER))
 }
 
-/// Clamps a scale to the normal and denormal numbers of single precision. Scenes below 2^-123, numbers with few bits
-/// left, get less than they need.
+/// Clamps a scale to the normal and denormal numbers of single precision. Scenes below 2^-123, where numbers have few
+/// bits left, get a smaller scale than they need.
 pub fn in_single_precision(scale: f64) -> f64 {
     scale.clamp(power_of_two(-149), power_of_two(127))
 }
@@ -46,7 +45,7 @@ pub fn ceil_power_of_two(x: f64) -> f64 {
     if floor == x { floor } else { floor * 2.0 }
 }
 
-/// Largest power of two `s` with `s * extent <= range`; 1 for an empty scene.
+/// Largest power of two `s` with `s * extent <= range`; 1 for an extent of 0.
 pub fn scale_into(extent: f64, range: f64) -> f64 {
     if extent == 0.0 { 1.0 } else { 1.0 / ceil_power_of_two(extent / range) }
 }

@@ -1,11 +1,11 @@
 //! The ray-triangle test in f32: the computation of the Ray Engine's `float.psa` and `seven_vectors.vsa`, operation by
 //! operation.
 //!
-//! Scheduling decides whether a ray is tested on the card or on the host, and must not affect the result; so the host
-//! computes what a card with fp32 pipelines computes, bit for bit (tests draw both): with the scene brought to the same
-//! scale, so that lengths of any unit neither overflow nor vanish. Every `f32` operation here is one IEEE operation
-//! with its own rounding: neither Rust nor glam fuses them, and glam's sums of three products run from the left, as
-//! `dp3` of the fp32 profiles.
+//! Scheduling decides whether a ray is tested on the card or on the host, and must not affect the result. So the host
+//! computes bit for bit the result of a card with fp32 pipelines (tests compare both). Host and card scale the scene
+//! alike, so that lengths of any unit neither overflow nor vanish. Every `f32` operation here is one IEEE operation
+//! with its own rounding: neither Rust nor glam fuses operations, and glam's sums of three products run from the left,
+//! as `dp3` does in the fp32 profiles.
 
 use glam::Vec3;
 
@@ -25,7 +25,7 @@ pub struct HostTriangle {
     bc: Vec3,
 }
 
-/// Ray as stored in the textures, its direction brought into range by a power of two.
+/// Ray as stored in the textures, with the direction scaled into range by a power of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HostRay {
     /// Origin in scaled units.
@@ -49,8 +49,8 @@ impl HostTriangle {
         Self { a, b, n: ab.cross(ac), ab, ac, bc }
     }
 
-    /// Returns t of a hit along the ray's direction in range: at or in front of the origin, inside or on the edges, and
-    /// from the front unless `sides` is either.
+    /// Returns t of a hit along the scaled direction. A hit has t >= 0, lies inside the triangle or on its edges, and
+    /// is on the front side unless `sides` includes the back.
     pub fn hit(&self, ray: &HostRay, sides: Sides) -> Option<f32> {
         let (t, hit) = match sides {
             Sides::Front => self.test::<false>(ray),
@@ -59,7 +59,7 @@ impl HostTriangle {
         hit.then_some(t)
     }
 
-    /// Returns t, and `true` if it is a hit. Branch-free, since packets run the same test on lanes.
+    /// Returns t, and `true` if it is a hit. Branch-free, because packets run the same test on lanes.
     #[inline(always)]
     pub fn test<const BOTH: bool>(&self, ray: &HostRay) -> (f32, bool) {
         let (ao, bo) = (ray.origin - self.a, ray.origin - self.b); // (1), (2)

@@ -8,13 +8,13 @@ use crate::error::{InputError, ensure, input_error};
 /// Options of the compression of segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SegmentOptions {
-    /// Vertices per cluster on average; the paper has 200. Each segment gets as many clusters as that goes into its
-    /// vertices, rounded down, and one at least: rounding up or to nearest meets none of Table 1's numbers better
+    /// Vertices per cluster on average; the paper uses 200. The number of a segment's clusters is its number of
+    /// vertices divided by this, rounded down, at least 1. Rounding up or to nearest agrees no better with Table 1
     /// (docs/papers/all_frequency.md).
     pub points_per_cluster: usize,
-    /// Representatives per cluster n; the paper has 16. Segments of fewer numbers have as many.
+    /// Representatives per cluster n, at most the numbers per vertex; the paper uses 16.
     pub vectors: usize,
-    /// Iterations at most for each number of representatives.
+    /// Maximum number of iterations for each number of representatives.
     pub iterations: usize,
     /// The measure by which vertices are assigned to clusters; [`CpcaMethod::Iterative`] in the paper.
     pub method: CpcaMethod,
@@ -33,15 +33,16 @@ impl Default for SegmentOptions {
 pub struct CompressedSegment {
     /// The segment, counted from 0.
     pub segment: usize,
-    /// The vertices, increasing; as many as the clustering has points.
+    /// The vertices in increasing order, one per point of the clustering.
     pub vertices: Vec<u32>,
-    /// Their m x n numbers each, n light coefficients after one another for each of m rows. Its means are 0.
+    /// Clusters of the vertices' transfer: m x n numbers per vertex, n light coefficients for each of m rows. The means
+    /// are 0.
     pub clustering: Clustering,
 }
 
 impl CompressedSegment {
-    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` sees each step. Panics:
-    /// without vertices per cluster, or if the signal does not have a point for each vertex.
+    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` sees each step. Panics if
+    /// the number of vertices per cluster is 0, or the signal does not have one point per vertex.
     pub fn new(
         segment: usize,
         vertices: Vec<u32>,
@@ -71,12 +72,12 @@ pub struct CompressedTransfer {
     pub rows: usize,
     /// Vertices of the mesh.
     pub vertices: usize,
-    /// The segments that are not 0 at all vertices, by increasing number.
+    /// The segments with transfer at some vertex, in increasing order.
     pub segments: Vec<CompressedSegment>,
 }
 
 impl CompressedTransfer {
-    /// The parts, checked.
+    /// Creates compressed transfer, and checks its parts.
     pub fn new(rows: usize, vertices: usize, segments: Vec<CompressedSegment>) -> Result<Self, InputError> {
         let mut before: Option<(usize, usize)> = None;
         for part in &segments {
@@ -111,7 +112,8 @@ impl CompressedTransfer {
         self.segments.first().map_or(0, |first| first.clustering.dimension() / self.rows)
     }
 
-    /// The share of vertices at which a segment is not 0, on average over `segments` segments: the paper's omega.
+    /// The paper's omega: the mean, over `segments` segments, of the fraction of vertices at which the segment is not
+    /// 0.
     pub fn omega(&self, segments: usize) -> f64 {
         let filled: usize = self.segments.iter().map(|part| part.vertices.len()).sum();
         filled as f64 / (segments * self.vertices) as f64

@@ -1,7 +1,7 @@
 //! Files of all-frequency transfer. docs/npz.md describes their contents.
 //!
 //! A file never stores raw transfer, which takes gigabytes. It stores visibility and reflectance, from which each
-//! segment is computed when it is needed, and coded transfer.
+//! segment can be computed on demand, and coded transfer.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -20,7 +20,7 @@ use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps};
 
-/// Texels along an edge of a parabolic map, at most.
+/// Maximum number of texels along an edge of a parabolic map.
 const MAX_SIDE: usize = 1 << 12;
 /// Light coefficients of a segment.
 const COEFFICIENTS: usize = Segmentation::Quarters.len();
@@ -28,11 +28,11 @@ const COEFFICIENTS: usize = Segmentation::Quarters.len();
 /// All-frequency transfer of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AllFrequencyFile {
-    /// The mesh whose vertices it belongs to.
+    /// Digest of the mesh.
     pub mesh: MeshDigest,
     /// The width of the light texels' hat functions.
     pub hats: BasisWidth,
-    /// The reflectance; its color is the mesh's.
+    /// The reflectance; the color belongs to the mesh.
     pub reflectance: Reflectance,
     /// The visible directions of each vertex, one map per vertex.
     pub visibility: Option<VisibilityMaps>,
@@ -45,7 +45,7 @@ struct TransferMetadata {
     mesh: MeshDigest,
     hats: BasisWidth,
     terms: usize,
-    /// Sides of the maps of G and F.
+    /// Texels along an edge of the maps of G and F.
     factors: Option<[usize; 2]>,
     code: Option<Code>,
 }
@@ -89,7 +89,7 @@ pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile
 }
 
 impl AllFrequencyFile {
-    /// The first contradiction between the parts: the field, the expected and the found value.
+    /// The first inconsistency between the parts: the field, the expected and the found value.
     fn fault(&self, terms: usize) -> Option<(&'static str, String, String)> {
         if self.reflectance.terms() != terms {
             return Some(("terms of the reflectance", self.reflectance.terms().to_string(), terms.to_string()));
@@ -183,14 +183,14 @@ fn coded(
     Ok(CodedTransfer { rows: terms, coefficients: COEFFICIENTS, vertices, options, segments })
 }
 
-/// Writes a file completely or not at all. Fails with [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the
-/// parts contradict each other.
+/// Writes a file atomically. Fails with [`WriteError`], of kind [`io::ErrorKind::InvalidInput`] if the parts contradict
+/// each other.
 pub fn save_all_frequency(file: &AllFrequencyFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_all_frequency(file, out))
 }
 
-/// Writes the bytes of a file. Errors: those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if
-/// the parts contradict each other.
+/// Writes the bytes of a file. Fails with errors of `out`, and with [`io::ErrorKind::InvalidInput`], before anything is
+/// written, if the parts contradict each other.
 pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::Result<()> {
     let terms = file.reflectance.terms();
     if let Some(fault) = file.fault(terms) {

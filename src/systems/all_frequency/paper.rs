@@ -1,7 +1,7 @@
-//! Reference solution: exit radiance of a vertex under a light of cube texels, in f64, every fine direction tested
-//! against every triangle. Equation 1 without factors, matrices, wavelets, compression or a card.
+//! Reference solution: exit radiance of a vertex under a light of cube texels (equation 1), in f64, without factors,
+//! matrices, wavelets, compression or a card. Every fine direction is tested against every triangle.
 //!
-//! It shares the vertices and the choice of hat functions with the code that it checks, and no other arithmetic.
+//! It shares with the tested code only the vertices and the choice of hat functions, and no arithmetic.
 
 use glam::DVec3;
 
@@ -35,8 +35,8 @@ impl std::fmt::Debug for AllFrequencyReference<'_> {
 
 impl AllFrequencyReference<'_> {
     /// g_p(v), the radiance that a vertex sends towards `view` in its local frame (equation 1). `sees` returns whether
-    /// light from a direction, given by face, row and column of 6 x 128 x 128, reaches the vertex; [`Self::sees`] is
-    /// the exact one. Panics if there is no such vertex.
+    /// light from a direction, given by face, row and column of 6 x 128 x 128, reaches the vertex; [`Self::sees`]
+    /// decides exactly. Panics if there is no such vertex.
     pub fn exit_radiance(&self, vertex: usize, view: DVec3, sees: impl Fn(usize, usize, usize) -> bool) -> f64 {
         let frame = &self.vertices.frames()[vertex];
         let mut sum = 0.0;
@@ -70,20 +70,20 @@ impl AllFrequencyReference<'_> {
         if self.hats == BasisWidth::OneTexel {
             return texel(row * LIGHT / FINE, column * LIGHT / FINE);
         }
-        // In texels, from the center of the first texel.
+        // Coordinates in texels, from the center of the first texel.
         let [y, x] = [row, column].map(|at| (at as f64 + 0.5) * LIGHT as f64 / FINE as f64 - 0.5);
         let [v, u] = [y - y.floor(), x - x.floor()];
         let radiance = |down: f64, right: f64| self.texel_beyond(face, y.floor() + down, x.floor() + right);
         let corners = [radiance(0.0, 0.0), radiance(0.0, 1.0), radiance(1.0, 0.0), radiance(1.0, 1.0)];
-        // At a corner of the cube only three texels meet, and their mean takes the place of the fourth.
+        // At a corner of the cube only three texels meet, and their mean replaces the fourth.
         let there: Vec<f64> = corners.into_iter().flatten().collect();
         let mean = there.iter().sum::<f64>() / there.len() as f64;
         let [a, b, c, d] = corners.map(|corner| corner.unwrap_or(mean));
         (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * c + u * d)
     }
 
-    /// The radiance of the texel at a row and column that may lie one beyond the face: then the texel there after the
-    /// neighboring face has been unfolded into this face's plane; `None` beyond a corner.
+    /// The radiance of the texel at a row and column. One texel beyond the face, the neighboring face is unfolded into
+    /// this face's plane; `None` beyond a corner.
     fn texel_beyond(&self, face: usize, row: f64, column: f64) -> Option<f64> {
         let along = |at: f64| (2.0 * at + 1.0) / LIGHT as f64 - 1.0;
         let [v, u] = [along(row), along(column)];
@@ -92,7 +92,7 @@ impl AllFrequencyReference<'_> {
         }
         let beyond = (u.abs().max(v.abs()) - 1.0).max(0.0);
         let point = point(face, u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)) - beyond * point(face, 0.0, 0.0);
-        // The point lies on the face on whose axis its component is 1.
+        // A point lies on the face along whose axis its component is 1.
         let on = (0..6).find(|&other| (point.dot(self::point(other, 0.0, 0.0)) - 1.0).abs() < 1e-9)?;
         let place = |axis: DVec3| (((point.dot(axis) + 1.0) / 2.0 * LIGHT as f64).floor() as usize).min(LIGHT - 1);
         let right = self::point(on, 1.0, 0.0) - self::point(on, 0.0, 0.0);
@@ -121,7 +121,7 @@ fn direction(face: usize, row: usize, column: usize, side: usize) -> DVec3 {
     point / point.length()
 }
 
-/// Solid angle of a texel of 128 x 128, by differences of that of the rectangle from (0, 0) to (x, y) at distance 1.
+/// Solid angle of a texel of 128 x 128, from solid angles of rectangles from (0, 0) to (x, y) at distance 1.
 fn solid_angle(row: usize, column: usize) -> f64 {
     let edge = |at: usize| 2.0 * at as f64 / FINE as f64 - 1.0;
     let to = |x: f64, y: f64| atan2(x * y, (x * x + y * y + 1.0).sqrt());

@@ -9,10 +9,10 @@ use super::factor::ProductFactors;
 /// f(v, s) = G(v) . F(s), without the color of the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reflectance {
-    /// The one term of a diffuse surface of albedo 1, exact: F = s_z and G = 1 / pi. A table would lose s_z to
-    /// interpolation, most at the horizon.
+    /// The one term of a diffuse surface of albedo 1, exact: F = s_z and G = 1 / pi. In a table, interpolation would
+    /// distort s_z, most at the horizon.
     Diffuse,
-    /// Factors by texels.
+    /// Factors stored in texels.
     Factored(ProductFactors),
 }
 
@@ -25,8 +25,8 @@ impl Reflectance {
         }
     }
 
-    /// G at a direction of length 1 towards the viewer, in the local frame. There is nothing to see from below. Panics
-    /// if there is not a place per term.
+    /// G at a direction of length 1 towards the viewer, in the local frame. G is 0 from below. Panics if `into` does
+    /// not have one element per term.
     pub fn view(&self, direction: DVec3, into: &mut [f64]) {
         match self {
             _ if direction.z <= 0.0 => into.fill(0.0),
@@ -35,7 +35,8 @@ impl Reflectance {
         }
     }
 
-    /// F at a direction of length 1 towards the light, in the local frame. Panics if there is not a place per term.
+    /// F at a direction of length 1 towards the light, in the local frame. Panics if `into` does not have one element
+    /// per term.
     pub fn light(&self, direction: DVec3, into: &mut [f64]) {
         match self {
             Self::Diffuse => into[0] = direction.z.max(0.0),

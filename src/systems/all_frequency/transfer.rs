@@ -1,14 +1,13 @@
 //! The transfer M_p of vertices, computed one segment of the light at a time (equations 6 and 10).
 //!
 //! The raw transfer of a vertex is a sum over its visible fine directions: component i for light texel j is the sum of
-//! hat_j(s) F_i(R_p s) times the solid angle of s. Texels hold radiances, so a light with texels l has the transferred
-//! radiance M l; an orthonormal Haar transform of each segment's rows of M and of the light leaves the product the
-//! same.
+//! hat_j(s) F_i(R_p s) times the solid angle of s. A light with texel radiances l has the transferred radiance M l. An
+//! orthonormal Haar transform of each segment, of the light and of the rows of M, does not change this product.
 //!
-//! *Cost.* A vertex takes one evaluation of F per visible direction and segment that shares it (hat functions of two
-//! texels reach over the borders of segments: 68 x 68 directions instead of 64 x 64, 13 % more). *Memory*: visibility
-//! maps, 12 KiB per vertex, and one segment, 1 KiB per vertex and row of F: for 50,000 vertices and 10 rows 614 MB and
-//! at most 512 MB.
+//! *Cost.* A vertex takes one evaluation of F per segment and visible direction in it. Hat functions two texels wide
+//! overlap the borders of segments: 68 x 68 directions instead of 64 x 64, 13 % more. *Memory*: visibility maps take 12
+//! KiB per vertex, and one segment 1 KiB per vertex and row of F: 614 MB and at most 512 MB for 50,000 vertices and 10
+//! rows.
 
 use std::fmt;
 use std::ops::Range;
@@ -46,8 +45,8 @@ pub struct FactoredTransfer<'a> {
     pub response: &'a dyn LightSide,
 }
 
-/// The light's side F of a factored BRDF. Called by its table, so that the loops over directions are compiled here, for
-/// any F, and not with each of their users.
+/// The light's side F of a factored BRDF. It is a trait object, so that the loops over directions are compiled once,
+/// and not with each user.
 pub trait LightSide: Sync {
     /// Writes all components for a local direction of length 1 with z > 0 (z along the normal, x along the tangent);
     /// they include the cosine z.
@@ -72,7 +71,7 @@ impl fmt::Debug for FactoredTransfer<'_> {
     }
 }
 
-/// The transfer of a reflectance; F is its factor of light.
+/// The transfer of a reflectance; F is the reflectance's factor of light.
 pub const fn transfer_of<'a>(
     vertices: &'a Vertices,
     maps: &'a VisibilityMaps,
@@ -82,7 +81,7 @@ pub const fn transfer_of<'a>(
     FactoredTransfer { vertices, maps, hats, rows: reflectance.terms(), response: reflectance }
 }
 
-/// The transfer of one segment of the light, for the vertices that see any of it.
+/// The transfer of one segment of the light at the vertices that see part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferSegment {
     /// The segment, 0 to 23.
@@ -111,14 +110,15 @@ impl Scratch {
 }
 
 impl FactoredTransfer<'_> {
-    /// The segments in order, without those that no vertex sees. Each is computed when the iterator reaches it.
+    /// Iterates over the segments in order, except segments that no vertex sees. Each segment is computed when the
+    /// iterator reaches it.
     pub fn segments(&self) -> impl Iterator<Item = Result<TransferSegment, InputError>> + '_ {
         (0..Segmentation::Quarters.count()).filter_map(|segment| self.segment(segment).transpose())
     }
 
-    /// One segment; `None` if no vertex sees any of it. The bits do not depend on the number of threads. Fails with
-    /// [`InputError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere. Panics if there is
-    /// no such segment.
+    /// Computes a segment; `None` if no vertex sees part of it. The bits do not depend on the number of threads. Fails
+    /// with [`InputError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere. Panics if
+    /// there is no such segment.
     pub fn segment(&self, segment: usize) -> Result<Option<TransferSegment>, InputError> {
         require(self.rows > 0, "the number of rows", "at least 1", 0.0)?;
         check(self.vertices, self.maps.vertices())?;
@@ -141,11 +141,11 @@ impl FactoredTransfer<'_> {
         Ok(Some(TransferSegment { segment, vertices, signal: Signal::new(dimension, values)? }))
     }
 
-    /// The mean response to every coefficient of a light in 24 segments, 0 where no vertex has transfer:
-    /// [`TransferSegment::mean_response`] of all segments, as [`TruncationPriority::Transfer`] needs it.
+    /// The mean response to every coefficient of a light in 24 segments, for [`TruncationPriority::Transfer`]:
+    /// [`TransferSegment::mean_response`] of all segments, 0 where no vertex has transfer.
     ///
     /// # Errors
-    /// As [`Self::segment`].
+    /// See [`Self::segment`].
     ///
     /// [`TruncationPriority::Transfer`]: crate::transfer::light::TruncationPriority::Transfer
     pub fn mean_responses(&self) -> Result<Vec<f64>, InputError> {
@@ -166,7 +166,7 @@ impl FactoredTransfer<'_> {
         (0..self.rows * LEN).map(|at| scratch.raw[at % LEN * self.rows + at / LEN]).collect()
     }
 
-    /// Sums over the directions that a map's vertex sees, in the order of their numbers.
+    /// Sums raw transfer over the directions that a map's vertex sees, in the order of their indices.
     fn gather(&self, segment: usize, map: usize, scratch: &mut Scratch) {
         let frame = &self.vertices.frames()[self.maps.vertices()[map] as usize];
         let (directions, rows) = (FineDirections::get().directions(), self.rows);
@@ -194,13 +194,13 @@ impl FactoredTransfer<'_> {
 }
 
 impl TransferSegment {
-    /// The components of a row within a point of the signal.
+    /// Indices of a row's components within a point of the signal.
     pub const fn row(row: usize) -> Range<usize> {
         row * LEN..(row + 1) * LEN
     }
 
-    /// The mean response to each coefficient of the segment: the mean magnitude over rows and over `all` vertices,
-    /// where vertices outside the segment count as 0. Used by [`TruncationPriority::Transfer`].
+    /// The mean response to each coefficient of the segment: the mean magnitude over rows and over `all` vertices;
+    /// vertices outside the segment count as 0. Used by [`TruncationPriority::Transfer`].
     ///
     /// [`TruncationPriority::Transfer`]: crate::transfer::light::TruncationPriority::Transfer
     pub fn mean_response(&self, all: usize) -> Vec<f64> {

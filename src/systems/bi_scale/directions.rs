@@ -1,9 +1,9 @@
 //! The M local directions in which a bidirectional texture is sampled, for light and for view.
 //!
 //! A square of k x k cells is mapped onto the hemisphere with equal areas: the concentric map of Shirley and Chiu from
-//! the square to the disc, then Lambert's equal-area map from the disc to the hemisphere (section VI-A, reference 34,
-//! which the scan has lost: that it is Shirley and Chiu's is an inference). The directions are those of the cells'
-//! centers.
+//! the square to the disc, then Lambert's equal-area map from the disc to the hemisphere. Section VI-A cites reference
+//! 34, which is missing in the scan; that it is Shirley and Chiu's map is inferred. The cells' centers give the
+//! directions.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -12,7 +12,7 @@ use glam::DVec3;
 use crate::elementary;
 use crate::error::{InputError, ensure};
 
-/// M = k x k directions of the upper hemisphere. Direction k v + u is that of cell (u, v).
+/// M = k x k directions of the upper hemisphere. Direction k v + u belongs to cell (u, v).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalDirections {
     side: usize,
@@ -20,11 +20,11 @@ pub struct LocalDirections {
 }
 
 impl LocalDirections {
-    /// The largest number of cells along an edge, which gives 4096 directions.
+    /// Maximum number of cells along an edge, for 4096 directions.
     pub const MOST: usize = 64;
 
-    /// The directions of a square of `side` x `side` cells. Fails with [`InputError`] unless there are 1 to
-    /// [`Self::MOST`] along an edge.
+    /// The directions of a square of `side` x `side` cells. Fails with [`InputError`] unless `side` is 1 to
+    /// [`Self::MOST`].
     pub fn new(side: usize) -> Result<Self, InputError> {
         ensure!(
             (1..=Self::MOST).contains(&side),
@@ -41,15 +41,16 @@ impl LocalDirections {
         self.side
     }
 
-    /// The M directions by number, of length 1.
+    /// The M directions in order, of length 1.
     pub fn directions(&self) -> &[DVec3] {
         &self.directions
     }
 
-    /// The number of the direction nearest to `direction` in the local frame, which may lie below the horizon: the one
-    /// with the largest cosine, the lowest number among equal ones.
+    /// The index of the direction nearest to `direction` (local, may lie below the horizon), by the largest cosine; the
+    /// lowest index of equals.
     pub fn nearest(&self, direction: DVec3) -> usize {
-        // Cells are at most three times as long as wide, so that no center two cells away is nearer than the own one.
+        // Cells are at most three times as long as wide, so no center two cells away is nearer than the center of the
+        // cell itself.
         let around = square(direction).map(|at| {
             let cell = ((at + 1.0) / 2.0 * self.side as f64) as usize;
             cell.saturating_sub(2)..(cell + 3).min(self.side)
@@ -58,7 +59,7 @@ impl LocalDirections {
         self.nearest_of(direction, down.flat_map(|v| across.clone().map(move |u| v * self.side + u)))
     }
 
-    /// As [`Self::nearest`], by a search over all directions.
+    /// Like [`Self::nearest`], by a search over all directions.
     pub fn nearest_of_all(&self, direction: DVec3) -> usize {
         self.nearest_of(direction, 0..self.directions.len())
     }
@@ -92,7 +93,7 @@ pub fn hemisphere([u, v]: [f64; 2]) -> DVec3 {
 }
 
 /// The point of the square [-1, 1]^2 for a direction of the upper hemisphere: the inverse of [`hemisphere`]. Directions
-/// below the horizon are moved onto it.
+/// below the horizon are moved to the horizon.
 pub fn square(direction: DVec3) -> [f64; 2] {
     let radius = (1.0 - direction.z.clamp(0.0, 1.0)).sqrt();
     let (x, y) = (direction.x, direction.y);

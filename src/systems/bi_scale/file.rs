@@ -47,7 +47,7 @@ struct MatrixMetadata {
     biclusters: Option<BiclusterSizes>,
 }
 
-/// Numbers of biclusters, of the rows of all, and of the columns of all.
+/// Number of biclusters, and total numbers of their rows and columns.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 struct BiclusterSizes {
     count: usize,
@@ -96,7 +96,7 @@ struct Shape {
 }
 
 impl BiScaleFile {
-    /// The numbers behind entries of the matrix, else of its biclusters.
+    /// The numbers that entries of the matrix, or else of its biclusters, represent.
     pub fn values(&self) -> Option<&EntryValues> {
         let of_biclusters = || self.biclusters.as_ref().map(Biclustering::values);
         self.matrix.as_ref().map(SparseMatrix::values).or_else(of_biclusters)
@@ -115,7 +115,7 @@ impl BiScaleFile {
         [of_matrix, of_biclusters].into_iter().flatten()
     }
 
-    /// The first contradiction between the parts: the field, the expected and the found value.
+    /// The first inconsistency between the parts: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, String, String)> {
         let mut shapes = self.shapes();
         let unit = |shape: Shape| shape.fraction_bits.map_or("no unit".to_owned(), |bits| format!("2^-{bits}"));
@@ -138,7 +138,7 @@ impl BiScaleFile {
     }
 }
 
-/// The places `indices` with the values `data` of so many entries: integers in units of the matrix, or floats.
+/// Reads `indices` and `data` of a number of entries; values are integers in units of the matrix, or floats.
 fn entries(
     arrays: &mut NpzReader<'_>,
     [indices, data]: [&str; 2],
@@ -205,14 +205,14 @@ fn read_biclusters(
     Ok(biclusters)
 }
 
-/// Writes a file completely or not at all. Fails with [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the
-/// parts contradict each other.
+/// Writes a file atomically. Fails with [`WriteError`], of kind [`io::ErrorKind::InvalidInput`] if the parts contradict
+/// each other.
 pub fn save_bi_scale(file: &BiScaleFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_bi_scale(file, out))
 }
 
-/// Writes the bytes of a file. Errors: those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if
-/// the parts contradict each other.
+/// Writes the bytes of a file. Fails with errors of `out`, and with [`io::ErrorKind::InvalidInput`], before anything is
+/// written, if the parts contradict each other.
 pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()> {
     let Some(shape) = file.shapes().next().filter(|_| file.fault().is_none()) else {
         return Err(contradiction(file.fault().unwrap_or_default()));

@@ -1,21 +1,21 @@
 //! Sparse matrices: the transfer matrix T, or any matrix of finite numbers.
 //!
-//! Averaging 2^m x 2^m visibility samples gives multiples of 2^-2m (section IV-A), which entries hold as integers;
-//! other numbers are in a table ([`EntryValues`]). Multiples of a unit are subtracted without rounding, so that
-//! "lossless" means equal.
+//! Averaging 2^m x 2^m visibility samples gives multiples of 2^-2m (section IV-A), which entries store as integers;
+//! other numbers are in a table ([`EntryValues`]). Multiples of a unit are subtracted without rounding, so "lossless"
+//! results are equal.
 
 use crate::error::{InputError, ensure, input_error};
 use crate::io::CoordinateMatrix;
 
 const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
 
-/// An entry of a row or column: its index along the line, and an integer for its value.
+/// An entry of a row or column: its index along the line, and an integer that encodes its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MatrixEntry {
     /// The column of an entry of a row; the row of an entry of a column.
     pub index: u32,
-    /// The value, as [`EntryValues`] of the matrix or of the biclusters has it: equal integers are equal numbers, 0 is
-    /// 0, and the order is that of the numbers.
+    /// The value, encoded by the [`EntryValues`] of the matrix or of the biclusters: equal integers are equal numbers,
+    /// 0 is 0, and integers have the order of the numbers.
     pub value: i32,
 }
 
@@ -33,14 +33,14 @@ pub(super) fn size_error(rows: usize, columns: usize) -> InputError {
 }
 
 impl SparseMatrix {
-    /// A matrix without rows yet, with `columns` columns and values in units of 2^-`fraction_bits`. Fails with
+    /// Creates a matrix of 0 rows and `columns` columns, with values in units of 2^-`fraction_bits`. Fails with
     /// [`InputError`] for 0 columns, or more than 32 bits can count. Panics if `fraction_bits` exceeds
     /// [`EntryValues::MOST_FRACTION_BITS`].
     pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, InputError> {
         Self::of_values(columns, EntryValues::units(fraction_bits))
     }
 
-    /// As [`Self::new`], for any values.
+    /// Like [`Self::new`], for any values.
     pub(super) fn of_values(columns: usize, values: EntryValues) -> Result<Self, InputError> {
         if columns == 0 || u32::try_from(columns).is_err() {
             return Err(size_error(0, columns));
@@ -48,9 +48,9 @@ impl SparseMatrix {
         Ok(Self { columns, values, begins: vec![0], entries: Vec::new() })
     }
 
-    /// A matrix of real numbers: in their largest common power-of-two unit, if this has at most
-    /// [`EntryValues::MOST_FRACTION_BITS`] and 32 bits hold the multiples; else with a table. Zeros of either sign are
-    /// left out.
+    /// Converts real numbers to their largest common power-of-two unit, if it has at most
+    /// [`EntryValues::MOST_FRACTION_BITS`] and 32 bits hold the multiples, else to a table. Zeros of either sign are
+    /// dropped.
     pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, InputError> {
         if let Some(&(row, column, value)) = matrix.entries.iter().find(|(.., value)| !value.is_finite()) {
             return Err(input_error!("expected finite values, found {value} in row {row}, column {column}"));
@@ -69,12 +69,12 @@ impl SparseMatrix {
         Self::of_entries(matrix, values)
     }
 
-    /// A matrix in units of 2^-`fraction_bits`, of multiples of these that 32 bits hold.
+    /// Converts multiples of 2^-`fraction_bits` within 32 bits to a matrix in this unit.
     pub(super) fn in_units(matrix: &CoordinateMatrix, fraction_bits: u32) -> Result<Self, InputError> {
         Self::of_entries(matrix, EntryValues::units(fraction_bits))
     }
 
-    /// Entries that have these values, or are 0.
+    /// Encodes entries by these values; zeros are dropped.
     fn of_entries(matrix: &CoordinateMatrix, values: EntryValues) -> Result<Self, InputError> {
         let mut sparse = Self::of_values(matrix.columns, values)?;
         let mut rows = matrix.entries.chunk_by(|a, b| a.0 == b.0).peekable();
@@ -128,12 +128,12 @@ impl SparseMatrix {
         Ok(())
     }
 
-    /// Number of rows: for a transfer matrix M n, the local directions of all n vertices.
+    /// Number of rows: in a transfer matrix M n, M local directions for each of n vertices.
     pub fn rows(&self) -> usize {
         self.begins.len() - 1
     }
 
-    /// Number of columns: for a transfer matrix N, the light texels.
+    /// Number of columns: in a transfer matrix N, the number of light texels.
     pub fn columns(&self) -> usize {
         self.columns
     }
@@ -143,7 +143,7 @@ impl SparseMatrix {
         &self.values
     }
 
-    /// The number that an entry holds, exactly. Panics if the matrix can have no such entry.
+    /// The number that an entry represents, exactly. Panics if no such entry is possible.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         self.values.value(entry)
@@ -154,12 +154,11 @@ impl SparseMatrix {
         self.entries.len()
     }
 
-    /// The entries of a row, with increasing columns. Panics if there is no such row.
+    /// The entries of a row, in order of columns. Panics if there is no such row.
     pub fn row(&self, row: usize) -> &[MatrixEntry] {
         &self.entries[self.begins[row]..self.begins[row + 1]]
     }
 
-    /// All entries row by row.
     pub(super) fn to_rows(&self) -> Vec<Vec<MatrixEntry>> {
         (0..self.rows()).map(|row| self.row(row).to_vec()).collect()
     }
@@ -171,7 +170,7 @@ fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
     let finest = f64::from(1_u32 << EntryValues::MOST_FRACTION_BITS);
     let mut fraction_bits = 0;
     for value in values.clone() {
-        // Exact: the factor is a power of two. Values that it makes infinite are out of range in any unit.
+        // Exact: the factor is a power of two. Values that it makes infinite are out of range for every unit.
         let scaled = value * finest;
         if scaled.fract() != 0.0 {
             return None;
@@ -184,14 +183,15 @@ fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
     values.map(|value| value * unit).all(|units| units.abs() <= f64::from(i32::MAX)).then_some(fraction_bits)
 }
 
-/// The numbers behind entries.
+/// The numbers that entries represent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EntryValues {
-    /// All values of the matrix are multiples of 2^-this that 32 bits hold; `None` if there is no such unit.
+    /// Number of fraction bits of a unit whose 32-bit multiples are all values of the matrix; `None` if there is no
+    /// such unit.
     fraction_bits: Option<u32>,
     /// The unit; 1 without one.
     unit: f64,
-    /// The numbers that entries name, the first by 1, in increasing order, unless entries are in units.
+    /// Unless entries are in units: the numbers in increasing order; entry 1 represents the first.
     table: Option<Vec<f64>>,
 }
 
@@ -199,14 +199,14 @@ impl EntryValues {
     /// The largest number of fraction bits of a unit: more than the difference of two f32 numbers in [0, 1] needs.
     pub const MOST_FRACTION_BITS: u32 = 30;
 
-    /// Whole numbers of 2^-`fraction_bits`. Panics if `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
+    /// Multiples of 2^-`fraction_bits`. Panics if `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
     pub fn units(fraction_bits: u32) -> Self {
         assert!(fraction_bits <= Self::MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
         Self { fraction_bits: Some(fraction_bits), unit: 1.0 / f64::from(1_u32 << fraction_bits), table: None }
     }
 
-    /// A table of finite numbers, in any order, repeated or not; zeros are left out. The values of the matrix may still
-    /// have a common unit if its biclusters overflow 32 bits.
+    /// Creates a table of finite numbers, which may be unordered and repeated; zeros are dropped. If only biclusters
+    /// overflow 32 bits, the values of the matrix still have a common unit.
     pub(super) fn table(fraction_bits: Option<u32>, numbers: impl Iterator<Item = f64>) -> Self {
         let mut numbers: Vec<f64> = numbers.filter(|&value| value != 0.0).collect();
         numbers.sort_unstable_by(f64::total_cmp);
@@ -215,7 +215,7 @@ impl EntryValues {
         Self { fraction_bits, unit, table: Some(numbers) }
     }
 
-    /// In the unit of the matrix if there is one in which 32 bits hold all numbers, else in a table.
+    /// Encodes numbers in the unit of the matrix, if there is one and 32 bits hold all numbers, else in a table.
     pub(super) fn of_numbers(fraction_bits: Option<u32>, numbers: impl Iterator<Item = f64> + Clone) -> Self {
         let units = fraction_bits.map(Self::units);
         let units = units.filter(|units| numbers.clone().all(|number| units.entry(number).is_some()));
@@ -232,7 +232,7 @@ impl EntryValues {
         self.table.as_ref().map(Vec::len)
     }
 
-    /// The number that an entry holds. Panics if the table has no such entry.
+    /// The number that an entry represents. Panics if the table has no such entry.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         match &self.table {
@@ -241,8 +241,8 @@ impl EntryValues {
         }
     }
 
-    /// The integer of an entry for a number; `None` if it is not in the table, and not a multiple of the unit within 32
-    /// bits.
+    /// The entry that represents a number; `None` if the number is neither in the table nor a multiple of the unit
+    /// within 32 bits.
     pub(super) fn entry(&self, value: f64) -> Option<i32> {
         match &self.table {
             None => {
@@ -257,7 +257,7 @@ impl EntryValues {
         }
     }
 
-    /// True if an entry may hold this.
+    /// True if an entry has this integer.
     pub(super) fn has(&self, entry: i32) -> bool {
         entry != 0 && self.table.as_ref().is_none_or(|table| (1..=table.len()).contains(&(entry as usize)))
     }

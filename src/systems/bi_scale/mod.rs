@@ -1,15 +1,15 @@
 //! System 6: all-frequency bi-scale radiance transfer by biclustering.
 //!
-//! - [`paper`]: Algorithms 1 and 2 and equation 3 by plain loops. Read it first.
+//! - [`paper`]: Algorithms 1 and 2 and equation 3 by plain loops; read it first;
 //! - [`directions`]: the local directions to which light is transferred (section VI-A);
 //! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a sparse [`matrix`];
-//! - [`mod@file`]: transfer and biclusters in `.npz` files;
+//! - [`mod@file`]: files of transfer and biclusters (`.npz`);
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
-//! - [`product`]: light times that sum (section V, Algorithm 2);
-//! - [`baselines`]: baselines, other ways to store transfer (section VI-B);
-//! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering);
+//! - [`product`]: light times the sum of biclusters (section V, Algorithm 2);
+//! - [`baselines`]: other ways to store transfer (section VI-B);
+//! - [`on_card`]: products and pictures on an emulated card; [`kernels`]: its programs (section V, Rendering);
 //! - [`texture`]: the bidirectional textures that local light illuminates (section III);
-//! - [`shade`]: pixels, their product (section III, equation 3).
+//! - [`shade`]: pixels, the product of texture and local light (section III, equation 3).
 
 pub mod baselines;
 pub mod bicluster;

@@ -15,7 +15,7 @@ struct Submatrix {
 }
 
 impl Submatrix {
-    /// Equation 9: 2 nnz(M) - (r + 2l - 1) - 2 nnz(M_R), where M_R is M less the bicluster.
+    /// Equation 9: 2 nnz(M) - (r + 2l - 1) - 2 nnz(M_R), where M_R is M minus the bicluster.
     fn reduction(&self, matrix: &[Vec<f64>]) -> i64 {
         let mut nonzeros = 0;
         let mut residual_nonzeros = 0;
@@ -30,7 +30,7 @@ impl Submatrix {
         2 * nonzeros - cost - 2 * residual_nonzeros
     }
 
-    /// The submatrix after an insertion or a deletion of a row; `None` if its last row would go.
+    /// The submatrix after an insertion or a deletion of a row; `None` if no row would be left.
     fn with_row_changed(&self, row: usize) -> Option<Self> {
         let mut changed = self.clone();
         match changed.rows.iter().position(|&inside| inside == row) {
@@ -41,7 +41,8 @@ impl Submatrix {
         Some(changed)
     }
 
-    /// As [`Self::with_row_changed`], for a column. Also `None` if a column is 0 in all rows, and so has no value.
+    /// Like [`Self::with_row_changed`], for a column. Also `None` if a column is 0 in all rows, because it then has no
+    /// value.
     fn with_column_changed(&self, column: usize, matrix: &[Vec<f64>]) -> Option<Self> {
         let mut changed = self.clone();
         match changed.columns.iter().position(|(inside, _)| *inside == column) {
@@ -52,14 +53,14 @@ impl Submatrix {
         Some(changed)
     }
 
-    /// The most frequent value other than 0 in the rows of a column, the lowest of equally frequent ones.
+    /// The most frequent non-zero value of a column in the rows; of equally frequent values the lowest.
     fn most_frequent(&self, column: usize, matrix: &[Vec<f64>]) -> Option<f64> {
         let values = || self.rows.iter().map(|&row| matrix[row][column]).filter(|&value| value != 0.0);
         let count = |value: f64| values().filter(|&other| other == value).count();
         values().max_by(|&a, &b| count(a).cmp(&count(b)).then(b.total_cmp(&a)))
     }
 
-    /// The bicluster; values are appended to `numbers`, and named by their index there.
+    /// Converts to a bicluster; values are appended to `numbers` and encoded as their indices.
     fn bicluster(mut self, numbers: &mut Vec<f64>) -> Bicluster {
         self.rows.sort_unstable();
         self.columns.sort_unstable_by_key(|&(column, _)| column);
@@ -75,8 +76,8 @@ impl Submatrix {
     }
 }
 
-/// Algorithm 1 with every operation tried, each by equation 9. A row or column costs a look at all of the matrix, so
-/// this is for small ones. Panics if the largest residual to drop is negative or not finite.
+/// Algorithm 1 with every operation tried, each by equation 9. Each operation scans the whole matrix, so the function
+/// is for small matrices. Panics if the largest residual to drop is negative or not finite.
 pub fn biclusters(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     let mut left = dense(matrix);
     assert!(options.drop >= 0.0, "a size");
@@ -90,7 +91,7 @@ pub fn biclusters(matrix: &SparseMatrix, options: BiclusterOptions) -> Bicluster
         while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
             submatrix = better;
         }
-        // Lines 15 and 16: the bicluster is subtracted, so that the residual stays.
+        // Lines 15 and 16: the bicluster is subtracted, which leaves the residual.
         for &row in &submatrix.rows {
             for (column, t) in &submatrix.columns {
                 let value = left[row][*column] - t;
@@ -115,7 +116,7 @@ fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
     (0..matrix.rows()).map(row).collect()
 }
 
-/// The element that the next bicluster starts at, row and column.
+/// Row and column of the element at which the next bicluster starts.
 fn choose(left: &[Vec<f64>], seed: u64, number: usize) -> Option<(usize, usize)> {
     let places = left.iter().enumerate().flat_map(|(row, values)| {
         values.iter().enumerate().filter(|(_, value)| **value != 0.0).map(move |(column, _)| (row, column))
@@ -124,7 +125,7 @@ fn choose(left: &[Vec<f64>], seed: u64, number: usize) -> Option<(usize, usize)>
     (!places.is_empty()).then(|| places[start(seed, number as u64, places.len() as u64) as usize])
 }
 
-/// The submatrix after the operation that reduces the cost most; `None` if none reduces it.
+/// The submatrix after the operation that reduces the cost most; `None` if no operation reduces it.
 fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>], deletion: bool) -> Option<Submatrix> {
     let rows = (0..left.len()).filter(|row| deletion || !submatrix.rows.contains(row));
     let is_inside = |column: usize| submatrix.columns.iter().any(|(inside, _)| *inside == column);
@@ -142,7 +143,7 @@ fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>], deletion: bool) -> O
     best
 }
 
-/// Algorithm 2 in f64, step by step. Panics if the light has not as many numbers as the matrix has columns.
+/// Algorithm 2 in f64, step by step. Panics if the light does not have one number per column.
 pub fn multiply(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
     let [rows, columns] = biclusters.matrix_size();
     assert_eq!(light.len(), columns, "as many numbers as columns");
@@ -153,7 +154,7 @@ pub fn multiply(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
             *sum += biclusters.value(entry.value) * light[entry.index as usize];
         }
     }
-    // Lines 4 to 11, from the other side: rows take the biclusters in the same order.
+    // Lines 4 to 11 with exchanged loops: each row adds its biclusters in the same order.
     let mut local = vec![0.0; rows];
     for (bicluster, sum) in buffer.iter().enumerate() {
         for &row in biclusters.rows_of(bicluster) {
@@ -163,11 +164,11 @@ pub fn multiply(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
     local
 }
 
-/// Equation 3: B(x, e) = sum over d of b(u, e, d) L~(x, d). `local` is L~ of all vertices: row M p + j is local direction j of
-/// vertex p.
+/// Equation 3: B(x, e) = sum over d of b(u, e, d) L~(x, d). `local` is L~ of all vertices, with local direction j of
+/// vertex p in row M p + j.
 ///
-/// Sums begin with 0 and run over: directions of light; for each, the four views, for each the four texels; the three
-/// corners of the triangle.
+/// Sums begin with 0. The sum over directions of light contains, per direction, sums over four views with four texels
+/// each, and over the triangle's three corners.
 pub fn radiance(texture: &BidirectionalTexture, local: &[[f64; 3]], pixel: &ShadedPixel) -> [f64; 3] {
     let lights = texture.light().directions().len();
     let views = ViewSamples::around(texture.view(), pixel.view);

@@ -1,20 +1,20 @@
 //! Light times the transfer: L~ = T L as the sum of B_i L (section V, Rendering; Algorithm 2).
 //!
 //! - [`by_rows`]: T L itself, row by row;
-//! - [`Gather`]: Algorithm 2 in f32, from lists in the order in which they are read: the sums of
-//!   [`paper::multiply`](super::paper::multiply)'s shape.
+//! - [`Gather`]: Algorithm 2 in f32, from lists in the order of reads, with sums in the order of
+//!   [`paper::multiply`](super::paper::multiply).
 //!
-//! Values of biclusters are converted to the format of the product. Residuals that it cannot represent are rounded. So
-//! large residuals that cancel may leave an error, although the biclusters are exact.
+//! Values of biclusters are rounded to the format of the product. So large residuals that cancel may leave an error,
+//! although the biclusters are exact.
 //!
-//! Sums are taken in this order, one addition after the other, beginning with 0: of a bicluster over its columns,
-//! increasing; of a row over its biclusters, in the order in which they were found.
+//! Sums begin with 0, in a fixed order: a bicluster's over its columns, increasing; a row's over its biclusters, in the
+//! order in which they were found.
 
 use super::bicluster::Biclustering;
 use super::matrix::SparseMatrix;
 
-/// L~ = T L from the matrix itself, in f64, columns increasing. Panics if the light has not as many numbers as the
-/// matrix has columns.
+/// L~ = T L from the matrix itself, in f64, summed in the order of columns. Panics if the light does not have one
+/// number per column.
 pub fn by_rows(matrix: &SparseMatrix, light: &[f64]) -> Vec<f64> {
     assert_eq!(light.len(), matrix.columns(), "as many numbers as columns");
     let row = |row| {
@@ -32,22 +32,22 @@ const LANES: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Gather {
     columns: usize,
-    /// Per place of the buffer where the columns of its bicluster begin, and the last ones end.
+    /// For each place of the buffer, the start of its bicluster's columns; then the end of the last columns.
     column_begins: Vec<u32>,
     /// Columns and their values t.
     columns_of: Vec<(u32, f32)>,
-    /// Rows by the number of their biclusters, then by their own number.
+    /// Rows sorted by their number of biclusters, then by index.
     rows: Vec<u32>,
-    /// The numbers of biclusters per row, increasing, each with the number of such rows.
+    /// The distinct numbers of biclusters per row, increasing, each with its number of rows.
     lengths: Vec<[usize; 2]>,
-    /// I_j: the biclusters of rows by their place in the buffer, in the order in which they were found; eight rows of
-    /// one length interleaved, the rest row by row.
+    /// I_j: buffer places of each row's biclusters, in the order in which these were found. Eight rows of one length
+    /// are interleaved, remaining rows are stored one by one.
     biclusters_of: Vec<u32>,
 }
 
 impl Gather {
-    /// The lists of some biclusters. Values beyond the range of f32 are infinite, and so are products with them, or not
-    /// numbers.
+    /// Creates the lists of biclusters. Values beyond the range of f32 become infinite, and products with them infinite
+    /// or NaN.
     pub fn new(biclusters: &Biclustering) -> Self {
         let [rows, columns] = biclusters.matrix_size();
         // Sums with equal numbers of terms are adjacent, so that loops have equal lengths.
@@ -82,8 +82,8 @@ impl Gather {
         Self { columns, column_begins, columns_of, rows, lengths, biclusters_of }
     }
 
-    /// Algorithm 2 in f32, for C lights or color channels in parallel. Panics if the light has not as many numbers as
-    /// the matrix has columns.
+    /// Algorithm 2 in f32, for C lights or color channels in parallel. Panics if the light does not have one number per
+    /// column.
     pub fn multiply<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
         assert_eq!(light.len(), self.columns, "as many numbers as columns");
         let buffer = self.buffer(light);
@@ -114,7 +114,7 @@ impl Gather {
         local
     }
 
-    /// P: per bicluster light times its columns.
+    /// P: for each bicluster, light times its columns.
     fn buffer<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
         let sum = |ends: &[u32]| {
             let columns = &self.columns_of[ends[0] as usize..ends[1] as usize];

@@ -1,10 +1,10 @@
-//! The macro-scale transfer T (section IV-A; equations 1 and 2): which of the light's texels each vertex sees, and to
-//! which of its local directions their light goes.
+//! The macro-scale transfer T (section IV-A; equations 1 and 2): which light texels each vertex sees, and to which of
+//! its local directions their light is assigned.
 //!
-//! Row M p + j is local direction j of vertex p, column k a light texel: face 1024 + row 32 + column of a cube with
-//! Direct3D's faces. Each texel that a vertex sees goes to one local direction, the nearest to the texel's center, so a
-//! column has at most one entry per vertex. The entry is the visible share of the texel's 2^m x 2^m directions, a
-//! multiple of 2^-2m. It holds neither solid angle nor cosine, which would make equal entries different: the solid
+//! Row M p + j is local direction j of vertex p. Column k is a light texel, with k = 1024 face + 32 row + column on a
+//! cube with Direct3D's faces. A visible texel is assigned to one local direction, the nearest to the texel's center,
+//! so a column has at most one entry per vertex. The entry is the visible fraction of the texel's 2^m x 2^m directions,
+//! a multiple of 2^-2m. It contains neither solid angle nor cosine, which would make equal entries different: the solid
 //! angle is in the light ([`light_vector`]), the cosine in the bidirectional texture.
 
 use rayon::prelude::*;
@@ -18,11 +18,11 @@ use crate::transfer::light::CubeLight;
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{LocalFrame, Vertices};
 
-/// Vertices whose rows are made together.
+/// Number of vertices whose rows are computed together.
 const BLOCK: usize = 256;
 
-/// T of the vertices of some visibility maps, map by map. Fails with [`InputError`] if there are more rows than 32 bits
-/// can name, or none. Panics if the maps are of other vertices.
+/// T of the vertices of visibility maps, map by map. Fails with [`InputError`] if there are no rows, or more than 32
+/// bits can count. Panics if the maps belong to other vertices.
 pub fn transfer_matrix(
     vertices: &Vertices,
     maps: &VisibilityMaps,
@@ -50,14 +50,14 @@ pub fn transfer_matrix(
     Ok(matrix)
 }
 
-/// Per light texel how many of its directions a vertex sees.
+/// For each light texel, the number of its directions that a vertex sees.
 pub fn shares(maps: &VisibilityMaps, map: usize) -> Vec<u32> {
     let fine = maps.sampling().directions();
     let seen = |texel: usize| fine.in_texel(texel).filter(|&fine| maps.is_visible(map, fine)).count() as u32;
     (0..LIGHT_TEXELS).map(seen).collect()
 }
 
-/// T_p: per local direction the texels whose light goes there (equation 1).
+/// T_p: for each local direction, the texels whose light is assigned to it (equation 1).
 fn vertex_rows(frame: &LocalFrame, shares: &[u32], directions: &LocalDirections) -> Vec<Vec<MatrixEntry>> {
     let mut rows = vec![Vec::new(); directions.directions().len()];
     for (texel, &share) in shares.iter().enumerate().filter(|(_, share)| **share > 0) {
@@ -67,19 +67,19 @@ fn vertex_rows(frame: &LocalFrame, shares: &[u32], directions: &LocalDirections)
     rows
 }
 
-/// [`light_vector`] of a light's red, green and blue.
+/// [`light_vector`] for a light's red, green and blue.
 pub fn light_vectors(light: &CubeLight) -> [Vec<f64>; 3] {
     [0, 1, 2]
         .map(|channel: usize| light_vector(&light.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>()))
 }
 
-/// Red, green and blue side by side: a color of each number of three vectors.
+/// Combines three vectors into one vector of colors.
 pub fn side_by_side([red, green, blue]: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
     red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
 }
 
-/// L: radiance per texel times the texel's solid angle in steradians, which T leaves out. Panics if there is not one
-/// number per texel.
+/// L: radiance per texel times the texel's solid angle in steradians, which T does not contain. Panics if there is not
+/// one number per texel.
 pub fn light_vector(radiance: &[f64]) -> Vec<f64> {
     assert_eq!(radiance.len(), LIGHT_TEXELS, "radiance of each texel");
     let solid_angle = |texel: usize| {

@@ -1,13 +1,13 @@
-//! Principal axes of a signal: along them a lower bound of a squared error costs a fraction of the error.
+//! Principal axes of a signal: along them a lower bound of a squared error is much cheaper than the error.
 //!
-//! With orthonormal axes B, no distance grows: |x - x_0 - V c| is at least |B (x - x_0) - B V c| for all weights c, so
-//! the distance of B x from the affine span of B V is at most the distance of x from the subspace. Both are taken
+//! Orthonormal axes B do not increase distances: |x - x_0 - V c| is at least |B (x - x_0) - B V c| for all weights c,
+//! so the distance of B x from the affine span of B V is at most the distance of x from the subspace. Both are taken
 //! relative to a center g. B V is orthonormalised; a vector is dropped if its remainder is no longer than [`NOTHING`].
 //!
-//! With S = |x - g| + |x_0 - g| and n' vectors, the dropped vectors lower a distance by at most sqrt(n') 2^-36 S, and the
-//! rounding of B x to f32 moves it by at most 2^-24 S, or 2^-146 where f32 is subnormal. The errors that decide are
-//! rounded in f64 by far less, and count as 0 up to 2^-40 S^2. [`SLACK`] (S + [`TINY`])^2 is more than all of them
-//! together.
+//! With S = |x - g| + |x_0 - g| and n' vectors, the dropped vectors lower a distance by at most sqrt(n') 2^-36 S, and
+//! the rounding of B x to f32 changes it by at most 2^-24 S, or 2^-146 where f32 is subnormal. The exact comparison of
+//! errors in f64 rounds far less, and errors up to 2^-40 S^2 count as 0. [`SLACK`] (S + [`TINY`])^2 exceeds the sum of
+//! all these errors.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -17,12 +17,12 @@ use super::products::{add_orthonormal, dots};
 use super::{AffineSubspace, CpcaForm, Signal};
 use crate::linalg::dot;
 
-/// Signals of fewer dimensions have no axes: their errors cost little more than bounds.
+/// Signals of fewer dimensions use no axes, because their errors cost little more than bounds.
 const LEAST_DIMENSION: usize = 128;
 /// Dimensions per axis, and the largest number of axes.
 const PER_AXIS: usize = 4;
 const MOST: usize = 96;
-/// Points that the axes are found from.
+/// Number of points from which the axes are computed.
 const SAMPLE: usize = 512;
 const NOTHING: f64 = 1.0 / (1u64 << 36) as f64;
 const SLACK: f64 = 1.0 / (1u64 << 20) as f64;
@@ -32,7 +32,6 @@ const TINY: f64 = 1e-36;
 #[derive(Debug)]
 pub(super) struct Axes {
     center: Vec<f64>,
-    /// Orthonormal, concatenated.
     axes: Vec<f64>,
     /// B (x - g) of each point.
     points: Signal,
@@ -40,7 +39,6 @@ pub(super) struct Axes {
     lengths: Vec<f64>,
 }
 
-/// A subspace along the axes.
 #[derive(Debug)]
 pub(super) struct AlongAxes {
     subspace: AffineSubspace,
@@ -49,8 +47,8 @@ pub(super) struct AlongAxes {
 }
 
 impl Axes {
-    /// The principal axes of some of the points; none where they do not pay, or where f32 cannot hold the points along
-    /// them.
+    /// Computes the principal axes of a sample of points; `None` if they would save no time, or coordinates along them
+    /// exceed f32.
     pub(super) fn new(signal: &Signal, form: CpcaForm, level: SimdLevel) -> Option<Self> {
         let dimension = signal.dimension();
         if dimension < LEAST_DIMENSION {
@@ -58,7 +56,7 @@ impl Axes {
         }
         let center: Vec<f64> = match form {
             CpcaForm::Affine => (0..dimension).into_par_iter().map(|j| component_mean(signal, j)).collect(),
-            // The mean of linear subspaces.
+            // Linear subspaces have mean 0.
             CpcaForm::Linear => vec![0.0; dimension],
         };
         let count = signal.points().min(SAMPLE);

@@ -12,14 +12,14 @@ use super::{Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal};
 /// A step of the compression, and its result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CpcaStep {
-    /// Largest number of vectors per cluster; their mean number during redistribution.
+    /// Largest number of vectors per cluster; during redistribution the mean number.
     pub vectors: usize,
     /// The kind of step.
     pub kind: CpcaStepKind,
     /// Number of points that changed their cluster.
     pub moved: usize,
-    /// The squared error of all points after the step. For a fixed number of vectors it does not increase, except by
-    /// rounding and by redistribution.
+    /// The squared error of all points after the step. For a fixed number of vectors it does not increase, except
+    /// through rounding and redistribution.
     pub squared_error: f64,
 }
 
@@ -53,7 +53,7 @@ pub fn compress(
     compress_at(SimdLevel::widest(), signal, options, observe)
 }
 
-/// [`compress`] with given vector instructions: tests check that bits do not depend on them.
+/// [`compress`] with given vector instructions, for tests that bits do not depend on them.
 #[doc(hidden)]
 pub fn compress_at(
     level: SimdLevel,
@@ -130,13 +130,13 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(())
     }
 
-    /// Assigns each point to its best cluster; returns the number of points that changed theirs.
+    /// Assigns each point to its best cluster; returns the number of points that changed clusters.
     fn classify(&mut self) -> usize {
         let subspaces: Vec<_> = self.clusters.iter().map(|cluster| &cluster.subspace).collect();
         let (mut of_point, mut errors) = nearest(self.signal, self.axes.as_ref(), &subspaces, self.level);
         fill_empty(&mut of_point, &mut errors, self.clusters.len());
         let before = std::mem::replace(&mut self.of_point, of_point);
-        // Before the first classification the list is empty: then every point counts as moved.
+        // Before the first classification the list is empty, and every point counts as moved.
         let mut moved = self.of_point.len() - before.len();
         for (&from, &to) in before.iter().zip(&self.of_point).filter(|(from, to)| from != to) {
             moved += 1;
@@ -148,7 +148,6 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         moved
     }
 
-    /// Fits all clusters with a new number of vectors.
     fn fit_all(&mut self, vectors: usize) -> Result<(), CpcaError> {
         self.vectors = vectors;
         self.changed.fill(true);
@@ -188,7 +187,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         let budget = self.vectors * self.signal.points();
         for _ in 0..rounds {
             let moved = self.classify();
-            // Twice the mean number of vectors is enough for most clusters.
+            // Most clusters need at most twice the mean number of vectors.
             self.fit(2 * self.vectors + 1)?;
             let members = Members::new(&self.of_point, self.clusters.len());
             let sizes: Vec<usize> = (0..self.clusters.len()).map(|cluster| members.of(cluster).len()).collect();
@@ -216,15 +215,15 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     }
 }
 
-/// Per cluster the number of vectors that the budget allows. Vectors come by decreasing reduction of the squared error
-/// per point, D_i^2 / m_k; of equals the lower cluster's first. Each costs a weight per point of its cluster; vectors
-/// beyond the budget are skipped.
+/// Distributes the budget to clusters; returns the number of vectors of each. Vectors are taken by decreasing reduction
+/// of the squared error per point, D_i^2 / m_k; of equals, the lower cluster's first. A vector costs one weight per
+/// point of its cluster; vectors beyond the budget are skipped.
 pub(super) fn distribute(eigenvalues: &[Vec<f64>], sizes: &[usize], budget: usize) -> Vec<usize> {
     let mut ranked: Vec<(f64, usize)> = Vec::new();
     for (cluster, (values, &size)) in eigenvalues.iter().zip(sizes).enumerate() {
         ranked.extend(values.iter().map(|value| (value / size as f64, cluster)));
     }
-    // A stable sort: of a cluster's equal eigenvalues the first stays the first.
+    // The sort is stable, so a cluster's equal eigenvalues keep their order.
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
     let (mut counts, mut used) = (vec![0; sizes.len()], 0);
     for (_, cluster) in ranked {
@@ -264,8 +263,8 @@ impl Members {
     }
 }
 
-/// Each empty cluster, lowest first, takes the point of largest error, the lowest of equals, from a cluster that has
-/// others; its error is 0 then. Where no such point has an error, the rest stays empty.
+/// Each empty cluster, lowest first, takes the point of largest error (the lowest of equals) from a cluster with other
+/// points; the point's error becomes 0. If no such point has an error, the remaining clusters stay empty.
 pub(super) fn fill_empty(of_point: &mut [u32], errors: &mut [f64], clusters: usize) {
     let mut sizes = vec![0usize; clusters];
     of_point.iter().for_each(|&cluster| sizes[cluster as usize] += 1);

@@ -1,4 +1,4 @@
-//! The affine subspace of a cluster, and a signal compressed by them.
+//! The affine subspace of a cluster, and a signal compressed by such subspaces.
 
 use super::products::dots;
 use super::{CpcaForm, Signal};
@@ -16,7 +16,7 @@ pub struct AffineSubspace {
     pub mean: Vec<f64>,
     /// The vectors x_1, x_2, ..., concatenated, each with the length of the mean.
     pub vectors: Vec<f64>,
-    /// Per vector the squared singular value D_i^2 of the cluster's residuals, decreasing.
+    /// For each vector, the squared singular value D_i^2 of the cluster's residuals, in decreasing order.
     pub eigenvalues: Vec<f64>,
 }
 
@@ -84,14 +84,14 @@ impl AffineSubspace {
 /// Tolerance of the inner products of a subspace's vectors, which should be 0 and 1.
 const ORTHONORMAL: f64 = 1e-6;
 
-/// A signal as clusters: per cluster an affine subspace, per point its cluster and its weights on the subspace's
-/// vectors.
+/// A signal as clusters: an affine subspace per cluster, and for each point its cluster and its weights on the
+/// subspace's vectors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clustering {
     dimension: usize,
     subspaces: Vec<AffineSubspace>,
     of_point: Vec<u32>,
-    /// Point by point, as many as the point's subspace has vectors.
+    /// Weights point by point: one for each vector of the point's subspace.
     weights: Vec<f64>,
     /// The index of each point's first weight, followed by the number of weights.
     begins: Vec<usize>,
@@ -102,8 +102,8 @@ fn not_finite_error(what: &'static str, index: usize) -> InputError {
 }
 
 impl Clustering {
-    /// A clustering of its parts: per cluster its subspace, per point its cluster, and all weights, point by point, as
-    /// many as the point's subspace has vectors.
+    /// Creates a clustering from its parts: a subspace per cluster, the cluster of each point, and all weights, point
+    /// by point, one for each vector of the point's subspace.
     pub fn new(subspaces: Vec<AffineSubspace>, of_point: Vec<u32>, weights: Vec<f64>) -> Result<Self, InputError> {
         let (clusters, points) = (subspaces.len(), of_point.len());
         let dimension = subspaces.first().map_or(0, |subspace| subspace.mean.len());
@@ -130,7 +130,7 @@ impl Clustering {
         }
     }
 
-    /// Points in given clusters, with their weights on the clusters' vectors.
+    /// Assigns points to given clusters, and computes their weights on the clusters' vectors.
     pub(crate) fn project(signal: &Signal, subspaces: Vec<AffineSubspace>, of_point: Vec<u32>) -> Self {
         let begins = begins(&subspaces, &of_point);
         let mut weights = Vec::with_capacity(begins[of_point.len()]);
@@ -155,7 +155,7 @@ impl Clustering {
         &self.subspaces
     }
 
-    /// Per point its cluster.
+    /// The cluster of each point.
     pub fn of_point(&self) -> &[u32] {
         &self.of_point
     }
@@ -170,14 +170,14 @@ impl Clustering {
         &self.weights[self.begins[point]..self.begins[point + 1]]
     }
 
-    /// Linear if all means are 0, which is the same then.
+    /// Linear if all means are 0; both forms are then equal.
     pub fn form(&self) -> CpcaForm {
         let linear = self.subspaces.iter().all(|subspace| subspace.mean.iter().all(|&value| value == 0.0));
         if linear { CpcaForm::Linear } else { CpcaForm::Affine }
     }
 
-    /// Number of stored numbers, without the clusters of points: weights, means unless all are 0, and vectors. With n'
-    /// vectors in each cluster this is m_p n' + m_c (n' + 1) n (section 4.1), and m_c n' n in the linear form.
+    /// Number of stored numbers, without the points' cluster indices: weights, means unless all are 0, and vectors.
+    /// With n' vectors in each cluster this is m_p n' + m_c (n' + 1) n (section 4.1), and m_c n' n in the linear form.
     pub fn stored_numbers(&self) -> usize {
         let means = if self.form() == CpcaForm::Linear { 0 } else { self.subspaces.len() * self.dimension };
         self.weights.len() + means + self.subspaces.iter().map(|s| s.vectors.len()).sum::<usize>()
@@ -198,7 +198,7 @@ impl Clustering {
         dot(&difference, &difference)
     }
 
-    /// The squared error of all points' approximations, summed: the paper's SE. Panics if the signal has another shape.
+    /// The sum of squared errors of all points' approximations: the paper's SE. Panics if the signal has another shape.
     pub fn squared_error(&self, signal: &Signal) -> f64 {
         assert_eq!((signal.points(), signal.dimension()), (self.points(), self.dimension), "the signal's shape");
         signal.sum(|point| self.squared_error_of(point, signal))

@@ -7,7 +7,8 @@ use super::{AffineSubspace, CpcaForm, Signal};
 use crate::error::InputError;
 use crate::linalg::{LeadingEigen, Matrix};
 
-/// Threshold relative to a cluster's largest eigenvalue: eigenvalues up to it are rounding errors, and have no vectors.
+/// Threshold relative to a cluster's largest eigenvalue: eigenvalues up to it count as rounding errors, and get no
+/// vectors.
 pub(super) const NO_EIGENVALUE: f64 = 1.0 / (1u64 << 44) as f64;
 
 /// Points per chunk of C^T C; it fixes the order of the additions.
@@ -17,13 +18,12 @@ const CHUNK: usize = 512;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fitted {
     pub(super) subspace: AffineSubspace,
-    /// Numbers whose sum is the squared error of the cluster's points: the eigenvalues without vectors, where they are
-    /// known.
+    /// Numbers whose sum is the squared error of the cluster's points: the eigenvalues without vectors, if known.
     left: Vec<f64>,
 }
 
 impl Fitted {
-    /// A mean alone, for points without error.
+    /// A subspace of only a mean, for points without error.
     pub(super) fn at(mean: Vec<f64>) -> Self {
         Self { subspace: AffineSubspace::at(mean), left: Vec::new() }
     }
@@ -33,7 +33,7 @@ impl Fitted {
         self.left.iter().sum()
     }
 
-    /// All eigenvalues above the threshold, the largest first. None are known after a fit without vectors.
+    /// All eigenvalues above the threshold, the largest first. After a fit without vectors, none are known.
     pub(super) fn eigenvalues(&self) -> Vec<f64> {
         let all: Vec<f64> = self.subspace.eigenvalues.iter().chain(&self.left).copied().collect();
         let kept = all.iter().take_while(|&&value| value > all[0] * NO_EIGENVALUE).count();
@@ -48,7 +48,7 @@ impl Fitted {
     }
 }
 
-/// The mean of at least one point, and their first `count` principal components; fewer where the residuals have a lower
+/// Fits the mean of at least one point, and the first `count` principal components; fewer if the residuals have a lower
 /// rank. In the linear form with vectors the mean is 0, and inner products of the points are kept for the next fit.
 pub(super) fn fit(
     signal: &Signal,
@@ -72,7 +72,7 @@ pub(super) fn fit(
         return Ok(Fitted { subspace: AffineSubspace::at(mean), left: vec![squared_error] });
     }
     let residuals = Residuals { signal, points, mean: &mean, level };
-    // C^T C and C C^T have the same eigenvalues other than 0, so that the smaller one is decomposed.
+    // C^T C and C C^T have the same eigenvalues other than 0, so the smaller matrix is decomposed.
     let Principal { mut values, vectors } = if points.len() >= signal.dimension() {
         Principal::of_components(&residuals.between_components()?, count, level)?
     } else if linear {
@@ -175,7 +175,7 @@ impl Residuals<'_> {
         kept.of(self.points, self.mean.len(), self.level, |point, into| self.part(point, 0, into))
     }
 
-    /// C^T C, computed a chunk of points at a time.
+    /// C^T C, computed in chunks of points.
     fn between_components(&self) -> Result<Matrix, InputError> {
         let mut products = square(self.mean.len())?;
         for chunk in self.points.chunks(CHUNK) {

@@ -1,6 +1,6 @@
-//! The cluster that approximates each point best, by comparing every point with every cluster in f64, the lower of
-//! equals. Signals of many dimensions are compared along their principal axes first ([`Axes`]): a cluster whose lower
-//! bound exceeds an error already found is passed over, which changes only the time.
+//! Finds the cluster that approximates each point best (the lower of equals), by comparing every point with every
+//! cluster in f64. Signals of many dimensions are first compared along their principal axes ([`Axes`]): a cluster whose
+//! lower bound exceeds an error already found is skipped, which changes only the time.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -8,7 +8,7 @@ use refsim::exec::batch::SimdLevel;
 use super::axes::{AlongAxes, Axes};
 use super::{AffineSubspace, Signal};
 
-/// Points per block. The vectors of a cluster are read once per block.
+/// Points per block; a cluster's vectors are read once per block.
 const BLOCK: usize = 64;
 
 /// The best cluster of each point, and the squared error of its approximation there.
@@ -52,8 +52,7 @@ fn search(
     }
 }
 
-/// Compares the points from `first` on with the clusters that their bounds do not exclude: first with the one of the
-/// lowest bound.
+/// Compares the points from `first` on with the clusters that bounds do not exclude, beginning with the lowest bound.
 #[inline(always)]
 fn search_by_bounds(
     signal: &Signal,

@@ -15,7 +15,7 @@ pub struct CpcaOptions {
     pub vectors: usize,
     /// Largest number of iterations of vector quantisation (LBG), before the first vector; at least 1.
     pub vq_iterations: usize,
-    /// Largest number of iterations for each number of vectors from 1 on; at least 1. The paper takes 10 to 20.
+    /// Largest number of iterations for each number of vectors from 1 on; at least 1. The paper uses 10 to 20.
     pub iterations: usize,
     /// The measure by which points are assigned to clusters.
     pub method: CpcaMethod,
@@ -32,7 +32,7 @@ pub enum CpcaForm {
     #[default]
     Affine,
     /// Linear subspaces: principal vectors of the raw second moment (equation 11 of the paper on all-frequency
-    /// transfer). Before the first vector, points are nevertheless assigned by their distance from means.
+    /// transfer). Without vectors, points are assigned by distance from means even in this form.
     Linear,
 }
 
@@ -76,7 +76,7 @@ pub enum StartPoints {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CpcaError {
-    /// No clusters, or more than points.
+    /// No clusters, or more clusters than points.
     #[error("expected 1 to {points} clusters, one per point at most, found {clusters}")]
     Clusters { clusters: usize, points: usize },
     /// More vectors than dimensions.
@@ -88,7 +88,7 @@ pub enum CpcaError {
     /// No iterations.
     #[error("expected at least 1 iteration for each number of vectors, found 0")]
     NoIterations,
-    /// The number of start points differs from that of clusters.
+    /// The number of start points differs from the number of clusters.
     #[error("expected {clusters} start points, one per cluster, found {found}")]
     StartCount { clusters: usize, found: usize },
     /// A start point outside the signal.
@@ -112,7 +112,7 @@ impl From<CpcaError> for InputError {
 }
 
 impl StartPoints {
-    /// Start points from text: the index of one point per line, counted from 0. Empty lines are skipped.
+    /// Parses start points from text: the index of one point per line, counted from 0. Empty lines are skipped.
     pub fn parse(text: &str) -> Result<Self, CpcaError> {
         let lines = (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty());
         let points = lines.map(|(line, text)| text.trim().parse().map_err(|_| CpcaError::StartText { line }));
@@ -184,7 +184,7 @@ fn check(given: &[u32], points: usize, clusters: usize) -> Result<(), CpcaError>
     }
 }
 
-/// The first `count` of a random permutation of all points.
+/// The first `count` points of a random permutation.
 fn draw(seed: u64, points: u32, count: usize) -> Vec<u32> {
     let random = CounterRng::new(seed);
     let mut deck: Vec<u32> = (0..points).collect();

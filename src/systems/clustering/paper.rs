@@ -1,6 +1,6 @@
-//! The same compression by plain loops in f64, without any arithmetic of the fast path: every cluster is fitted anew by
-//! Jacobi rotations of C^T C, every point compared with every cluster. For tests: its time grows with the cube of the
-//! dimension.
+//! Compression by plain loops in f64, which shares no arithmetic with the fast path: every step refits every cluster by
+//! Jacobi rotations of C^T C, and compares every point with every cluster. It is for tests, because its time grows with
+//! the cube of the dimension.
 
 use super::{AffineSubspace, Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal};
 
@@ -56,7 +56,7 @@ struct Plain {
     points: Vec<Vec<f64>>,
     clusters: Vec<PlainCluster>,
     of_point: Vec<usize>,
-    /// True if the fitted clusters are linear, which starts with their first vector.
+    /// True if the fitted clusters are linear, from the first vector on.
     linear: bool,
 }
 
@@ -143,8 +143,8 @@ impl Plain {
         }
     }
 
-    /// The number of vectors per cluster: the one with the largest gain per point is added repeatedly while the budget
-    /// allows.
+    /// The number of vectors of each cluster: the vector with the largest gain per point is added repeatedly while the
+    /// budget allows.
     fn allocated(&self, budget: usize) -> Vec<usize> {
         let sizes: Vec<usize> =
             (0..self.clusters.len()).map(|k| self.of_point.iter().filter(|&&of| of == k).count()).collect();
@@ -204,8 +204,8 @@ fn squared_error(point: &[f64], cluster: &PlainCluster) -> f64 {
     if error <= distance * NO_ERROR { 0.0 } else { error }
 }
 
-/// The mean of some points and all principal components above the threshold; in the linear form mean 0 and the
-/// components of the points themselves.
+/// The mean of some points and all principal components above the threshold; in the linear form, mean 0 and the
+/// components of the points without subtraction of a mean.
 fn principal_components(points: &[&Vec<f64>], linear: bool) -> PlainCluster {
     let dimension = points[0].len();
     let mean_of = |j: usize| points.iter().map(|point| point[j]).sum::<f64>() / points.len() as f64;

@@ -1,5 +1,5 @@
-//! Many inner products at once, in blocks that stay in registers: the work of compression; and those of all pairs of a
-//! cluster's points.
+//! Inner products, most of the work of compression, in blocks that stay in registers; and inner products of all pairs
+//! of a cluster's points.
 
 use std::hint::black_box;
 
@@ -21,7 +21,7 @@ pub(super) struct Packed<const N: usize> {
 }
 
 impl<const N: usize> Packed<N> {
-    /// `count` vectors of a length; `vector` writes one.
+    /// Packs `count` vectors of a length; `vector` writes one.
     pub(super) fn new(count: usize, length: usize, mut vector: impl FnMut(usize, &mut [f64])) -> Self {
         let mut components = Vec::with_capacity(count.div_ceil(N) * length);
         let mut group = vec![0.0; N * length];
@@ -36,8 +36,8 @@ impl<const N: usize> Packed<N> {
         Self { length, components }
     }
 
-    /// Transposed: component j of vector `at` is number `at` of vector j of the others. `part` writes the numbers of
-    /// vector j from `at` on that fit into its slice.
+    /// Packs the transpose: component j of vector `at` is element `at` of source vector j. `part` fills its slice with
+    /// elements of source vector j from `at` on.
     pub(super) fn across(count: usize, length: usize, mut part: impl FnMut(usize, usize, &mut [f64])) -> Self {
         let mut components = vec![[0.0; N]; count.div_ceil(N) * length];
         for j in 0..length {
@@ -65,7 +65,7 @@ pub(super) fn add_block<const N: usize>(rows: &[[f64; ROWS]], columns: &[[f64; N
         e = add_scaled(e, row[4], column);
         f = add_scaled(f, row[5], column);
     }
-    // Hidden from the compiler: the use of the sums would change their registers.
+    // `black_box` hides the use of the sums, which would change their registers.
     let sums = black_box([a, b, c, d, e, f]);
     for (into, sums) in into.iter_mut().zip(&sums) {
         *into = std::array::from_fn(|at| into[at] + sums[at]);
@@ -79,11 +79,10 @@ fn add_scaled<const N: usize>(sums: [f64; N], scale: f64, others: &[f64; N]) -> 
 
 /// Number of vectors whose inner products are computed in parallel.
 const SIDE: usize = 4;
-/// Partial sums of an inner product: those of [`dot`].
+/// Number of partial sums of an inner product, as in [`dot`].
 const PARTIAL: usize = 8;
 
-/// Calls `into` with the inner products of a vector with others, each of its length, one after another. They have the
-/// bits of [`dot`].
+/// Calls `into` with the inner product of a vector and each of `others`, with the bits of [`dot`].
 #[inline(always)]
 pub(super) fn dots(others: &[f64], vector: &[f64], mut into: impl FnMut(f64)) {
     let length = vector.len().max(1);
@@ -107,7 +106,7 @@ pub(super) fn dots(others: &[f64], vector: &[f64], mut into: impl FnMut(f64)) {
     groups.remainder().chunks_exact(length).for_each(|other| into(dot(other, vector)));
 }
 
-/// The sum of partial sums, as [`dot`] folds them.
+/// Adds partial sums in the order of [`dot`].
 #[inline(always)]
 fn folded([s0, s1, s2, s3, s4, s5, s6, s7]: [f64; PARTIAL]) -> f64 {
     ((s0 + s4) + (s2 + s6)) + ((s1 + s5) + (s3 + s7))
@@ -118,8 +117,8 @@ fn add_terms(sums: [f64; PARTIAL], a: &[f64; PARTIAL], b: &[f64; PARTIAL]) -> [f
     std::array::from_fn(|at| sums[at] + a[at] * b[at])
 }
 
-/// Appends a vector to orthonormal ones after orthogonalising it, twice against rounding, and scaling it to length 1.
-/// Returns false, without appending, if its remainder is no longer than `nothing`.
+/// Orthonormalises a vector against orthonormal vectors and appends it; it is orthogonalised twice, because of
+/// rounding. Returns false, without appending, if its remainder is at most `nothing` long.
 #[inline(always)]
 pub(super) fn add_orthonormal(vectors: &mut Vec<f64>, mut vector: Vec<f64>, nothing: f64) -> bool {
     for _ in 0..2 {
@@ -140,13 +139,13 @@ pub(super) fn add_orthonormal(vectors: &mut Vec<f64>, mut vector: Vec<f64>, noth
 
 /// Columns of a block.
 pub(super) const COLUMNS: usize = 8;
-/// Products of fewer numbers than this are made by one thread.
+/// One thread computes products of fewer numbers than this.
 const MIN_PARALLEL: usize = 1 << 22;
-/// Points of a cluster whose products are kept, at most: 2 MiB.
+/// Maximum number of points of a cluster whose products are kept: 2 MiB.
 const MOST_KEPT: usize = 512;
 
-/// Inner products of a cluster's points, kept from one fit to the next; only those of new points are computed. Each sum
-/// is independent of the other points, so that reuse changes no bits.
+/// Inner products of a cluster's points, kept from one fit to the next; only inner products of new points are computed.
+/// Each sum is independent of the other points, so that reuse changes no bits.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeptProducts {
     points: Vec<u32>,
@@ -155,7 +154,7 @@ pub(super) struct KeptProducts {
 }
 
 impl KeptProducts {
-    /// The inner products of points, in increasing order: the lower triangle. `vector` writes the numbers of a point.
+    /// The inner products of points, in increasing order: the lower triangle. `vector` writes a point's numbers.
     pub(super) fn of(
         &self,
         points: &[u32],
@@ -208,8 +207,8 @@ impl KeptProducts {
     }
 }
 
-/// Adds the products of all pairs of vectors, which are both `rows` and `columns`, to the lower triangle; the part
-/// above it is not used.
+/// Adds the products of all pairs of vectors, packed both as `rows` and as `columns`, to the lower triangle; the upper
+/// part is not used.
 pub(super) fn add_products(products: &mut Matrix, rows: &Packed<ROWS>, columns: &Packed<COLUMNS>, level: SimdLevel) {
     let size = products.row_count();
     let rows: Vec<_> = rows.groups().collect();
@@ -238,7 +237,6 @@ pub(super) fn add_products(products: &mut Matrix, rows: &Packed<ROWS>, columns: 
     }
 }
 
-/// A matrix of `size` rows and columns.
 pub(super) fn square(size: usize) -> Result<Matrix, InputError> {
     Matrix::zeros([size; 2])
 }

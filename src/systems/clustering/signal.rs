@@ -9,8 +9,8 @@ const CHUNK: usize = 1024;
 
 /// Points of n finite numbers each, point by point. There is at least one point, of at least one number.
 ///
-/// Values are f32, as files of transfer hold them: transfer has few significant digits, and is the largest object in
-/// memory. Results of computations are f64.
+/// Values are f32, as in files of transfer: transfer has few significant digits, and is the largest object in memory.
+/// Results of computations are f64.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signal {
     points: usize,

@@ -1,7 +1,7 @@
-//! Reference solution: exit radiance of a vertex under a light of spherical harmonics, in f64, every ray tested against
-//! every triangle. Section 3.1 without matrices, rotation of coefficients, compression or a card.
+//! Reference solution: exit radiance of a vertex under a light of spherical harmonics (section 3.1), in f64, without
+//! matrices, rotation of coefficients, compression or a card. Every ray is tested against every triangle.
 //!
-//! It shares the BRDF and the direction rule with the code that it checks, and no other arithmetic.
+//! The only arithmetic that it shares with the tested code is the BRDF and the direction rule.
 
 use std::f64::consts::PI;
 
@@ -12,10 +12,10 @@ use crate::sphere::DirectionRule;
 use crate::transfer::brdf::Brdf;
 use crate::transfer::{LocalFrame, Vertices, plain_hit, plain_origin};
 
-/// The least z of a view direction at a vertex: a hit vertex whose normal faces away is seen at this height instead.
+/// Minimum z of a view direction at a vertex: the view of a hit vertex whose normal faces away is raised to it.
 const LEAST_HEIGHT: f64 = 1e-6;
 
-/// Input of the reference: vertices, one BRDF per material, light in global coordinates.
+/// Input of the reference: vertices, one BRDF per material, and light in global coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Reference<'a> {
     /// The mesh.
@@ -30,8 +30,8 @@ pub struct Reference<'a> {
 
 impl Reference<'_> {
     /// The radiance that a vertex sends towards `view` in its local frame, after at most `bounces` interreflections.
-    /// The time is exponential in the number of bounces: for small meshes only. Panics if there is no such vertex, or
-    /// no BRDF of a material.
+    /// The time grows exponentially with the number of bounces, so this is for small meshes only. Panics if there is no
+    /// such vertex, or no BRDF of a material.
     pub fn exit_radiance(&self, vertex: usize, view: DVec3, bounces: u32) -> f64 {
         let frame = &self.vertices.frames()[vertex];
         let brdf = &self.brdfs[self.vertices.materials()[vertex] as usize];
@@ -43,7 +43,6 @@ impl Reference<'_> {
         sum
     }
 
-    /// The radiance that arrives at a vertex from a local direction.
     fn incident_radiance(&self, vertex: usize, frame: &LocalFrame, local: DVec3, bounces: u32) -> f64 {
         let direction = frame.to_global(local);
         let Some((triangle, weights)) = plain_hit(self.vertices, plain_origin(self.vertices, vertex), direction) else {

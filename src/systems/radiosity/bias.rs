@@ -1,18 +1,17 @@
 //! First-order effect of a short accumulator on a solution: why half precision makes a room too dark, and more patches
 //! make it darker still.
 //!
-//! An accumulator S of p mantissa bits is a multiple of `q = 2^(floor(log2 |S|) - p)`. A term added to it therefore
-//! changes it by a multiple of q: a term t counts as t rounded to a multiple of q, to the nearest one, or with
-//! truncation to the one below. A row of the iteration adds N terms of about a Nth of the radiosity to a sum as large
-//! as the radiosity itself, so t / q is about 2^p / N:
+//! An accumulator S of p mantissa bits is a multiple of `q = 2^(floor(log2 |S|) - p)`. A term t added to S therefore
+//! counts as t rounded to a multiple of q: to the nearest, or with truncation to the one below. A row of the iteration
+//! adds N terms, each about 1/N of the radiosity, to a sum as large as the radiosity, so t / q is about 2^p / N:
 //!
-//! - with truncation every term loses q / 2 on average, a row about `N 2^-(p+1)` of its radiosity: linear in N;
-//! - to nearest, terms below q / 2 are lost altogether and the others lose nothing on average: the loss is the share of
-//!   light that comes in terms below q / 2, next to nothing for few patches and nearly all of it for many.
+//! - with truncation, every term loses q / 2 on average, and a row about `N 2^-(p+1)` of its radiosity: linear in N;
+//! - with rounding to nearest, terms below q / 2 are lost and the others lose nothing on average: the loss is the
+//!   fraction of light in terms below q / 2, almost none for few patches and almost all for many.
 //!
 //! The loss d of an iteration is the error of the sum of equation 4, so the error of the solution is `M^-1 d`.
-//! [`predicted`] takes sums and terms from the exact solution; the card's own sums are smaller where much is lost, so
-//! it is good to first order in the loss.
+//! [`predicted`] uses sums and terms of the exact solution. The card's sums are smaller where the loss is large, so the
+//! prediction is of first order in the loss.
 
 use refsim::num::{Format, FormatKind, Rounding, power_of_two};
 
@@ -21,7 +20,7 @@ use super::packing::Packing;
 use super::solve::{self, Options, Solver};
 use crate::error::InputError;
 
-/// The precision and the shape of the sums of a row.
+/// Precision and layout of a row's sums.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Accumulator {
     /// Explicit mantissa bits: 10 of fp16, 23 of fp32.
@@ -44,7 +43,7 @@ impl Accumulator {
         Some(Self { mantissa: man_bits, least_exponent, rounding: format.rounding, packing, block })
     }
 
-    /// The rounding error of adding `term` to `sum`: the change of the sum less the term.
+    /// The rounding error of adding `term` to `sum`: the change of the sum minus the term.
     fn loss(&self, sum: f64, term: f64) -> f64 {
         let after = sum + term;
         let size = sum.abs().max(after.abs());
@@ -61,7 +60,7 @@ impl Accumulator {
                 let odd = floor + if floor != units && floor % 2.0 == 0.0 { 1.0 } else { 0.0 };
                 steps + (odd - units)
             }
-            // On the mean, stochastic rounding loses nothing.
+            // On average, stochastic rounding loses nothing.
             Rounding::Stochastic(_) => steps,
             Rounding::TowardZero => {
                 if after >= 0.0 {
@@ -106,7 +105,7 @@ pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Resul
     for c in 0..3 {
         let matrix = system.matrix(c);
         let row = |i: usize| {
-            // Equation 4 with the diagonal divided out: B + e, less A B.
+            // Equation 4 divided by the diagonal: B + e - A B.
             let diagonal = matrix.row(i)[i];
             let terms: Vec<f64> = matrix.row(i).iter().zip(exact).map(|(m, b)| -m * b[c] / diagonal).collect();
             how.row(exact[i][c] + system.emittance()[i][c] / diagonal, &terms) * diagonal

@@ -1,11 +1,12 @@
-//! Equation 4 in f32, in the order of a card's passes: the bits that the fragment programs must give.
+//! Equation 4 in f32, in the order of a card's passes: the reference bits of the fragment programs.
 //!
-//! With `A = diag(M)^-1 M` and `e = diag(M)^-1 E`, both made in f64 and rounded once, row i of a step is
+//! With `A = diag(M)^-1 M` and `e = diag(M)^-1 E`, both computed in f64 and rounded once, row i of a step is computed
+//! as follows:
 //!
-//! - pass 0 starts from `B_i + e_i`, later passes from the result of the pass before;
-//! - each subtracts `A_ij B_j` for its block of texels, j rising, and rounds product and difference;
-//! - with four elements per texel the four partial sums of a block start from 0; at its end they are added from the
-//!   left, and the sum to the result of the pass before.
+//! - pass 0 starts from `B_i + e_i`, each later pass from the result of the previous pass;
+//! - each pass subtracts `A_ij B_j` for its block of texels, in order of j, and rounds product and difference;
+//! - with four elements per texel, the four partial sums of a block start from 0; at its end they are added from the
+//!   left, and their sum is added to the result of the previous pass.
 
 use rayon::prelude::*;
 
@@ -97,7 +98,7 @@ impl CardSystem {
         &self.emittance
     }
 
-    /// Passes per iteration: the matrix's width over the block's.
+    /// Passes per iteration: the matrix's width divided by the block's.
     pub fn passes(&self) -> usize {
         self.matrix.width.div_ceil(self.block)
     }
@@ -107,8 +108,8 @@ impl CardSystem {
         Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
 
-    /// Computes one pass. `radiosity` is the result of the last iteration, `partial` that of the previous pass, which
-    /// pass 0 does not read. Panics if a texture is too small, or there is no such pass.
+    /// Computes one pass. `radiosity` is the result of the previous iteration, `partial` the result of the previous
+    /// pass; pass 0 does not read `partial`. Panics if a texture is too small, or there is no such pass.
     pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
         let from = pass * self.block;
         let to = (from + self.block).min(self.matrix.width);
@@ -149,13 +150,14 @@ fn rgb_row(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]]) -> [f32; 4] {
     acc
 }
 
-/// Four elements of the row at a time; then the sum of the four from the left (`DP4` with ones), added to `begin`.
+/// Accumulates four elements of the row at a time, then adds the four sums from the left (`DP4` with ones) to `begin`.
 fn luminance_row(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
     let [x, y, z, w] = rgb_row([0.0; 4], matrix, b);
     begin + (((x + y) + z) + w)
 }
 
-/// The right-hand sides over the diagonal of the system's matrix: one texture of three channels, or one per channel.
+/// The right-hand sides divided by the diagonal of the system's matrix: one texture of three channels, or one per
+/// channel.
 pub fn emittances(system: &System, packing: Packing, limit: usize) -> Result<Vec<Texels>, InputError> {
     let factors = system.factors().matrix();
     let divided = |(i, e): (usize, &[f64; 3])| {

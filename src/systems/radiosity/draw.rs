@@ -10,7 +10,7 @@ use crate::card::KernelError;
 use crate::geom::vector::{narrow, wide};
 use crate::scene::Camera;
 
-/// An eye within this distance of a patch's plane, relative to the patch's radius, sees neither side.
+/// Distance from a patch's plane, relative to the patch's radius, within which an eye sees neither side.
 const EDGE_ON: f64 = 1e-9;
 
 /// Error of drawing patches.
@@ -24,7 +24,7 @@ pub enum DrawError {
     /// The device refuses a program.
     #[error("{0}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
     Kernel(#[from] KernelError),
-    /// The number of radiosities is not that of the patches.
+    /// The number of radiosities differs from the number of patches.
     #[error("expected {patches} radiosities, one per patch, found {found}")]
     Count { patches: usize, found: usize },
 }
@@ -63,7 +63,7 @@ impl Projection {
         [self.across, self.upwards, self.forward].map(|axis| axis.dot(to))
     }
 
-    /// Returns `true` if all of a patch lies outside one plane of the view frustum.
+    /// Returns `true` if a patch lies wholly outside one plane of the view frustum.
     pub(super) fn misses(&self, patch: &Patch) -> bool {
         let mut outside = [true; 5];
         for &corner in patch.corners() {
@@ -74,8 +74,8 @@ impl Projection {
         outside.contains(&true)
     }
 
-    /// Returns `true` if the eye sees the front of a patch, which receives and emits light, and `false` if it sees the
-    /// back, which is black; `None` if it sees the patch edge-on.
+    /// Returns `true` if the eye sees the front of a patch, `false` if it sees the back, which is black, and `None` if
+    /// it sees the patch edge-on.
     pub(super) fn sees_front(&self, patch: &Patch) -> Option<bool> {
         let (height, least) = (patch.height(self.eye), EDGE_ON * patch.radius());
         (height.abs() > least).then_some(height > 0.0)
@@ -83,8 +83,8 @@ impl Projection {
 
     /// A corner with its coordinates in the patch, `TEX0` of the programs: u, v, depth, 1 in front and 0 behind.
     ///
-    /// Depth, which the program writes, is the distance along the view as a fraction of the farthest. Its precision is
-    /// the same at all distances, and there is no near plane. Clip space's z clips nothing.
+    /// The program writes depth as the distance along the view divided by the largest such distance. Its precision is
+    /// equal at all distances, and there is no near plane. Clip space's z clips nothing.
     pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], is_front: bool) -> Vertex {
         let [x, y, w] = self.clip(shared(corner));
         let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };
@@ -93,7 +93,7 @@ impl Projection {
     }
 }
 
-/// Encodes a patch's number as a color: from 1, negative for the back; 0 is not a patch.
+/// Encodes a patch's number as a color: counted from 1, negative for the back; 0 means no patch.
 pub(super) fn code(patch: usize, is_front: bool) -> f64 {
     let number = (patch + 1) as f64;
     if is_front { number } else { -number }
@@ -104,12 +104,12 @@ pub(super) fn patch_of(code: f32) -> Option<u32> {
     (code >= 1.0).then(|| code as u32 - 1)
 }
 
-/// Rounds a corner to f32, in which neighbours in other faces agree to the bit.
+/// Rounds a corner to f32, so that neighbours in other faces have equal bits.
 fn shared(corner: DVec3) -> DVec3 {
     wide(narrow(corner))
 }
 
-/// Converts a vector for the card, each component rounded once.
+/// Converts a vector to f32 bits, each component rounded once.
 pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
     vector.map(|x| (x as f32).to_bits())
 }

@@ -1,10 +1,10 @@
 //! System 2: matrix radiosity. Diffuse light between patches as a linear system, solved by fragment programs.
 //!
-//! - section 3, (1), (2): [`System`], the matrix of form factors, reflectances and emittances (`paper`, to be read first);
-//! - (3), (4): [`solve`], Jacobi and other solvers in f64; [`card_order`], the Jacobi step in f32 in the order of a card's
-//!   passes; [`packing`], [`kernels`] and [`on_card`], the same as fragment programs on an emulated card;
+//! - section 3, (1), (2): [`System`], the matrix of form factors, reflectances and emittances (`paper`; read it first);
+//! - (3), (4): [`solve`], Jacobi and other solvers in f64; [`card_order`], the Jacobi step in f32 in the order of a
+//!   card's passes; [`packing`], [`kernels`] and [`on_card`], this step as fragment programs on an emulated card;
 //! - 3: [`bias`], the average effect of half precision; [`model`], passes and operation counts;
-//! - 3.1: [`Patches`], a scene cut into patches; [`FormFactors`] between them, visibility by a [`crate::tracer::Caster`];
+//! - 3.1: [`Patches`], the patches of a scene; [`FormFactors`] between them, visibility by a [`crate::tracer::Caster`];
 //!   [`display`], images drawn by the card, and radiosities at corners; [`rate`], iterations per second;
 //! - [`gather`]: irradiance at points; [`rooms`]: closed boxes as test scenes.
 //!

@@ -1,4 +1,4 @@
-//! The paper's counts (sections 3 and 3.1): instructions, passes, floating-point operations.
+//! The paper's counts of instructions, passes and floating-point operations (sections 3 and 3.1).
 
 /// Maximum number of instructions of a GeForce FX fragment program.
 pub const MAX_INSTRUCTIONS: u32 = 1024;
@@ -20,7 +20,7 @@ pub const fn passes(patches: u32, elements_a_texel: u32, block: u32) -> u32 {
     patches.div_ceil(elements_a_texel).div_ceil(block)
 }
 
-/// Floating-point operations of an iteration as the paper counts them: 2 N^2, indexing not included, one channel.
+/// Floating-point operations of an iteration as the paper counts them: 2 N^2 for one channel, without indexing.
 pub fn operations(patches: u32) -> f64 {
     2.0 * f64::from(patches) * f64::from(patches)
 }

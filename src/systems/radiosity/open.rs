@@ -1,16 +1,16 @@
 //! The parts of patches that no solid covers.
 //!
-//! No light reaches the floor under a block, and it is never visible. Averaging it in would make the radiosity of a
-//! partly covered patch too low, or, once its row of form factors is scaled to 1, its area and so its power too large.
-//! A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
+//! The floor under a block receives no light and is never visible. If it were included, the mean radiosity of a partly
+//! covered patch would be too low, or, after its row of form factors is scaled to 1, its area and so its power would be
+//! too large. A patch is therefore represented by its open parts (docs/decisions/0014).
 //!
-//! The rule, for each face's plane raised by [`scene_clearance`] towards its front, where visibility rays start:
+//! The rule, applied to each face's plane raised by [`scene_clearance`] towards its front, where visibility rays start:
 //!
 //! 1. Triangles of other faces that cross the raised plane leave line segments in it, which cut the patches into convex
 //!    cells.
-//! 2. A cell is covered if from several of its points the first surface in each of 25 directions is seen from behind:
-//!    it lies in a solid.
-//! 3. Everything else is open. So do doubtful cases: a sheet close above the patch, solids that overlap.
+//! 2. A cell is covered, that is, inside a solid, if from several of its points the first surface in each of 25
+//!    directions is seen from behind.
+//! 3. All other cells are open, including doubtful cases: a sheet close above the patch, solids that overlap.
 
 use std::collections::BTreeMap;
 
@@ -24,20 +24,19 @@ use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::offset::scene_clearance;
 
-/// Minimum length of a cut, and of its distance from a cell's border, in multiples of the lift.
+/// Minimum length of a cut, and minimum distance from a cell's border, in multiples of the lift.
 const FINEST: f64 = 4.0;
 /// Maximum number of cells per patch; beyond it, cells are not cut further.
 const MAX_CELLS: usize = 4096;
 /// Position of test points between a cell's centre (0) and its corners (1).
 const OUTWARDS: f64 = 0.75;
-/// Tangents of the tested directions, along two axes of the plane: the normal first.
+/// Tangents of the tested directions along the plane's two axes; 0, the normal, is first.
 const TANGENTS: [f64; 5] = [0.0, -2.0, -1.0, 1.0, 2.0];
 
 /// A line segment in a raised plane.
 type PlaneSegment = [DVec3; 2];
 
-/// Returns the open parts of the patches that are not wholly open, by patch; an empty list for a patch that is covered
-/// altogether.
+/// Returns the open parts of each patch that is not wholly open; an empty list for a wholly covered patch.
 pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f64) -> BTreeMap<u32, Vec<Patch>> {
     let triangles: Vec<[DVec3; 3]> = mesh.iter_corners().map(|t| t.map(wide)).collect();
     let lift = scene_clearance(extent);
@@ -101,7 +100,7 @@ fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64
     for (i, &corner) in cell.iter().enumerate() {
         let inwards = normal.cross(cell[(i + 1) % cell.len()] - corner);
         let (height, slope) = (inwards.dot(start - corner), inwards.dot(along));
-        // Inside where height + t slope is not negative.
+        // A point is inside where height + t slope >= 0.
         if slope > 0.0 {
             from = from.max(-height / slope);
         } else if slope < 0.0 {

@@ -1,4 +1,4 @@
-//! Equations 1 and 2 in plain f64: the linear system, and its updates while the form factors stay. [`solve`] has the
+//! Equations 1 and 2 in plain f64: the linear system, and its updates with unchanged form factors. [`solve`] has the
 //! Jacobi iteration of equations 3 and 4, and other solvers.
 
 use super::FormFactors;
@@ -42,8 +42,8 @@ impl System {
         Ok(system)
     }
 
-    /// Replaces the reflectances. The matrix changes with them, the form factors do not. Fails with [`InputError`]; the
-    /// system is then unchanged.
+    /// Replaces the reflectances. The matrix changes, the form factors do not. Fails with [`InputError`]; the system is
+    /// then unchanged.
     pub fn set_reflectance(&mut self, reflectance: PerPatch) -> Result<(), InputError> {
         self.count("reflectances", &reflectance)?;
         if let Some((patch, value)) = first(&reflectance, |value| !(0.0..1.0).contains(&value)) {
@@ -87,13 +87,13 @@ impl System {
         &self.emittance
     }
 
-    /// Returns the right-hand side of equation 2 in a channel (0 red, 1 green, 2 blue). Panics: for another channel.
+    /// Returns the right-hand side of equation 2 in a channel (0 red, 1 green, 2 blue). Panics for another channel.
     pub fn right_hand_side(&self, channel: usize) -> Vec<f64> {
         self.emittance.iter().map(|e| e[channel]).collect()
     }
 
-    /// Computes the matrix of equation 2 in a channel: 1 on the diagonal, less reflectance times form factor. Panics:
-    /// for a channel above 2.
+    /// Computes the matrix of equation 2 in a channel: the identity minus reflectance times form factor. Panics for a
+    /// channel above 2.
     pub fn matrix(&self, channel: usize) -> Matrix {
         let mut matrix = self.factors.matrix().clone();
         for (i, rho) in self.reflectance.iter().enumerate() {
@@ -120,8 +120,8 @@ impl System {
         )
     }
 
-    /// Solves all three channels; equal channels only once. `start` is the initial guess: the radiosities of an earlier
-    /// solution. Fails with [`InputError`].
+    /// Solves all three channels; equal channels are solved only once. `start` is the initial guess: the radiosities of
+    /// an earlier solution. Fails with [`InputError`].
     pub fn solve(
         &self,
         solver: Solver,
@@ -158,7 +158,7 @@ impl System {
         })
     }
 
-    /// Computes the energy-balance error in each channel: power emitted, less power absorbed and power that leaves the
+    /// Computes the energy-balance error in each channel: power emitted, minus power absorbed and power that leaves the
     /// room. It is 0 for reciprocal form factors and an exact solution.
     pub fn energy_balance_error(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         [0, 1, 2].map(|c| {

@@ -13,13 +13,13 @@ pub struct Patch {
     center: DVec3,
     normal: DVec3,
     radius: f64,
-    /// Index of the face that it is a part of: patches of one face lie in one plane and never see each other.
+    /// Index of the patch's face; patches of one face lie in one plane and never see each other.
     pub face: u32,
     /// Index of its material in the scene.
     pub material: u32,
 }
 
-/// A point of a patch with the density of the parametrisation there.
+/// A point of a patch, with the parametrisation's density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchPoint {
     /// Its position.
@@ -41,7 +41,7 @@ impl Patch {
         let normal = if sides == 3 { (corners[1] - corners[0]).cross(corners[2] - corners[0]) } else { doubled };
         let area = 0.5 * normal.length();
         let longest = (0..sides).map(|i| (corners[(i + 1) % sides] - corners[i]).length()).fold(0.0, f64::max);
-        // Corners come from f32: a height of 2^-40 of the longest side is a rounding error, not area.
+        // Corners are rounded to f32, so a height of 2^-40 of the longest side is a rounding error.
         let least = longest * longest * f64::EPSILON * 4096.0;
         if area.is_nan() || area <= least {
             return None;

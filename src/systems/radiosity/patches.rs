@@ -19,12 +19,11 @@ pub const MAX_PATCHES: usize = MAX_SQUARE;
 pub enum Subdivision {
     /// Number of parts of every side of every face, at least 1: n^2 patches per face.
     PerSide(u32),
-    /// Maximum number of patches, at least one per face: sides are cut into parts as equal in length as whole numbers
-    /// allow.
+    /// Maximum number of patches, at least one per face: sides are cut into parts of lengths as equal as possible.
     AtMost(usize),
 }
 
-/// The patches of a scene, with the faces that they are parts of.
+/// The patches of a scene, with their faces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patches {
     list: Vec<Patch>,
@@ -38,7 +37,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    /// Cuts a scene's faces. A face is a triangle, or two in a row of one material that make a flat convex
+    /// Cuts a scene's faces. A face is a triangle, or two successive triangles of one material that form a flat convex
     /// quadrilateral.
     pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, InputError> {
         let mesh = scene.mesh();
@@ -65,12 +64,12 @@ impl Patches {
         &self.list
     }
 
-    /// The triangles of the scene, which visibility rays are traced against.
+    /// The triangles of the scene, in which visibility rays are traced.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// Returns the face that a triangle of [`Patches::mesh`] is a part of. Panics if there is no such triangle.
+    /// Returns the face that contains a triangle of [`Patches::mesh`]. Panics if there is no such triangle.
     pub fn face_of(&self, triangle: u32) -> u32 {
         self.face_of[triangle as usize]
     }
@@ -80,9 +79,9 @@ impl Patches {
         self.extent
     }
 
-    /// Returns the parts of a patch that no solid covers: the patch itself if nothing covers it, none if it is covered
-    /// altogether. Radiosities and form factors are means over them. The rule is in `open.rs`. Panics if there is no
-    /// such patch.
+    /// Returns the parts of a patch that no solid covers: the patch itself if nothing covers it, none if it is wholly
+    /// covered. Radiosities and form factors are means over the open parts. The rule is in `open.rs`. Panics if there
+    /// is no such patch.
     pub fn open_parts(&self, patch: usize) -> &[Patch] {
         let whole = std::slice::from_ref(&self.list[patch]);
         self.open.get(&(patch as u32)).map_or(whole, Vec::as_slice)
@@ -93,14 +92,14 @@ impl Patches {
         self.open_parts(patch).iter().map(Patch::area).sum()
     }
 
-    /// Number of patches that are covered in part, and of those that are covered altogether.
+    /// Numbers of partly and of wholly covered patches.
     pub fn covered(&self) -> [usize; 2] {
         let altogether = self.open.values().filter(|parts| parts.is_empty()).count();
         [self.open.len() - altogether, altogether]
     }
 
-    /// A parametrisation of the open parts of a patch over the unit square. In their order, the parts divide its first
-    /// side in proportion to their areas.
+    /// A parametrisation of the open parts of a patch over the unit square. The parts divide the square's first side in
+    /// proportion to their areas.
     pub(super) fn open_point(&self, patch: usize, [u, v]: [f64; 2]) -> PatchPoint {
         let parts = self.open_parts(patch);
         if let [one] = parts {
@@ -113,14 +112,14 @@ impl Patches {
             along -= if here { 0.0 } else { part.area() };
             here
         };
-        // Rounding may lead beyond the last part. A patch without parts has no exchange to be sampled.
+        // Rounding may lead beyond the last part. A wholly covered patch has no exchange, so its points do not matter.
         let part = parts.iter().find(is_here).or(parts.last()).unwrap_or(&self.list[patch]);
         let point = part.at((along / part.area()).min(1.0), v);
         PatchPoint { density: point.density * (area / part.area()), ..point }
     }
 
-    /// Area of each patch as form factors count it: that of its open parts, since nothing else takes part in the
-    /// exchange of light. A patch that is covered altogether exchanges nothing, and is given its whole area.
+    /// Area of each patch in form factors: the area of its open parts, because only they exchange light. A wholly
+    /// covered patch exchanges no light, and gets its whole area.
     pub fn areas(&self) -> Vec<f64> {
         let area = |i| if self.open_parts(i).is_empty() { self.list[i].area() } else { self.open_area(i) };
         (0..self.list.len()).map(area).collect()
@@ -138,7 +137,7 @@ impl Patches {
     }
 }
 
-/// Parts of the sides of each face, and the number of all patches.
+/// Numbers of parts per side of each face, and the number of all patches.
 fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usize), InputError> {
     let steps = match subdivision {
         Subdivision::PerSide(0) => {

@@ -1,6 +1,6 @@
 //! Iterations per second of a card (section 3.1): an iteration is drawn, and its log timed by the pipeline model.
 //!
-//! Time depends on sizes and programs alone, so the system that is drawn is all zeros.
+//! Time depends only on sizes and programs, so the drawn system is all zeros.
 
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event};
@@ -19,7 +19,7 @@ use crate::card::CardError;
 #[non_exhaustive]
 #[derive(Debug, Error)]
 pub enum RateError {
-    /// The card cannot run it.
+    /// The card cannot run the iteration.
     #[error(transparent)]
     Card(#[from] CardError),
     /// The card's rates are not known.
@@ -36,8 +36,8 @@ pub struct Timing {
     pub packing: Packing,
     /// Number format: single or half floats.
     pub storage: Storage,
-    /// `true` to simulate the texture cache texel by texel, which takes some thousand times as long; otherwise the
-    /// minimum of traffic is assumed.
+    /// `true` to simulate the texture cache texel by texel, which takes about a thousand times as long; otherwise the
+    /// minimum traffic is assumed.
     pub cache: bool,
 }
 
@@ -48,7 +48,8 @@ pub struct TimedIteration {
     pub passes: usize,
     /// Number of draws: a pass with luminance packing takes four, one per channel of its target.
     pub draws: usize,
-    /// Time of the whole iteration: draws and changes of state in sequence, since each reads the results of the last.
+    /// Time of the whole iteration: draws and changes of state in sequence, because each draw reads the previous draw's
+    /// results.
     pub time: Picoseconds,
     /// Clocks of the texture units, which work concurrently with the other units.
     pub textures: u64,
@@ -62,7 +63,7 @@ pub struct TimedIteration {
     pub bytes: u64,
     /// Fraction of the memory's bandwidth used, in [0, 1].
     pub bandwidth: f64,
-    /// Fraction of shaded fragments that lie in the target, in [0, 1]; the others complete quads of 2 x 2.
+    /// Fraction of shaded fragments inside the target, in [0, 1]; the others complete quads of 2 x 2.
     pub filled: f64,
     /// Iterations per second.
     pub per_s: f64,
@@ -70,8 +71,8 @@ pub struct TimedIteration {
     pub mflops: f64,
 }
 
-/// Times an iteration of a system of `timing.patches` patches. Fails with [`RateError`]: the card has no such programs
-/// or textures, or its rates are not known.
+/// Times an iteration of a system of `timing.patches` patches. Fails with [`RateError`] if the card has no such
+/// programs or textures, or its rates are unknown.
 pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIteration, RateError> {
     let model = Model::new(Level::Pipeline, profile)?;
     let log = iteration_log(profile, timing)?;
@@ -110,7 +111,7 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIterat
     })
 }
 
-/// Records the log of an iteration that follows another one.
+/// Records the log of an iteration that is not the first.
 fn iteration_log(profile: &Profile, timing: &Timing) -> Result<Vec<Event>, RateError> {
     let fit = Fit::of(profile, timing.packing)?;
     let zeros = CardSystem::zeros(timing.packing, timing.patches, fit.block, fit.limit)

@@ -11,7 +11,7 @@ use glam::DVec3;
 /// f32 corners.
 const FLAT: f64 = 1e-6;
 
-/// A flat convex part of the scene: a triangle, or two that make a quadrilateral.
+/// A flat convex part of the scene: a triangle, or two triangles that form a quadrilateral.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Face {
     /// Its three or four corners, counter-clockwise from the front.
@@ -21,7 +21,8 @@ pub(super) struct Face {
     material: u32,
 }
 
-/// Returns the faces of a scene, and the face of each triangle: [`u32::MAX`] for one without area, which has none.
+/// Returns the faces of a scene, and the face of each triangle; [`u32::MAX`] for a triangle without area, which has no
+/// face.
 pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), InputError> {
     let has_area: Vec<bool> = scene.mesh().iter_corners().map(|corners| !is_degenerate(&corners)).collect();
     let triangles: Vec<[DVec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(wide)).collect();
@@ -80,11 +81,11 @@ fn is_flat_and_convex(quad: &[DVec3; 4]) -> bool {
     lift <= FLAT * longest * normal.length() && turns
 }
 
-/// Chooses the parts per side of each face, as short as at most `most` patches in all allow.
+/// Chooses the number of parts per side of each face, with parts as short as `most` patches in total allow.
 pub(super) fn steps_for_at_most(faces: &[Face], most: usize) -> Vec<[u32; 2]> {
     let longest = faces.iter().flat_map(Face::sides).fold(0.0, f64::max);
     let count = |part: f64| faces.iter().map(|f| f.steps(part)).map(|[u, v]| f64::from(u) * f64::from(v)).sum::<f64>();
-    // The count decreases with the length of parts: bisect until the interval is negligible.
+    // The number of patches decreases with the length of parts, so bisect until the interval is negligible.
     let (mut short, mut long) = (longest / 4096.0, longest);
     for _ in 0..60 {
         let middle = 0.5 * (short + long);
@@ -98,7 +99,7 @@ pub(super) fn steps_for_at_most(faces: &[Face], most: usize) -> Vec<[u32; 2]> {
 }
 
 impl Face {
-    /// Lengths across and along, of opposite sides the longer one.
+    /// Lengths across and along; of opposite sides the longer one counts.
     fn sides(&self) -> [f64; 2] {
         let n = self.corners.len();
         let side = |i: usize| (self.corners[(i + 1) % n] - self.corners[i]).length();
@@ -107,11 +108,11 @@ impl Face {
 
     /// Number of parts of at most this length, across and along.
     fn steps(&self, part: f64) -> [u32; 2] {
-        // Slightly less, so that rounding does not add a part where the quotient should be an integer.
+        // 1e-9 is subtracted, so that rounding does not add a part where the exact quotient is an integer.
         self.sides().map(|side| ((side / part - 1e-9).ceil() as u32).max(1))
     }
 
-    /// Adds the patches of the face; `None` if one of them has no area. Corners of neighbours are the same to the bit.
+    /// Adds the patches of the face; `None` if one of them has no area. Common corners of neighbours have equal bits.
     pub(super) fn cut(&self, id: u32, [across, along]: [u32; 2], into: &mut Vec<Patch>) -> Option<()> {
         let part = |i: u32, n: u32| f64::from(i) / f64::from(n);
         if let [a, b, c, d] = self.corners[..] {

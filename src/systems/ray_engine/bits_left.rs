@@ -4,9 +4,9 @@ use super::EdgeRule;
 use super::units::Units;
 use crate::geom::Mesh;
 
-/// Counts of triangles whose normal the format cannot represent. The card receives each triangle in scaled units, n =
-/// (b - a) x (c - a) times the scale, and rounds. If every component of n is below one step of fixed point, n.d is only
-/// noise: the triangle is missed, or hit at a meaningless t.
+/// Counts of triangles whose normal the format cannot represent. The card receives n = (b - a) x (c - a) in scaled
+/// units, and rounds it. If every component of n is below one step of fixed point, n.d is only noise: the triangle is
+/// missed, or hit at a meaningless t.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct BitsLeft {
     /// Number of triangles with non-zero area.

@@ -1,8 +1,8 @@
-//! Buckets: finds the triangles that rays of one origin and nearly one direction can hit.
+//! Buckets: finds the triangles that rays of one origin and similar directions can hit.
 //!
-//! Section 5.3 does not draw triangles outside the bucket of rays. The test is conservative by a margin that is much
-//! larger than the card's errors, and runs in f64: a triangle is omitted only if it lies entirely to one side of all
-//! rays.
+//! As in section 5.3, triangles outside the bucket of rays are not drawn. The test is conservative by a margin that is
+//! much larger than the card's errors, and runs in f64: a triangle is omitted only if it lies entirely to one side of
+//! all rays.
 
 use glam::DVec3;
 use refsim::texture::Region;
@@ -11,9 +11,9 @@ use super::RayBatch;
 use crate::geom::Mesh;
 use crate::geom::vector::{unit, wide};
 
-/// Margin added on each side of a bucket, as a fraction of its extent...
+/// Margin added on each side of a bucket, as a fraction of its extent.
 const MARGIN_SHARE: f64 = 0.25;
-/// ... plus this, in units of the picture plane at distance 1: a direction error of 2^-8.
+/// Margin added to [`MARGIN_SHARE`], in units of the picture plane at distance 1: a direction error of 2^-8.
 const MARGIN: f64 = 1.0 / 256.0;
 
 /// Splits a batch into squares of `side` pixels, row by row, clipped at its edges.
@@ -36,7 +36,7 @@ pub(super) struct Bundle {
 }
 
 impl Bundle {
-    /// Builds the bundle of a region's rays, which all start at `origin`; `None` if no half-space holds all of their
+    /// Builds the bundle of a region's rays, which all start at `origin`; `None` if no half-space contains all of their
     /// directions.
     pub(super) fn of(rays: &RayBatch, region: Region, origin: [f32; 3]) -> Option<Self> {
         let origin = wide(origin);
@@ -45,7 +45,7 @@ impl Bundle {
         let pixels = rows.flat_map(|y| (region.x..region.x + region.width).map(move |x| (x, y)));
         let directions: Vec<DVec3> = pixels.filter_map(|p| unit(wide(rays.rays()[index(p)].direction()))).collect();
         let forward = unit(directions.iter().sum())?;
-        // Any vector that is not along the view serves to span the plane.
+        // Any vector that is not parallel to the view can span the plane.
         let helper = if forward.x.abs() < 0.7 { DVec3::X } else { DVec3::Y };
         let right = unit(forward.cross(helper))?;
         let axes = [right, right.cross(forward)];
@@ -65,7 +65,7 @@ impl Bundle {
         Some(bundle)
     }
 
-    /// Projects a vector from the origin to the plane; `None` if it lies behind the origin or nearly so.
+    /// Projects a vector from the origin to the plane; `None` if it points backwards or almost along the plane.
     fn project(&self, v: DVec3) -> Option<[f64; 2]> {
         let depth = v.dot(self.forward);
         (depth > 1e-3 * v.length()).then(|| self.axes.map(|axis| v.dot(axis) / depth))
@@ -79,8 +79,8 @@ impl Bundle {
 
     fn may_meet(&self, corners: &[DVec3; 3]) -> bool {
         let [Some(a), Some(b), Some(c)] = corners.map(|p| self.project(p - self.origin)) else {
-            // A triangle that reaches behind the plane has no outline on it. It is out of reach only if all of it is
-            // behind.
+            // A triangle that reaches behind the origin has no outline on the plane. It cannot be hit only if it is
+            // wholly behind.
             return corners.iter().any(|p| (p - self.origin).dot(self.forward) > 0.0);
         };
         (0..2).all(|axis| {

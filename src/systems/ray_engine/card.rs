@@ -21,7 +21,7 @@ use crate::geom::{Hit, Mesh, Ray};
 /// Resources of a bucket of rays: textures with the rays, a color target for ids and a depth buffer for t.
 #[derive(Debug)]
 pub(super) struct RayTextures {
-    /// All ray textures made so far: sampler, size, texture. Origins take one texel for all rays or one per ray.
+    /// All ray textures created so far: sampler, size, texture. Origins take one texel for all rays or one per ray.
     made: Vec<(usize, Region, TextureId)>,
     /// Samplers and textures of the rays loaded last.
     textures: Vec<(usize, TextureId)>,
@@ -57,7 +57,7 @@ impl RayTextures {
         Ok(Self { made, textures, target })
     }
 
-    /// Replaces the rays by the same number of others.
+    /// Replaces the rays by others of equal number.
     pub(super) fn load(
         &mut self,
         machine: &mut Machine,
@@ -74,8 +74,8 @@ impl RayTextures {
         Ok(self.target.clear(machine)?)
     }
 
-    /// Draws one screen-filling quad per triangle, all in one call. The depth buffer starts at 1 and keeps the nearest
-    /// t. `bucket` are vertex constants from c3 on, which describe the rays to a culling vertex program.
+    /// Draws one screen-filling quad per triangle, all in one draw call. The depth buffer starts at 1 and keeps the
+    /// nearest t. `bucket` are vertex constants from c3 on, which describe the rays to a culling vertex program.
     pub(super) fn draw(
         &self,
         machine: &mut Machine,
@@ -94,17 +94,17 @@ impl RayTextures {
         for (sampler, texture) in &self.textures {
             call = call.with_texture(*sampler, *texture, SamplerState::NEAREST_CLAMP);
         }
-        // Section 4.2: alpha is 0 where the ray misses, and the fragment dies.
+        // Section 4.2: alpha is 0 where the ray misses, which kills the fragment.
         call.alpha_test = Some(AlphaTest { function: CompareFunction::Greater, reference: 0 });
         self.target.keep_nearest(&mut call);
         if kernel.edges == EdgeRule::SharedEdges {
-            // Depth 1, of a t that rounding lost, is a hit.
+            // A hit may have depth 1 if its t was lost to rounding.
             call.depth.test = Some(CompareFunction::LessEqual);
         }
         Ok(machine.draw(&call)?)
     }
 
-    /// Reads the hit of each ray back. If the host does not wait, the returned fence is passed when all data has
+    /// Reads back the hit of each ray. If the host does not wait, the returned fence is passed when all data has
     /// arrived.
     pub(super) fn read_back(
         &self,
@@ -114,7 +114,7 @@ impl RayTextures {
         wait: bool,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
         let (color, depth) = (self.target.color, self.target.depth);
-        // The fence of the last transfer is also behind the other.
+        // The fence of the second transfer is also behind the first.
         let (fence, image, depth) = if wait {
             (None, machine.read_back(color)?, machine.read_depth(depth)?)
         } else {
@@ -126,7 +126,6 @@ impl RayTextures {
     }
 }
 
-/// Decodes hits from colors and depths.
 pub(super) fn hits(image: &Image, depth: &DepthSurface, rays: &RayBatch, units: &Units) -> Vec<Option<CardHit>> {
     let width = rays.width() as usize;
     let pixel = |(i, ray): (usize, &Ray)| {
@@ -163,7 +162,7 @@ fn upload(
     Ok(bound)
 }
 
-/// Depth format for a program: float where the program computes in float and the card has a float depth buffer; else 24
+/// Depth format for a program: float if the program computes in float and the card has a float depth buffer, else 24
 /// bits, as on the cards of the time.
 fn depth_format(profile: &Profile, form: Form) -> DepthFormat {
     let float = form == Form::Float && profile.limits.depth_formats.contains(&DepthFormat::Float32);
@@ -189,8 +188,8 @@ impl Streams {
         Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
     }
 
-    /// Triangles in the order of `ids`. The fourth component of a holds the position in the pass, that of b the edge
-    /// scale; that of c is unused.
+    /// Triangles in the order of `ids`. The fourth component of a is the position in the pass, and of b the edge scale;
+    /// c's is unused.
     fn as_given(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (place, id, corners) in ids.iter().enumerate().filter_map(|(i, id)| Some((i, *id, mesh.corners(*id)?))) {
@@ -203,9 +202,9 @@ impl Streams {
         triangles
     }
 
-    /// Triangles with sorted corners, the largest id first: the last of equal depths stays, which is the smallest id.
-    /// The fourth components of the corners hold the scales of the edges, that of the color the scale of the normal
-    /// with the sign of the sorting.
+    /// Triangles with sorted corners, the largest id first: of equal depths the last draw stays, which has the smallest
+    /// id. The corners' fourth components are the edge scales; the color's is the normal's scale with the sign of the
+    /// sorting.
     fn sorted(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (id, corners) in ids.iter().rev().filter_map(|id| Some((*id, mesh.corners(*id)?))) {

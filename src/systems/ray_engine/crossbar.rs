@@ -1,4 +1,4 @@
-//! The crossbar on an emulated card: every ray of a batch meets every triangle of a mesh.
+//! The crossbar on an emulated card: every ray of a batch is tested against every triangle of a mesh.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -21,7 +21,7 @@ use crate::geom::{Hit, Mesh, Ray};
 
 /// Side of a bucket of eye rays, in pixels.
 const BUCKET: u32 = 32;
-/// Side of a bucket of a list of rays, in pixels: the square that lists are laid out in.
+/// Side of a bucket of a list of rays, in pixels: the square in which lists are laid out.
 const LIST_BUCKET: u32 = 16;
 /// Maximum number of rays of a list in one batch.
 const LIST_BATCH: usize = 65_536;
@@ -76,8 +76,8 @@ impl Crossbar {
         self
     }
 
-    /// Sets how shared edges are evaluated; the paper's way is the default. Passes of the engine
-    /// ([`Crossbar::intersect_pass`]) have the paper's way only.
+    /// Sets how shared edges are evaluated; [`EdgeRule::Paper`] is the default, and the only rule for passes of the
+    /// engine ([`Crossbar::intersect_pass`]).
     #[must_use]
     pub fn edges(mut self, edges: EdgeRule) -> Self {
         self.edges = edges;
@@ -85,8 +85,8 @@ impl Crossbar {
         self
     }
 
-    /// Holds rays in bytes, as section 4.1 has them, with the paper's edges ([`super::RayTexels::Bytes`]). Passes of the
-    /// engine have 16 bits only.
+    /// Stores rays in bytes, as in section 4.1, with the paper's edges ([`super::RayTexels::Bytes`]). Passes of the
+    /// engine support only 16 bits.
     #[must_use]
     pub fn byte_rays(mut self) -> Self {
         self.byte_rays = true;
@@ -94,7 +94,7 @@ impl Crossbar {
         self
     }
 
-    /// Rays that textures of bytes hold in place of these. Fails as [`Crossbar::intersect`] does.
+    /// Returns the rays as textures of bytes represent them. Fails as [`Crossbar::intersect`] does.
     pub fn rays_in_bytes(&self, mesh: &Mesh, rays: &RayBatch) -> Result<RayBatch, EngineError> {
         let kernel = Kernel::with_byte_rays(&self.profile, Sides::Front)?;
         let units = Units::choose(kernel.numbers(&self.profile.rules), mesh, rays);
@@ -103,20 +103,20 @@ impl Crossbar {
     }
 
     /// Intersects all rays with all triangles: section 3.3 of the paper. Fails with [`EngineError`] if the card has no
-    /// program for it, or refuses the work.
+    /// suitable program, or refuses the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
 
-    /// Runs [`Crossbar::intersect`] and records the card's log, one bucket after the other, as on a card with one set
-    /// of textures and targets. The hits are those of [`Crossbar::intersect`]; the log is the same for every executor
-    /// and number of threads. Fails as [`Crossbar::intersect`] does.
+    /// Runs [`Crossbar::intersect`] and records the card's log, bucket by bucket, as on a card with one set of textures
+    /// and targets. The hits are those of [`Crossbar::intersect`]; the log is the same for every executor and number of
+    /// threads. Fails as [`Crossbar::intersect`] does.
     pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: None })
     }
 
-    /// Runs [`Crossbar::intersect_recorded`] with an observer of texel reads per bucket. Draws on the scalar executor,
-    /// which is slow. Fails as [`Crossbar::intersect`] does.
+    /// Runs [`Crossbar::intersect_recorded`] with one observer of texel reads per bucket. It draws with the scalar
+    /// executor, which is slow. Fails as [`Crossbar::intersect`] does.
     pub fn intersect_observed(
         &self,
         mesh: &Mesh,
@@ -173,7 +173,7 @@ impl Crossbar {
         self.executor.machine(Arc::clone(&self.profile))
     }
 
-    /// Returns the program for a use, from the cache if it is there.
+    /// Returns the program for a use, from the cache if possible.
     fn kernel(&self, wanted: KernelUse) -> Result<Arc<Kernel>, EngineError> {
         let mut known = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, kernel)) = known.iter().find(|(held, _)| *held == wanted) {
@@ -209,7 +209,7 @@ impl Crossbar {
             machine.record(recording.on);
             machine.observe_textures(recording.new_observer.map(|make| make()));
             let sheet = RayTextures::new(&mut machine, &kernel, &bucket, &units)?;
-            // New targets have these contents already; targets kept from bucket to bucket must be cleared.
+            // New targets are already clear; targets that are reused from bucket to bucket must be cleared.
             sheet.clear(&mut machine)?;
             let events =
                 sheet.draw(&mut machine, &kernel, &units, &[], &Streams::new(mesh, &kernel, &units, &triangles))?;
@@ -244,7 +244,7 @@ impl Crossbar {
         Ok(hits)
     }
 
-    /// Counts the triangles whose normal the card's format cannot represent, with these rays as one batch: their extent
+    /// Counts the triangles whose normal the card's format cannot represent, with these rays as one batch, whose extent
     /// determines the units. Fails as [`Crossbar::intersect`] does.
     pub fn bits_left(&self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> Result<BitsLeft, EngineError> {
         let batch = RayBatch::from_list(rays);

@@ -6,14 +6,14 @@
 //!
 //! `e . (ao x d) = dc . (e x ao)  +  y . (e x ao)  +  x . (dc x e)  +  e . (x x y)`
 //!
-//! The first term belongs to the middle ray. The others are at most |e x ao| . dh, |dc x e| . oh and |e| . q, where |x|
-//! <= oh, |y| <= dh and q is the vector of oh_j dh_k + oh_k dh_j; the same holds for n.ao and n.d. A triangle is culled
+//! The first term is the middle ray's. The others are at most |e x ao| . dh, |dc x e| . oh and |e| . q, where |x| <=
+//! oh, |y| <= dh and q is the vector of oh_j dh_k + oh_k dh_j; n.ao and n.d have analogous bounds. A triangle is culled
 //! if one of the numbers has the wrong sign for every ray of the bucket.
 //!
 //! **No hit is lost to rounding.** The card and its vertex program make rounding errors. Each is bounded by a fraction
 //! of the product of magnitudes, plus a constant for underflow or for the steps of fixed point; both bounds are
-//! computed from the largest |a| + |o| and |d| of the pass, and added to q and to the absolute tolerances. Where an
-//! intermediate could leave the range of the format, triangles are not culled.
+//! computed from the largest |a| + |o| and |d| of the pass, and added to q and to the absolute tolerances. If an
+//! intermediate could leave the range of the format, the triangle is not culled.
 
 use glam::DVec3;
 use refsim::device::Rules;
@@ -33,16 +33,15 @@ const COUNT: usize = 8;
 /// Error bounds of a format's arithmetic.
 #[derive(Clone, Copy, Debug)]
 struct Errors {
-    /// Relative error of an operation with respect to the magnitudes of its operands, with room for all operations of a
-    /// program.
+    /// Error relative to the magnitudes of the operands, large enough for all operations of a program.
     share: f64,
-    /// Absolute error of an operation, in addition.
+    /// Additional absolute error of an operation.
     step: f64,
     /// Absolute error of a number stored in a texture.
     texel: f64,
     /// Bound on every intermediate that is a product of up to three of the largest numbers.
     largest: f64,
-    /// `true` if the bound is the end of a fixed-point range, which single numbers have to keep too.
+    /// `true` if the bound is the end of a fixed-point range, to which single numbers are limited too.
     fixed: bool,
 }
 
@@ -137,7 +136,7 @@ struct Bounds {
     n_ao: DVec3,
     /// Tolerance of n.d, relative to |n|.
     n_d: DVec3,
-    /// Tolerance of u, v and w, relative to their edge, besides the terms known per triangle.
+    /// Tolerance of u, v and w, relative to their edge, in addition to the terms known per triangle.
     edge: DVec3,
     /// Absolute tolerance of n.ao, n.d and of u, v, w for every triangle.
     alone: [f64; 3],
@@ -157,7 +156,7 @@ impl Bounds {
             n_ao: origins.half + share * a + step * (8.0 + d),
             n_d: directions.half + share * d + 2.0 * step,
             edge: both + share * products + 2.0 * step * others,
-            // One card divides n.ao by four before it looks at its sign.
+            // One program divides n.ao by four before it tests its sign.
             alone: [
                 8.0 * step * (a.element_sum() + 4.0),
                 2.0 * step * (d.element_sum() + 4.0),
@@ -198,12 +197,13 @@ fn most_edges(a: DVec3, d: DVec3, products: DVec3, errors: Errors) -> f64 {
     if !errors.fixed {
         return errors.largest;
     }
-    // |n| is at most the square of that by four, n.ao and n.d three times that and a or d; u, v and w an edge times the products.
+    // With s = |ab| + |ac|: |n| <= s^2 / 4, |n.ao| and |n.d| <= 3 |n| times a or d, and u, v, w at most an edge times
+    // the products.
     let normal = (range * 4.0 / (3.0 * largest.max(1.0))).sqrt();
     range.min(normal).min(range / products.max_element().max(1.0))
 }
 
-/// Rounds up by one or two ULPs, so that a bound computed in f64 is not too small.
+/// Rounds a bound to f32, upwards by one or two ULPs, so that it is not too small.
 fn upward(x: f32) -> f32 {
     if x > 0.0 && x.is_finite() { (x * (1.0 + 4.0 * f32::EPSILON)).max(f32::MIN_POSITIVE) } else { x }
 }

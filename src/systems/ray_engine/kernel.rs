@@ -25,25 +25,26 @@ pub enum Form {
 /// Evaluation of an edge shared by two triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeRule {
-    /// As in the paper: each triangle tests the edge anew, from its own corner a. Rounding may put a ray outside both.
+    /// As in the paper: each triangle tests the edge relative to its own corner a. Rounding may put a ray outside both
+    /// triangles.
     Paper,
-    /// Each triangle tests the edge from the edge's own two corners, in one orientation, so both triangles get the same
-    /// bits and no ray is outside both. Rays of one origin on `ps_1_4`, of any origin on `ps_2_0`.
+    /// Each triangle tests the edge from the edge's two corners in a fixed orientation, so both triangles get the same
+    /// bits and no ray is outside both. Supports rays of one origin on `ps_1_4`, and of any origin on `ps_2_0`.
     SharedEdges,
 }
 
-/// How ray textures of `ps_1_4` programs hold a component x.
+/// Encoding of a component x in ray textures of `ps_1_4` programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayTexels {
     /// Two channels of 16 bits, unsigned: (x + 1) / 2.
     Unsigned,
     /// Two channels of 16 bits, signed.
     Signed,
-    /// One texture of origins and one of directions, as in section 4.1: signed bytes.
+    /// Signed bytes, in one texture of origins and one of directions, as in section 4.1.
     Bytes,
 }
 
-/// Intersection program that its device accepts.
+/// Intersection program, accepted by a device.
 #[derive(Clone, Debug)]
 pub struct Kernel {
     /// Kind of rays that it handles.
@@ -54,7 +55,7 @@ pub struct Kernel {
     pub vertex: CheckedProgram,
     /// Pixel program: intersection.
     pub pixel: CheckedProgram,
-    /// Encoding of rays in its textures. Used by `ps_1_4` forms only.
+    /// Encoding of rays in the program's textures, for `ps_1_4` forms only.
     pub texels: RayTexels,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
@@ -64,8 +65,8 @@ pub struct Kernel {
 
 impl Kernel {
     /// Chooses the program for a device: `ps_2_0` if supported, otherwise `ps_1_4`. A device without limits runs
-    /// `ps_1_4` in fixed-point formats, as the cards of the time did. Fails with [`EngineError::NoKernel`] if the
-    /// device runs neither.
+    /// `ps_1_4` in fixed-point formats, like the cards of the time. Fails with [`EngineError::NoKernel`] if the device
+    /// runs neither.
     pub fn choose(profile: &Profile, one_origin: bool, sides: Sides) -> Result<Self, EngineError> {
         let versions = &profile.limits.versions;
         let has = |version| versions.contains(&version);
@@ -93,8 +94,9 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, texels)
     }
 
-    /// Chooses the program that evaluates each edge once. Fails with [`EngineError::NoKernel`] if the device runs no
-    /// intersection program, [`EngineError::NoSharedEdges`] if it runs one for these rays, but not with shared edges.
+    /// Chooses the program for [`EdgeRule::SharedEdges`]. Fails with [`EngineError::NoKernel`] if the device runs no
+    /// intersection program, and with [`EngineError::NoSharedEdges`] if it runs one for these rays, but not with shared
+    /// edges.
     pub fn with_shared_edges(profile: &Profile, one_origin: bool, sides: Sides) -> Result<Self, EngineError> {
         let paper = Self::choose(profile, one_origin, sides)?;
         let front = sides == Sides::Front;
@@ -116,8 +118,8 @@ impl Kernel {
         Ok(Self { edges: EdgeRule::SharedEdges, ..shared })
     }
 
-    /// Chooses the program for rays in bytes, of any origin. Fails with [`EngineError::NoByteRays`] where both faces
-    /// can be hit, or the device stores rays as floats; that of [`Self::choose`] if it runs no intersection program.
+    /// Chooses the program for rays in bytes, of any origin. Fails with [`EngineError::NoByteRays`] if both faces can
+    /// be hit or the device stores rays as floats, and as [`Self::choose`] does.
     pub fn with_byte_rays(profile: &Profile, sides: Sides) -> Result<Self, EngineError> {
         match (Self::choose(profile, false, sides)?.form, sides) {
             (Form::AnyOrigin, Sides::Front) => {
@@ -128,7 +130,7 @@ impl Kernel {
         }
     }
 
-    /// Form, and range of its intermediates.
+    /// The program's form, and the range of its intermediates.
     pub(super) fn numbers(&self, rules: &Rules) -> (Form, Range) {
         let range = Range::of_pixels(rules);
         (self.form, if self.texels == RayTexels::Bytes { range.with_byte_texels() } else { range })

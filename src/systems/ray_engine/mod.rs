@@ -1,15 +1,16 @@
-//! System 1: the Ray Engine. Ray-triangle intersection as a pixel program; the crossbar of rays and triangles.
+//! System 1: the Ray Engine. Ray-triangle intersection by a pixel program: every ray is tested against every triangle,
+//! as in a crossbar.
 //!
-//! Rays are stored in textures, one per texel; every triangle is drawn as a screen-filling quad whose attributes pass
-//! it to all pixels; the depth buffer keeps the nearest t and the color buffer the triangle's id.
+//! Rays are stored in textures, one per texel. Every triangle is drawn as a screen-filling quad whose attributes pass
+//! it to all pixels. The depth buffer keeps the nearest t, and the color buffer the triangle's id.
 //!
-//! - [`paper`]: equations (1) to (8) in plain f64, to be read first;
+//! - [`paper`]: equations (1) to (8) in plain f64; read it first;
 //! - 3.3, 4.2, 5.3: [`Crossbar`], every ray against every triangle, in buckets (`crossbar`, `bundle`, `card`,
-//!   `id_color`); [`ResidentCrossbar`] draws again without uploads; 3.4: [`VertexCrossbar`], the same in the vertex
+//!   `id_color`); [`ResidentCrossbar`] draws again without uploads; 3.4: [`VertexCrossbar`], intersection in the vertex
 //!   units;
-//! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]), and those that leak at no edge ([`EdgeRule`], `sorted`);
-//!   [`RayBatch`], rays as texels; what brings scenes into a
-//!   format's range (`range`, `reach`, `units`), and how much of a mesh it loses ([`BitsLeft`]);
+//! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]), also kernels without leaks at edges ([`EdgeRule`], `sorted`);
+//!   [`RayBatch`], rays as texels; scaling of scenes to a format's range (`range`, `reach`, `units`), and lost triangle
+//!   normals ([`BitsLeft`]);
 //! - 5.2, 5.3, 6.2, 6.3: [`engine`], with the 5-D [`ray_tree`], passes (`pass`) and culling in the vertex program
 //!   (`cull`);
 //! - 6.1: [`model`], equation (11).

@@ -1,7 +1,7 @@
 //! Cost equations of the paper (section 6.1): throughput for R rays and T triangles from a card's fill and read-back
 //! rates.
 //!
-//! Plain f64 estimates; the emulator's own timing model counts in whole picoseconds.
+//! These are plain f64 estimates; the emulator's timing model counts in whole picoseconds.
 
 /// The two rates of equation 11.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,8 +13,8 @@ pub struct CostRates {
 }
 
 impl CostRates {
-    /// Equation 11: seconds to test `triangles` against `rays`, with `gamma` bytes read back per ray. Section 6.1 prints
-    /// 4 for "a single 64-bit triangle ID", which has 8 bytes; its rates are those of 4.
+    /// Equation 11: seconds to test `triangles` against `rays`, with `gamma` bytes read back per ray. Section 6.1
+    /// prints 4 for "a single 64-bit triangle ID", which has 8 bytes; its rates follow from 4.
     pub fn seconds(&self, rays: f64, triangles: f64, gamma: f64) -> f64 {
         triangles * rays / self.fill_pixels_per_s + rays * gamma / self.readback_bytes_per_s
     }
@@ -29,7 +29,7 @@ impl CostRates {
         self.readback_bytes_per_s / gamma
     }
 
-    /// Number of triangles at which half the fill rate is reached: drawing then takes as long as reading back.
+    /// Number of triangles at which half the fill rate is reached, because drawing takes as long as read-back.
     pub fn half_rate_triangles(&self, gamma: f64) -> f64 {
         self.fill_pixels_per_s * gamma / self.readback_bytes_per_s
     }

@@ -12,7 +12,7 @@ pub struct Crossing {
     pub u: f64,
     /// Equation (7), unnormalised.
     pub v: f64,
-    /// Equation (8) with the sign that makes it positive inside a front face, unnormalised.
+    /// Equation (8) with its sign chosen to be positive inside a front face, unnormalised.
     pub w: f64,
     /// `n . d`: negative for a front face; `u + v + w = -n.d`.
     pub n_dot_d: f64,

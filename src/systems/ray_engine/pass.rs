@@ -19,18 +19,16 @@ pub(super) struct PassCard {
     pub(super) machine: Machine,
     pub(super) kernel: Kernel,
     sides: Sides,
-    /// Lowest and highest coordinates of the mesh that all passes test against.
+    /// Lowest and highest coordinates of the mesh of all passes.
     bounds: [[f32; 3]; 2],
-    /// Textures and targets by the number of their set, and by their size.
     sheets: BTreeMap<(usize, u32, u32), RayTextures>,
 }
 
-/// Draw whose results can be read back.
+/// A draw whose results can be read back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DrawnPass {
     units: Units,
     sheet: usize,
-    /// Events of the draw.
     pub(super) events: DrawEvents,
 }
 
@@ -41,7 +39,7 @@ impl PassCard {
         Self { machine, kernel, sides, bounds, sheets: BTreeMap::new() }
     }
 
-    /// Draws some triangles, given in ascending order, over rays, using the textures and targets of set `sheet`.
+    /// Tests rays against some triangles, given in ascending order, with the textures and targets of set `sheet`.
     pub(super) fn draw(
         &mut self,
         sheet: usize,

@@ -1,8 +1,8 @@
 //! Numeric range of a card's pixel format, and the part of it that the intersection programs may use.
 //!
-//! The scene scale S and the edge scale k of a triangle are the two powers of two that keep every intermediate of
-//! every program inside the format. With card units A for offsets (origin minus corner), e for edges and D <= 1 for
-//! components of directions, the programs hold
+//! The scene scale S and a triangle's edge scale k are powers of two that keep every intermediate of every program
+//! inside the format. With A an offset (origin minus corner) and e an edge, in card units, and D <= 1 a component of a
+//! direction, the intermediates are
 //!
 //! | intermediate | at most | kept in range by |
 //! |---|---|---|
@@ -13,9 +13,9 @@
 //! | k n.d, k n.ao and their partial sums | 3 \|k n\| D, 3 \|k n\| A | k |
 //! | k u, k v, k w and their partial sums | 3 k e (2 A D) | k |
 //!
-//! The bounds used are finer than this table: intervals by component, over all rays of a batch, for each triangle by
-//! itself. They include the rounding errors of the card, so that nothing saturates, wraps or becomes
-//! infinite, in whatever order a card adds.
+//! The code uses finer bounds than this table: intervals per component over all rays of a batch, for each triangle
+//! separately. They include the card's rounding errors, so that no number saturates, wraps or becomes infinite,
+//! whatever the card's order of additions.
 
 use refsim::device::{Rules, TexdepthDenominator};
 use refsim::num::{Format, FormatKind, power_of_two};
@@ -25,7 +25,7 @@ use crate::tracer::scale::ceil_power_of_two;
 /// Steps of a signed byte between 0 and 1.
 pub(super) const BYTE_CODES: f64 = 127.0;
 
-/// Properties of a number format that the intersection programs depend on.
+/// Properties of a number format on which the intersection programs depend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Range {
     /// Exclusive bound on magnitudes. Fixed point: the end of the range, 2^I. Float: a power of two below the largest
@@ -35,23 +35,23 @@ pub(super) struct Range {
     pub(super) step: f64,
     /// Exclusive bound on n.d, the divisor.
     divisor: f64,
-    /// Bound on the difference of a component of a ray and its code in a texture, as `_bx2` expands it.
+    /// Bound on the difference between a ray's component and its code in a texture, expanded by `_bx2`.
     code: f64,
     kind: RangeKind,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum RangeKind {
-    /// Fixed point, with absolute precision: small numbers are no more precise.
+    /// Fixed point, whose precision is absolute.
     Fixed,
     /// Float with fewer exponents than single precision: products of small edges underflow.
     Narrow,
-    /// Float with the exponents of single precision. The host's test, which uses single precision, has no edge scale.
+    /// Float with the exponents of single precision. The host's test, in single precision, has no edge scale either.
     Wide,
 }
 
 impl Range {
-    /// Range of a pixel program: that of its format, limited by the divisor of `texdepth`.
+    /// Range of a pixel program: the range of its format, limited by the divisor of `texdepth`.
     pub(super) fn of_pixels(rules: &Rules) -> Self {
         let range = Self::of(&rules.format);
         match rules.texdepth_denominator {
@@ -85,14 +85,14 @@ impl Range {
 
     /// This range for rays in textures of signed bytes.
     pub(super) fn with_byte_texels(self) -> Self {
-        // Components between the largest code used and 1 are off by up to a step.
+        // Components between the largest used code and 1 have an error of up to one step.
         Self { code: 1.0 / BYTE_CODES, ..self }
     }
 
     /// Bound on numbers that the card rounds once or twice: coordinates, offsets, edges, normals.
     pub(super) fn of_vectors(&self) -> f64 {
         match self.kind {
-            // An edge scale cannot help: the vertex program computes the normal in single precision too.
+            // An edge scale cannot help, because the vertex program computes the normal in single precision too.
             RangeKind::Wide => 4.0,
             _ => self.room(4.0 * self.step),
         }
@@ -108,7 +108,7 @@ impl Range {
         self.room(self.step * (3.0 * self.end + 24.0))
     }
 
-    /// Bound on numbers in ray textures: 1, or slightly less where the register range ends there.
+    /// Bound on numbers in ray textures: 1, or slightly less if the register range ends at 1.
     pub(super) fn of_texels(&self) -> f64 {
         (self.end - 2.0 * self.step).min(1.0)
     }
@@ -120,12 +120,13 @@ impl Range {
         [offsets.min(4.0), offsets]
     }
 
-    /// Error of a component read from a ray texture: that of its code plus the register's rounding, doubled by `_bx2`.
+    /// Error of a component read from a ray texture: the error of its code plus the register's rounding, doubled by
+    /// `_bx2`.
     pub(super) fn texel_error(&self) -> f64 {
         if self.step == 0.0 { 0.0 } else { self.code + 2.0 * self.step }
     }
 
-    /// Error of a component of ao x d: that of d times ao, twice, plus that of ao and the roundings.
+    /// Error of a component of ao x d: twice the error of d times ao, plus the error of ao and the roundings.
     pub(super) fn cross_product_error(&self) -> f64 {
         2.0 * self.end * self.texel_error() + 8.0 * self.step
     }
@@ -138,9 +139,9 @@ impl Range {
     /// Chooses the edge scale of a triangle whose largest sum is `sum` at k = 1, and whose normal's largest component
     /// is `normal`.
     ///
-    /// Fixed point: 1, as in the paper, or less where that does not fit. Floats of few exponents: enough to bring the
-    /// normal near 1, so that neither its products nor the quotient by n.d leave the range. A power of two changes
-    /// nothing else.
+    /// Fixed point: 1, as in the paper, or less if 1 does not fit. Floats of few exponents: the scale that brings the
+    /// normal near 1, so that neither its products nor the quotient by n.d leave the range. A power of two has no other
+    /// effect.
     pub(super) fn edge_scale(&self, sum: f64, normal: f64) -> f64 {
         let fits = self.fitting_scale(sum);
         match self.kind {
@@ -150,8 +151,8 @@ impl Range {
         }
     }
 
-    /// Chooses the scale of a vector that no other number has to keep step with: as [`Self::edge_scale`], but in fixed
-    /// point the largest that fits, for the most bits.
+    /// Chooses the scale of a vector whose scale no other number shares: like [`Self::edge_scale`], but in fixed point
+    /// the largest scale that fits, for the most bits.
     pub(super) fn own_scale(&self, sum: f64, largest: f64) -> f64 {
         match self.kind {
             RangeKind::Fixed => self.fitting_scale(sum),
@@ -159,7 +160,7 @@ impl Range {
         }
     }
 
-    /// Largest scale with which a sum stays in range. A vertex constant is single precision.
+    /// Largest scale with which a sum stays in range. Vertex constants are in single precision.
     fn fitting_scale(&self, sum: f64) -> f64 {
         (1.0 / ceil_power_of_two(sum / self.of_sums())).min(power_of_two(64))
     }
@@ -169,7 +170,7 @@ impl Range {
         self.kind != RangeKind::Wide
     }
 
-    /// Range less the errors; formats of very few bits keep half of it.
+    /// Range minus the errors; at least half the range, for formats of very few bits.
     fn room(&self, errors: f64) -> f64 {
         (self.end - errors).max(self.end / 2.0)
     }

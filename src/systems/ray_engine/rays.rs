@@ -5,7 +5,7 @@ use refsim::texture::Region;
 use crate::error::{InputError, ensure};
 use crate::geom::Ray;
 
-/// Side of the squares that lists are laid out in, in pixels: a tile of the card, and the paper's bucket of 256 rays
+/// Side of the squares in which lists are laid out, in pixels: a tile of the card, and the paper's bucket of 256 rays
 /// (section 5.3).
 const SQUARE: usize = 16;
 /// Squares per row of a list's batch.
@@ -20,14 +20,14 @@ pub struct RayBatch {
 }
 
 impl RayBatch {
-    /// Creates a batch of `width * height` rays, row by row. Fails with [`InputError`] if there are more or fewer.
+    /// Creates a batch of `width * height` rays, row by row. Fails with [`InputError`] for another number of rays.
     pub fn new(width: u32, height: u32, rays: Vec<Ray>) -> Result<Self, InputError> {
         ensure!(rays.len() == width as usize * height as usize, "ray_engine::batch" =>
             "expected {width} x {height} rays for a batch of that size, found {}", rays.len());
         Ok(Self { width, height, rays })
     }
 
-    /// Creates a batch of as many full rows of `width` rays as there are; drops the rest.
+    /// Creates a batch of full rows of `width` rays; drops the remaining rays.
     pub fn rows(width: u32, mut rays: Vec<Ray>) -> Self {
         let height = rays.len() / (width as usize).max(1);
         rays.truncate(width as usize * height);

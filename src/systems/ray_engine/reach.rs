@@ -73,7 +73,8 @@ fn magnitude([low, high]: [f64; 2]) -> f64 {
     low.abs().max(high.abs())
 }
 
-/// Largest magnitude of the partial sums of an inner product with a vector: each term, the first two, all three.
+/// Largest magnitude of the partial sums of an inner product with a vector: each term, the sum of two, the sum of
+/// three.
 pub(super) fn most_of_partial_sums(v: DVec3, most: impl Fn(DVec3) -> f64) -> f64 {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| v * axis);
     let sums = [x, y, z, x + y, v];
@@ -103,11 +104,10 @@ pub(super) struct Reach {
     pub(super) origin: f64,
     /// Bound on a component of origin minus corner.
     pub(super) offset: f64,
-    /// Bound on a component of (origin minus corner) x direction in range, and on the two products in it.
+    /// Bound on a component of (origin minus corner) x direction in range, and on its two products.
     pub(super) cross: f64,
     /// Bound on t for directions brought into range, with a margin below depth 1.
     pub(super) t: f64,
-    /// Box of the origins.
     pub(super) origins: VectorRange,
     /// Box of the directions in range.
     pub(super) directions: VectorRange,
@@ -135,7 +135,7 @@ impl Reach {
             let farthest = p.abs().max(q.abs());
             reach.origin = reach.origin.max(largest(origin));
             reach.offset = reach.offset.max(largest(farthest));
-            // No cross product of this ray exceeds the magnitudes of its terms: few rays can be the largest.
+            // The magnitudes of its terms bound a ray's cross product, so few rays can have the largest.
             if largest(mixed(farthest, d.abs())) > reach.cross {
                 let mut offsets = VectorRange([p; 2]);
                 offsets.include(q);
@@ -144,8 +144,8 @@ impl Reach {
                 let products = [d.yzx(), d.zxy()].map(|d| largest(farthest * d));
                 reach.cross = reach.cross.max(largest(components)).max(products[0]).max(products[1]);
             }
-            // The largest component of a direction in range is at least 1/2, so a corner at distance r is met at
-            // t <= 2 r; along its own length, at t <= r / |d|.
+            // The largest component of a direction in range is at least 1/2, so a corner at distance r is met at t <= 2
+            // r, and by the length of d at t <= r / |d|.
             reach.t = reach.t.max(farthest.length() / d.length() * ROOM);
         }
         reach

@@ -8,7 +8,7 @@ use super::card::{RayTextures, Streams, rounded};
 use super::units::Units;
 use super::{Answer, EngineError, Kernel, RayBatch};
 
-/// A card with rays in its textures and triangles in its vertex memory. [`super::Crossbar::make_resident`] makes one.
+/// A card with rays in its textures and triangles in its vertex memory. [`super::Crossbar::make_resident`] creates it.
 #[derive(Debug)]
 pub struct ResidentCrossbar {
     /// `None` if there are no rays or no triangles.

@@ -1,7 +1,7 @@
-//! Triangles with their corners in an order that does not depend on the triangle.
+//! Triangles with sorted corners.
 
-/// Triangle whose corners are sorted by their coordinates, so that an edge runs the same way in both of its triangles,
-/// also where these have vertices of their own.
+/// Triangle whose corners are sorted by coordinates, so that a common edge has the same direction in both of its
+/// triangles, even if they do not share vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SortedTriangle {
     /// Corners p0, p1, p2, ascending in x, then y, then z.
@@ -15,7 +15,7 @@ impl SortedTriangle {
     pub(super) fn new(mut corners: [[f32; 3]; 3]) -> Self {
         let mut turn = 1.0;
         for [first, second] in [[0, 1], [1, 2], [0, 1]] {
-            // Corners are finite, so they always compare; of equal ones neither goes first.
+            // Corners are finite, so they always compare; equal corners are not exchanged.
             if corners[first] > corners[second] {
                 corners.swap(first, second);
                 turn = -turn;

@@ -1,7 +1,7 @@
 //! Scale of a scene in card units, by powers of two, and upload of rays as textures.
 //!
-//! Registers, ray textures and depth buffer of a card each have their own range. Powers of two bring rays and scene
-//! into them without losing a bit of the input before the card rounds it.
+//! Registers, ray textures and depth buffer of a card have different ranges. Powers of two scale rays and scene into
+//! these ranges, which loses no bit of the input before the card rounds it.
 
 use glam::DVec3;
 use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
@@ -79,7 +79,7 @@ impl Units {
     }
 
     /// Edge scale of a triangle, by which the vertex program multiplies its edges and normal: a power of two that
-    /// brings u, v, w, n.d and n.ao, each multiplied by it, into the range of the format for every ray of the batch.
+    /// brings u, v, w, n.d and n.ao, times this scale, into the range of the format for every ray of the batch.
     pub(super) fn edge_scale(&self, corners: [[f32; 3]; 3]) -> f64 {
         if !self.range.has_edge_scale() {
             return 1.0;
@@ -92,7 +92,7 @@ impl Units {
         let components = [ab, ac, bc, n].map(largest).into_iter().fold(0.0, f64::max);
         let scale = |sum: f64| self.range.edge_scale(sum.max(components), largest(n));
 
-        // The sum of all terms' magnitudes bounds every partial sum, and suffices for most triangles, which are small.
+        // The sum of all terms' magnitudes bounds every partial sum; this coarse bound suffices for most triangles.
         let [ao_most, bo_most, d_most] = [ao, bo, d].map(VectorRange::magnitudes);
         let [aod, bod] = [ao_most, bo_most].map(|v| mixed(v, d_most) + error);
         let n_d = inner(n, d_most + texel) * self.range.of_divisors();
@@ -113,8 +113,8 @@ impl Units {
         scale(sums.into_iter().fold(0.0, f64::max))
     }
 
-    /// Scale of an edge that is evaluated once for both of its triangles: a power of two, from its two corners alone,
-    /// that brings E = d . (e x (o - p)) and its operands into the range of the format.
+    /// Scale of an edge under [`EdgeRule::SharedEdges`]: a power of two, computed only from its two corners, that
+    /// brings E = d . (e x (o - p)) and its operands into the range of the format.
     pub(super) fn shared_edge_scale(&self, p: [f32; 3], q: [f32; 3]) -> f64 {
         if !self.range.has_edge_scale() {
             return 1.0;
@@ -138,7 +138,7 @@ impl Units {
         }
     }
 
-    /// Scale of a normal that serves n.d and n.ao alone, if edges have their own scales.
+    /// Scale of a normal for n.d and n.ao, if edges have their own scales.
     pub(super) fn normal_scale(&self, corners: [[f32; 3]; 3]) -> f64 {
         if !self.range.has_edge_scale() {
             return 1.0;
@@ -149,7 +149,7 @@ impl Units {
         self.range.own_scale(sum.max(largest(n)), largest(n))
     }
 
-    /// Bound on n.d and its partial sums as a divisor.
+    /// Bound on n.d, the divisor, and its partial sums.
     fn n_d(&self, n: DVec3) -> f64 {
         let sum =
             most_of_partial_sums(n, |n| self.directions.dot(n)) + inner(n, DVec3::splat(self.range.texel_error()));
@@ -160,7 +160,7 @@ impl Units {
     fn n_ao(&self, n: DVec3, a: DVec3) -> f64 {
         let ao = self.origins.minus(a);
         match self.form {
-            // The vertex program computes it, in single precision.
+            // The vertex program computes n.ao / t_max in single precision.
             Form::OneOrigin => ao.dot(n) / self.t_max,
             Form::AnyOrigin | Form::Float => {
                 let error = self.range.texel_error() + 2.0 * self.range.step;
@@ -195,7 +195,7 @@ impl Units {
         }
     }
 
-    /// Ray that textures of bytes hold in place of this one, its direction brought into range.
+    /// The ray as textures of bytes represent it, with its direction scaled into range.
     pub(super) fn in_bytes(&self, ray: &Ray) -> Result<Ray, InputError> {
         let held = |v: DVec3, scale: f64| narrow((v * scale).map(byte_code) / BYTE_CODES / scale);
         Ray::new(held(wide(ray.origin()), self.scale), held(normalize_range(ray.direction()).0, 1.0))
@@ -255,7 +255,8 @@ fn float_texture(extents: [u32; 3], vectors: &[DVec3]) -> Result<Image, TextureE
     Image::from_bytes(TexelFormat::Rgba32f, TextureKind::D2, extents, 1, bytes)
 }
 
-/// Code of a component in a signed byte. The largest is 126, so that no direction grows into the next power of two.
+/// Code of a component in a signed byte. The largest code is 126, so that rounding does not scale a direction up to the
+/// next power of two.
 fn byte_code(x: f64) -> f64 {
     (x * BYTE_CODES).round().clamp(1.0 - BYTE_CODES, BYTE_CODES - 1.0)
 }

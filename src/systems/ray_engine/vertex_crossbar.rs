@@ -24,8 +24,8 @@ const AROUND: [[f32; 2]; 3] = [[0.0, 0.4], [0.4, -0.3], [-0.4, -0.3]];
 
 /// A card that intersects rays with triangles in its vertex units: one draw per ray, three vertices per test.
 ///
-/// The paper's own program is not printed. This one is the shortest that we found for triangles whose normal and
-/// edges lie ready in vertex memory: 20 instructions.
+/// The paper's own program is not printed. This program is the shortest that we found for triangles with precomputed
+/// normal and edges in vertex memory: 20 instructions.
 #[derive(Clone, Debug)]
 pub struct VertexCrossbar {
     profile: Profile,
@@ -82,7 +82,7 @@ impl VertexCrossbar {
     }
 }
 
-/// Vertex attributes: the pixel's triangle, and the attributes of each triangle of the mesh.
+/// Vertex attributes: the small triangle around a pixel, and the attributes of each triangle of the mesh.
 struct Streams {
     corners: [[u32; 4]; 3],
     triangles: [Vec<[u32; 4]>; 5],

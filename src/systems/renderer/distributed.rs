@@ -11,14 +11,14 @@ use crate::error::InputError;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
-/// Branch of the random numbers of the second ray that leaves glass, above those of gather rays (1 to 2^32).
+/// Branch of the random numbers for the second ray from glass, above the branches of gather rays (1 to 2^32).
 const SECOND_RAY: u64 = 1 << 33;
 
 /// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the
-/// point lights if the scene has no emitters); a glossy lobe sends one ray into a sampled direction, for light from
-/// emitters and other surfaces; a mirror sends one ray; glass sends both of its rays at the first hit of an eye ray,
-/// otherwise one chosen at random. `settings.depth` is the maximum number of such rays in sequence. Diffuse
-/// interreflection is omitted. Fails with [`InputError`] if a setting is out of range or the caster fails.
+/// point lights if the scene has no emitters). A glossy lobe sends one ray in a sampled direction, for light from
+/// emitters and other surfaces. A mirror sends one ray. Glass sends both of its rays at the first hit of an eye ray,
+/// otherwise one at random. `settings.depth` is the maximum number of such rays in sequence. Diffuse interreflection is
+/// omitted. Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -55,8 +55,8 @@ impl Shade for Distributed<'_> {
     }
 }
 
-/// Direct light: the diffuse part by one point of the emitters; both parts by the point lights, which no ray from a
-/// lobe could hit.
+/// Direct light: the diffuse part by one point of the emitters; both parts by the point lights, which a ray from a lobe
+/// cannot hit.
 pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
     let has_diffuse = lobes.albedo.max_element() > 0.0;
     let area = has_diffuse.then(|| lights.area(surfel, flight.rng, flight.depth)).flatten();
@@ -78,9 +78,9 @@ pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, RayKind::Reflection, weight)));
 }
 
-/// Continues at a mirror with one ray; at glass with both rays at the first hit of an eye ray, since a random choice
-/// there is visible as noise, afterwards with one. The two rays have separate random numbers: with the same ones the
-/// noise of both would add up.
+/// Continues at a mirror with one ray, and at glass with one random ray, but with both rays at the first hit of an eye
+/// ray, where a random choice is visible as noise. The two rays have separate random numbers, so that their noise is
+/// independent.
 pub(super) fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     let chosen = if flight.depth == 0 {
         specular_rays(surfel)
@@ -92,7 +92,7 @@ pub(super) fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: 
         let weight = flight.weight * specular.weight;
         if weight.max_element() > 0.0 {
             let next = surfel.ray(specular.towards).map(|ray| flight.on(ray, specular.kind, weight));
-            // A gather ray keeps its density, which marks it as one.
+            // A gather ray keeps its density, which marks it as a gather ray.
             scatter.next.extend(next.map(|next| PathRay {
                 density: flight.density,
                 rng: flight.rng.branch(branch),

@@ -11,9 +11,9 @@ use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene, Surface};
 use crate::tracer::Caster;
 
-/// Renders with eye rays only. A pixel is the surface's albedo (of mirrors and glass their reflectance or
-/// transmittance) times the cosine to the eye, plus its emission; a back face shows half of that, so that holes and
-/// flipped triangles are visible. Fails with [`InputError`] if a setting is out of range or the caster fails.
+/// Renders with eye rays only. A pixel is the surface's albedo (for mirrors and glass the reflectance or transmittance)
+/// times the cosine to the eye, plus its emission; a back face has half of this value, so that holes and flipped
+/// triangles are visible. Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

@@ -1,4 +1,4 @@
-//! Accumulation of samples to a picture.
+//! Accumulation of samples into a picture.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -21,10 +21,10 @@ pub struct RenderedPicture {
     pub height: u32,
     /// Mean of the samples.
     pub color: Vec<[f64; 3]>,
-    /// Estimated variance of that mean: that of the samples over their number; 0 for one sample.
+    /// Estimated variance of the mean: the variance of the samples divided by their number; 0 for one sample.
     pub variance: Vec<[f64; 3]>,
-    /// First hit of the ray through the centre of the pixel. Its t is in multiples of the camera's ray, so that it is
-    /// the depth along the view.
+    /// First hit of the ray through the centre of the pixel. Its t counts lengths of the camera's ray, so it is the
+    /// depth along the view.
     pub first: Vec<Option<Hit>>,
     /// Samples that were not finite and count as black: 0 for scenes with reasonable parameters.
     pub not_finite: u64,
@@ -59,7 +59,7 @@ impl Film {
     }
 }
 
-/// Renders with a shader. `fan` is the approximate number of rays that one eye ray may become at a time.
+/// Renders with a shader. `fan` is the approximate maximum number of simultaneous rays from one eye ray.
 pub(super) fn expose(
     tracer: &mut CountingCaster<'_>,
     scene: &Scene,
@@ -72,7 +72,7 @@ pub(super) fn expose(
     let pixels = camera.width() as usize * camera.height() as usize;
     let samples = u64::from(settings.samples);
     let mut film = Film { sum: vec![DVec3::ZERO; pixels], squares: vec![DVec3::ZERO; pixels], not_finite: 0 };
-    // With one sample per pixel and no lens the rays of the picture are those through the middles.
+    // With one sample per pixel and no lens, the picture's rays pass through the pixel centres.
     let middles = settings.samples == 1 && settings.lens.is_none();
     let mut first = if middles { Vec::with_capacity(pixels) } else { through_middles(tracer, camera, settings)? };
     let total = pixels as u64 * samples;
@@ -101,7 +101,6 @@ pub(super) fn expose(
     Ok(RenderedPicture { width, height, color, variance, first, not_finite: film.not_finite, counts })
 }
 
-/// Returns the means, and the variances of the means.
 fn means(film: &Film, samples: u32) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     let n = f64::from(samples);
     let of = |(sum, squares): (&DVec3, &DVec3)| {
@@ -155,7 +154,7 @@ fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, rng: SampleRng) -> 
         None => Ray::new(camera.eye(), narrow(direction)),
         Some(lens) => through_lens(camera, lens, direction, [rng.before(2), rng.before(3)]),
     };
-    // Fails only for a direction beyond f32.
+    // Only a direction beyond f32 has no ray.
     ray.unwrap_or(centre)
 }
 
@@ -167,6 +166,6 @@ fn through_lens(camera: &Camera, lens: Lens, direction: DVec3, u: [f64; 2]) -> R
     let start = eye + x * lens.radius * right + y * lens.radius * up;
     let start = narrow(start);
     let sharp = eye + lens.focus * direction;
-    // As long as the pinhole's ray, so that t stays the depth along the view.
+    // The direction is as long along the view as the pinhole's, so that t stays the depth along the view.
     Ray::new(start, narrow(1.0 / lens.focus * (sharp - wide(start))))
 }

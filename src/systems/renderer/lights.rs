@@ -18,9 +18,10 @@ pub(super) struct LightSample {
     pub(super) ray: Ray,
     /// Unit vector to the light.
     pub(super) towards: DVec3,
-    /// Radiance over the probability density (area lights), or irradiance perpendicular to the direction (points).
+    /// Radiance divided by the probability density (area lights), or irradiance perpendicular to the direction (point
+    /// lights).
     pub(super) light: DVec3,
-    /// Probability density over solid angle; infinite for points, which no other sampling strategy can hit.
+    /// Probability density over solid angle; infinite for point lights, which no other sampling strategy can hit.
     pub(super) density: f64,
 }
 
@@ -28,12 +29,12 @@ pub(super) struct LightSample {
 pub(super) struct EmissionSample {
     /// Ray from the light.
     pub(super) ray: Ray,
-    /// Flux over the probability density: its mean over all samples is the flux of all lights.
+    /// Flux divided by the probability density; its mean over all samples is the flux of all lights.
     pub(super) power: DVec3,
 }
 
-/// Lights of a scene: its emitters, or its point lights. Scenes contain the point lights of Whitted's model in addition
-/// to the emitters that they represent; a renderer that used both would count all light twice.
+/// Lights of a scene: its emitters, or its point lights. Scenes contain Whitted's point lights in addition to the
+/// emitters that they replace; a renderer that used both would count all light twice.
 pub(super) struct Lights<'a> {
     scene: &'a Scene,
     rounding: f64,
@@ -68,13 +69,12 @@ impl<'a> Lights<'a> {
         Self { scene, rounding, emitters, table, densities, points }
     }
 
-    /// Number of point lights.
     pub(super) fn points(&self) -> usize {
         self.points.len()
     }
 
-    /// Samples a ray of emitted light: from an emitter with a cosine distribution about its normal, from a point light
-    /// in all directions. `number` returns the i-th of six random numbers in [0, 1).
+    /// Samples a ray of emitted light: cosine-distributed about an emitter's normal, or uniform in all directions from
+    /// a point light. `number` returns the i-th of six random numbers in [0, 1).
     pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<EmissionSample> {
         if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
             let towards = cosine(place.normal, [number(3), number(4)]);
@@ -102,7 +102,7 @@ impl<'a> Lights<'a> {
         Some((place, radiance, self.densities[entry]))
     }
 
-    /// Samples a point of an emitter to light a surfel. `None` if the point is on a back face or cannot be reached.
+    /// Samples a point of an emitter that lights a surfel. `None` if the point is on a back face or cannot be reached.
     pub(super) fn area(&self, surfel: &Surfel<'_>, rng: SampleRng, depth: u32) -> Option<LightSample> {
         let (place, radiance, density) = self.place(rng.at(depth, 0), rng.pair(depth, 1))?;
         let offset = place.at - surfel.place.at;
@@ -117,7 +117,7 @@ impl<'a> Lights<'a> {
         Some(LightSample { ray, towards, light: 1.0 / density * radiance, density })
     }
 
-    /// Density over solid angle with which [`Lights::area`] would have sampled an emitter's point that a ray hit.
+    /// Density over solid angle with which [`Lights::area`] samples an emitter's point that a ray has hit.
     pub(super) fn density(&self, found: &Surfel<'_>, from: DVec3) -> f64 {
         let Ok(entry) = self.emitters.binary_search(&found.triangle) else { return 0.0 };
         let offset = found.place.at - from;

@@ -1,4 +1,4 @@
-//! Scattering at surfaces: lobes that can be evaluated (diffuse, glossy) and specular ones (mirror, glass).
+//! Scattering at surfaces: lobes that can be evaluated (diffuse, glossy) and specular rays (mirror, glass).
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub(super) struct Lobes {
     pub(super) exponent: f64,
 }
 
-/// Sampled direction of a surface.
+/// Direction sampled at a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LobeSample {
     pub(super) towards: DVec3,
@@ -60,8 +60,8 @@ impl Lobes {
         if gloss > 0.0 { gloss / (matt + gloss) } else { 0.0 }
     }
 
-    /// Returns `f cos`, and the density with which [`Lobes::choose`] samples the direction. Both are zero where the
-    /// direction leaves on the other side of the triangle, or is below the shading normal's horizon.
+    /// Returns `f cos`, and the density with which [`Lobes::choose`] samples the direction. Both are zero if the
+    /// direction is on the other side of the triangle, or below the shading normal's horizon.
     pub(super) fn evaluate(&self, surfel: &Surfel<'_>, towards: DVec3) -> (DVec3, f64) {
         let cos = towards.dot(surfel.shading);
         if cos <= 0.0 || towards.dot(surfel.normal) <= 0.0 {
@@ -99,18 +99,18 @@ pub(super) struct SpecularRay {
     pub(super) towards: DVec3,
     pub(super) weight: DVec3,
     pub(super) kind: RayKind,
-    /// Probability with which it is chosen where one of several rays is.
+    /// Probability of this ray if one of several rays is chosen.
     pub(super) probability: f64,
-    /// Additional factor of a photon's flux, beside `weight`, which makes its irradiance relative to the square of the
-    /// index too: the square of the ratio of indices at a boundary that it passes, otherwise 1.
+    /// Additional factor of a photon's flux, which makes its irradiance relative to the squared index too: the squared
+    /// ratio of indices at a boundary that the photon passes, otherwise 1.
     pub(super) flux_scale: f64,
 }
 
 /// Returns the specular rays from a mirror (one) or glass (one under total internal reflection, otherwise two); none
 /// from other surfaces.
 ///
-/// Rays carry radiance over the square of the index of refraction, which is invariant at a boundary (Nicodemus 1963):
-/// so there is no factor here, and emission and scattering inside glass are as in air.
+/// Rays carry radiance divided by the squared index of refraction, which is invariant at a boundary (Nicodemus 1963).
+/// So a boundary needs no factor, and emission and scattering inside glass are as in air.
 pub(super) fn specular_rays(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
     let mirrored = |weight, probability| SpecularRay {
         towards: mirror_direction(surfel),
@@ -137,7 +137,7 @@ pub(super) fn specular_rays(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
     }
 }
 
-/// Chooses one of the specular rays by a number in [0, 1), its weight divided by its probability.
+/// Chooses one of the specular rays by a number in [0, 1); its weight is divided by its probability.
 pub(super) fn choose_specular(surfel: &Surfel<'_>, u: f64) -> Option<SpecularRay> {
     let [first, second] = specular_rays(surfel);
     let first = first?;

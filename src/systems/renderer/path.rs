@@ -15,7 +15,7 @@ use glam::DVec3;
 
 /// Number of hits before Russian roulette begins.
 const SAFE: u32 = 3;
-/// Minimum survival probability, so that weights grow by a factor of at most 20 at once.
+/// Minimum survival probability, so that a weight grows at most by a factor of 20 per hit.
 const LEAST_CHANCE: f64 = 0.05;
 
 /// Sampling strategy for direct light from emitters. All three have the same mean.
@@ -25,15 +25,15 @@ pub enum Direct {
     Walk,
     /// Only by points sampled on the emitters (next-event estimation), except at mirrors and glass.
     Emitters,
-    /// By both, with multiple importance sampling: each weighted by its density over the sum of the two (the balance
-    /// heuristic, Veach and Guibas 1995).
+    /// By both, with multiple importance sampling: each sample is weighted by its density divided by the sum of both
+    /// (the balance heuristic, Veach and Guibas 1995).
     #[default]
     Both,
 }
 
-/// Renders by path tracing. `settings.depth` is the maximum number of surfaces between eye and light: 0 shows emitters
-/// alone, 1 adds direct light. After three hits paths are subject to Russian roulette, which does not change the mean.
-/// Fails with [`InputError`] if a setting is out of range or the caster fails.
+/// Renders by path tracing. `settings.depth` is the maximum number of surfaces between eye and light: 0 shows only
+/// emitters, 1 adds direct light. After three hits, paths are subject to Russian roulette, which does not change the
+/// mean. Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -69,10 +69,10 @@ impl Shade for Paths<'_> {
 }
 
 impl Paths<'_> {
-    /// Weight of an emitter that the random walk has hit.
+    /// MIS weight of an emitter that the random walk has hit.
     fn share_of_walk(&self, flight: &PathRay, surfel: &Surfel<'_>) -> f64 {
         match (flight.density, self.direct) {
-            // After the eye, a mirror or glass no other strategy finds the emitter.
+            // After the eye, a mirror or glass, no other strategy finds the emitter.
             (None, _) | (_, Direct::Walk) => 1.0,
             (Some(_), Direct::Emitters) => 0.0,
             (Some(walk), Direct::Both) => {
@@ -112,7 +112,7 @@ impl Paths<'_> {
 
     fn lit(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, arriving: &LightSample, scatter: &mut Scatter) {
         let (value, walk) = lobes.evaluate(surfel, arriving.towards);
-        // Points have an infinite density: no other strategy finds them, and their MIS weight is 1.
+        // Point lights have an infinite density: no other strategy finds them, and their MIS weight is 1.
         let share = match self.direct {
             Direct::Both if arriving.density.is_finite() => arriving.density / (arriving.density + walk),
             _ => 1.0,

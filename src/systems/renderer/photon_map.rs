@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-/// Minimum cosine between the normals of a surface and of the photons that count for it: 45 degrees.
+/// Minimum cosine between the normals of a surface and of the photons in its estimate: 45 degrees.
 const SAME_WAY: f64 = 0.707;
 
 /// Stored photon.
@@ -51,17 +51,17 @@ pub struct PhotonMap {
 }
 
 impl PhotonMap {
-    /// Builds a map; the same photons in the same order give the same map.
+    /// Builds a map; equal photons in equal order give equal maps.
     pub fn new(mut photons: Vec<Photon>) -> Self {
         let mut axes = vec![0; photons.len()];
         build(&mut photons, &mut axes);
         Self { photons, axes }
     }
 
-    /// Returns the sum of `value` over the photons around a point per unit area: of the `nearest` photons within
-    /// `radius` that landed on a surface with a similar normal. The k-th photon found determines the area, pi r^2, and
-    /// the k - 1 others the sum, which is unbiased for evenly spread photons. If fewer than `nearest` lie within the
-    /// radius, all of them count, over the area of the radius. `nearest` is at least 2.
+    /// Returns the sum of `value` over the photons around a point per unit area, from the `nearest` photons within
+    /// `radius` on surfaces with a similar normal; `nearest` is at least 2. The k-th photon determines the area, pi
+    /// r^2, and the k - 1 others the sum, which is unbiased for evenly distributed photons. If fewer than `nearest`
+    /// photons are within the radius, all count, divided by the area of the radius.
     pub fn density(
         &self,
         at: DVec3,
@@ -91,7 +91,7 @@ fn build(photons: &mut [Photon], axes: &mut [u8]) {
     }
     let axis = widest(photons);
     let middle = photons.len() / 2;
-    // `select_nth_unstable` is deterministic; equal keys may swap, in the same way each time.
+    // `select_nth_unstable` is deterministic, also for equal keys.
     photons.select_nth_unstable_by(middle, |a, b| a.at[axis].total_cmp(&b.at[axis]));
     axes[middle] = axis as u8;
     let (left, right) = photons.split_at_mut(middle);

@@ -1,5 +1,5 @@
-//! Sampling: maps from pairs of numbers in [0, 1) to directions and points. All are the standard inversions (Dutre,
-//! Global Illumination Compendium).
+//! Sampling: maps from pairs of numbers in [0, 1) to directions and points. All are standard inversions (Dutre, Global
+//! Illumination Compendium).
 
 use super::vector::turned;
 use crate::elementary::{on_circle, pow};
@@ -58,12 +58,13 @@ impl DiscreteDistribution {
         Self { sums: sums.collect() }
     }
 
-    /// Sum of all weights; 0 for none.
+    /// Sum of all weights; 0 without weights.
     pub fn total(&self) -> f64 {
         self.sums.last().copied().unwrap_or(0.0)
     }
 
-    /// Samples an entry by a number in [0, 1); returns it and its probability, or `None` if all weights are zero.
+    /// Samples an entry by a number in [0, 1); returns the entry and its probability, or `None` if all weights are
+    /// zero.
     pub fn draw(&self, u: f64) -> Option<(usize, f64)> {
         let total = self.total();
         if total <= 0.0 {

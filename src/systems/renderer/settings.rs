@@ -4,7 +4,7 @@ use crate::error::{InputError, input_error};
 use crate::scene::Color;
 use crate::tracer::offset::SINGLE;
 
-/// Thin lens in place of the pinhole.
+/// Thin lens instead of a pinhole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Radius of the aperture, in scene units.
@@ -13,27 +13,27 @@ pub struct Lens {
     pub focus: f64,
 }
 
-/// Settings shared by all renderers; each documents its meaning of `depth`.
+/// Settings shared by all renderers; each renderer documents its meaning of `depth`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Samples per pixel, at least 1. A single sample goes through the centre of the pixel, several are distributed
-    /// uniformly over it.
+    /// Samples per pixel, at least 1. A single sample passes through the centre of the pixel; several are distributed
+    /// uniformly over the pixel.
     pub samples: u32,
     /// Maximum path length.
     pub depth: u32,
     /// Random seed.
     pub seed: u64,
-    /// Approximate number of rays per bundle: bounds the memory, never changes the picture.
+    /// Approximate number of rays per bundle; it bounds the memory, and does not change the picture.
     pub bundle: usize,
-    /// Unit roundoff of the caster's arithmetic, 2^-24 by default: determines the offset of rays from surfaces. With a
-    /// value below that of the card's format, surfaces shadow themselves.
+    /// Unit roundoff of the caster's arithmetic, 2^-24 by default, which determines the offset of rays from surfaces.
+    /// If it is smaller than the card's, surfaces shadow themselves.
     pub rounding: f64,
     /// Thin lens; `None` for a pinhole.
     pub lens: Option<Lens>,
     /// Radiance of rays that hit nothing.
     pub background: Color,
-    /// Ambient radiance of Whitted's model, which diffuse surfaces scatter times their albedo (his constant term);
-    /// other renderers ignore it.
+    /// Ambient radiance of Whitted's model, which diffuse surfaces multiply by their albedo (his constant term); other
+    /// renderers ignore it.
     pub ambient: Color,
 }
 
@@ -53,7 +53,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Fails with [`InputError`] names the first setting out of range.
+    /// Fails with [`InputError`], which names the first setting out of range.
     pub(super) fn checked(&self) -> Result<(), InputError> {
         let refuse = |what, found: String, expected| Err(settings_error(what, expected, found));
         if self.samples == 0 {

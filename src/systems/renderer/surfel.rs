@@ -1,7 +1,7 @@
 //! Surface point of a hit: position, normals, material, and the offset of the next ray.
 //!
-//! The position is recomputed in f64, on the triangle itself, instead of from t in f32. So a caster's rounding of t
-//! does not show in the picture, only its choice of triangle.
+//! The position is recomputed in f64, on the triangle itself, instead of from t in f32. So a caster's choice of
+//! triangle affects the picture, but not its rounding of t.
 
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
@@ -9,13 +9,12 @@ use crate::scene::{Material, Scene};
 use crate::tracer::offset::SurfacePoint;
 use glam::DVec3;
 
-/// Minimum cosine between the shading normal and the view; normals that face away are bent to it.
+/// Minimum cosine between the shading normal and the view; shading normals below it are bent to it.
 const LEAST_COSINE: f64 = 1e-3;
 
 /// Surface point of a hit, as seen from the origin of its ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surfel<'a> {
-    /// Triangle that was hit.
     pub(super) triangle: u32,
     /// Position, and the triangle's front normal.
     pub(super) place: SurfacePoint,
@@ -62,8 +61,8 @@ impl<'a> Surfel<'a> {
     }
 }
 
-/// Barycentric coordinates at which the ray crosses the triangle's plane, clamped to the triangle; at `t` where the
-/// plane is seen edge-on.
+/// Barycentric coordinates at which the ray crosses the triangle's plane, clamped to the triangle; if the plane is seen
+/// edge-on, coordinates of the point at `t`.
 fn barycentric([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3, t: f64) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let normal = ab.cross(ac);
@@ -84,8 +83,8 @@ fn interpolated(corners: [[f32; 3]; 3], weights: DVec3) -> Option<DVec3> {
     unit(weights[0] * a + weights[1] * b + weights[2] * c)
 }
 
-/// Returns a shading normal that faces the viewer: one that does not is bent towards the viewer until it just does. One
-/// that faces away from the triangle's own normal is replaced by that.
+/// Returns a shading normal that faces the viewer. If the normal faces away from the viewer, it is bent towards the
+/// viewer as little as necessary. If it faces away from the triangle's normal, it is replaced by the triangle's normal.
 fn facing_viewer(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
     if smooth.dot(normal) <= 0.0 {
         return normal;

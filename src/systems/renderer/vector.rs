@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::geom::vector::least_axis;
 
-/// Mean of a color's channels, the importance of lobes and lights. Any positive weight would be unbiased.
+/// Mean of a color's channels, by which lobes and lights are chosen. Any positive weight would be unbiased.
 pub(super) fn mean(color: DVec3) -> f64 {
     color.element_sum() / 3.0
 }
@@ -16,7 +16,7 @@ pub(super) fn frame(normal: DVec3) -> [DVec3; 2] {
     [tangent, normal.cross(tangent)]
 }
 
-/// Converts a direction from the frame of a unit vector.
+/// Converts a direction from the local frame of a unit vector to global coordinates.
 pub(super) fn turned(local: DVec3, normal: DVec3) -> DVec3 {
     let [tangent, other] = frame(normal);
     local.x * tangent + local.y * other + local.z * normal

@@ -1,4 +1,4 @@
-//! Breadth-first evaluation: all rays of a bundle, then all rays that they cause, until none is left.
+//! Breadth-first evaluation: all rays of a bundle, then all rays that they spawn, until none is left.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -32,17 +32,16 @@ impl SampleRng {
         Self { stream: CounterRng::new(seed), pixel, sample, branch: 0 }
     }
 
-    /// Returns the random numbers of one of several rays that leave a hit; branch 0 continues those of the hit.
+    /// Returns the random numbers of one of several rays that leave a hit; branch 0 continues the hit's random numbers.
     pub(super) const fn branch(self, branch: u64) -> Self {
         Self { branch: self.branch + branch, ..self }
     }
 
-    /// Returns the n-th number before the first hit.
     pub(super) fn before(self, n: u64) -> f64 {
         self.stream.unit(self.pixel, self.sample, n)
     }
 
-    /// Returns the n-th number (below 16) at a hit after `depth` others.
+    /// Returns the n-th number (n below 16) at a hit after `depth` earlier hits.
     pub(super) fn at(self, depth: u32, n: u64) -> f64 {
         self.stream.unit(
             self.pixel,
@@ -60,17 +59,17 @@ impl SampleRng {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathRay {
     pub(super) ray: Ray,
-    /// Its purpose.
+    /// Purpose of the ray.
     pub(super) kind: RayKind,
-    /// Index in the chunk of the sample that its radiance is added to.
+    /// Index, within the chunk, of the sample to which the ray's radiance is added.
     pub(super) slot: u32,
     /// Throughput: factor of the radiance along the ray.
     pub(super) weight: DVec3,
     /// Number of hits before this one.
     pub(super) depth: u32,
-    /// Probability density of its direction over solid angle; `None` if the direction was not sampled.
+    /// Probability density of the ray's direction over solid angle; `None` if the direction was not sampled.
     pub(super) density: Option<f64>,
-    /// Its random numbers.
+    /// Random numbers of the ray.
     pub(super) rng: SampleRng,
 }
 
@@ -89,9 +88,9 @@ impl PathRay {
 /// Result of shading a hit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scatter {
-    /// Light that reaches the eye directly, weighted.
+    /// Weighted light that needs no further ray.
     pub(super) light: DVec3,
-    /// Shadow rays, with the light that arrives if nothing is hit before t = 1.
+    /// Shadow rays, each with the light that it adds if nothing is hit before t = 1.
     pub(super) shadows: Vec<(Ray, DVec3)>,
     /// Rays that continue.
     pub(super) next: Vec<PathRay>,
@@ -103,19 +102,19 @@ impl Scatter {
     }
 }
 
-/// Shader of a renderer: computes the light and the further rays of a surface that a ray hits.
+/// Shader of a renderer: computes the light and the next rays at a surface that a ray hits.
 pub(super) trait Shade: Sync {
     fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter;
 }
 
-/// Light of a chunk, by slot, and the hits of its first rays.
+/// Light of a chunk by slot, and the hits of its eye rays.
 pub(super) struct Wave {
     pub(super) light: Vec<DVec3>,
     pub(super) first: Vec<Option<Hit>>,
 }
 
-/// Traces eye rays, one per slot, to their ends: a surface, which the shader shades, or the background. The order of
-/// every sum is independent of the chunk's size.
+/// Traces eye rays, one per slot, and all rays that the shader spawns. The order of every sum is independent of the
+/// chunk's size.
 pub(super) fn follow(
     tracer: &mut CountingCaster<'_>,
     mut flights: Vec<PathRay>,
@@ -126,7 +125,7 @@ pub(super) fn follow(
     let shade = |flight: &PathRay, hit: Option<Hit>| {
         match hit.and_then(|hit| Surfel::new(scene, settings.rounding, &flight.ray, hit)) {
             Some(surfel) => shader.shade(flight, &surfel),
-            // No sample of a light is on the background, so it needs no MIS weight.
+            // Light sampling never samples the background, so it needs no MIS weight.
             None => Scatter::of(flight.weight * wide(settings.background)),
         }
     };

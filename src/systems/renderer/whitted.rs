@@ -14,7 +14,7 @@ use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
-/// Minimum weight of a branch for its pixel (Hall's adaptive depth): half a step of an 8-bit display.
+/// Minimum weight of a branch of the ray tree (Hall's adaptive depth): half a step of an 8-bit display.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
 /// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray, and
@@ -30,7 +30,7 @@ pub fn render<'a>(
 ) -> Result<RenderedPicture, InputError> {
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::points_of(scene, settings.rounding);
-    // A ray may become two at each glass surface on its way; few do.
+    // A ray may split in two at each glass surface, but few do.
     let fan = 2 + lights.points();
     expose(&mut tracer, scene, camera, settings, fan, &Whitted { settings, lights })
 }

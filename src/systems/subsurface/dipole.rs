@@ -1,7 +1,7 @@
-//! The dipole of Jensen, Marschner, Levoy and Hanrahan 2001: light that enters a half space at a point, by the distance
-//! at which it leaves.
+//! The dipole of Jensen, Marschner, Levoy and Hanrahan 2001: the exitance of a half space, by the distance from the
+//! point at which light enters.
 //!
-//! R_d(r) has a radial primitive, so discs and the plane have closed forms.
+//! The radial integral of R_d has a closed form, for discs and the plane.
 
 use std::f64::consts::PI;
 
@@ -11,15 +11,15 @@ use crate::elementary::{exp, exp_m1, hypot};
 use crate::error::InputError;
 use crate::quadrature::graded_integral;
 
-/// Intervals of the quadrature over the plane: the first ends at 2^-59 of the last one's end.
+/// Intervals of the quadrature over the plane; the first ends at 2^-59 of the end of the last.
 const PANELS: u32 = 60;
 
-/// The dipole of one channel. Lengths in mm.
+/// The dipole of one channel, with lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dipole {
     coefficients: Coefficients,
     eta: f64,
-    /// A = (1 + F_dr) / (1 - F_dr): the reflected share at the boundary, relative to the transmitted one.
+    /// A = (1 + F_dr) / (1 - F_dr), the boundary's effect by internal reflection.
     boundary: f64,
     sigma_tr: f64,
     z_r: f64,
@@ -27,8 +27,8 @@ pub struct Dipole {
 }
 
 impl Dipole {
-    /// The dipole of a medium, with the polynomial for the internal reflection. Fails with [`InputError`]: see
-    /// [`Coefficients::check`]; or `eta` is below 1 or above [`super::MAX_ETA`].
+    /// Creates the dipole of a medium, with the polynomial for internal reflection. Fails as [`Coefficients::check`]
+    /// does, and if `eta` is below 1 or above [`super::MAX_ETA`].
     pub fn new(c: Coefficients, eta: f64) -> Result<Self, InputError> {
         c.check()?;
         check_eta(eta)?;
@@ -66,7 +66,7 @@ impl Dipole {
         self.sigma_tr
     }
 
-    /// 1 / sigma_tr: the distance over which diffuse light falls by e. Infinite without absorption.
+    /// 1 / sigma_tr: the distance over which diffuse light falls by the factor e. Infinite without absorption.
     pub fn diffusion_length(&self) -> f64 {
         1.0 / self.sigma_tr
     }
@@ -86,7 +86,7 @@ impl Dipole {
         self.z_v
     }
 
-    /// R_d at a distance of r mm, per mm^2: exitance there per flux that enters at a point. 0 for an infinite r.
+    /// R_d at a distance of r mm, per mm^2: the exitance there per flux that enters at a point; 0 for infinite r.
     pub fn r_d(&self, r: f64) -> f64 {
         let source = |z: f64| {
             let d = hypot(r, z);
@@ -98,14 +98,13 @@ impl Dipole {
         self.alpha_prime() / (4.0 * PI) * (source(self.z_r) + source(self.z_v))
     }
 
-    /// G(r), the integral of R_d over a disc of radius r: the fraction of light that leaves within r mm of where it
-    /// entered.
+    /// G(r), the integral of R_d over a disc of radius r: the fraction of light that leaves within r mm of its entry.
     pub fn disc(&self, r: f64) -> f64 {
         self.disc_at(0.0, r)
     }
 
-    /// The integral of R_d over a disc of radius `rho`, from the point that lies `height` above its centre:
-    /// `G(sqrt(rho^2 + height^2)) - G(height)`, to full precision even if the disc is small or far away.
+    /// The integral of R_d over a disc of radius `rho`, from the point `height` above its centre, to full
+    /// precision even if the disc is small or far away. It is `G(sqrt(rho^2 + height^2)) - G(height)`.
     pub fn disc_at(&self, height: f64, rho: f64) -> f64 {
         if rho.is_infinite() {
             return self.beyond(height);
@@ -144,14 +143,14 @@ impl Dipole {
         0.5 * self.alpha_prime() * (1.0 + exp(-4.0 / 3.0 * self.boundary * q)) * exp(-q)
     }
 
-    /// [`Self::total`] by quadrature of R_d, over a disc of 10^4 z_v; the rest, at most 10^-4, is in closed form.
+    /// [`Self::total`] by quadrature of R_d, over a disc of radius 10^4 z_v; the rest, at most 10^-4, is in closed
+    /// form.
     pub fn integrated_total(&self) -> f64 {
         let radius = 1e4 * self.z_v;
         graded_integral(radius, PANELS, |r| 2.0 * PI * r * self.r_d(r)) + self.beyond(radius)
     }
 
-    /// The radius of the disc that holds `fraction` of [`Self::total`]; 0 for fractions not above 0, infinite for
-    /// those of 1 and more.
+    /// The radius of the disc that contains `fraction` of [`Self::total`]; 0 for fractions up to 0, infinite from 1.
     pub fn radius_of(&self, fraction: f64) -> f64 {
         if fraction <= 0.0 || fraction.is_nan() {
             return 0.0;
@@ -164,7 +163,7 @@ impl Dipole {
         while self.beyond(high) > left && high.is_finite() {
             [low, high] = [high, 2.0 * high];
         }
-        // Until no number lies between.
+        // Bisects until no number lies between the bounds.
         loop {
             let middle = low + 0.5 * (high - low);
             if middle <= low || middle >= high {

@@ -36,8 +36,8 @@ impl DipoleSum {
         self.scale * sum
     }
 
-    /// The sum of weight times R_d, by the widest vectors of the host. Its partial sums, and their order, do not depend
-    /// on how wide these are.
+    /// The sum of weight times R_d, with the host's widest vectors. Partial sums and their order do not depend on the
+    /// vectors' width.
     pub(super) fn sum(&self, squared: &[f64], weights: &[f64]) -> f64 {
         let sums = SimdLevel::widest().run(
             #[inline(always)]
@@ -60,12 +60,12 @@ impl DipoleSum {
     }
 }
 
-/// e^-x for x >= 0, within 4 units in the last place; e^-700 (1e-304) beyond. Compilers turn this one into vector code.
+/// e^-x for x >= 0, within 4 units in the last place; e^-700 (1e-304) beyond. Compilers can vectorise this function.
 #[inline(always)]
 pub fn exp_of_negative(x: f64) -> f64 {
     const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
     const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
-    // Adding 1.5 x 2^52 rounds to an integer, which the last bits then hold.
+    // Adding 1.5 x 2^52 rounds to an integer, which is then in the last bits.
     const SHIFT: f64 = 6_755_399_441_055_744.0;
     let x = if x < 700.0 { x } else { 700.0 };
     let shifted = x * std::f64::consts::LOG2_E + SHIFT;

@@ -3,7 +3,7 @@
 pub use crate::fresnel::transmittance as fresnel_transmittance;
 use crate::quadrature::graded_integral;
 
-/// Intervals of the means' quadrature: the last but one begins at a cosine of 2^-52.
+/// Intervals of the quadrature of means; the last but one begins at a cosine of 2^-52.
 const PANELS: u32 = 53;
 
 /// The mean of the transmittance into a medium of index `eta` over a hemisphere of equal radiance outside: the
@@ -12,9 +12,9 @@ pub fn mean_transmittance(eta: f64) -> f64 {
     graded_integral(1.0, PANELS, |c| 2.0 * c * fresnel_transmittance(eta, c))
 }
 
-/// The diffuse reflectance F_dr of the boundary from inside, by the integral of Fresnel's formula.
+/// The diffuse reflectance F_dr of the boundary from inside, by integrating Fresnel's formula.
 ///
-/// The transmittance from outside in is, per square of the index, the transmittance from inside out: 1 - T / eta^2.
+/// The mean transmittance outwards is the mean transmittance T inwards divided by eta^2, so F_dr = 1 - T / eta^2.
 pub fn internal_reflectance(eta: f64) -> f64 {
     1.0 - mean_transmittance(eta) / (eta * eta)
 }

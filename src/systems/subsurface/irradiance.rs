@@ -12,8 +12,8 @@ use crate::geom::vector::narrow;
 use crate::tracer::offset::{SINGLE, SurfacePoint};
 use crate::tracer::{CastError, Caster};
 
-/// The irradiance that enters at each texel, row by row: E of equation 8 at its mean point, for lights of OpenGL's
-/// kinds (section 4.2.2). Lengths in the mesh's units. A texel without a normal gets the light of the sky alone.
+/// The irradiance that enters at each texel, row by row: E of equation 8 at the texel's mean point, for OpenGL's types
+/// of lights (section 4.2.2). Lengths are in the mesh's units. A texel without a normal gets only the light of the sky.
 pub fn irradiance(atlas: &Atlas, lights: &[Light], eta: f64) -> Vec<[f64; 3]> {
     let mean = mean_transmittance(eta);
     atlas.texels().iter().map(|texel| entering(texel, lights, eta, mean)).collect()
@@ -23,7 +23,7 @@ fn entering(texel: &Texel, lights: &[Light], eta: f64, mean: f64) -> [f64; 3] {
     let mut sum = DVec3::ZERO;
     for light in lights {
         sum += match *light {
-            // The same radiance from everywhere: pi times it, times the mean of the transmittance over cosines.
+            // Uniform radiance enters as pi times the radiance times the mean transmittance over cosines.
             Light::Sky { radiance } => PI * mean * DVec3::from(radiance),
             Light::Directional { towards, irradiance } => {
                 transmitted(texel, DVec3::from(towards), eta) * DVec3::from(irradiance)
@@ -45,18 +45,18 @@ fn transmitted(texel: &Texel, towards: DVec3, eta: f64) -> f64 {
     if cosine > 0.0 { cosine * fresnel_transmittance(eta, cosine.min(1.0)) } else { 0.0 }
 }
 
-/// A beam of parallel light.
+/// A source of parallel light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistantSource {
-    /// Unit direction towards it.
+    /// Unit direction towards the source.
     pub towards: DVec3,
     /// Irradiance of a surface that faces it: radiance times solid angle.
     pub irradiance: [f64; 3],
 }
 
 /// E of equation 8 per texel, row by row, for distant light with shadows: a ray from the middle of each texel towards
-/// each source tests whether the model itself occludes the source. A source below the plane of the face is. The caster
-/// must see both sides of faces. Fails with [`CastError`] if the caster fails.
+/// each source tests whether the model occludes the source. A source below the plane of the face counts as occluded.
+/// The caster must trace both sides of faces. Fails with [`CastError`] if the caster fails.
 pub fn distant_irradiance(
     atlas: &Atlas,
     sources: &[DistantSource],
@@ -65,7 +65,7 @@ pub fn distant_irradiance(
 ) -> Result<Vec<[f64; 3]>, CastError> {
     let corners = (0..atlas.places().len() as u32).flat_map(|face| atlas.corners(face));
     let (low, high) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
-    // Shadow rays end at t = 1, outside of the model.
+    // Shadow rays end at t = 1, outside the model.
     let beyond = 2.0 * (high - low).length();
     let mut found = Vec::with_capacity(atlas.texels().len());
     let side = atlas.side() as usize;

@@ -1,4 +1,4 @@
-//! A medium: how much it scatters and absorbs per mm of path, and its index of refraction.
+//! A medium: scattering and absorption per mm, and the index of refraction.
 
 use crate::error::{InputError, ensure, input_error};
 
@@ -6,8 +6,8 @@ use crate::error::{InputError, ensure, input_error};
 pub const MIN_SCATTERING: f64 = 1e-30;
 /// The largest coefficient, per mm.
 pub const MAX_COEFFICIENT: f64 = 1e30;
-/// The largest index of refraction. The polynomial for the internal reflectance, fitted to common dielectrics, is
-/// 0.0003 off at 1.3, 0.016 at 3, and exceeds 1 from 3.85.
+/// The largest index of refraction. The polynomial for the internal reflectance, fitted to common dielectrics, has an
+/// error of 0.0003 at 1.3 and 0.016 at 3, and exceeds 1 from 3.85.
 pub const MAX_ETA: f64 = 3.0;
 
 fn not_finite_error(what: &'static str, found: f64) -> InputError {
@@ -29,8 +29,8 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// Checks that the coefficients make a medium: both finite, absorption at least 0, scattering above 0. Fails with
-    /// [`InputError`] names the wrong figure.
+    /// Checks that the coefficients are valid: both finite, absorption at least 0, scattering above 0. Fails with
+    /// [`InputError`], which names the invalid coefficient.
     pub fn check(self) -> Result<(), InputError> {
         let scattering = ("reduced scattering coefficient", self.sigma_s_prime);
         for (what, found) in [scattering, ("absorption coefficient", self.sigma_a)] {
@@ -62,7 +62,7 @@ impl Coefficients {
     }
 }
 
-/// Checks that the dipole takes `eta` as an index of refraction. Fails with [`InputError`] if it is not in [1,
+/// Checks that `eta` is a valid index of refraction for the dipole. Fails with [`InputError`] if it is not in [1,
 /// [`MAX_ETA`]].
 pub(crate) fn check_eta(eta: f64) -> Result<(), InputError> {
     if !eta.is_finite() {
@@ -88,7 +88,8 @@ impl Material {
     /// Names of the channels, in their order.
     pub const CHANNELS: [&'static str; 3] = ["red", "green", "blue"];
 
-    /// A material out of checked figures. Fails with [`InputError`] names the wrong figure and its channel.
+    /// Creates a material and checks its numbers. Fails with [`InputError`], which names the invalid number and its
+    /// channel.
     pub fn new(name: impl Into<String>, channels: [Coefficients; 3], eta: f64) -> Result<Self, InputError> {
         check_eta(eta)?;
         for (channel, coefficients) in Self::CHANNELS.into_iter().zip(channels) {

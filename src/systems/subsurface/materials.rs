@@ -1,18 +1,18 @@
-//! Published media: the twelve of Jensen, Marschner, Levoy and Hanrahan 2001, Figure 5, and the medium of Figure 7 of
-//! the paper reproduced here, which is not among them.
+//! Published media: the twelve of Jensen, Marschner, Levoy and Hanrahan 2001, Figure 5, and the medium of this system's
+//! paper, Figure 7, which is not one of the twelve.
 
 use super::material::{Coefficients, Material};
 
-/// How sure a published figure is.
+/// How certain a published number is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureConfidence {
     /// Printed in the paper that is reproduced.
     Printed,
-    /// Several independent public copies of the table have it.
+    /// Confirmed by several independent public copies of the table.
     Confirmed,
     /// Public copies differ; the source names the copy that was taken, and the reason.
     Disputed,
-    /// No public copy was found; from memory of the table.
+    /// From memory of the table; no public copy was found.
     Unconfirmed,
     /// Not printed; chosen here.
     Assumed,
@@ -31,21 +31,21 @@ impl FigureConfidence {
     }
 }
 
-/// A figure with where it comes from.
+/// A published number with its source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PublishedFigure<T> {
-    /// The figure, for red, green and blue where there are three.
+    /// The number, or three numbers for red, green and blue.
     pub value: T,
-    /// Where it was published.
+    /// The publication.
     pub source: &'static str,
-    /// How sure it is.
+    /// How certain the number is.
     pub confidence: FigureConfidence,
 }
 
 /// A medium as published.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PublishedMaterial {
-    /// Its name there.
+    /// Name in the publication.
     pub name: &'static str,
     /// sigma'_s per mm.
     pub sigma_s_prime: PublishedFigure<[f64; 3]>,
@@ -53,7 +53,7 @@ pub struct PublishedMaterial {
     pub sigma_a: PublishedFigure<[f64; 3]>,
     /// The index of refraction.
     pub eta: PublishedFigure<f64>,
-    /// The diffuse reflectance that is printed beside it, to two digits.
+    /// The printed diffuse reflectance, to two digits.
     pub reflectance: Option<PublishedFigure<[f64; 3]>>,
 }
 
@@ -66,7 +66,7 @@ impl PublishedMaterial {
     }
 }
 
-/// The published medium of a name; upper and lower case are the same.
+/// The published medium with a name, regardless of case.
 pub fn named(name: &str) -> Option<&'static PublishedMaterial> {
     MATERIALS.iter().find(|material| material.name.eq_ignore_ascii_case(name))
 }
@@ -87,7 +87,7 @@ const fn figure<T: Copy>(value: T, source: &'static str, confidence: FigureConfi
     PublishedFigure { value, source, confidence }
 }
 
-/// A row of the table of 2001, with the disputed values among its absorption coefficients and reflectances.
+/// A row of the table of 2001, with flags for disputed absorption coefficients and reflectances.
 const fn row(
     name: &'static str,
     sigma_s_prime: [f64; 3],
@@ -123,7 +123,7 @@ const SEEN: (&str, FigureConfidence) = (BOUNTY, FigureConfidence::Confirmed);
 const SEEN_TWICE: (&str, FigureConfidence) = (MARBLE, FigureConfidence::Confirmed);
 const RECALLED: (&str, FigureConfidence) = (MEMORY, FigureConfidence::Unconfirmed);
 
-/// All of them, the twelve by name.
+/// All media; the twelve of 2001 are sorted by name.
 #[rustfmt::skip]
 pub const MATERIALS: [PublishedMaterial; 14] = [
     row("Apple", [2.29, 2.39, 1.97], [0.0030, 0.0034, 0.046], AGREED, 1.3, [0.85, 0.84, 0.53], RECALLED),

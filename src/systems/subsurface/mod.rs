@@ -1,13 +1,13 @@
-//! System 3: light that scatters below a surface, gathered over a meshed atlas by fragment programs.
+//! System 3: subsurface scattering, gathered over a meshed atlas by fragment programs.
 //!
-//! - (9), (10): [`Reference`], all pairs of texels in plain f64 (`paper`, to be read first);
-//! - (7): [`Dipole`], the diffuse reflectance R_d by distance, its integrals over discs and the plane; [`Coefficients`],
-//!   [`Material`], per mm, and the published [`materials`];
+//! - (9), (10): [`Reference`], all pairs of texels in plain f64 (`paper`; read it first);
+//! - (7): [`Dipole`], the diffuse reflectance R_d by distance, and its integrals over discs and the plane;
+//!   [`Coefficients`] per mm, [`Material`], and the published [`materials`];
 //! - (6), (8): [`fresnel`], transmittance of the boundary; [`irradiance`], [`distant_irradiance`] on the host;
-//! - 4.1: [`multipole`], throughput factors of (10); 4.2.1: [`links`], which clusters a texel gathers from, and how
-//!   textures hold them;
+//! - 4.1: [`multipole`], throughput factors of (10); 4.2.1: [`links`], the clusters from which a texel gathers, and
+//!   their textures;
 //! - 4.2.2 to 4.2.4: [`kernels`], [`on_card`], the three passes as programs of an emulated card;
-//! - [`median_thickness`]: whether a model is thin for the dipole, which is made for a half space.
+//! - [`median_thickness`]: shows whether a model is too thin for the dipole, which assumes a half space.
 //!
 //! docs/papers/subsurface.md maps each equation.
 
@@ -26,7 +26,7 @@ mod thickness;
 mod triangles;
 
 pub use dipole::Dipole;
-#[doc(hidden)] // its bound is held against the exponential
+#[doc(hidden)] // public for a test of its error bound
 pub use dipole_sum::exp_of_negative;
 pub use fresnel::fresnel_transmittance;
 pub use irradiance::{DistantSource, distant_irradiance, irradiance};

@@ -1,10 +1,10 @@
-//! Equations 9 and 10 over all pairs of texels in plain f64, which links are compared with. It shares no code with the
-//! fast factors: no levels, no table, no moments.
+//! Equations 9 and 10 over all pairs of texels in plain f64, the reference for links. It shares no code with the fast
+//! factors: no levels, no table, no moments.
 //!
-//! A pair of texels that are far apart counts with R_d between their mean points; of a near pair the double integral of
-//! equation 10 is taken by a quadrature rule on the triangles of both parts. Where one of two close texels exceeds
-//! [`MAX_DIVISIONS`] mean free paths, such a rule misses the peak of R_d: the inner integral is then taken by bisection
-//! ([`super::triangles`]), so that the light of a point is complete however large the texels are.
+//! For far texels, the factor uses R_d between their mean points; for near texels, the double integral of equation 10
+//! is computed by a quadrature rule on the triangles of both parts. If one of two close texels exceeds
+//! [`MAX_DIVISIONS`] mean free paths, such a rule misses the peak of R_d. The inner integral is then computed by
+//! bisection ([`super::triangles`]), so that the light of a point is complete even for large texels.
 
 use std::ops::Range;
 
@@ -20,21 +20,20 @@ use crate::atlas::Atlas;
 use crate::error::InputError;
 use crate::quadrature::FIVE;
 
-/// Texels nearer than this many times the sum of their radii are integrated.
+/// Texels nearer than this multiple of the sum of their radii are integrated.
 const NEAR: f64 = 5.0;
-/// Texels nearer than this many times the sum of their radii are integrated with triangles no longer than the mean free
-/// path.
+/// Texels nearer than this multiple of the sum of their radii are integrated with triangles no longer than the mean
+/// free path.
 const CLOSE: f64 = 1.5;
-/// Triangles are divided into at most this many along a side: texels of up to this many mean free paths.
+/// Maximum number of divisions of a triangle's side, which suffices for texels of up to this many mean free paths.
 const MAX_DIVISIONS: u32 = 4;
-/// For texels longer than this many mean free paths all light stays in its texel, within 1e-5.
+/// Number of mean free paths beyond which all of a texel's light stays in the texel, within 1e-5.
 const MAX_LENGTH: f64 = 1e6;
-/// Texels that are handled together.
+/// Number of texels that are processed together.
 const CHUNK: usize = 256;
-/// Rows of texels after which progress is reported: so many times in all.
 const REPORTS: usize = 32;
 
-/// Equation 9 over the texels of an atlas, for one channel. Lengths in mm.
+/// Equation 9 over the texels of an atlas, for one channel, with lengths in mm.
 #[derive(Clone, Debug)]
 pub struct Reference<'a> {
     atlas: &'a Atlas,
@@ -58,7 +57,7 @@ struct PartColumns {
 type WeightedPoint = (DVec3, f64);
 
 impl<'a> Reference<'a> {
-    /// For an atlas of a model with a scale. Fails with [`InputError`] if the scale is not from
+    /// Creates the reference for an atlas of a model with a scale. Fails with [`InputError`] if the scale is not from
     /// [`MIN_MM_PER_UNIT`](super::multipole::MIN_MM_PER_UNIT) to
     /// [`MAX_MM_PER_UNIT`](super::multipole::MAX_MM_PER_UNIT).
     pub fn new(atlas: &'a Atlas, mm_per_unit: f64, dipole: &Dipole) -> Result<Self, InputError> {
@@ -75,13 +74,13 @@ impl<'a> Reference<'a> {
     }
 
     /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9, B_i = sum over j of F_ij
-    /// E_j. `done` is called now and then with the number of rows done and of all. Fails with [`InputError`] if there
-    /// is not one irradiance per texel.
+    /// E_j. `done` is called repeatedly with the number of finished rows and of all rows. Fails with [`InputError`] if
+    /// there is not one irradiance per texel.
     pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, InputError> {
         self.radiosity_of_rows(irradiance, 0..self.atlas.side() as usize, done)
     }
 
-    /// The radiosity of the texels of some rows; otherwise as [`Self::radiosity`]. Fails as [`Self::radiosity`] does.
+    /// Like [`Self::radiosity`], for the texels of some rows.
     pub fn radiosity_of_rows(
         &self,
         irradiance: &[f64],
@@ -113,14 +112,12 @@ impl<'a> Reference<'a> {
         self.texels.area[j] * mean
     }
 
-    /// A_j E_j.
     fn power(&self, irradiance: &[f64]) -> Result<Vec<f64>, InputError> {
         let texels = self.texels.area.len();
         check_values(irradiance.len(), texels)?;
         Ok(self.texels.area.iter().zip(irradiance).map(|(area, irradiance)| area * irradiance).collect())
     }
 
-    /// B_i.
     fn gather(&self, i: usize, power: &[f64]) -> f64 {
         let mut here: [Option<Vec<WeightedPoint>>; 2] = [None, None];
         self.sum(self.point(i), self.texels.radius[i], power, |j, is_close| {
@@ -132,8 +129,8 @@ impl<'a> Reference<'a> {
         })
     }
 
-    /// The sum over all texels of power times R_d from the point: of `near(texel, whether it is close)` where they are
-    /// near.
+    /// The sum over all texels of power times R_d from the point; for near texels, `near(texel, is close)` replaces
+    /// R_d.
     fn sum(&self, point: DVec3, radius: f64, power: &[f64], mut near: impl FnMut(usize, bool) -> f64) -> f64 {
         let mut sum = 0.0;
         let (mut squared, mut far_power) = ([0.0; CHUNK], [0.0; CHUNK]);
@@ -191,9 +188,9 @@ impl<'a> Reference<'a> {
         has_area && self.length(i).max(self.length(j)) > f64::from(MAX_DIVISIONS)
     }
 
-    /// The mean of R_d over the pairs of points of two close texels: the mean over points of one texel of the integral
-    /// over the other. Points are those of texel i, whose sum over all texels is then complete at each of them, but
-    /// those of a much smaller texel j, over which light varies less.
+    /// The mean of R_d over the pairs of points of two close texels: the mean, over points of one texel, of the
+    /// integral over the other. The points are texel i's, so that the sum over all texels is complete at each point. If
+    /// texel j is much smaller, its points are used, because light varies less over it.
     fn mean_over_long_pair(&self, i: usize, j: usize) -> f64 {
         if self.length(i).max(self.length(j)) > MAX_LENGTH {
             return if i == j { self.dipole.total() / self.texels.area[i] } else { 0.0 };
@@ -203,7 +200,7 @@ impl<'a> Reference<'a> {
         let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length() / 2.0;
         let (mut sum, mut weights) = (0.0, 0.0);
         for [a, b, c] in self.triangles(from) {
-            // The rule of a square with one side collapsed to a.
+            // The rule of a square with one side collapsed to corner a.
             for (s, s_weight) in FIVE {
                 for (t, t_weight) in FIVE {
                     let point = a + s * ((b - a) + t * (c - b));
@@ -216,7 +213,6 @@ impl<'a> Reference<'a> {
         sum / weights / triangles.iter().copied().map(area).sum::<f64>()
     }
 
-    /// The triangles of a texel's part, in mm.
     fn triangles(&self, texel: usize) -> Vec<[DVec3; 3]> {
         let (part, mut triangles) = (self.atlas.part(texel as u32), Vec::new());
         for polygon in part.polygons() {
@@ -268,7 +264,7 @@ fn triangle_points([a, b, c]: [DVec3; 3], n: u32, points: &mut Vec<WeightedPoint
             let corner = a + f64::from(column) * u + f64::from(row) * v;
             for (s, t) in [(1.0, 1.0), (4.0, 1.0), (1.0, 4.0)] {
                 points.push((corner + s / 6.0 * u + t / 6.0 * v, weight));
-                // The part upside down beside it.
+                // The adjacent part, which is upside down.
                 if column + row + 1 < n {
                     points.push((corner + (6.0 - s) / 6.0 * u + (6.0 - t) / 6.0 * v, weight));
                 }

@@ -1,4 +1,4 @@
-//! Thickness of a model, to show where it differs most from a half space.
+//! Thickness of a model, as a measure of its difference from a half space.
 
 use glam::DVec3;
 
@@ -7,11 +7,11 @@ use crate::geom::{Mesh, Ray, Sides};
 use crate::tracer::HostTracer;
 use crate::tracer::offset::{SINGLE, SurfacePoint};
 
-/// Returns the median thickness of a mesh by area, in the mesh's units: the distance from the centre of a face along
-/// its inward normal to the next surface. `None` if at least half of the area has no surface behind it, as on open
-/// meshes.
+/// Returns the area-weighted median thickness of a mesh, in the mesh's units: the distance from the centre of a face
+/// along its inward normal to the next surface. `None` if at least half of the area has no surface behind it, as on
+/// open meshes.
 pub fn median_thickness(mesh: &Mesh) -> Option<f64> {
-    // Degenerate faces have no ray, and no area.
+    // Degenerate faces have no ray, and do not count.
     let inward = (0..mesh.len() as u32).filter_map(|face| Some((inward_ray(mesh, face)?, mesh.area(face))));
     let (starts, areas): (Vec<(Ray, f64)>, Vec<f64>) = inward.unzip();
     let (rays, clearances): (Vec<Ray>, Vec<f64>) = starts.into_iter().unzip();
@@ -31,7 +31,8 @@ pub fn median_thickness(mesh: &Mesh) -> Option<f64> {
     median.map(|&(thickness, _)| thickness).filter(|thickness| thickness.is_finite())
 }
 
-/// The ray from the centre of a face along its inward normal, of unit length, and how far below the face it starts.
+/// The ray from the centre of a face along its inward normal, of unit length, and the distance of its origin below the
+/// face.
 fn inward_ray(mesh: &Mesh, face: u32) -> Option<(Ray, f64)> {
     let center = SurfacePoint::new(mesh, face, DVec3::splat(1.0 / 3.0), SINGLE)?;
     let inward = -center.normal;

@@ -1,4 +1,4 @@
-//! Integrals of R_d over triangles of any size from a point, by bisection.
+//! Integrals of R_d from a point over triangles of any size, by bisection.
 
 use glam::DVec3;
 
@@ -7,20 +7,19 @@ use super::dipole_sum::DipoleSum;
 
 /// A triangle is small if its radius times the logarithmic derivative of R_d, at most 3/d + sigma_tr, is at most this.
 const SMALL: f64 = 1.5;
-/// A triangle that cannot send more of the plane's total than this is not divided.
+/// Triangles whose light is at most this fraction of the plane's total are not divided.
 const NEGLIGIBLE: f64 = 1e-5;
-/// Triangles are bisected at most this often: rounded coordinates end it before.
+/// Maximum number of bisections of a triangle; rounding of coordinates ends bisection earlier.
 const MAX_BISECTIONS: u32 = 128;
-/// Distances that are summed together.
+/// Number of distances that are summed together.
 const CHUNK: usize = 256;
-/// Root of 15.
 const ROOT_15: f64 = 3.872_983_346_207_417;
-/// Radon's rule of degree 5: two orbits of three points, as the weight of the two corners that are alike and the weight
-/// of the point. The centroid has 9/40.
+/// Radon's rule of degree 5: two orbits of three points, each with the barycentric weight of the two equal corners and
+/// the weight of the point. The centroid has weight 9/40.
 const ORBITS: [(f64, f64); 2] =
     [((6.0 - ROOT_15) / 21.0, (155.0 - ROOT_15) / 1200.0), ((6.0 + ROOT_15) / 21.0, (155.0 + ROOT_15) / 1200.0)];
 
-/// Integrates R_d from points, with the buffers that this takes.
+/// Integrates R_d from points, and holds the buffers for it.
 #[derive(Debug)]
 pub(super) struct TriangleIntegrals<'a> {
     r_d: &'a DipoleSum,
@@ -38,7 +37,7 @@ impl<'a> TriangleIntegrals<'a> {
         Self { r_d, depth, sigma_tr, total, pending: Vec::new(), squared: Vec::new(), weights: Vec::new() }
     }
 
-    /// The integral of R_d over triangles from a point, to about 1e-5 of the plane's total per triangle.
+    /// The integral of R_d from a point over triangles, with an error of about 1e-5 of the plane's total per triangle.
     pub(super) fn over(&mut self, point: DVec3, triangles: &[[DVec3; 3]]) -> f64 {
         let mut sum = 0.0;
         self.pending.extend(triangles.iter().map(|triangle| (*triangle, 0)));
@@ -83,7 +82,7 @@ impl<'a> TriangleIntegrals<'a> {
     }
 }
 
-/// The corners in turn, from the longest side on.
+/// The corners in cyclic order, beginning at the longest side.
 fn from_longest([a, b, c]: [DVec3; 3]) -> [DVec3; 3] {
     let [ab, bc, ca] = [a.distance_squared(b), b.distance_squared(c), c.distance_squared(a)];
     if ab >= bc && ab >= ca {

@@ -1,4 +1,5 @@
-//! Rays in two textures of bytes: for rays that bytes represent exactly, the card hits what exact arithmetic hits.
+//! Rays in two textures of bytes: for rays that bytes represent exactly, the card's hits equal those of exact
+//! arithmetic.
 
 use crossbar_base::geom::Ray;
 use crossbar_base::geom::exact::{Sides, Tracer};
@@ -12,7 +13,7 @@ use refsim::machine::ExecutorKind;
 fn the_rays_that_bytes_hold_meet_the_triangles_that_they_meet_exactly() {
     let mesh = teapot(2).expect("a teapot");
     let eye = Camera::teapot(48, 48).expect("a camera").rays();
-    // Every ray has an origin of its own.
+    // Every ray has a different origin.
     let moved = eye.iter().enumerate().map(|(i, ray)| {
         let [x, y, z] = ray.origin();
         Ray::new([x + 0.01 * (i % 64) as f32, y, z], ray.direction()).expect("a ray")

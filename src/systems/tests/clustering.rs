@@ -51,7 +51,7 @@ fn every_step_is_observed() {
     assert_eq!((seen[0].kind, seen[0].moved), (CpcaStepKind::Classified, 90));
 }
 
-/// Signals drawn at random, some with points that repeat, of low rank or 0.
+/// Random signals, some with repeated points, of low rank, or 0.
 fn drawn(seed: u64, points: usize, dimension: usize) -> Signal {
     let random = CounterRng::new(seed);
     let draw = |what: u64, range: u64| random.bits(what, 0, 0) % range;
@@ -71,10 +71,9 @@ fn drawn(seed: u64, points: usize, dimension: usize) -> Signal {
     Signal::new(dimension, values).expect("a signal")
 }
 
-/// Numbers that are 0 at all points change no bit of a sum. With them a signal has the dimensions from which points are
-/// compared along principal axes first; without them every point is compared with every cluster. The clusters are the
-/// same: no bound excludes the best one. Clusters have fewer points than dimensions, so that the same matrix is
-/// decomposed.
+/// Dimensions that are 0 at all points change no bit of a sum. With them, points are first compared along principal
+/// axes; without them, every point is compared with every cluster. Equal clusters show that no bound excludes the best
+/// one. Clusters have fewer points than dimensions, so that equal matrices are decomposed.
 #[test]
 fn bounds_along_axes_exclude_no_best_cluster() {
     for seed in 0..120 {
@@ -133,8 +132,8 @@ fn the_way_to_a_partition_leaves_no_trace() {
     assert!(repeated > 0, "no partition was found in two ways");
 }
 
-/// Section 4.3 on eight points (+-3, +-2, +-1) and four (+-5, +-1/2): what exceeds the budget is passed over, so that
-/// two vectors each leave 8. Stopping at the first vector that does not fit would leave 9.
+/// Section 4.3 on eight points (+-3, +-2, +-1) and four (+-5, +-1/2): vectors beyond the budget are skipped, so two
+/// vectors in each cluster leave an error of 8. Stopping at the first vector that does not fit would leave 9.
 #[test]
 fn what_exceeds_the_budget_is_passed_over() {
     let signs = |bits: u32, at: u32| if bits >> at & 1 == 0 { 1.0 } else { -1.0 };
@@ -156,10 +155,11 @@ fn what_exceeds_the_budget_is_passed_over() {
     assert_eq!(found.of_point(), paper::compress(&signal, &options).expect("compressed").of_point());
 }
 
-/// Each empty cluster, lowest first, takes the point of largest error, the lowest of equals, but no last one.
+/// Each empty cluster, lowest first, takes the point of largest error (the lowest of equals), but not a cluster's last
+/// point.
 #[test]
 fn empty_clusters_take_the_worst_points_but_no_last_ones() {
-    // Points 0, 1 and 2 are equal, so that clusters 1 and 2 are empty at first.
+    // Points 0, 1 and 2 are equal, so clusters 1 and 2 are empty at first.
     let signal = Signal::new(1, vec![0.0, 0.0, 0.0, 5.0, 5.0, -3.0, 90.0]).expect("a signal");
     let options = CpcaOptions {
         clusters: 4,

@@ -1,4 +1,4 @@
-//! The rooms through their public interface: a file or folder per room, so that the library is compiled once.
+//! Tests of the modules' public interfaces, a file or folder per module, in one binary that compiles the library once.
 
 mod all_frequency;
 mod bi_scale;
@@ -12,6 +12,6 @@ mod shared_edges;
 mod subsurface;
 mod transfer;
 
-// Tests name the rooms as the library does, `crate::geom`.
+// Tests name modules as the library does, `crate::geom`.
 use crossbar_base::{error, geom};
 use crossbar_ground::{card, io, linalg, scene, sphere, tracer};

@@ -1,4 +1,5 @@
-//! Facts of matrix radiosity: patches and their cutting, closed forms, programs, the model of short accumulators.
+//! Unit tests of matrix radiosity: patches and their subdivision, closed forms, programs, the model of short
+//! accumulators.
 
 use std::f64::consts::PI;
 
@@ -139,7 +140,7 @@ fn a_picture_names_all_patches_from_the_front() {
     }
 }
 
-/// Faces the point from above: counter-clockwise seen from below.
+/// A lid that faces the point from above: counter-clockwise seen from below.
 const LID: [DVec3; 4] =
     [DVec3::new(-1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, 1.0)];
 
@@ -228,8 +229,8 @@ const HALF: Accumulator = Accumulator {
 };
 const TRUNCATED: Accumulator = Accumulator { rounding: Rounding::TowardZero, ..HALF };
 
-/// The loss of the first patch's row, which starts at 1 and adds these terms: the reflectance is 1/2, the other patches
-/// reflect nothing to each other and have the radiosity 1, the first has none.
+/// The loss of the first patch's row, which starts at 1 and adds these terms. The reflectance is 1/2; the other patches
+/// exchange no light with each other and have radiosity 1, the first has 0.
 fn lost(how: Accumulator, terms: &[f64]) -> f64 {
     let size = terms.len() + 1;
     let mut factors = Matrix::zeros([size; 2]).expect("a matrix");

@@ -1,4 +1,4 @@
-//! Facts of the Ray Engine: its equations of cost, ray batches, buckets, ids.
+//! Unit tests of the Ray Engine: cost equations, ray batches, buckets, ids.
 
 use approx::assert_abs_diff_eq;
 use crossbar_base::geom::exact::Sides;
@@ -115,7 +115,7 @@ fn every_id_comes_back_as_a_color() {
     }
 }
 
-/// The rays that a tree of rays with these directions gives, and how many buckets it split.
+/// The rays in the order in which a ray tree releases them, and the number of buckets that it split.
 fn bucketed(directions: &[[f32; 3]], bucket: usize) -> (Vec<u32>, u64) {
     let mut tree = RayTree::new(RayTreeParameters { bucket, merge: 0 });
     for (ray, direction) in (0..).zip(directions) {
@@ -129,23 +129,23 @@ fn bucketed(directions: &[[f32; 3]], bucket: usize) -> (Vec<u32>, u64) {
     (taken, splits)
 }
 
-/// Faces of equally many rays leave the tree in their order +x -x +y -y +z -z.
+/// Faces with equally many rays leave the tree in the order +x -x +y -y +z -z.
 #[test]
 fn directions_go_to_their_faces() {
     let directions = [[-0.0, 0.0, -1e-40], [0.0, -3.0, 1.0], [1.0, 2.0, -1.5], [0.0, 0.5, 4.0], [-2.0, 1.0, 1.0]];
     let of_x = [2.0, 1.0, -1.0];
     let all = [&directions[..], &[of_x]].concat();
     assert_eq!(bucketed(&all, 8).0, [5, 4, 2, 1, 3, 0]);
-    // Among equal components the first counts: a second ray of +x makes its face the fullest.
+    // Among equal components the first counts: a second ray in +x makes that face the fullest.
     assert_eq!(bucketed(&[&all[..], &[[1.0; 3]]].concat(), 8).0, [5, 6, 4, 2, 1, 3, 0]);
-    // A direction is the point where it meets the face, for any length: equal points can not be split.
+    // The length of a direction does not matter, only its point on the face: equal points cannot be split.
     assert_eq!(bucketed(&[of_x, [4.0, 2.0, -2.0], [1.0, 0.5, -0.5]], 1).1, 0);
     assert_eq!(bucketed(&[of_x, [2.0, 1.0, 1.0]], 1).1, 1);
     assert_eq!(bucketed(&[of_x, [2.0, -1.0, -1.0]], 1).1, 1);
 }
 
-/// The order in which an engine answers 1000 rays that meet nothing, after `before` others: that in which they enter
-/// its tree, which has one bucket.
+/// The order in which an engine answers 1000 rays without hits, after `before` others. It is the order in which they
+/// enter the tree, which has one bucket.
 fn order(shuffle: Option<u64>, before: usize) -> Vec<u64> {
     let mesh = teapot(1).expect("the teapot tessellates");
     let tree = RayTreeParameters { bucket: 4096, merge: 0 };

@@ -1,4 +1,4 @@
-//! Facts of the renderers: sampling, frames, refraction, normals, the photon map.
+//! Unit tests of the renderers: sampling, frames, refraction, normals, the photon map.
 
 use std::f64::consts::PI;
 
@@ -20,13 +20,13 @@ fn one_triangle(corners: [[f32; 3]; 3], normals: Vec<[[f32; 3]; 3]>) -> Scene {
     Scene::new(mesh, vec![Material::diffuse("white", [0.5; 3])], vec![0], normals).expect("a scene")
 }
 
-/// The color that one ray sees of a scene.
+/// The color along one ray into a scene.
 fn seen_by<R>(eye: DVec3, at: DVec3, render: impl FnOnce(&Camera) -> R) -> R {
     let up = if (at - eye).truncate().length() < 1e-3 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     render(&Camera::new(eye.as_vec3().into(), at.as_vec3().into(), up, 1e-6, 1, 1).expect("a camera"))
 }
 
-/// Casts as the host does, and returns a t that has nothing to do with the hit.
+/// A caster that finds the host's hits, but returns an unrelated t.
 struct WithoutDistance(HostTracer);
 
 impl Caster for WithoutDistance {
@@ -36,7 +36,7 @@ impl Caster for WithoutDistance {
     }
 }
 
-/// A caster's t has no effect: a point of the triangle has the light that arrives there, and none from its other side.
+/// A caster's t has no effect: a point of the triangle gets the light that arrives there, and none from the other side.
 #[test]
 fn places_lie_on_their_triangle_whatever_t_says() {
     let corners = [[10.0, 0.0, 3.0], [11.0, 0.5, 3.25], [10.0, 2.0, 4.0]];
@@ -59,7 +59,7 @@ fn places_lie_on_their_triangle_whatever_t_says() {
         let front = normal.dot(eye - at) >= 0.0;
         let irradiance = normal.dot(to_light) / (to_light.length() * to_light.length_squared());
         let expected = if front { 0.5 * f64::from(PI as f32) / PI * irradiance } else { 0.0 };
-        // The light falls off by its third power at a distance of about 3: a place 1e-4 off shows.
+        // At a distance of about 3 the light falls with the third power, so a displacement of 1e-4 is detected.
         assert_abs_diff_eq!(color[0], expected, epsilon = 1e-5);
         lit += u32::from(front);
     }
@@ -88,7 +88,7 @@ fn normals_that_look_away_are_bent() {
 #[test]
 fn frames_are_square() {
     for normal in [DVec3::Z, DVec3::X, DVec3::new(0.6, -0.8, 0.0), DVec3::new(-2.0, 3.0, 6.0) / 7.0] {
-        // On the rim of the disk: the axes of the frame, a quarter of a turn apart.
+        // Points on the rim of the disk are the axes of the frame, a quarter turn apart.
         let [x, y] = [0.0, 0.25].map(|turn| cosine(normal, [1.0, turn]));
         assert!(x.dot(y).abs() < 1e-15 && x.dot(normal).abs() < 1e-15 && y.dot(normal).abs() < 1e-15);
         assert!(abs_diff_eq!(x.length(), 1.0, epsilon = 1e-15) && abs_diff_eq!(y.length(), 1.0, epsilon = 1e-15));

@@ -12,7 +12,8 @@ use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
-/// Distance of rays from edges and vertices that they are not aimed at, as the sine of an angle seen from the eye.
+/// Minimum distance of rays from edges and vertices at which they are not aimed, as the sine of an angle seen from the
+/// eye.
 type Margin = f64;
 
 const FIXED: [&str; 5] = ["s3.12", "s3.12:rna", "s3.12:rtz", "s3.12:rdn", "s3.12:rup"];
@@ -33,7 +34,7 @@ fn beside(eye: DVec3, [p, q]: [DVec3; 2], d: DVec3) -> f64 {
     moment.dot(d) / (moment.length() * d.length())
 }
 
-/// Corners of a grid of 3 x 3 whose heights differ, seen from near above its middle.
+/// Corners of a grid of 3 x 3 whose heights differ, seen from close above its middle.
 const EYE: [f32; 3] = [0.3, -0.2, 1.5];
 
 fn corner(index: usize) -> [f32; 3] {
@@ -66,7 +67,7 @@ fn pairs(margin: Margin) -> Vec<(Mesh, Vec<Ray>)> {
     pairs
 }
 
-/// The grid in formats of few bits, and the margin beyond which their roundings can not carry a ray.
+/// The grid in formats of few bits, and the margin that their rounding errors cannot exceed.
 const SMALL: [(&str, Margin); 12] = [
     ("s2.6", 0.05),
     ("s2.6:rna", 0.05),
@@ -88,7 +89,7 @@ fn a_neighbour_always_accepts_what_the_other_rejects() {
     for (turn, (format, margin)) in SMALL.into_iter().enumerate() {
         let pairs = pairs(margin);
         assert!(pairs.len() > 20, "{format}: {} pairs", pairs.len());
-        // Every fourth pair, in each format others: the roundings of a format take turns.
+        // Every fourth pair, with a different offset per format.
         for (i, (mesh, rays)) in pairs.iter().skip(turn % 4).step_by(4).enumerate() {
             let work = |sides| (mesh, &rays[..], sides);
             let shared = |executor, sides| missed(format, EdgeRule::SharedEdges, executor, work(sides));
@@ -103,7 +104,7 @@ fn a_neighbour_always_accepts_what_the_other_rejects() {
     assert!(leaks_of_the_paper > 5, "the rays ask for trouble: {leaks_of_the_paper}");
 }
 
-/// For each vertex of a welded mesh, if it lies away from every outline: all its triangles face the eye.
+/// For each vertex of a welded mesh, whether it is inside every silhouette: all its triangles face the eye.
 fn insides(mesh: &Mesh, eye: DVec3) -> Vec<bool> {
     let mut inside = vec![true; mesh.positions().len()];
     for (triangle, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {
@@ -137,7 +138,7 @@ fn aimed(mesh: &Mesh, eye: [f32; 3], each: u32, margin: Margin) -> [Vec<Ray>; 2]
     [edges.map(|aimed| aimed.ray).collect(), vertices.map(|aimed| aimed.ray).collect()]
 }
 
-/// Models with an eye each.
+/// Models, each with an eye.
 fn models() -> Vec<(&'static str, Mesh, [f32; 3])> {
     let eye = Camera::teapot(4, 4).expect("a camera").eye();
     let head = meshes::build("stand-in-head").expect("a mesh of the project").welded();
@@ -154,7 +155,7 @@ fn no_ray_leaks_at_an_edge_of_a_model() {
     for (model, mesh, eye) in models() {
         let formats = FIXED.map(|format| (format, 1.0 / 256.0));
         let floats = [("fp16", 1.0 / 128.0), ("fp24", 1e-4), ("fp32", 1e-6)];
-        // The head has small triangles; few of its edges are far enough from all vertices for fp16.
+        // The head has small triangles; few of its edges are far enough from other vertices for fp16.
         let is_traced = |format: &str| model == "teapot" || ["s3.12", "s3.12:rdn", "fp32"].contains(&format);
         for (format, margin) in formats.into_iter().chain(floats).filter(|(format, _)| is_traced(format)) {
             let [edges, vertices] = aimed(&mesh, eye, 2, margin);
@@ -172,11 +173,11 @@ fn no_ray_leaks_at_an_edge_of_a_model() {
             }
         }
     }
-    // A fan can still be rounded to one side, but rarely.
+    // At vertices, rounding can still move a whole fan to one side, but rarely.
     assert!(at_vertices[1] * 20 < at_vertices[0], "paper, shared: {at_vertices:?}");
 }
 
-/// Triangles that do not share their vertices share edges nevertheless: corners are sorted by where they are.
+/// Triangles that do not share vertices still share edges, because corners are sorted by position.
 #[test]
 fn unwelded_triangles_do_not_leak() {
     let eye = Camera::teapot(4, 4).expect("a camera").eye();

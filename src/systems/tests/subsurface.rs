@@ -1,4 +1,5 @@
-//! Facts of subsurface scattering: the dipole and its sums, moments and tables of the factors, programs, irradiance.
+//! Unit tests of subsurface scattering: the dipole and its sums, moments and tables of the factors, programs,
+//! irradiance.
 
 use std::f64::consts::PI;
 
@@ -65,7 +66,7 @@ fn the_exponential_of_sums_is_right() {
     assert_eq!([exp_of_negative(0.0), exp_of_negative(1e300)], [1.0, exp_of_negative(700.0)]);
 }
 
-/// Triangles of this size across the x axis, one at each place, and their texels.
+/// Atlas of triangles of this size perpendicular to the x axis, one at each place.
 fn dots(places: impl IntoIterator<Item = f32>, size: f32, side: u32) -> Atlas {
     let corners = |x: f32| [[x, 0.0, 0.0], [x, size, 0.0], [x, 0.0, size]];
     let positions: Vec<[f32; 3]> = places.into_iter().flat_map(corners).collect();
@@ -92,8 +93,9 @@ fn far_pairs_of_the_reference_have_the_dipole_s_r_d() {
 }
 
 /// The rule of near pairs is exact for quadratic functions: its error for R_d falls with the fourth power of the
-/// texels' size, and larger texels are divided until their parts are no longer than a mean free path. Against means
-/// over midpoints of 8 x 8 and 16 x 16 parts of both texels, without the term that falls with the square of the parts.
+/// texels' size, and larger texels are divided until their parts are no longer than a mean free path. The comparison
+/// uses means over midpoints of 8 x 8 and 16 x 16 parts of both texels, extrapolated to remove the error of second
+/// order.
 #[test]
 fn near_pairs_of_the_reference_are_exact_to_second_order() {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
@@ -124,8 +126,8 @@ fn near_pairs_of_the_reference_are_exact_to_second_order() {
     assert!(worst[1] < 17.0 * worst[0], "the fourth power: {worst:?}");
 }
 
-/// Factors of texels that are far smaller than their distance are the tabulated R_d: never above R_d, and below it by at
-/// most 1e-6 of it, within 25 diffusion lengths. The table has that error somewhere, not a thousandth of it.
+/// Factors of texels that are far smaller than their distance are the tabulated R_d. Within 25 diffusion lengths it is
+/// never above R_d, and at most 1e-6 below, relatively; the bound is not a thousand times too large.
 #[test]
 fn the_table_keeps_its_bound_and_is_never_above_r_d() {
     let (count, side) = (2000_u16, 64);
@@ -188,9 +190,9 @@ fn moments(triangles: &[[DVec3; 3]]) -> (f64, DVec3, [f64; 6]) {
     (all, mean, second)
 }
 
-/// For every cluster of an atlas: moments equal those of the polygons under its texels, and a ball of 5 times its
+/// For every cluster of an atlas: moments equal the moments of the polygons under its texels, and a ball of 5 times its
 /// squared size contains all corners. Faces have rectangles of many shapes, whose diagonal texels have parts on both
-/// sides of a bend.
+/// sides of the diagonal.
 #[test]
 fn moments_of_clusters_are_those_of_the_triangles_under_them() {
     let corners = vec![[0.0, 0.0, 0.0], [4.0, 1.0, 0.0], [2.0, 5.0, 3.0], [-1.0, 2.0, 4.0], [0.5, -3.0, 0.25]];
@@ -206,7 +208,7 @@ fn moments_of_clusters_are_those_of_the_triangles_under_them() {
         };
         for level in 0..surface.level_count() {
             let width = side >> level;
-            // Some clusters of the largest atlas: Morton order has a bit for each level.
+            // Of the largest atlas, only some clusters are tested: Morton order has a bit for each level.
             for place in (0..width * width).step_by(if side > 32 { 4099 } else { 1 }) {
                 let (y, x) = (place / width, place % width);
                 let rows = (y << level)..((y + 1) << level);
@@ -217,7 +219,7 @@ fn moments_of_clusters_are_those_of_the_triangles_under_them() {
                 let (point, covariance, size_squared) = surface.moments(cluster);
                 assert_relative_eq!(surface.cluster_area(cluster), area, max_relative = 1e-11);
                 let scale = mm_per_unit * 5.0;
-                // Plain sums of many triangles lose a bit per term at most.
+                // Plain sums of many triangles lose at most one rounding error per term.
                 let rounding = 1e-12_f64.max(triangles.len() as f64 * f64::EPSILON);
                 assert!(point.abs_diff_eq(mean, rounding * scale), "{cluster:?}: {point}, expected {mean}");
                 for (found, expected) in covariance.into_iter().zip(second) {
@@ -257,7 +259,7 @@ fn a_file_is_the_program_for_one_light() {
     }
 }
 
-/// Four links share a texture of factors: 1.25 lookups per link. Adaptive links take two.
+/// Four links share a texture of factors, so a link takes 1.25 lookups. An adaptive link takes two.
 #[test]
 fn sixteen_links_fit_as_the_paper_has_them() {
     let nv35 = Profile::named("nv35").expect("a card");
@@ -271,7 +273,7 @@ fn sixteen_links_fit_as_the_paper_has_them() {
     assert!(adaptive.checked(&nv35, 15).is_ok());
     let refused = adaptive.checked(&nv35, 16).expect_err("17 samplers").to_string();
     assert!(refused.contains("TEX16"), "{refused}");
-    // Sixteen textures as tiles of one: an addition for each but the first, and one pass.
+    // Sixteen textures as tiles of one texture take one pass, and an addition for each but the first.
     let tiled = GatherKernel { tiles: 4, ..adaptive };
     assert_eq!((tiled.instructions(16), tiled.samplers(16), tiled.constants(16)), (49 + 15, 2, 1 + 15));
     assert!(tiled.checked(&nv35, 16).is_ok());
@@ -294,7 +296,7 @@ fn the_most_lights_are_what_the_card_takes() {
     }
 }
 
-/// A lid over half of a floor shadows that half, and nothing else.
+/// A lid over half of a floor shadows that half and no other part.
 #[test]
 fn distant_light_has_shadows() {
     let square = |z: f32, x: [f32; 2]| [[x[0], -1.0, z], [x[1], -1.0, z], [x[1], 1.0, z], [x[0], 1.0, z]];

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use crate::card::attribute;
 use crate::geom::vector::{least_axis, unit};
 
-/// Tangents whose part across the normal is shorter than this, relative to their length, have no direction.
+/// Minimum length of a tangent's part perpendicular to the normal, relative to the tangent's length.
 const LEAST_ACROSS: f64 = 1e-6;
 
 /// The local frame of a surface point: right-handed, z along the normal, x along the tangent.
@@ -15,20 +15,21 @@ pub struct LocalFrame {
 }
 
 impl LocalFrame {
-    /// The frame of a unit normal and a tangent, made orthogonal to it (Gram-Schmidt); `None` if the tangent runs along
-    /// the normal, or has no length.
+    /// The frame of a unit normal and a tangent, which is orthogonalised (Gram-Schmidt); `None` if the tangent is
+    /// parallel to the normal or zero.
     pub fn new(normal: DVec3, tangent: DVec3) -> Option<Self> {
         let tangent = unit(tangent)?;
         let across = tangent - tangent.dot(normal) * normal;
         if across.length() < LEAST_ACROSS {
             return None;
         }
-        // Twice is enough: what the first subtraction left along the normal is of the order of rounding.
+        // Two subtractions suffice: the first leaves a component along the normal of the order of rounding.
         let x = unit(across - across.dot(normal) * normal)?;
         Some(Self { axes: [x, normal.cross(x), normal] })
     }
 
-    /// A frame of a unit normal with any tangent: across the coordinate axis that is least along the normal.
+    /// A frame of a unit normal with an arbitrary tangent: the direction is derived from the coordinate axis that is
+    /// least parallel to the normal.
     pub fn of_normal(normal: DVec3) -> Self {
         Self::new(normal, least_axis(normal)).unwrap_or(Self { axes: DVec3::AXES })
     }

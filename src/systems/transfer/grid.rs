@@ -1,8 +1,8 @@
-//! The cube of light texels, its segments, and the finer cube of directions that visibility is sampled in.
+//! The cube of light texels, its segments, and the finer cube of directions in which visibility is sampled.
 //!
-//! Faces and the order of rows and columns are Direct3D's ([`CUBE_FACES`](crate::sphere::CUBE_FACES)). A light texel's
-//! number is face 1024 + row 32 + column, a fine direction's face 16384 + row 128 + column: 4 x 4 fine directions per
-//! light texel (section 4).
+//! Faces and the order of rows and columns are Direct3D's ([`CUBE_FACES`](crate::sphere::CUBE_FACES)). The index of a
+//! light texel is 1024 face + 32 row + column. The index of a fine direction is 16384 face + 128 row + column, with 4 x
+//! 4 fine directions per light texel (section 4).
 
 use std::sync::OnceLock;
 
@@ -73,7 +73,7 @@ impl Segmentation {
         [segment, row % side * side + column % side]
     }
 
-    /// The light texel at an index of a segment. Panics if there is no such segment or place.
+    /// The light texel at an index of a segment. Panics if there is no such segment or index.
     pub fn texel(self, segment: usize, place: usize) -> usize {
         assert!(segment < self.count() && place < self.len(), "a place of a segment, not {place} of {segment}");
         let (side, across) = (self.side(), LIGHT_SIDE / self.side());
@@ -94,14 +94,14 @@ pub fn texel_center(texel: usize) -> DVec3 {
     LIGHT_MAP.direction(face, column, row)
 }
 
-/// The light texel that a fine direction lies in.
+/// The light texel that contains a fine direction.
 pub const fn light_texel(fine: usize) -> usize {
     let [face, row, column] = face_row_column(fine, FINE_SIDE);
     (face * LIGHT_SIDE + row / SUPERSAMPLES) * LIGHT_SIDE + column / SUPERSAMPLES
 }
 
-/// Directions in the light's texels, 1, 2 x 2 or 4 x 4 in each, with their solid angles. Their numbers are face (32
-/// s)^2 + row 32 s + column, with s of them along an edge of a texel.
+/// Directions in the light's texels, 1, 2 x 2 or 4 x 4 in each, with their solid angles. The index of a direction is
+/// (32 s)^2 face + 32 s row + column, with s directions along an edge of a texel.
 #[derive(Debug)]
 pub struct FineDirections {
     samples: usize,
@@ -110,12 +110,12 @@ pub struct FineDirections {
 }
 
 impl FineDirections {
-    /// The fine directions, 4 x 4 per texel. Computed once.
+    /// The fine directions, 4 x 4 per texel, computed once.
     pub fn get() -> &'static Self {
         Self::of(SUPERSAMPLES)
     }
 
-    /// With 1, 2 or 4 directions along an edge of a texel. Computed once each. Panics if `samples` is another number.
+    /// Directions with `samples` (1, 2 or 4) along an edge of a texel, computed once each. Panics for another number.
     pub fn of(samples: usize) -> &'static Self {
         static ALL: [OnceLock<FineDirections>; 3] = [const { OnceLock::new() }; 3];
         assert!([1, 2, 4].contains(&samples), "1, 2 or 4 directions along an edge of a texel, not {samples}");
@@ -144,7 +144,7 @@ impl FineDirections {
         LIGHT_SIDE * self.samples
     }
 
-    /// The directions, of length 1, by number.
+    /// The directions by index, of length 1.
     pub fn directions(&self) -> &[DVec3] {
         &self.directions
     }
@@ -154,7 +154,7 @@ impl FineDirections {
         &self.solid_angles
     }
 
-    /// The numbers of the directions in a light texel, row by row.
+    /// The indices of the directions in a light texel, row by row.
     pub fn in_texel(&self, texel: usize) -> impl Iterator<Item = usize> + use<> {
         let (samples, side) = (self.samples, self.side());
         let [face, row, column] = face_row_column(texel, LIGHT_SIDE);

@@ -1,9 +1,10 @@
 //! The normalised, non-standard Haar transform of a square of 2^k x 2^k numbers (section 4; \[NRH03\]).
 //!
-//! A level maps four neighbors a b / c d to (a + b + c + d) / 2, to the differences across columns (a - b + c - d) / 2,
-//! across rows (a + b - c - d) / 2, and of both (a - b - c + d) / 2, and continues with the averages. That is
-//! orthonormal. Coefficients have the usual pyramid layout: the averages of a level in the upper left quarter of its
-//! square, differences across columns in the upper right, across rows in the lower left, of both in the lower right.
+//! A level maps four neighbors a b / c d to the average (a + b + c + d) / 2, and to differences across columns (a - b +
+//! c - d) / 2, across rows (a + b - c - d) / 2, and across both (a - b - c + d) / 2. The next level transforms the
+//! averages. The transform is orthonormal. Coefficients have the usual pyramid layout: the averages of a level are in
+//! the upper left quarter of its square, differences across columns in the upper right, across rows in the lower left,
+//! across both in the lower right.
 
 /// The transform of squares of one size.
 #[derive(Clone, Debug)]
@@ -12,14 +13,14 @@ pub struct Haar {
     scratch: Vec<f64>,
 }
 
-/// The square of numbers on which a basis function is not 0.
+/// The square of numbers at which a basis function is not 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HaarSupport {
     /// The first row.
     pub row: usize,
     /// The first column.
     pub column: usize,
-    /// Rows, and columns.
+    /// Number of rows, and of columns.
     pub side: usize,
 }
 
@@ -36,7 +37,7 @@ impl Haar {
         self.side
     }
 
-    /// Takes a square, row by row, to its coefficients. Panics if it has another size.
+    /// Transforms a square, row by row, to its coefficients. Panics if it has another size.
     pub fn forward(&mut self, square: &mut [f64]) {
         assert_eq!(square.len(), self.side * self.side, "a square of side {}", self.side);
         let mut half = self.side / 2;
@@ -57,8 +58,8 @@ impl Haar {
         }
     }
 
-    /// Inverse transform, in place: coefficients to the numbers of the square. Panics if the length is not that of the
-    /// square.
+    /// Inverse transform, in place: coefficients to the numbers of the square. Panics if the length is not the
+    /// square's.
     pub fn inverse(&mut self, coefficients: &mut [f64]) {
         assert_eq!(coefficients.len(), self.side * self.side, "a square of side {}", self.side);
         let mut half = 1;
@@ -93,14 +94,14 @@ impl Haar {
         if largest == 0 {
             return HaarSupport { row: 0, column: 0, side: self.side };
         }
-        // The largest power of two up to it: squares of the level along an edge.
+        // The largest power of two up to `largest` is the number of the level's squares along an edge.
         let half = 1 << largest.ilog2();
         let side = self.side / half;
         HaarSupport { row: row % half * side, column: column % half * side, side }
     }
 }
 
-/// A level's four numbers; its own inverse.
+/// Transforms four numbers of a level; it is its own inverse.
 const fn butterfly([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     let ([left, right], [above, below]) = ([a + c, b + d], [a - b, c - d]);
     [(left + right) / 2.0, (above + below) / 2.0, ((a + b) - (c + d)) / 2.0, (above - below) / 2.0]

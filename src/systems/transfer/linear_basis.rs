@@ -4,18 +4,18 @@
 //! its neighbors. In a fine direction at distances a and b in 0..1/2 texels from the center of the texel that contains
 //! it, four texels have the weights (1 - a)(1 - b), a (1 - b), (1 - a) b and a b.
 //!
-//! - *Across an edge of the cube* the texel beyond is the one of the next face that shares the edge: along an edge the
-//!   texels of both faces meet one to one.
-//! - *At the eight corners* only three texels meet. The weight a b of the missing fourth is divided among the three in
-//!   equal parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hat functions are continuous over
+//! - *Across an edge of the cube* the neighbor is the adjacent texel of the next face; along an edge, the texels of
+//!   both faces meet one to one.
+//! - *At the eight corners* only three texels meet. The weight a b of the missing fourth is divided equally among the
+//!   three, as in the filtering of seamless cube maps (`GL_ARB_seamless_cube_map`): hat functions are continuous over
 //!   all three edges and have the symmetry of the cube.
 //!
 //! For every fine direction the weights sum to 1 (up to the rounding of thirds): light with radiance 1 in every texel
 //! is 1 in every direction. The hat functions interpolate the texels' light.
 //!
-//! `DIFFERENCE`: the text has the hat "centered at the sample" over "the cone of directions within one cube map texel",
-//! and does not mention edges, corners or solid angles. Read as a bilinear hat, it reaches one texel from its center:
-//! two texels wide. The other reading, one texel wide, can only sum to 1 as a box.
+//! `DIFFERENCE`: the paper's hat is "centered at the sample" over "the cone of directions within one cube map texel";
+//! edges, corners and solid angles are not mentioned. As a bilinear hat it extends one texel from its center, so it is
+//! two texels wide. A hat one texel wide can only sum to 1 if it is a box.
 
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +60,7 @@ pub struct BasisWeights {
 }
 
 impl BasisWeights {
-    /// The weights of a fine direction, given by its number. Panics if there is no such direction.
+    /// The weights of a fine direction, given by its index. Panics if there is no such direction.
     pub fn of(width: BasisWidth, fine: usize) -> Self {
         assert!(fine < FINE_DIRECTIONS, "a fine direction, not {fine}");
         let [face, row, column] = face_row_column(fine, FINE_SIDE);
@@ -75,7 +75,7 @@ impl BasisWeights {
         let beside = texel(face, [own[0], own[1] + towards_column]);
         let below = texel(face, [own[0] + towards_row, own[1]]);
         let across = texel(face, [own[0] + towards_row, own[1] + towards_column]);
-        // A corner of the cube has no fourth texel: each of the others gets a third of its weight.
+        // A corner of the cube has no fourth texel: each of the other three gets a third of its weight.
         let third = if across.is_none() { a * b / 3.0 } else { 0.0 };
         found.add(texel(face, own), (1.0 - a) * (1.0 - b) + third);
         found.add(beside, a * (1.0 - b) + third);
@@ -104,8 +104,8 @@ fn offset(fine: usize) -> (isize, f64) {
     (if from_center < 0.0 { -1 } else { 1 }, from_center.abs())
 }
 
-/// The texel at a row and column of a face that may lie one beyond its border: then the adjacent texel of the
-/// neighboring face. `None` beyond a corner.
+/// The texel at a row and column of a face. One beyond the border, it is the adjacent texel of the neighboring face;
+/// `None` beyond a corner.
 fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
     let side = LIGHT_SIDE.cast_signed();
     let is_inside = |at: isize| (0..side).contains(&at);
@@ -115,8 +115,8 @@ fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
     if !is_inside(row) && !is_inside(column) {
         return None;
     }
-    // Coordinates in half texels from the cube's center, whose faces are at `side`: integers, exact in f64. The strip
-    // of texels beyond an edge is folded over it by a quarter turn.
+    // Coordinates are in half texels from the cube's center, with faces at `side`: integers, exact in f64. The strip of
+    // texels beyond an edge is folded over it by a quarter turn.
     let axes = CUBE_FACES[face];
     let half_texels = |at: isize| (2 * at + 1 - side) as f64;
     let [down, right] = [half_texels(row), half_texels(column)];
@@ -136,13 +136,13 @@ fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
 pub(crate) struct SegmentSample {
     /// The fine direction.
     pub(crate) fine: u32,
-    /// Texels within the segment, and their hat functions' values times the solid angle. Unused ones are 0.
+    /// Texels within the segment, and their hat functions' values times the solid angle. Unused entries are 0.
     pub(crate) places: [u16; SHARED],
     pub(crate) weights: [f64; SHARED],
     pub(crate) count: u8,
 }
 
-/// The hat functions of one segment's texels: the fine directions in which any of them is not 0, in order.
+/// The hat functions of one segment's texels, as the fine directions in which any of them is not 0, in order.
 #[derive(Clone, Debug)]
 pub(crate) struct SegmentBasis {
     pub(crate) samples: Vec<SegmentSample>,
@@ -181,7 +181,7 @@ impl LinearBasis {
         Self { width, segments: samples.into_iter().map(SegmentBasis::new).collect() }
     }
 
-    /// Their width.
+    /// The width of the hat functions.
     pub const fn width(&self) -> BasisWidth {
         self.width
     }
@@ -192,8 +192,8 @@ impl LinearBasis {
         self.segments[segment].samples.iter().map(|sample| sample.fine as usize)
     }
 
-    /// Fine directions that enclose all others of a segment: if these are below a horizon, so are all. On each face
-    /// they are the corners of a rectangle.
+    /// Fine directions that enclose all others of a segment: if they are below a horizon, so are all others. On each
+    /// face they are the corners of a rectangle.
     pub(crate) fn rim(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
         self.segments[segment].rim.iter().map(|&fine| fine as usize)
     }

@@ -8,8 +8,8 @@ use crate::error::{InputError, input_error};
 use crate::io::{npz, number_table, parse_numbers, read_file};
 
 /// Reads a signal from a file: the transfer of a `.npz` file, a NumPy array, or comma-separated values, recognised by
-/// the first bytes. Its numbers are f32, as transfer is stored. Also the meaning of the numbers, and the mesh whose
-/// vertices are the points.
+/// the first bytes. Its numbers are f32, like stored transfer. Also returns the meaning of the numbers, and the digest
+/// of the mesh whose vertices are the points.
 pub fn load_signal(path: &Path) -> Result<(PrtMeaning, Option<MeshDigest>, Signal), InputError> {
     let limit = file::MAX_BYTES.max(number_table::MAX_BYTES);
     let bytes = read_file(path, "signal", limit)?;

@@ -1,16 +1,14 @@
-//! Shared ground of the three systems that precompute radiance transfer: clustered PCA (system 4, [`cpca`]),
+//! Modules that the three systems of precomputed radiance transfer share: clustered PCA (system 4, [`cpca`]),
 //! all-frequency transfer (system 5, [`all_frequency`]) and bi-scale transfer (system 6, [`bi_scale`]).
 //!
-//! [`cpca`]: crate::cpca
-//! [`all_frequency`]: crate::all_frequency
-//! [`bi_scale`]: crate::bi_scale
+//! [`cpca`]: crate::cpca [`all_frequency`]: crate::all_frequency [`bi_scale`]: crate::bi_scale
 //!
 //! - [`Vertices`]: unique positions, normals and tangents of a mesh, with a [`LocalFrame`] each;
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
 //! - [`grid`], [`haar`], [`linear_basis`]: the cube of light texels, its segments and their bases;
 //! - [`light`]: light as coefficients over the cube; [`visibility`]: the directions that each vertex sees;
-//! - [`mod@file`]: files of transfer (`.npz`); [`load_signal`] reads a signal from one, or from NPY or CSV;
-//! - [`synthetic`]: signals made by a formula, for tests and measurements.
+//! - [`mod@file`]: files of transfer (`.npz`); [`load_signal`] reads a signal from such a file, or from NPY or CSV;
+//! - [`synthetic`]: signals given by formulas, for tests and measurements.
 
 pub mod brdf;
 pub(crate) mod error;

@@ -1,5 +1,5 @@
-//! Rays against every triangle, for the plain loops of systems 4 and 5: they share no arithmetic with the code under
-//! test.
+//! Rays tested against every triangle, for the references of systems 4 and 5, which share no arithmetic with the tested
+//! code.
 
 use glam::DVec3;
 

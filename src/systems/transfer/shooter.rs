@@ -1,4 +1,5 @@
-//! Ray origins of a vertex, offset from all triangles on which it lies, as a corner or not; the rays and their hits.
+//! Ray origins of vertices, offset from all triangles on which the vertex lies, as a corner or not; the rays and their
+//! hits.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -11,20 +12,20 @@ use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
 use crate::tracer::offset::{SINGLE, SurfacePoint};
 
-/// Largest number of rounds in which an origin is moved; after that it stays, even if it is not clear of all triangles.
+/// Maximum number of rounds in which an origin is moved; after that it may not be clear of all triangles.
 const MAX_ROUNDS: usize = 16;
 /// The largest distance at which a vertex can count as lying on a triangle, relative to the triangle's size or the
-/// vertex's coordinates: more than a few rounding errors.
+/// vertex's coordinates, which is several rounding errors.
 const SHARE: f64 = 1e-5;
 
 /// The origin of a vertex's rays, and the triangles on which the vertex lies.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RayOrigin {
-    /// The origin, in single precision as rays have it.
+    /// The origin, in single precision like rays.
     pub(crate) at: [f32; 3],
     /// Unit normals of the triangles.
     pub(crate) planes: Vec<DVec3>,
-    /// True if it lies in front of all of them, at the required distance.
+    /// True if the origin is in front of all triangles, at the required distance.
     pub(crate) is_clear: bool,
 }
 
@@ -39,11 +40,11 @@ pub(crate) fn origins(vertices: &Vertices, occluders: &Occluders) -> Vec<RayOrig
     vertices.positions().par_iter().map(|&at| origin(wide(at), occluders)).collect()
 }
 
-/// Moves the vertex repeatedly along the normal of each triangle that it is not yet clear of.
+/// Moves the origin repeatedly along the normal of each triangle from which it is not yet clear.
 fn origin(place: DVec3, occluders: &Occluders) -> RayOrigin {
     let mut planes: Vec<(DVec3, f64)> = Vec::new();
     occluders.around(place, SHARE, |corners| planes.extend(plane(corners, place)));
-    // Sorted, so that the result does not depend on the order of the triangles.
+    // Planes are sorted, so that the result does not depend on the order of the triangles.
     planes.sort_by(|(one, _), (other, _)| {
         let keys = one.to_array().into_iter().zip(other.to_array());
         keys.fold(std::cmp::Ordering::Equal, |order, (one, other)| order.then(one.total_cmp(&other)))
@@ -66,8 +67,8 @@ fn origin(place: DVec3, occluders: &Occluders) -> RayOrigin {
     RayOrigin { at: narrow(at), planes: planes.into_iter().map(|(normal, _)| normal).collect(), is_clear }
 }
 
-/// The normal of a triangle on which `place` lies, and the distance from it at which rays must start; `None` if it lies
-/// elsewhere.
+/// The normal of a triangle on which `place` lies, and the distance from the triangle at which rays must start; `None`
+/// if `place` is not on the triangle.
 fn plane(corners: [DVec3; 3], place: DVec3) -> Option<(DVec3, f64)> {
     let [a, b, c] = corners;
     let weights = DVec3::from([a, b, c].map(|corner| f64::from(u8::from(corner == place))));
@@ -115,7 +116,7 @@ pub(crate) struct Shooter<'a> {
     rule: DirectionRule,
     origins: &'a [RayOrigin],
     occluders: &'a Occluders,
-    /// The part of the sky that each direction of the rule lies in.
+    /// The part of the sky that contains each direction of the rule.
     parts: Vec<SkyPart>,
     /// Length of rays.
     reach: f64,
@@ -136,8 +137,8 @@ impl<'a> Shooter<'a> {
         Ray::new(self.origins[vertex].at, narrow(self.reach * direction)).ok()
     }
 
-    /// The rays that the caster must trace: those that the skyline does not exclude. Sets the `bits` of directions below
-    /// the geometric horizon, which are certainly blocked.
+    /// Returns the rays that the skyline does not exclude, which the caster must trace. Sets the `bits` of directions
+    /// below the geometric horizon, which are certainly blocked.
     pub(crate) fn shadow_rays(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> VertexRays {
         let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
         let skyline = self.occluders.skyline(wide(origin.at), frame, waiting);
@@ -157,7 +158,7 @@ impl<'a> Shooter<'a> {
         asked
     }
 
-    /// The rays of a vertex in some directions, without those below the geometric horizon.
+    /// The rays of a vertex in some directions, except directions below the geometric horizon.
     pub(crate) fn rays(&self, vertex: usize, directions: impl Iterator<Item = usize>) -> (Vec<u32>, Vec<Ray>) {
         let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
         let ray = |at: usize| {
@@ -186,8 +187,8 @@ impl<'a> Shooter<'a> {
     }
 }
 
-/// A length with which rays from the vertices of a mesh end outside of it: a power of two, so that scaling does not
-/// round directions.
+/// A length of rays that reaches from every vertex beyond the mesh: a power of two, so that scaling does not round
+/// directions.
 pub fn ray_length(vertices: &Vertices) -> f64 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for &position in vertices.positions() {

@@ -1,8 +1,8 @@
-//! Directions in which a vertex certainly sees the sky, so that no ray need be traced there.
+//! Directions in which a vertex certainly sees the sky, so that no ray needs to be traced.
 //!
 //! The hemisphere of a vertex is divided into [`RINGS`] x [`COLUMNS`] parts, with narrow rings at the horizon. A
 //! hierarchy of boxes over the triangles marks the parts that a triangle may cover: by its bounding sphere, by its
-//! height over the vertex's tangent plane and, where it is near, by its own plane, which rays must approach from the
+//! height over the vertex's tangent plane and, if it is near, by its own plane, which rays must approach from the
 //! front. Parts that are not marked are unblocked in exact arithmetic; the margins are far larger than the rounding
 //! errors of a ray's origin and direction.
 
@@ -18,7 +18,7 @@ const RINGS: usize = 24;
 const COLUMNS: usize = 64;
 /// Largest number of triangles in a leaf.
 const LEAF: usize = 4;
-/// Sines of angles: a box seen under a smaller one is marked as a whole; the second is used if the first marks little.
+/// Sines of angular radii below which a box is marked as a whole; the second is used if the first marks little.
 const SMALL: [f64; 2] = [0.25, 0.08];
 /// Marked fraction of the hemisphere above which the first marking is final, because little sky remains to be found.
 const MUCH: f64 = 0.5;
@@ -108,7 +108,7 @@ struct Region {
 
 impl Region {
     /// The region that a sphere around `at` covers above the horizon and below `highest`, the largest z of its
-    /// directions; `None` if it covers nothing. `sine` is the sine of its angular radius, below 1.
+    /// directions; `None` if it is empty. `sine` is the sine of its angular radius, below 1.
     fn of(at: DVec3, distance: f64, sine: f64, highest: f64) -> Option<Self> {
         let sine = sine + MARGIN;
         let cosine = (1.0 - sine * sine).max(0.0).sqrt();
@@ -223,7 +223,8 @@ impl Occluders {
         skyline
     }
 
-    /// Visits triangles that may lie within `share` of their size, or of the position's coordinates, from `place`.
+    /// Visits triangles whose distance from `place` may be at most `share` times their size or the position's
+    /// coordinates.
     pub(crate) fn around(&self, place: DVec3, share: f64, mut visit: impl FnMut([DVec3; 3])) {
         let mut waiting = vec![0];
         while let Some(index) = waiting.pop() {
@@ -273,7 +274,7 @@ impl Occluders {
         let plane = if across.dot(a) > 0.0 { -across } else { across } / length;
         let slope = plane.truncate().length();
         for ring in region.rings[0]..=region.rings[1] {
-            // A lower bound of this product over all columns of the ring.
+            // A lower bound of the product over all columns of the ring.
             let (middle, radius) = (self.middles[ring * COLUMNS], self.part_radii[ring]);
             if plane.z * middle.z - slope * middle.truncate().length() >= radius + MARGIN {
                 continue;
@@ -305,7 +306,7 @@ pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Appends the boxes over `triangles`, whose first has index `first`, and sorts the triangles leaf by leaf.
+/// Appends the boxes over `triangles`, the first of which has index `first`, and sorts the triangles leaf by leaf.
 fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for corner in triangles.iter().flatten() {

@@ -1,4 +1,4 @@
-//! Signals and a mesh made by formulas, for tests and measurements.
+//! Signals and a mesh given by formulas, for tests and measurements.
 
 use rayon::prelude::*;
 
@@ -11,15 +11,15 @@ use crate::geom::random::CounterRng;
 const RADIUS: f64 = 1.5;
 
 /// A signal over points of a torus that behaves like radiance transfer: each component is a wave, longer for the first
-/// components, that is cut off along an edge as if by a shadow. `points` and `dimension` must be at least 1.
+/// components, that ends at an edge as at a shadow. `points` and `dimension` must be at least 1.
 ///
-/// Points wind around the torus so that any number of them is distributed evenly; points with adjacent numbers are not
-/// adjacent in space.
+/// Points wind around the torus, so that any number of points is distributed evenly; successive points are not adjacent
+/// in space.
 pub fn torus_signal(points: usize, dimension: usize, seed: u64) -> Signal {
     signal_at(points, dimension, seed, |at| place(at, points))
 }
 
-/// The waves of [`torus_signal`] at other places, of finite coordinates up to about 2.
+/// The waves of [`torus_signal`] at other positions, with finite coordinates up to about 2.
 pub fn signal_at(points: usize, dimension: usize, seed: u64, place: impl Fn(usize) -> [f64; 3] + Sync) -> Signal {
     let random = CounterRng::new(seed);
     let waves: Vec<Wave> = (0..dimension.max(1) as u64).map(|j| Wave::new(random, j, dimension)).collect();
@@ -31,7 +31,7 @@ pub fn signal_at(points: usize, dimension: usize, seed: u64, place: impl Fn(usiz
     Signal::new(waves.len(), values).expect("sines, at least one")
 }
 
-/// Hills over the square [-1, 1]^2: `2 * parts * parts` triangles, fronts upwards, two at least.
+/// Hills over the square [-1, 1]^2: `2 * parts * parts` triangles, at least two, with fronts upwards.
 pub fn hills(parts: u32) -> Mesh {
     let parts = parts.max(1);
     let along = |at: u32| 2.0 * f64::from(at) / f64::from(parts) - 1.0;
@@ -49,7 +49,7 @@ pub fn hills(parts: u32) -> Mesh {
 
 /// A point of the torus.
 fn place(at: usize, points: usize) -> [f64; 3] {
-    // The golden ratio, whose multiples are the most evenly spread.
+    // Multiples of the golden ratio are the most evenly distributed.
     let around = (at as f64 * 0.618_033_988_749_894_9).fract();
     let [c, s] = on_circle((at as f64 + 0.5) / points as f64);
     let [x, z] = on_circle(around);

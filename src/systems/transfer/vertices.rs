@@ -18,8 +18,8 @@ pub enum Tangents {
     /// Any direction perpendicular to the normal, for isotropic materials.
     #[default]
     Any,
-    /// The direction in which the first texture coordinate increases, averaged over the triangles around a vertex with
-    /// weights by area. Where the texture is mirrored, vertices are separate.
+    /// The direction in which the first texture coordinate increases, as the area-weighted mean over the triangles
+    /// around a vertex. Vertices are split where the texture is mirrored.
     Texture,
     /// An axis, projected onto the plane perpendicular to the normal.
     Along(DVec3),
@@ -60,7 +60,7 @@ impl TryFrom<String> for Tangents {
 }
 
 /// A mesh with separate vertices for each combination of position, normal, tangent and material, and their local
-/// frames. Its triangles are those of the source mesh, in the same order.
+/// frames. Triangles keep the source mesh's order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vertices {
     positions: Vec<[f32; 3]>,
@@ -68,13 +68,13 @@ pub struct Vertices {
     materials: Vec<u32>,
     triangles: Vec<[u32; 3]>,
     tangents: Tangents,
-    /// Number of vertices of the source that no triangle uses, which are left out.
+    /// Number of unused vertices of the source, which are dropped.
     pub unused: usize,
-    /// Vertices whose tangent was parallel to the normal, and which got any other.
+    /// Vertices whose tangent was parallel to the normal, and was replaced by an arbitrary one.
     pub replaced_tangents: Vec<u32>,
 }
 
-/// Key by which vertices are unique: bits of position and normal, handedness of the texture, and material.
+/// Key of unique vertices: bits of position and normal, handedness of the texture, and material.
 type VertexKey = ([u32; 3], [u64; 3], bool, u32);
 
 impl Vertices {
@@ -83,15 +83,15 @@ impl Vertices {
         (&self.positions, &self.triangles)
     }
 
-    /// The vertices of a mesh with one material. Normals are those of the mesh; without them, the mean over the
-    /// triangles at the same position, weighted by area. Fails with [`InputError`] for a mesh without triangles, a
-    /// vertex without a normal, or tangents that cannot be computed.
+    /// The vertices of a mesh with one material. Normals are the mesh's, or else the area-weighted mean over the
+    /// triangles at the same position. Fails with [`InputError`] for a mesh without triangles, a vertex without a
+    /// normal, or tangents that cannot be computed.
     pub fn new(mesh: &Mesh, tangents: Tangents) -> Result<Self, InputError> {
         Self::with_materials(mesh, &vec![0; mesh.len()], tangents)
     }
 
-    /// As [`Self::new`], with a material per triangle. Errors: as [`Self::new`], and if there is not one material per
-    /// triangle.
+    /// Like [`Self::new`], with a material per triangle. Fails as [`Self::new`] does, and if there is not one material
+    /// per triangle.
     pub fn with_materials(mesh: &Mesh, materials: &[u32], tangents: Tangents) -> Result<Self, InputError> {
         ensure!(!mesh.is_empty(), "crossbar::prt::precompute" =>
             "expected a mesh of at least one triangle, found none");
@@ -147,8 +147,7 @@ impl Vertices {
         Ok(Self { positions, frames, materials: materials_of, triangles, tangents, unused, replaced_tangents })
     }
 
-    /// These vertices and triangles followed by those of `others`, with their frames: a scene of two meshes. Material
-    /// numbers of the two are not merged.
+    /// Joins two meshes: vertices, triangles and frames of `self`, then of `others`. Material indices are not changed.
     #[must_use]
     pub fn joined(&self, others: &Self) -> Self {
         let first = self.positions.len() as u32;
@@ -220,7 +219,7 @@ fn used(mesh: &Mesh) -> Vec<bool> {
     used
 }
 
-/// A unit normal per vertex of the source; zero for those that no triangle uses.
+/// A unit normal per vertex of the source; zero for unused vertices.
 fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, InputError> {
     let mut sums: BTreeMap<[u32; 3], DVec3> = BTreeMap::new();
     for (indices, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {

@@ -1,4 +1,4 @@
-//! The definitions of [`super`] in f64 with a proved error bound: a certain answer, or none.
+//! Ray-triangle tests in f64 with a proved error bound: the answer is certain, or there is none.
 //!
 //! **Why nothing overflows or underflows.** A finite f32 is a multiple of 2^-149 below 2^128. A difference of two is a
 //! multiple of 2^-149 below 2^129, also after rounding to f64 (rounding a multiple of 2^-k, far above the least normal
@@ -7,9 +7,9 @@
 //! operation has a relative error of at most u = 2^-53, and a computed zero is a true zero.
 //!
 //! **The bound.** Every value here is a sum of at most six products `x * y * z` whose factors are components of d
-//! (exact) or differences of corners and origin (one rounding each). A product gathers: at most three roundings of its
-//! factors, two of multiplications, one of the difference inside the cross product, two of the outer sum: 8. So the
-//! error is at most ((1 + u)^8 - 1) * P with P the sum of the products' magnitudes. P is computed as P' by the same
+//! (exact) or differences of corners and origin (one rounding each). A product has at most eight roundings: three of
+//! its factors, two of multiplications, one of the difference inside the cross product, and two of the outer sum. So
+//! the error is at most ((1 + u)^8 - 1) * P with P the sum of the products' magnitudes. P is computed as P' by the same
 //! operations on magnitudes, so P <= P' / (1 - u)^8, and the error is below 8.1 u P'. `16 u P'` is used (a power of two
 //! times P', hence exact).
 
@@ -40,7 +40,7 @@ pub enum Guess {
     Unclear,
 }
 
-/// Value with a bound of its error.
+/// Value with an error bound.
 #[derive(Clone, Copy)]
 struct Estimate {
     value: f64,
@@ -75,7 +75,7 @@ fn cross(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
     (left - right, left.abs() + right.abs())
 }
 
-/// Inner product of a vector with such a cross product, with its error bound.
+/// Inner product of a vector and the result of [`cross`], with its error bound.
 fn mixed(d: DVec3, (value, magnitude): (DVec3, DVec3)) -> Estimate {
     Estimate { value: d.dot(value), error: 16.0 * U * d.abs().dot(magnitude) }
 }
@@ -101,7 +101,8 @@ pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
     if positive && (negative || sides == Sides::Front) {
         return Guess::Miss;
     }
-    // The edges of the triangle itself, not differences of differences: one rounding per component.
+    // Edges are differences of the triangle's own corners, not of corners relative to the origin: one rounding per
+    // component.
     let corners = triangle.map(wide);
     let normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     let facing = mixed(d, normal);
@@ -121,14 +122,13 @@ pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
     if edges.contains(&Sense::Unknown) {
         return Guess::Unclear;
     }
-    // Numerator and denominator are certain in sign, so |value| > error, unless the height is exactly zero (and t with
-    // it).
+    // The signs of numerator and denominator are certain, so |value| > error, unless the height, and so t, is exactly
+    // zero.
     let low = (height.value.abs() - height.error) / (facing.value.abs() + facing.error);
     let high = (height.value.abs() + height.error) / (facing.value.abs() - facing.error);
     Guess::Hit { low: below(low), high: above(high) }
 }
 
-/// Returns `true` if the triangle certainly has an area.
 pub(super) fn has_area(triangle: &[[f32; 3]; 3]) -> bool {
     let [a, b, c] = triangle.map(wide);
     let (value, magnitude) = cross(b - a, c - a);
@@ -145,7 +145,7 @@ pub(super) fn winding(corners: &[[f32; 2]]) -> Option<Ordering> {
         value += ax * by - ay * bx;
         magnitude += (ax * by).abs() + (ay * bx).abs();
     }
-    // A product gathers four roundings and one per sum, as many as there are corners at most.
+    // A product has four roundings, and at most one more per corner, from the sum.
     let error = (corners.len() as f64 + 8.0) * 2.0 * U * magnitude;
     match (Estimate { value, error }).sense() {
         Sense::Negative => Some(Ordering::Less),

@@ -41,13 +41,13 @@ impl ExactT {
         &self.den
     }
 
-    /// Rounds to the nearest f32, ties to even; infinity where t exceeds the format.
+    /// Rounds to the nearest f32, ties to even; infinity if t exceeds the range.
     pub fn to_f32(&self) -> f32 {
         ratio::to_f32(&self.num, &self.den)
     }
 
-    /// Rounds to the nearest f64, ties to even. It neither overflows nor loses bits to underflow for a t of f32 rays
-    /// and triangles.
+    /// Rounds to the nearest f64, ties to even. For rays and triangles in f32, the result neither overflows nor loses
+    /// bits to underflow.
     pub fn to_f64(&self) -> f64 {
         ratio::to_f64(&self.num, &self.den)
     }

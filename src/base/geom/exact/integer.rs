@@ -1,4 +1,4 @@
-//! The definitions of [`super`] evaluated in integers, without a filter.
+//! Ray-triangle tests in integers, without a filter.
 
 use std::cmp::Ordering;
 
@@ -83,7 +83,7 @@ pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<Ex
     ExactT::new(num, den)
 }
 
-/// Returns the first hit among all triangles, without filter or tree: the reference that the others are tested against.
+/// Returns the first hit among all triangles, without filter or tree: the reference for tests of the faster functions.
 pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     let mut first: Option<NearestHit> = None;
     for (triangle, corners) in (0..).zip(mesh.iter_corners()) {

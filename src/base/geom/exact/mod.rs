@@ -1,15 +1,15 @@
 //! Ground truth: which triangles a ray hits, and which first, decided in exact arithmetic on the f32 values as given.
 //!
-//! **Definitions.** A triangle is closed: its edges and corners belong to it. A hit has t >= 0, in multiples of the
-//! ray's direction as given. A ray in the triangle's plane (n.d = 0) misses it, so that a triangle without area (n = 0)
-//! is never hit. n = (b - a) x (c - a); from the front means n.d < 0. Hits are ordered by exact t; of several at the
-//! same t the smallest id comes first, and the whole set of ties is reported.
+//! **Definitions.** A triangle is closed: its edges and corners belong to it. A hit has t >= 0, where t counts lengths
+//! of the ray's direction. A ray in the triangle's plane (n.d = 0) misses it, so that a triangle without area (n = 0)
+//! is never hit. n = (b - a) x (c - a); a ray comes from the front if n.d < 0. Hits are ordered by exact t, then by id;
+//! all triangles that tie for the first t are reported.
 //!
 //! **Method.** With A = a - o and so on, the signs of d.(BxC), d.(CxA), d.(AxB) (whose sum is n.d) show on which side
 //! of each edge the ray passes, and t = (n.A) / (n.d). [`integer`] evaluates these as integers of any size, since an
-//! f32 is an integer times a power of two. [`filter`] runs first: it evaluates them in f64 with a proved error bound
-//! and decides only certain cases; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests compare all
-//! three.
+//! f32 is an integer times a power of two. [`filter`] runs first: it evaluates the signs in f64 with a proved error
+//! bound and decides only the cases that are certain; [`Tracer`] adds a tree of boxes that never skips a hit. Property
+//! tests compare all three.
 
 pub mod filter;
 mod hit;
@@ -24,7 +24,7 @@ pub use filter::Guess;
 pub use hit::{ExactT, NearestHit, Sides};
 pub use tree::{Tracer, nearest_all};
 
-/// Intersects a ray with a triangle of finite corners: first by the filter, then by integers where it is uncertain.
+/// Intersects a ray with a triangle of finite corners: by the filter, or in integers where the filter is uncertain.
 pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<ExactT> {
     match filter::guess(ray, triangle, sides) {
         Guess::Miss => None,
@@ -56,7 +56,7 @@ pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     shortlist.settle(mesh, ray, sides)
 }
 
-/// Returns `true` if a triangle has no area, exactly: n = 0.
+/// Returns `true` if a triangle has exactly no area: n = 0.
 pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
     !filter::has_area(triangle) && integer::is_degenerate(triangle)
 }
@@ -67,13 +67,13 @@ pub fn winding(corners: &[[f32; 2]]) -> Ordering {
 }
 
 impl Mesh {
-    /// Number of triangles without area, exactly: two coincident corners, or three on one line.
+    /// Number of triangles with exactly no area: two coincident corners, or three on one line.
     pub fn degenerate_count(&self) -> usize {
         self.iter_corners().filter(is_degenerate).count()
     }
 }
 
-/// Hits that may be the first, each with bounds of its t.
+/// Hits that may be the first, with bounds of t.
 struct Shortlist {
     candidates: Vec<Candidate>,
     /// Upper bound of the first t.

@@ -67,7 +67,6 @@ fn scaled(num: &BigUint, den: &BigUint, unit: i64) -> (BigUint, BigUint) {
     if unit < 0 { (num << unit.unsigned_abs(), den.clone()) } else { (num.clone(), den << unit.unsigned_abs()) }
 }
 
-/// Converts to 64 bits, if the number fits.
 fn small(value: &BigUint) -> Option<u64> {
     u64::try_from(value).ok()
 }

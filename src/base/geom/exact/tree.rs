@@ -1,9 +1,9 @@
 //! A tree of boxes over a mesh that never skips a hit, for many rays.
 //!
-//! A box holds its triangles exactly (f32 figures in f64). A ray crosses the planes x = k at t = (k - o) / d, computed
-//! with at most three roundings; the interval of t inside a box is widened by 16 u on both ends, so that it holds the
-//! exact interval (no operation here can overflow or underflow: see [`super::filter`]). A box is skipped only if its
-//! widened interval is empty, or begins beyond the upper bound of t of a hit that is certain. So the tree affects the
+//! A box encloses its triangles exactly, because f64 holds every f32. A ray crosses the plane x = k at t = (k - o) / d,
+//! computed with at most three roundings; the interval of t inside a box is widened by 16 u at both ends, so that it
+//! contains the exact interval (no operation can overflow or underflow: see [`super::filter`]). A box is skipped only
+//! if its widened interval is empty, or begins beyond the upper bound of t of a certain hit. So the tree affects the
 //! time, but not the result.
 
 use std::borrow::Cow;
@@ -42,7 +42,7 @@ struct BoxNode {
 enum BoxContent {
     /// Leaf: a range of `order`.
     Leaf { start: u32, end: u32 },
-    /// Inner node: the first child follows its parent; `second` is the index of the second.
+    /// Inner node: the first child follows its parent; `second` is the index of the second child.
     Inner { second: u32 },
 }
 
@@ -54,7 +54,7 @@ struct Probe {
 }
 
 impl Tracer<'static> {
-    /// Builds the tree of [`Tracer::new`] over a mesh that it keeps.
+    /// Builds the tree of [`Tracer::new`] and takes ownership of the mesh.
     pub fn owning(mesh: Mesh) -> Self {
         Self::over(Cow::Owned(mesh))
     }
@@ -106,7 +106,7 @@ impl<'a> Tracer<'a> {
                 BoxContent::Inner { second } => {
                     let first = index + 1;
                     let mut found = [first, second].map(|child| (child, probe.enter(&self.nodes[child as usize])));
-                    // The nearer child last, so that it is taken first.
+                    // The nearer child is pushed last, so that it is popped first.
                     if found[0].1 < found[1].1 {
                         found.swap(0, 1);
                     }
@@ -142,7 +142,7 @@ fn build(items: &mut [(u32, DVec3)], offset: usize, corners: &[[[f32; 3]; 3]], n
     }
     let axis = (high - low).max_position();
     let middle = items.len() / 2;
-    // Ids break ties, so that both halves hold the same triangles in every version of the selection.
+    // Ids break ties, so that the halves do not depend on the standard library's selection algorithm.
     items.select_nth_unstable_by(middle, |a, b| a.1[axis].total_cmp(&b.1[axis]).then(a.0.cmp(&b.0)));
     let (left, right) = items.split_at_mut(middle);
     build(left, offset, corners, nodes);
@@ -168,7 +168,7 @@ impl Probe {
             if near > far {
                 (near, far) = (far, near);
             }
-            // Only a positive start matters, and a negative end means that the box lies behind.
+            // A start below 0 does not matter, and an end below 0 means that the box lies behind the origin.
             if near > 0.0 {
                 near = filter::below(near);
                 start = if near > start { near } else { start };

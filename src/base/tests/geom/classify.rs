@@ -4,7 +4,7 @@ use crossbar_base::geom::exact::{self, Sides};
 use crossbar_base::geom::{ExactT, Mesh, Ray};
 use num_bigint::BigUint;
 
-/// Two triangles that share an edge in z = 0, one that touches a corner, one far away.
+/// Two triangles that share an edge in z = 0, a triangle that touches a corner, and a distant one.
 fn scene() -> Mesh {
     let positions = vec![
         [0.0, 0.0, 0.0],

@@ -41,8 +41,8 @@ fn what_has_no_orientation_stays() {
 
 #[test]
 fn triangles_without_area_have_no_say() {
-    // The last two have heights below what is lost of a coordinate of 1. All lie on the edge from 0 to 1 of the one
-    // triangle that has a front.
+    // The last two triangles have heights below the rounding error of a coordinate of 1. All lie on the edge from 0 to
+    // 1 of the only triangle with a certain area.
     for flat in [[0, 1, 0], [0, 1, 6], [0, 1, 7], [0, 1, 8]] {
         assert!(mesh(vec![flat, [0, 1, 2]]).misoriented().is_empty());
         assert_eq!(mesh(vec![flat, [0, 2, 1], [1, 0, 3], [0, 2, 3], [1, 3, 2]]).misoriented(), [1]);

@@ -11,7 +11,8 @@ fn corners_are_control_points() {
     assert!(mesh.positions().contains(&[2.8, 0.0, 2.4]), "the spout's tip");
 }
 
-/// A wrong digit of any control point, which all weigh in a point inside their patch, would break a symmetry.
+/// A wrong digit of any control point would break a symmetry, because all control points affect inner points of their
+/// patch.
 #[test]
 fn every_part_is_its_own_mirror_image_and_turned_parts_have_four_like_quarters() {
     let teapot = tessellate(5).expect("a teapot");

@@ -1,4 +1,4 @@
-//! Rays near one that was judged wrongly, for which the answer is right.
+//! Rays near a ray with a wrong hit for which the hit is correct.
 
 use crossbar_base::geom::vector::wide;
 use crossbar_base::geom::{Hit, Mesh, Ray, Sides, exact};
@@ -15,14 +15,15 @@ fn wrong(mesh: &Mesh, ray: &Ray, found: Option<Hit>, ulps: u32) -> Disagreement 
     oracle.judge_one(0, ray, found).1.expect("a wrong answer")
 }
 
-/// A miss beside the square's outline, `off` ULPs of the direction inside, is right for the ray on the first ring of 1,
-/// 2, 4 and so on that reaches beyond it; where no ring within the limit does, it is a leak.
+/// A miss beside the square's outline is correct for a ray on the first ring of 1, 2, 4, ... ULPs that reaches beyond
+/// the outline. `off` is the ray's distance inside, in ULPs of the direction. If no ring within the limit reaches it,
+/// the miss is a leak.
 #[test]
 fn nearby_directions_are_tried_in_rings_up_to_the_limit() {
     let mesh = square();
     let unit = f64::from(f32::EPSILON);
     for off in [0_u32, 1, 2, 3, 4, 7, 8, 11] {
-        // From (0.5, 1, 1) straight down and `off` ULPs of the depth's 1 towards the inside.
+        // From (0.5, 1, 1) straight down, turned inwards by `off` ULPs of the z component 1.
         let ray = Ray::new([0.5, 1.0, 1.0], [0.0, -(off as f32) * f32::EPSILON, -1.0]).expect("a ray");
         assert!(exact::nearest(&mesh, &ray, Sides::Front).is_some());
         for ulps in [0, 1, 2, 3, 4, 8, 12, 16] {
@@ -42,7 +43,7 @@ fn nearby_directions_are_tried_in_rings_up_to_the_limit() {
     }
 }
 
-/// Directions beyond f32 are left out; nearer ones are still found.
+/// Directions beyond f32 are skipped; nearer ones are still found.
 #[test]
 fn the_largest_direction_has_nearby_ones() {
     let mesh = square();
@@ -54,7 +55,7 @@ fn the_largest_direction_has_nearby_ones() {
 #[test]
 fn origins_move_along_the_ray() {
     let mesh = Mesh::new(vec![[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], vec![[0, 1, 2]]).expect("a mesh");
-    // One ULP of the largest coordinate, the 4 of a corner.
+    // One ULP of the largest coordinate, which is 4, of a corner.
     let unit = 4.0 * f32::EPSILON;
     let start = |steps: f32| Ray::new([1.0, 1.0, steps * unit], [0.0, 0.0, -0.5]).expect("a ray");
     for (steps, ulps, moved) in [(0.0, 2, Some(-1.0)), (1.0, 2, Some(-1.0)), (2.0, 4, Some(-2.0)), (3.0, 2, None)] {
@@ -66,7 +67,7 @@ fn origins_move_along_the_ray() {
     assert_eq!((behind.kind, behind.right_for), (DisagreementKind::Start, Some(start(0.0))));
 }
 
-/// A neighbour in place of the right triangle is rounding where the ray passes their common edge or corner.
+/// A neighbour in place of the right triangle is rounding if the ray passes their common edge or corner.
 #[test]
 fn contacts_are_passed_within_a_few_ulps() {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [-1.0, -1.0, -0.5]];

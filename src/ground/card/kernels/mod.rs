@@ -1,4 +1,4 @@
-//! The programs that draw a mesh with the data of its vertices.
+//! Programs that draw a mesh with per-vertex data.
 
 use super::kernels;
 

@@ -1,4 +1,4 @@
-//! Files that appear whole or not at all: written beside their place, then renamed into it.
+//! Atomic writes: a file is written beside its place, then renamed into it.
 
 mod staging;
 
@@ -27,11 +27,11 @@ pub enum WriteError {
     Name { name: PathBuf },
 }
 
-/// Writes one file through `fill`, and creates missing folders of its path. On any error the file at `path` is as
-/// before, and no folder was created.
+/// Writes one file through `fill`, and creates missing folders of its path. On any error the file at `path` is
+/// unchanged, and no folder was created.
 ///
-/// A link is followed, and stays. An existing path that is not a regular file, such as `/dev/stdout`, a pipe or a
-/// terminal, is written to and never replaced; it too gets everything or, when `fill` fails, nothing.
+/// A link is followed and kept. An existing path that is not a regular file, such as `/dev/stdout`, a pipe or a
+/// terminal, is written to and never replaced; if `fill` fails, nothing is written to it.
 pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     match fs::metadata(path) {
         Ok(place) if place.is_dir() => {
@@ -40,7 +40,7 @@ pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<(
         }
         Ok(place) if !place.is_file() => return fill_device(path, fill),
         Ok(_) => {}
-        // Nothing is there yet, or a link to nothing, which becomes a file.
+        // There is no file yet, or a dangling link, which a file replaces.
         Err(_) => return write_beside(path, path, fill),
     }
     let file = fs::canonicalize(path).map_err(|source| WriteError::File { path: path.into(), source })?;
@@ -57,7 +57,7 @@ fn fill_device(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>)
     write().map_err(|source| WriteError::File { path: path.into(), source })
 }
 
-/// Writes beside `file`, and renames; errors name `path`. Folders that are missing are made.
+/// Writes beside `file`, and renames; errors name `path`. Missing folders are created.
 fn write_beside(
     file: &Path,
     path: &Path,
@@ -87,27 +87,27 @@ fn fill_file(
     write().map_err(|source| WriteError::File { path: path.into(), source })
 }
 
-/// Several files that appear together in one folder, when [`FileSet::commit`] is called. Dropped without it, it leaves
-/// nothing behind.
+/// Several files that appear together in one folder, when [`FileSet::commit`] is called. If the set is dropped without
+/// a commit, no files remain.
 ///
 /// A folder that was missing appears by one rename, with all its files. In an existing folder the files are renamed one
-/// after another, because the folder itself stays: programs may use it, and it may hold other files. A lock on the
-/// folder keeps the renames of two processes apart. A process that is killed in the midst of them leaves old files
-/// beside new ones, and `.crossbar-XXXXXX` with the rest.
+/// after another, because programs may use the folder, and it may hold other files. A lock on the folder serialises the
+/// renames of two processes. A process that is killed between renames leaves old files beside new ones, and the
+/// remaining files in `.crossbar-XXXXXX`.
 #[derive(Debug)]
 pub struct FileSet {
     /// The folder as given.
     folder: PathBuf,
-    /// The innermost folder on the way that exists.
+    /// The innermost existing folder on the path.
     base: PathBuf,
-    /// The path from there to the folder: empty if it exists.
+    /// The path from `base` to the folder: empty if the folder exists.
     rest: PathBuf,
     staging: Staging,
     names: Vec<PathBuf>,
 }
 
 impl FileSet {
-    /// A set for `folder`. Made before long work, it finds out early that nothing can be written there. Fails with
+    /// A set for `folder`. Created before long work, it detects early that the folder is not writable. Fails with
     /// [`WriteError::Folder`].
     pub fn new(folder: &Path) -> Result<Self, WriteError> {
         let fail = |source| WriteError::Folder { path: folder.into(), source };
@@ -127,7 +127,7 @@ impl FileSet {
         self.staging.path().join(&self.rest).join(name)
     }
 
-    /// The path at which the file `name`, relative and without `..`, is written now.
+    /// The staging path of the file `name`, which is relative and has no `..`.
     fn stage(&mut self, name: &Path) -> Result<PathBuf, WriteError> {
         let plain = name.components().all(|part| matches!(part, Component::Normal(_)));
         if !plain || name.file_name().is_none() {
@@ -155,9 +155,9 @@ impl FileSet {
         fill_file(&staged, &self.folder.join(name), fill)
     }
 
-    /// Moves all files to their places and returns these, in the order of staging. Likely failures (a file that was
+    /// Moves all files to their places and returns the places in the order of staging. Likely failures (a file that was
     /// staged but not written, a path that is a folder, a subfolder that cannot be created) are checked before the
-    /// first rename. Fails with [`WriteError`]; unless a rename itself fails, nothing has been moved then.
+    /// first rename. Fails with [`WriteError`]; after an error, no file has been moved unless a rename itself failed.
     pub fn commit(self) -> Result<Vec<PathBuf>, WriteError> {
         let places: Vec<PathBuf> = self.names.iter().map(|name| self.folder.join(name)).collect();
         for (name, place) in self.names.iter().zip(&places) {
@@ -171,7 +171,7 @@ impl FileSet {
             let place = self.base.join(first);
             match self.staging.rename_folder(first.as_ref(), &place) {
                 Ok(()) => return Ok(places),
-                // Another process has created the folder meanwhile: move file by file then.
+                // Another process has created the folder meanwhile: move file by file.
                 Err(_) if place.is_dir() => {}
                 Err(source) => return Err(WriteError::Folder { path: self.folder.clone(), source }),
             }
@@ -179,15 +179,15 @@ impl FileSet {
         let mut made = Vec::new();
         let moved = self.move_into_existing(&mut made);
         if moved.is_err() {
-            // Fails, as it should, where something has come in.
+            // Removal fails, as it should, if another process has put a file in the folder.
             made.iter().rev().for_each(|folder| drop(fs::remove_dir(folder)));
         }
         moved.map(|()| places)
     }
 
-    /// Puts the files into the folder one by one; adds the folders that it makes to `made`.
+    /// Moves the files into the folder one by one; adds the folders that it creates to `made`.
     fn move_into_existing(&self, made: &mut Vec<PathBuf>) -> Result<(), WriteError> {
-        // Paths that begin at the base: the folder's own name may go through what is not there yet.
+        // Paths begin at the base, because the folder's path as given may pass through missing folders.
         let folder = self.base.join(&self.rest);
         let parents = self.names.iter().filter_map(|name| Some(folder.join(name).parent()?.to_path_buf()));
         for parent in std::iter::once(folder.clone()).chain(parents) {
@@ -199,8 +199,8 @@ impl FileSet {
     }
 }
 
-/// The innermost existing folder of the path `folder`, and plain names from there. Missing parts cannot be links, so
-/// that `..` after them has its literal meaning.
+/// The innermost existing folder of the path `folder`, and the rest of the path as plain names. Missing parts cannot be
+/// links, so that `..` after them has its literal meaning.
 fn split(folder: &Path) -> (PathBuf, PathBuf) {
     let mut base = PathBuf::new();
     let mut rest = PathBuf::new();
@@ -216,7 +216,7 @@ fn split(folder: &Path) -> (PathBuf, PathBuf) {
     (if base == Path::new("") { ".".into() } else { base }, rest)
 }
 
-/// The folders that must be made for `folder` to exist, innermost first.
+/// The missing folders of the path `folder`, innermost first.
 fn missing_folders(folder: &Path) -> Vec<PathBuf> {
     let missing = folder.ancestors().take_while(|path| *path != Path::new("") && !path.exists());
     missing.map(Path::to_path_buf).collect()

@@ -1,4 +1,5 @@
-//! The folder `.crossbar-XXXXXX` in which files are written before they appear. A process that is killed leaves it.
+//! The folder `.crossbar-XXXXXX` in which files are written before they appear. A killed process leaves the folder
+//! behind.
 
 use std::fs::{self, File};
 use std::io;
@@ -8,7 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::TempDir;
 
 /// The staging folders of this process. The lock is held while a folder is created and while files are renamed out of
-/// it, so that a signal ends the process only before or after.
+/// it, so that a signal ends the process only before or after these steps.
 static IN_USE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -16,13 +17,13 @@ fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
     IN_USE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes the staging folders of this process for good: nothing can be staged or renamed afterwards. For a process
-/// that is about to end because of a signal. Returns true if there was one, so that files are lost.
+/// Removes the staging folders of this process, which is about to end because of a signal; no file can be staged or
+/// renamed afterwards. Returns true if there was a folder, so that files are lost.
 pub fn abandon() -> bool {
     let folders = in_use();
     let some = !folders.is_empty();
     for folder in folders.iter() {
-        // A thread may still be writing into it.
+        // A thread may still be writing into the folder.
         for _ in 0..100 {
             if fs::remove_dir_all(folder).is_ok() || !folder.exists() {
                 break;
@@ -46,18 +47,18 @@ impl Staging {
         Ok(Self(folder))
     }
 
-    /// The folder in which files are written, with the paths that they will have below the base.
+    /// The folder in which files are written; their paths below it are their later paths below the base.
     pub(super) fn path(&self) -> &Path {
         self.0.path()
     }
 
-    /// Renames a folder that is written, named as below the base, to its place there, where nothing is yet.
+    /// Renames a complete folder to `place`, where nothing exists yet; `name` is its path below the base.
     pub(super) fn rename_folder(&self, name: &Path, place: &Path) -> io::Result<()> {
         let _quiet = in_use();
         fs::rename(self.path().join(name), place)
     }
 
-    /// Renames files, which lie below `rest`, to their places in `folder`, while no other process does so there.
+    /// Renames files, which lie below `rest`, to their places in `folder`, under a lock against other processes.
     /// Returns the place that could not be written, if any.
     pub(super) fn rename_files(
         &self,
@@ -65,7 +66,7 @@ impl Staging {
         folder: &Path,
         names: &[PathBuf],
     ) -> Result<(), (PathBuf, io::Error)> {
-        // Ends with the process. Where folders cannot be locked, nothing keeps two processes apart.
+        // The lock ends with the process. On systems that cannot lock folders, two processes are not kept apart.
         let lock = File::open(folder).ok().filter(|folder| folder.lock().is_ok());
         let _quiet = in_use();
         for name in names {

@@ -26,7 +26,7 @@ pub(super) struct AccessorReader<'a> {
 }
 
 impl AccessorReader<'_> {
-    /// Vectors in single precision; normalized unsigned integers are divided by the largest.
+    /// Vectors in single precision; normalized unsigned integers are divided by their type's maximum.
     pub(super) fn vectors<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f32; N]>, InputError> {
         let fits = accessor.dimensions().multiplicity() == N
             && !matches!(accessor.dimensions(), Dimensions::Mat2 | Dimensions::Mat3 | Dimensions::Mat4);

@@ -25,7 +25,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 pub(super) struct Buffers<'a>(Vec<Cow<'a, [u8]>>);
 
 impl<'a> Buffers<'a> {
-    /// Reads them; `chunk` is the binary chunk of GLB.
+    /// Reads the buffers; `chunk` is the binary chunk of GLB.
     pub(super) fn load(
         document: &Document,
         chunk: Option<&'a [u8]>,
@@ -83,7 +83,7 @@ impl<'a> Buffers<'a> {
 /// The path that a relative URI names, if it stays within the folder.
 fn local(uri: &str) -> Option<PathBuf> {
     let path = percent_decode_str(uri).decode_utf8().ok()?;
-    // Neither a scheme, a drive, nor a separator that only some systems know.
+    // Refuse schemes, drives, and the separator of some systems only.
     if path.is_empty() || path.contains([':', '\\', '\0']) {
         return None;
     }

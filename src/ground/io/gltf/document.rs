@@ -10,21 +10,20 @@ use super::super::quoted;
 use crate::error::{FilePlace, InputError};
 use crate::io::error::{part_error, syntax_error};
 
-/// First bytes of GLB.
 const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
 /// Attributes of vertices that are read.
 const ATTRIBUTES: [&str; 3] = ["POSITION", "NORMAL", "TEXCOORD_0"];
-/// Properties that are ignored wherever they occur, like those whose names end in `Texture`.
+/// Properties that are ignored wherever they occur, as are those whose names end in `Texture`.
 const PASSED_OVER: [&str; 8] =
     ["animations", "camera", "cameras", "extras", "images", "samplers", "targets", "textures"];
 
-/// The document, all its references checked, and the binary chunk of GLB.
+/// The document with all references checked, and the binary chunk of GLB.
 pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option<&'a [u8]>), InputError> {
     let (text, chunk) = if bytes.starts_with(MAGIC) { chunks(bytes, name)? } else { (unmarked(bytes), None) };
     let root = used_parts(text).map_err(|error| {
-        // Read as a whole, the same text gives the error with its line.
+        // Parsing the text directly gives the error with its line.
         let error = json::deserialize::from_slice::<json::Root>(text).err().unwrap_or(error);
         syntax_error(
             FilePlace::line(name, error.line().max(1)),
@@ -40,7 +39,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
     if let Some(least) = root.asset.min_version.as_ref().filter(|least| *least != "2.0" && !least.starts_with("1.")) {
         return Err(wrong("asset.minVersion", "2.0", quoted(least.as_bytes())));
     }
-    // The checks of the crate take these for granted.
+    // The crate's validation assumes these properties.
     for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
         for (primitive, attributes) in primitives.iter().map(|primitive| &primitive.attributes).enumerate() {
             if let Some(index) = attributes.values().find(|index| index.value() >= root.accessors.len()) {
@@ -51,8 +50,8 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
     }
     let mut errors = Vec::new();
     root.validate(&root, json::Path::new, &mut |path, error| errors.push((path().to_string(), error)));
-    // The format allows an accessor without a buffer view, of zeros, and a primitive without positions, which is not
-    // drawn.
+    // The format allows an accessor without a buffer view, whose elements are zeros, and a primitive without positions,
+    // which is not drawn.
     let is_legal = |path: &str| path.ends_with(".bufferView") || path.ends_with("[\"POSITION\"]");
     errors.retain(|(path, error)| *error != Error::Missing || !is_legal(path));
     match errors.first() {
@@ -61,7 +60,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
     }
 }
 
-/// The parts of a document that are read. The crate expects more of the others than the format does.
+/// Parses only the used parts of a document, because the crate refuses other parts that the format allows.
 fn used_parts(text: &[u8]) -> Result<json::Root, json::Error> {
     let mut document: json::Value = json::deserialize::from_slice(text)?;
     keep_used(&mut document);
@@ -115,7 +114,6 @@ fn chunks<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], Option<&'a [u8]
     }
 }
 
-/// Text from the file as a message shows it.
 fn shortened(text: &str) -> String {
     const MOST: usize = 160;
     let more = if text.chars().count() > MOST { "..." } else { "" };

@@ -15,7 +15,7 @@ use crate::io::error::part_error;
 /// Largest number of vertices of a model over all mesh instances.
 const MAX_VERTICES: usize = 1 << 24;
 
-/// Vertices and triangles so far. Missing normals or texture coordinates are zeros.
+/// Vertices and triangles read so far. Missing normals or texture coordinates are zeros.
 #[derive(Default)]
 pub(super) struct Geometry {
     positions: Vec<[f32; 3]>,
@@ -99,7 +99,7 @@ impl Geometry {
         self.triangles.iter().map(of).collect()
     }
 
-    /// The mesh, with normals and texture coordinates if all its primitives have them.
+    /// The mesh, with normals or texture coordinates if all its primitives have them.
     pub(super) fn mesh(self) -> Result<Mesh, InputError> {
         let mut mesh = Mesh::new(self.positions, self.triangles)?;
         if !self.some_without[0] {
@@ -124,8 +124,8 @@ fn triangles(mode: Mode, indices: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_
     (0..count).map(move |i| corners(i).map(|at| indices[at])).filter(move |corners| !leads_on(corners))
 }
 
-/// The matrix for normals: the inverse transpose times the absolute determinant, which exists for flat scales too and
-/// keeps normals outwards under mirroring.
+/// The matrix for normals: the inverse transpose times the absolute determinant, which also exists for scales of 0, and
+/// leaves normals outwards under mirroring.
 fn cofactors(matrix: DMat3) -> DMat3 {
     let DMat3 { x_axis, y_axis, z_axis } = matrix;
     let across = DMat3::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));

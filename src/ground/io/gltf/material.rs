@@ -11,7 +11,7 @@ use crate::scene::Material;
 
 /// Name of the material of primitives without one.
 const DEFAULT: &str = "default";
-/// Reflectance of this material.
+/// Reflectance of the default material.
 const GREY: f32 = 0.5;
 
 /// The materials of a file, by their index.
@@ -21,7 +21,7 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Reads the materials. Their names are those of the file without white space, made unique.
+    /// Reads the materials. Names are the file's without white space, made unique.
     pub(super) fn of(document: &Document, name: &Path) -> Result<Self, InputError> {
         let (mut list, mut names) = (Vec::new(), BTreeSet::from([DEFAULT.to_owned()]));
         for (index, material) in document.materials().enumerate() {
@@ -52,7 +52,7 @@ impl Materials {
     pub(super) fn place(&mut self, material: Option<usize>) -> u32 {
         match material {
             Some(index) => index as u32,
-            // Added on first use, so that a file that needs no default has none.
+            // Added on first use, so that only a file that needs a default material gets one.
             None => *self.grey.get_or_insert_with(|| {
                 self.list.push(Material::diffuse(DEFAULT, [GREY; 3]));
                 self.list.len() as u32 - 1

@@ -1,15 +1,15 @@
 //! glTF 2.0, as JSON (`.gltf`) and as one binary file (`.glb`).
 //!
-//! Read are the meshes of the default scene, each placed by its nodes: triangles, strips and fans, with or without
-//! indices; positions, normals and the first texture coordinates; sparse accessors; of materials the base color and
-//! what they emit. Textures, vertex colors, points, lines, cameras, lights and animations are passed over,
-//! and so are attributes and data of applications. Meshes that
-//! move with a skeleton or are mixed from morph targets are refused, because their triangles are not those of the file.
+//! The reader supports the meshes of the default scene, each placed by its nodes: triangles, strips and fans, with or
+//! without indices; positions, normals and the first texture coordinates; sparse accessors; base color and emission of
+//! materials. It ignores textures, vertex colors, points, lines, cameras, lights, animations, and application-specific
+//! attributes and data. It refuses skinned meshes and morph targets, because their triangles differ from the stored
+//! ones.
 //!
 //! glTF has y up, scenes have z up: (x, y, z) becomes (x, -z, y). Positions are transformed in double precision and
 //! rounded once.
 //!
-//! The crate gltf reads the JSON and checks its references; what buffers hold is read here, within bounds.
+//! The crate gltf reads the JSON and checks its references; this module reads the buffers within bounds.
 
 mod accessor;
 mod buffers;
@@ -32,8 +32,8 @@ use geometry::Geometry;
 use material::Materials;
 
 /// Reads a scene from the bytes of a glTF file; `name` is the file's name in messages, and `beside` reads a file in the
-/// same folder. It has no views and no point lights. Never panics. Fails with [`InputError`], with the part of the
-/// file, counted from 0 as the format does.
+/// same folder. The scene has no views and no point lights. Never panics. Fails with [`InputError`], with the part of
+/// the file, counted from 0 as in the format.
 pub fn parse_gltf(
     bytes: &[u8],
     name: &Path,

@@ -11,13 +11,13 @@ use gltf::{Document, Mesh, Node};
 /// Rotates y up to z up.
 const UPRIGHT: DMat4 = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::NEG_Y, DVec4::W);
 
-/// A mesh with its place in the scene.
+/// A mesh with its transform to the scene.
 pub(super) struct Instance<'a> {
     pub(super) mesh: Mesh<'a>,
     pub(super) to_scene: DMat4,
 }
 
-/// The meshes of the default scene, else of the first, else of all nodes without a parent, in the order of the tree.
+/// The mesh instances of the default scene, else of the first scene, else of all root nodes, in the order of the tree.
 pub(super) fn instances<'a>(document: &'a Document, name: &Path) -> Result<Vec<Instance<'a>>, InputError> {
     let wrong = |node: &Node<'_>, expected: &'static str, found: &str| {
         part_error(name, format!("nodes[{}]", node.index()), expected, found)
@@ -62,7 +62,7 @@ fn local(node: &Node<'_>) -> Option<DMat4> {
         Transform::Decomposed { translation, rotation, scale } => {
             let [scale, translation] = [scale, translation].map(|v| DVec3::from_array(v.map(f64::from)));
             let rotation = DVec4::from_array(rotation.map(f64::from));
-            // Written as singles, it is of length 1 only about.
+            // Stored in single precision, the quaternion is only approximately of length 1.
             let rotation = DQuat::from_vec4(rotation.try_normalize()?);
             DMat4::from_scale_rotation_translation(scale, rotation, translation)
         }

@@ -1,15 +1,15 @@
 //! Wavefront OBJ with materials: a whole scene.
 //!
-//! Geometry is read as by [`super::obj`]; beyond it, `vn` and the normals of corners, `mtllib` and `usemtl` count. A
-//! triangle with a normal at each corner is round, one without is flat. A face without material is grey; so is one with
-//! a material that no library has, which is noted, or refused where models are taken as they are. Libraries lie beside
-//! the model ([`mtl`]).
+//! Geometry is read as by [`super::obj`]; in addition, `vn` and the normals of corners, `mtllib` and `usemtl` are used.
+//! A triangle with a normal at each corner is smooth, others are flat. A face without a material is grey. A face whose
+//! material is in no library is grey with a note, or refused if `strict`. Libraries are in the model's folder
+//! ([`mtl`]).
 //!
-//! Names of materials and libraries run to the end of their line, so that they may have blanks and `#`. If no material
-//! has such a name, a word that begins with `#` begins a comment, in the MTL file too. If no such file can be read, a
-//! `mtllib` line names several, each of which ends in `.mtl`.
+//! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no material
+//! has that name, a word that begins with `#` begins a comment, also in the MTL file. If no such library can be read, a
+//! `mtllib` line lists several names, each of which ends in `.mtl`.
 //!
-//! [`write`] gives text that reads back with the same bits.
+//! [`write`] creates text that reads back with the same bits.
 
 pub mod mtl;
 mod reader;
@@ -39,7 +39,8 @@ pub fn parse_scene(
     read_scene(bytes, name, library, true).map(|(scene, _)| scene)
 }
 
-/// [`parse_scene`]; unless `strict`, unsupported materials are replaced by supported ones, with a note for each change.
+/// Like [`parse_scene`]; unless `strict`, unsupported materials are replaced by supported ones, with a note for each
+/// change.
 pub(super) fn read_scene(
     bytes: &[u8],
     name: &Path,

@@ -1,19 +1,19 @@
 //! Material libraries (MTL).
 //!
-//! Used are `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are ignored. The name of a
-//! material, in UTF-8 or Latin-1, runs to the end of its line. In other lines a word that begins with `#` begins a
-//! comment.
+//! The reader uses `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`, and ignores all others (ambient colours, textures). The name
+//! of a material, in UTF-8 or Latin-1, extends to the end of its line. In other lines a word that begins with `#`
+//! begins a comment.
 //!
 //! | `illum` | surface |
 //! |---|---|
 //! | 0, 1, 2, 10, none | diffuse `Kd`; glossy with `Ks` and `Ns` where `Ks` is not zero |
-//! | 3, 5, 8 | mirror `Ks` (1 where there is none) |
-//! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (else 1 - `d`, else 1) |
+//! | 3, 5, 8 | mirror `Ks` (default 1) |
+//! | 4, 6, 7, 9 | glass of index `Ni` (default 1.5) with transmittance `Tf` (else 1 - `d`, else 1) |
 //!
 //! `Ke` is emission. A reflectance lies in [0, 1], and so does `Kd` + `Ks` of a glossy surface. Transparency (`d` below
-//! 1, `Tr` above 0) needs glass, and gloss needs an `Ns` above 0. Files of modelling tools often violate these rules:
-//! when a scene is read with notes, `Kd` and `Ks` are scaled together, materials other than glass become opaque, and
-//! both are noted.
+//! 1, `Tr` above 0) needs glass, and gloss needs an `Ns` above 0. Files of modelling tools often violate these rules.
+//! When a scene is read with notes, `Kd` and `Ks` are scaled together and materials other than glass become opaque,
+//! each with a note.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -25,11 +25,11 @@ use crate::error::{FilePlace, InputError, input_error};
 use crate::io::error::{material_error, syntax_error};
 use crate::scene::{Color, Material, Surface};
 
-/// Exponent of a glossy material without one.
+/// Exponent of a glossy material without `Ns`.
 const EXPONENT: f32 = 10.0;
 /// The exponent that replaces `Ns 0`.
 const LEAST_EXPONENT: f32 = 1.0;
-/// Index of refraction of glass without one.
+/// Index of refraction of glass without `Ni`.
 const INDEX: f32 = 1.5;
 /// Tolerance of `Kd` + `Ks` above 1, for the rounding of numbers that sum to 1.
 const ROUNDING: f32 = 1e-6;
@@ -40,7 +40,7 @@ pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, InputError>
     read_mtl(bytes, name, None)
 }
 
-/// [`parse_mtl`]; with a list of notes, unsupported materials are changed into supported ones and noted.
+/// Like [`parse_mtl`]; with a list for notes, unsupported materials are changed into supported ones, each with a note.
 pub(super) fn read_mtl(
     bytes: &[u8],
     name: &Path,
@@ -67,7 +67,7 @@ struct MtlReader<'a> {
 struct MaterialText {
     line: usize,
     name: String,
-    /// The numbers of each statement, the last of several that have one key.
+    /// The numbers of each statement by key; the last statement of a key counts.
     values: BTreeMap<Vec<u8>, Vec<f32>>,
 }
 
@@ -133,7 +133,7 @@ impl MtlReader<'_> {
     ) -> Result<(), InputError> {
         self.not_too_large(here)?;
         let channels: Vec<f32> = here.values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
-        // A single number stands for all three channels.
+        // A single number is the value of all three channels.
         let channels = match (here.values.len(), channels[..].len()) {
             (3, 3) => [channels[0], channels[1], channels[2]],
             (1, 1) => [channels[0]; 3],
@@ -181,7 +181,7 @@ fn number(word: &[u8]) -> Option<f32> {
     single(word).ok().filter(|&value| value >= 0.0)
 }
 
-/// A material from its statements.
+/// Creates a material from its statements.
 fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNote>>) -> Result<Material, InputError> {
     let MaterialText { line, name, .. } = read;
     let (line, name) = (*line, name.as_str());
@@ -195,7 +195,7 @@ fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNo
     let sum = largest_reflectance(model, diffuse, specular);
     if sum > 1.0 + ROUNDING && note(&|place, material| ModelNote::Scaled { place, material, sum }) {
         for channel in diffuse.iter_mut().chain(&mut specular).flatten() {
-            // Rounded up, the surface would reflect more than all light.
+            // Rounding up must not give a reflectance above 1.
             *channel = (*channel / sum).min(1.0);
         }
     }
@@ -237,7 +237,7 @@ fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNo
     Ok(Material { name: name.into(), surface, emission })
 }
 
-/// The largest reflectance in any channel of a material with these colors.
+/// The largest reflectance over the channels of a material with these colors.
 fn largest_reflectance(model: u8, diffuse: Option<Color>, specular: Option<Color>) -> f32 {
     let (diffuse, specular) = (diffuse.unwrap_or_default(), specular.unwrap_or_default());
     let of = |channel: usize| match model {

@@ -15,21 +15,20 @@ use crate::geom::vector::{narrow, unit, wide};
 use crate::io::error::{material_error, scene_error};
 use crate::scene::{Material, Scene};
 
-/// Name of the material of faces without one.
+/// Name of the material of faces without a material.
 const DEFAULT: &str = "default";
 /// Reflectance of materials that no library defines.
 const GREY: f32 = 0.5;
 /// Largest difference of a normal's squared length from 1 at which it is not scaled.
 const SLACK: f64 = 1e-4;
 
-/// State of the reader of a scene.
 #[derive(Default)]
 pub(super) struct SceneReader {
     name: PathBuf,
     geometry: ObjReader,
-    /// Per face the index of its material's name in `used`; `None` before the first `usemtl`.
+    /// For each face, the index of its material's name in `used`; `None` before the first `usemtl`.
     material_of: Vec<Option<usize>>,
-    /// Names of libraries, and lines that name several.
+    /// Names of libraries, and lines that list several names.
     libraries: Vec<String>,
     materials: Vec<Material>,
     /// Material names of `usemtl` lines, in order, each with its first line.
@@ -90,7 +89,7 @@ impl SceneReader {
         library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
     ) -> Result<(), InputError> {
         let whole = self.rest_of(line, rest, "the name of a library `mtllib name.mtl`")?;
-        // Exporters repeat the line for every object.
+        // Some exporters repeat the line for every object.
         if self.libraries.contains(&whole) {
             return Ok(());
         }
@@ -122,7 +121,7 @@ impl SceneReader {
         name.ok_or_else(|| self.geometry.syntax(line, expected, b""))
     }
 
-    /// The scene, once all lines have been read, with notes on changes.
+    /// Returns the scene after all lines have been read, with notes on changes.
     pub(super) fn scene(self) -> Result<(Scene, Vec<ModelNote>), InputError> {
         let Self { name, geometry, material_of: faces, mut materials, used, mut notes, .. } = self;
         let (triangles, odd_faces) = geometry.triangles(notes.is_none())?;
@@ -163,7 +162,7 @@ impl SceneReader {
     }
 }
 
-/// The normals of a triangle's corners; if one has none, the triangle is flat.
+/// The normals of a triangle's corners; if a corner has none, the triangle is flat.
 fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
     if corners.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { corners }
 }
@@ -171,7 +170,7 @@ fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
 /// The materials of all libraries by their names.
 struct MaterialNames {
     whole: BTreeMap<String, u32>,
-    /// Names without comments; `None` if several materials share one.
+    /// Names without comments; `None` if several materials share a name.
     plain: BTreeMap<String, Option<u32>>,
 }
 
@@ -179,7 +178,7 @@ impl MaterialNames {
     fn of(materials: &[Material]) -> Self {
         let (mut whole, mut plain) = (BTreeMap::new(), BTreeMap::new());
         for (place, material) in (0..).zip(materials) {
-            // If two libraries have the same material, the first counts.
+            // If two libraries have the same material, the first library counts.
             if let Entry::Vacant(vacant) = whole.entry(material.name.clone()) {
                 vacant.insert(place);
                 let same = plain.entry(without_comment(&material.name).to_owned());
@@ -189,7 +188,7 @@ impl MaterialNames {
         Self { whole, plain }
     }
 
-    /// The material with this name, else the only one with the same name without comments.
+    /// The material with this name, else the only material with this name after removal of comments.
     fn find(&self, name: &str) -> Option<u32> {
         let plain = || self.plain.get(without_comment(name)).copied().flatten();
         self.whole.get(name).copied().or_else(plain)
@@ -200,7 +199,7 @@ fn without_comment(name: &str) -> &str {
     name[..before_comment(name.as_bytes()).len()].trim_end()
 }
 
-/// The names in a line that names several libraries, each up to a word that ends in `.mtl`.
+/// The names in a line of several libraries; each ends with a word that ends in `.mtl`.
 fn several_libraries(line: &str) -> Vec<&str> {
     let (mut files, mut rest, mut end) = (Vec::new(), without_comment(line), 0);
     for word in rest.split_inclusive(|c: char| c.is_ascii_whitespace()) {
@@ -225,8 +224,8 @@ pub(in super::super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, In
         .map_err(|reason| scene_error(name, reason))
 }
 
-/// A normal whose length is close to 1 is kept, bit for bit; others are scaled to length 1. A normal without a
-/// direction is zero.
+/// Scales a normal to length 1. A normal whose length is close to 1 is kept bit for bit; a normal without a direction
+/// becomes zero.
 fn of_length_one(normal: [f32; 3]) -> [f32; 3] {
     if (wide(normal).length_squared() - 1.0).abs() <= SLACK {
         return normal;

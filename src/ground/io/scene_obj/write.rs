@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use crate::scene::{Color, Material, Scene, Surface};
 
 /// Writes the triangles with their normals and the names of their materials; `library` is the file that [`write_mtl`]
-/// fills. Errors: those of the writer; [`io::ErrorKind::InvalidInput`] where names of materials repeat, or cannot end a
-/// line.
+/// fills. Fails with the writer's errors, and with [`io::ErrorKind::InvalidInput`] if names of materials repeat, or
+/// cannot end a line.
 pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Result<()> {
     check_names(scene.materials())?;
     writeln!(out, "mtllib {library}")?;
@@ -43,8 +43,8 @@ pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Res
     Ok(())
 }
 
-/// Writes the materials. A glossy one whose lobe is black reads back as diffuse, which it is. Fails as [`write_scene`]
-/// does.
+/// Writes the materials. A glossy material with a black lobe reads back as diffuse, which is equivalent. Fails as
+/// [`write_scene`] does.
 pub fn write_mtl(materials: &[Material], out: &mut dyn Write) -> io::Result<()> {
     check_names(materials)?;
     for material in materials {
@@ -79,7 +79,7 @@ fn color(out: &mut dyn Write, key: &str, [r, g, b]: Color) -> io::Result<()> {
     writeln!(out, "{key} {r} {g} {b}")
 }
 
-/// Names have to read back unchanged, each once.
+/// Checks that names read back unchanged and are unique.
 fn check_names(materials: &[Material]) -> io::Result<()> {
     let mut seen = std::collections::BTreeSet::new();
     for Material { name, .. } in materials {

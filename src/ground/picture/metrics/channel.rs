@@ -35,7 +35,7 @@ pub struct ChannelDifference {
     pub differing: u64,
     /// Number of NaN samples in each picture.
     pub nan: [u64; 2],
-    /// Number of differing samples with at least one non-finite side.
+    /// Number of differing samples of which at least one is not finite.
     pub not_finite: u64,
     /// Root mean squared difference, over samples that are finite in both.
     pub rmse: f64,
@@ -47,16 +47,16 @@ pub struct ChannelDifference {
     pub worst: Option<WorstSample>,
 }
 
-/// Compares the channels of two pictures, or only those that `names` lists, in the order of the first picture. Where
-/// one side is sRGB-encoded and the other linear, the former is decoded. Fails with [`InputError`] if the pictures have
-/// no samples to compare.
+/// Compares the channels of two pictures, or only those that `names` lists, in the order of the first picture. If one
+/// channel is sRGB-encoded and the other linear, the encoded one is decoded. Fails with [`InputError`] if the pictures
+/// have no samples to compare.
 pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec<ChannelDifference>, InputError> {
     let pairs = pairs(left, right, names)?;
     Ok(pairs.into_iter().map(|pair| difference(pair, left.width())).collect())
 }
 
-/// Computes second minus first, sample by sample: the difference of floats; for integers 1 where they differ, otherwise
-/// 0. Fails with [`InputError`], as [`channels`].
+/// Computes second minus first, sample by sample: the difference of floats; for integers, 1 where they differ and 0
+/// elsewhere. Fails with [`InputError`], as [`channels`].
 pub fn signed_differences(
     left: &Picture,
     right: &Picture,
@@ -145,7 +145,7 @@ fn difference(pair: ChannelPair<'_>, width: u32) -> ChannelDifference {
         found.nan[0] += u64::from(a.is_nan());
         found.nan[1] += u64::from(b.is_nan());
         let error = value_error(b, a);
-        // Values that are equal without being finite are none of those that means are over.
+        // Means exclude infinities and NaN, even if they are equal.
         if error != 0.0 || a.is_finite() {
             sums.add(error, 1.0);
         }

@@ -1,8 +1,7 @@
-//! Errors of values and their sums. One rule for what is not finite, for `diff` and all studies: NaN equals NaN, an
-//! infinity itself, and every other pair with a value that is not finite has an infinite error and is counted.
+//! Errors of values and their sums, with one rule for NaN and infinities in `diff` and all studies: NaN equals NaN, and
+//! an infinity equals itself. Every other pair with a NaN or an infinity has an infinite error and is counted.
 
-/// Error of a value: the value less the right one. 0 if they are equal or both NaN; otherwise infinite unless both are
-/// finite.
+/// Error of a value: `found` - `right`. 0 if the two are equal or both NaN; otherwise infinite unless both are finite.
 pub fn value_error(found: f64, right: f64) -> f64 {
     match found == right || (found.is_nan() && right.is_nan()) {
         true => 0.0,
@@ -11,7 +10,7 @@ pub fn value_error(found: f64, right: f64) -> f64 {
     }
 }
 
-/// Absolute error as a share of the right value; 1 where a finite value is not 0 and the right one is.
+/// Absolute error relative to the right value; 1 if the right value is 0 and the found value is finite and not 0.
 pub fn relative_error(found: f64, right: f64) -> f64 {
     match value_error(found, right).abs() {
         error if error == 0.0 || error.is_infinite() => error,
@@ -45,22 +44,22 @@ impl ErrorSums {
         }
     }
 
-    /// These sums without infinite errors, except for the largest.
+    /// The sums of the finite errors alone; the largest error is kept even if it is infinite.
     pub const fn of_finite(self) -> Self {
         Self { not_finite: 0, ..self }
     }
 
-    /// Mean, with its sign; 0 without errors, infinite if one is.
+    /// Signed mean; 0 without errors, infinite if an error is infinite.
     pub fn mean(&self) -> f64 {
         self.or_infinite(if self.weight > 0.0 { self.sum / self.weight } else { 0.0 })
     }
 
-    /// Sum of squares; infinite if an error is.
+    /// Sum of squares; infinite if an error is infinite.
     pub fn squares(&self) -> f64 {
         self.or_infinite(self.squares)
     }
 
-    /// Root of the mean square; 0 without errors, infinite if one is.
+    /// Root of the mean square; 0 without errors, infinite if an error is infinite.
     pub fn rms(&self) -> f64 {
         self.or_infinite(if self.weight > 0.0 { (self.squares / self.weight).sqrt() } else { 0.0 })
     }

@@ -11,7 +11,7 @@ pub(super) struct PixelPlane {
 
 impl PixelPlane {
     /// Convolves with the weights around each pixel: first along rows, then along columns. The number of weights is
-    /// odd; outside the picture its border is repeated.
+    /// odd; outside the picture, the border pixels are repeated.
     pub(super) fn filtered(&self, along_rows: &[f64], along_columns: &[f64]) -> Self {
         let width = self.width.max(1);
         let last_row = (self.values.len() / width).saturating_sub(1);
@@ -44,7 +44,6 @@ pub(super) fn taps(radius: u32, value: impl Fn(f64) -> f64) -> Vec<f64> {
     (-radius..=radius).map(|at| value(at as f64)).collect()
 }
 
-/// Divides the weights by their sum.
 pub(super) fn normalized(weights: &[f64]) -> Vec<f64> {
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|weight| weight / sum).collect()

@@ -1,9 +1,9 @@
-//! Picture metrics: differences channel by channel, and perceptual ones.
+//! Picture metrics: differences channel by channel, and perceptual metrics.
 //!
-//! [`channels`] compares samples. [`ssim`] and [`flip`] compare both as displayed ([`ScreenPicture`]): SSIM the
-//! structure of the luma (Wang, Bovik, Sheikh and Simoncelli, 2004), FLIP the difference noticed by an observer who
-//! flips between the two pictures (Andersson et al., 2020). All sums have a fixed order: the same pictures give the
-//! same bits.
+//! [`channels`] compares samples. [`ssim`] and [`flip`] compare pictures as displayed ([`ScreenPicture`]): SSIM
+//! compares the structure of the luma (Wang, Bovik, Sheikh and Simoncelli, 2004), FLIP predicts the difference that an
+//! observer notices when flipping between the two pictures (Andersson et al., 2020). All sums have a fixed order: the
+//! same pictures give the same bits.
 
 mod channel;
 mod error_sums;

@@ -6,7 +6,7 @@ use super::screen::ScreenPicture;
 
 /// Side of the window, in pixels.
 pub const WINDOW: usize = 11;
-/// Standard deviation of its Gaussian, in pixels.
+/// Standard deviation of the window's Gaussian, in pixels.
 const DEVIATION: f64 = 1.5;
 /// Squares of the paper's K1 and K2, for values up to 1.
 const C1: f64 = 0.01 * 0.01;

@@ -1,8 +1,8 @@
 //! Stand-ins for models of the papers that are not available: a Buddha, a bird, a head, an armor and a dolphin,
 //! composed of rounded pieces.
 //!
-//! Units are those of models about 2.5 high around the origin, fronts towards -y and a little +x. The Buddha wears a
-//! coat that brings his omega close to the small one in Table 1 of the paper on all-frequency transfer, so our omega is
+//! Models are about 2.5 units high around the origin, with fronts towards -y and a little +x. The Buddha's coat was
+//! designed to bring omega close to its small value in Table 1 of the paper on all-frequency transfer, so our omega is
 //! not evidence. The others were shaped by eye.
 
 use super::isosurface::{Folds, RoundedBody, RoundedPiece};
@@ -29,7 +29,7 @@ fn turned(body: &RoundedBody, vertices: usize) -> ClosedSurface {
 /// A standing Buddha in folds, with both arms above his head, on a pedestal of petals.
 pub(super) fn buddha(vertices: usize) -> ClosedSurface {
     let mut body = RoundedBody::default();
-    // A coat that is open in front, in folds, and the legs in it.
+    // A folded coat that is open in front, and the legs in it.
     body.add(Limb([0.0, 0.06, -0.95], [0.0, 0.04, 0.4], [0.54, 0.36]), 0.0);
     body.fold(Folds { count: 17.0, depth: 0.035, twist: 0.0, heights: [-1.4, 0.6] });
     body.carve(Limb([0.0, -0.16, -1.1], [0.0, -0.12, 0.4], [0.48, 0.3]), 0.03);
@@ -53,7 +53,7 @@ pub(super) fn buddha(vertices: usize) -> ClosedSurface {
     body.add(Limb([0.0, -0.215, 0.92], [0.0, -0.24, 0.84], [0.02, 0.035]), 0.02);
     body.carve_both(Ball([0.08, -0.21, 0.915], [0.05, 0.05, 0.025]), 0.02);
     body.carve(Ball([0.0, -0.235, 0.765], [0.07, 0.05, 0.014]), 0.015);
-    // What he holds up.
+    // Objects in the raised hands.
     body.add_both(Ball([0.38, -0.08, 1.13], [0.08, 0.07, 0.08]), 0.02);
     body.add(Ball([0.0, -0.08, 1.27], [0.42, 0.17, 0.07]), 0.02);
     body.add_both(Ball([0.36, -0.08, 1.31], [0.1, 0.12, 0.09]), 0.03);
@@ -69,7 +69,7 @@ pub(super) fn buddha(vertices: usize) -> ClosedSurface {
     turned(&body, vertices)
 }
 
-/// A bird, smooth as the paper's (section 7, Figure 11), with folded wings, tail, crest, legs and toes.
+/// A smooth bird, as in the paper (section 7, Figure 11), with folded wings, tail, crest, legs and toes.
 pub(super) fn bird(vertices: usize) -> ClosedSurface {
     let mut body = RoundedBody::default();
     body.add(Ball([0.0, 0.1, -0.15], [0.52, 0.66, 0.58]), 0.0);
@@ -83,7 +83,7 @@ pub(super) fn bird(vertices: usize) -> ClosedSurface {
     for (back, height) in [(-0.5, 1.22), (-0.34, 1.25), (-0.16, 1.18)] {
         body.add(Limb([0.0, -0.4, 0.98], [0.0, back, height], [0.07, 0.025]), 0.03);
     }
-    // Wings: a shoulder, and feathers that lie on each other.
+    // Wings: a shoulder, and overlapping feathers.
     body.add_both(Ball([0.46, 0.0, 0.08], [0.13, 0.34, 0.27]), 0.04);
     for (feather, low) in [(0.0, 0.02), (1.0, -0.14), (2.0, -0.3), (3.0, -0.44)] {
         let back = 0.86 - 0.12 * feather;

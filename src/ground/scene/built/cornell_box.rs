@@ -18,7 +18,7 @@ pub(super) fn cornell_box() -> Scene {
     let tall = [[423.0, 247.0], [265.0, 296.0], [314.0, 456.0], [472.0, 406.0]];
     block(&mut parts, short, 165.0, white);
     block(&mut parts, tall, 330.0, white);
-    // A film of 25 mm behind a lens of 35 mm.
+    // Half of a 25 mm film divided by a focal length of 35 mm.
     let view = View::upright("front", [0.278, -0.8, 0.273], [0.278, 0.0, 0.273], 0.357_142_87);
     let lamp = PointLight { position: [0.278, 0.2795, 0.53], intensity: [0.23, 0.165, 0.055] };
     parts.scene(vec![view], vec![lamp])
@@ -48,8 +48,8 @@ fn walls(parts: &mut Parts, white: MaterialId, [left, right]: [MaterialId; 2], l
     wall(parts, inner, light);
 }
 
-/// Adds a block on a quadrilateral of the floor, its corners counter-clockwise as seen from above in our axes, closed
-/// below. 12 triangles.
+/// Adds a block on a quadrilateral of the floor, whose corners run counter-clockwise seen from above. The block has a
+/// lower face. 12 triangles.
 fn block(parts: &mut Parts, base: [[f64; 2]; 4], height: f64, material: MaterialId) {
     let ring = |height: f64| base.map(|[x, depth]| [x, height, depth]);
     let (low, high) = (ring(0.0), ring(height));

@@ -1,4 +1,4 @@
-//! Objects on a desk. Each stands at its placement's origin and faces -y.
+//! Objects on a desk. Each object is at its placement's origin and faces -y.
 
 use super::palette::Palette;
 use super::parts::{MaterialId, Parts, Placement, SceneRng};
@@ -27,7 +27,7 @@ pub(super) fn keyboard(parts: &mut Parts, place: Placement, palette: &Palette) {
         parts.frustum(board, base, 0.002, [palette.keys; 6]);
     };
     let pitch = 0.0205;
-    // Widths in halves of a key, from the space bar's row to the functions' row: 8, 12, 13, 14 and 14 keys.
+    // Widths in half keys, from the space bar's row to the function keys' row: 8, 12, 13, 14 and 14 keys.
     let rows: [&[u8]; 5] = [
         &[3, 2, 3, 12, 3, 2, 2, 3],
         &[4, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 6],
@@ -46,7 +46,7 @@ pub(super) fn keyboard(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
     for pad in 0..17 {
         let (column, row) = (pad % 4, pad / 4);
-        // Four columns of four, and one key above them.
+        // The keypad: four columns of four keys, and one key above the first column.
         key(0.122 + pitch * f64::from(column), -0.062 + 0.025 * f64::from(row), pitch, 0.022);
     }
 }

@@ -1,11 +1,10 @@
-//! Models of parts with the vertex counts of the models with several textures in the paper on bi-scale transfer (its
-//! Table I): a chair and a temple. The original models are not available. The temple has only its outside, since the
-//! paper's has many non-zero values per vertex; our counts, which follow from that, are not evidence.
+//! A chair and a temple with the vertex counts of the models with several textures in the paper on bi-scale transfer
+//! (its Table I). The original models are not available. The temple has no interior, because the paper's has many
+//! non-zero values per vertex; our counts of such values are therefore not evidence.
 //!
 //! Parts are flat or curved faces and tubes; each is a grid of triangles with its own normals. Texture coordinates are
-//! lengths, 1 per unit, along the edges of a face. Where a tube closes, vertices are repeated, which have the same
-//! position, normal and tangent and count once. Units are those of the models: the chair is 1 high, the temple 2.4
-//! wide.
+//! lengths along the edges of a face. Where a tube closes, vertices are repeated; they have the same position, normal
+//! and tangent and are counted once. The chair is 1 unit high, the temple 2.4 units wide.
 
 use std::collections::BTreeSet;
 
@@ -31,15 +30,15 @@ pub enum FlatModel {
 pub struct MaterialMesh {
     /// Mesh, with normals and texture coordinates.
     pub mesh: Mesh,
-    /// Its materials.
+    /// The mesh's materials.
     pub materials: Vec<Material>,
     /// Index of each triangle's material.
     pub material_of: Vec<u32>,
 }
 
 impl FlatModel {
-    /// Builds the model with edges about `coarser` times as long: with 1, as many vertices as the paper's. Values above
-    /// 16 count as 16.
+    /// Builds the model. `coarser` 1 gives the paper's number of vertices; larger values, up to 16, lengthen edges by
+    /// about that factor.
     pub fn model(self, coarser: u32) -> MaterialMesh {
         let coarser = coarser.clamp(1, 16);
         let (vertices, build, materials): (u32, fn(&mut FlatParts), &[Paint]) = match self {
@@ -96,8 +95,8 @@ impl FlatParts {
         corners.flat_map(|(corners, &material)| corners.map(|at| key(at, material))).collect::<BTreeSet<_>>().len()
     }
 
-    /// Builds the parts with the shortest edges that give at most this many vertices (some at the corners of frames
-    /// coincide); edge lengths are tried in steps of a hundredth, from the longest.
+    /// Builds the parts with the shortest edges that give at most this many vertices, repeated ones not counted; edge
+    /// lengths are tried from the longest in steps of one percent.
     fn finest(vertices: usize, build: fn(&mut Self)) -> Self {
         let of = |edge: f64| {
             let mut parts = Self { edge, ..Self::default() };
@@ -114,7 +113,7 @@ impl FlatParts {
         }
     }
 
-    /// Inserts a vertex into the middle of each of the `count` largest triangles, the first of equals.
+    /// Inserts a vertex into the middle of each of the `count` largest triangles; the first of equals are chosen.
     fn divide_largest(&mut self, count: usize) {
         let area = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|corner| DVec3::from(self.positions[corner as usize].map(f64::from)));
@@ -145,7 +144,7 @@ impl FlatParts {
         self.trapezoid(corner, [across, across], along, material);
     }
 
-    /// Like [`Self::face`], with another upper side, as long or shorter, whose middle stands above the lower one's.
+    /// Like [`Self::face`], for a trapezoid whose upper side is at most as long as the lower one and centred above it.
     fn trapezoid(&mut self, corner: DVec3, [lower, upper]: [DVec3; 2], along: DVec3, material: u32) {
         let normal = unit(lower.cross(along)).unwrap_or(DVec3::Z);
         let counts = [self.parts(lower.length(), 1), self.parts(along.length(), 1)];
@@ -156,7 +155,7 @@ impl FlatParts {
         });
     }
 
-    /// Like [`Self::face`], bent out of its plane: `bend` is the distance by the fractions along both sides.
+    /// Like [`Self::face`], bent out of its plane: `bend` maps the fractions along both sides to a distance.
     fn bent(&mut self, corner: DVec3, [across, along]: [DVec3; 2], material: u32, bend: &dyn Fn(f64, f64) -> f64) {
         const STEP: f64 = 1e-3;
         let out = unit(across.cross(along)).unwrap_or(DVec3::Z);
@@ -169,7 +168,7 @@ impl FlatParts {
         });
     }
 
-    /// Adds the side of a round tube, without its ends, with a radius at each.
+    /// Adds the side of a round tube, without its ends, with a radius at each end.
     fn tube(&mut self, from: DVec3, to: DVec3, radii: [f64; 2], material: u32) {
         let axis = unit(to - from).unwrap_or(DVec3::Z);
         let x = unit(least_axis(axis).cross(axis)).unwrap_or(DVec3::X);
@@ -184,12 +183,13 @@ impl FlatParts {
         });
     }
 
-    /// Number of edges along a length, at least so many.
+    /// Number of edges along a length, at least `least`.
     fn parts(&self, length: f64, least: u32) -> u32 {
         ((length / self.edge).round() as u32).max(least)
     }
 
-    /// Adds a grid of triangles: position, normal and texture coordinates by the fractions along its columns and rows.
+    /// Adds a grid of triangles; a function maps the fractions along columns and rows to position, normal and texture
+    /// coordinates.
     fn grid(
         &mut self,
         [columns, rows]: [u32; 2],
@@ -218,8 +218,8 @@ impl FlatParts {
         self.face(at(x1, y1, z0), -x, z, material);
     }
 
-    /// Adds a level frame around the origin between two rectangles, given by half their sides and their heights; it
-    /// looks up if the first is the outer one, else down.
+    /// Adds a level frame around the origin between two rectangles, given by their half sides and heights; it faces up
+    /// if the first rectangle is the outer one, else down.
     fn frame(&mut self, [from, to]: [[f64; 2]; 2], [low, high]: [f64; 2], material: u32) {
         let at = DVec3::new;
         for (turn, [near, side]) in [(0, [1, 0]), (1, [0, 1]), (2, [1, 0]), (3, [0, 1])] {
@@ -249,7 +249,7 @@ impl FlatParts {
 /// Overlap of adjoining parts, so that no two faces share an edge.
 const SUNK: f64 = 0.001;
 
-/// Bend of a cushion by the fractions along its sides: up to `height` in the middle.
+/// Bend of a cushion as a function of the fractions along its sides: up to `height` in the middle.
 fn cushion(height: f64) -> impl Fn(f64, f64) -> f64 {
     move |right, up| 16.0 * height * right * (1.0 - right) * up * (1.0 - up)
 }

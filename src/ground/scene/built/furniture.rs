@@ -1,4 +1,4 @@
-//! Furniture of many small triangles. Each piece stands at its placement's origin and faces -y.
+//! Furniture of many small triangles. Each piece is at its placement's origin and faces -y.
 
 use super::palette::Palette;
 use super::parts::{Parts, Placement, SceneRng};
@@ -30,7 +30,7 @@ pub(super) fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.block(place, cushion[0], cushion[1], palette.black);
     parts.frustum(place, [[-0.23, -0.22, 0.47], [0.23, 0.22, 0.51]], 0.025, [palette.cloth; 6]);
     parts.block(place, [-0.03, -0.29, 0.40], [0.03, -0.26, 0.70], palette.metal);
-    // From its upper edge down: x across, y along the back, z towards the sitter.
+    // The frame of the back begins at its upper edge: x across, y along the back, z towards the sitter.
     let back = place.to(0.0, -0.30, 1.04).turned(0, -0.23);
     parts.block(back, [-0.22, 0.0, -0.03], [0.22, 0.46, 0.0], palette.black);
     parts.frustum(back, [[-0.21, 0.01, 0.0], [0.21, 0.45, 0.035]], 0.03, [palette.cloth; 6]);
@@ -40,8 +40,8 @@ pub(super) fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// Adds a shelf of 1 x 0.3 m, `rows` rows of `books` books each, 0.35 m per row. 36 + 12 (`rows` + 1) + 12 `rows`
-/// `books` triangles.
+/// Adds a shelf of 1 x 0.3 m, with `rows` rows of `books` books each, 0.35 m high per row. 36 + 12 (`rows` + 1) + 12
+/// `rows` `books` triangles.
 pub(super) fn bookshelf(
     parts: &mut Parts,
     place: Placement,
@@ -59,7 +59,7 @@ pub(super) fn bookshelf(
     }
     for row in 0..rows {
         let place = place.to(-0.47, 0.12, 0.35 * f64::from(row) + 0.03);
-        // A gap is left at the end of each row.
+        // The end of each row stays empty.
         let pitch = rng.between(0.82, 0.93) / f64::from(books);
         for book in 0..books {
             let x = f64::from(book) * pitch;
@@ -93,7 +93,7 @@ pub(super) fn plant(parts: &mut Parts, place: Placement, palette: &Palette, rng:
     parts.lathe(place, &pot, 20, palette.clay);
     parts.lathe(place, &[[0.15, 0.26], [0.0, 0.27]], 20, palette.soil);
     for leaf in 0..leaves {
-        // A golden section of a turn from one leaf to the next.
+        // The golden angle from one leaf to the next.
         let around = place.to(0.0, 0.0, 0.24).turned(2, 0.381_966 * f64::from(leaf) + rng.between(-0.02, 0.02));
         let lean = 0.02 + 0.13 * f64::from(leaf) / f64::from(leaves) + rng.between(0.0, 0.02);
         let stem = around.to(0.03, 0.0, 0.0).turned(1, lean);

@@ -11,12 +11,12 @@ use crate::geom::vector::{area_vector, narrow, unit, wide};
 pub const GROUND_SIDE: u32 = 192;
 
 /// Distance of a ground below a model's flat base, relative to the longest side of the model's box: far beyond
-/// rounding, too small to be seen. In the plane of the base, rays would hit either of the two, in stripes.
+/// rounding, too small to be visible. If base and ground were coplanar, rays would hit either one, in stripes.
 const BELOW_A_FLAT_BASE: f64 = 1.0 / 1024.0;
 
-/// Builds a horizontal square of `side` x `side` vertices that faces up, with normals and texture coordinates, given by
-/// its centre and half its width. Panics if there are fewer than two vertices along an edge, or a coordinate is not
-/// finite in single precision.
+/// Builds a horizontal square of `side` x `side` vertices that faces up, around `middle`, with normals and texture
+/// coordinates. Panics if there are fewer than two vertices along an edge, or a coordinate is not finite in single
+/// precision.
 pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
     assert!(side >= 2, "two vertices along an edge, not {side}");
     let along = |at: u32| f64::from(at) / f64::from(side - 1);
@@ -27,9 +27,9 @@ pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
     with_attributes(grid().map(place).collect(), grid_triangles(0, [side - 1; 2]).collect(), normals, texture)
 }
 
-/// Builds a ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along
-/// its longest side of x and y. Where triangles of the model lie in that plane it is lowered by 1/1024 of the longest
-/// side of the model's box. Panics as [`ground`] does.
+/// Builds a ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model's larger
+/// extent in x or y. If triangles of the model lie in that plane, the ground is lowered by 1/1024 of the longest side
+/// of the model's box. Panics as [`ground`] does.
 pub fn ground_of(model: &Mesh, side: u32) -> Mesh {
     let [low, high] = model.bounds().unwrap_or_default().map(wide);
     let gap = if has_flat_base(model, low.z) { BELOW_A_FLAT_BASE * (high - low).max_element() } else { 0.0 };
@@ -49,8 +49,8 @@ fn has_flat_base(model: &Mesh, height: f64) -> bool {
 /// Combines a model and its ground ([`ground_of`]) in one mesh, with a material per triangle: 0 for the model and 1 for
 /// the ground.
 ///
-/// The ground's vertices have normals; the model keeps its own, or receives the means of its triangles. Fails with
-/// [`InputError`] if there are too many triangles.
+/// The ground's vertices have normals; the model keeps its normals, or receives mean normals of its triangles. Fails
+/// with [`InputError`] if there are too many triangles.
 pub fn on_ground(model: &Mesh, side: u32) -> Result<(Mesh, Vec<u32>), InputError> {
     let ground = ground_of(model, side);
     let first = model.positions().len() as u32;

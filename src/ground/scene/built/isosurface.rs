@@ -1,8 +1,8 @@
-//! Bodies composed of rounded pieces that flow into each other, and their surfaces.
+//! Bodies composed of smoothly blended rounded pieces, and their surfaces.
 //!
-//! A body is the set of points where a function is negative. Its surface is found by tetrahedra (six to a cell of a
-//! grid: Doi, Koide 1991), which is closed for any function, coarsened to the number of vertices that is wanted, and
-//! moved onto the zeros of the function.
+//! A body is the set of points where a function is negative. Marching tetrahedra (six per grid cell: Doi, Koide 1991)
+//! give a surface that is closed for any function. The surface is coarsened to the requested number of vertices, and
+//! the vertices are moved onto the zeros of the function.
 
 use std::collections::BTreeMap;
 
@@ -12,15 +12,14 @@ use rayon::prelude::*;
 use super::resample::ClosedSurface;
 use crate::elementary::{atan2, sin_cos};
 
-/// Cells along an edge of the box, at least: they resolve the thinnest pieces, and measure a body's surface.
+/// Minimum number of cells along an edge of the box: they resolve the thinnest pieces, and measure a body's surface.
 const FIRST_CELLS: f64 = 64.0;
-/// Vertices of the grid's surface per vertex of the result: most triangles of tetrahedra are slivers.
+/// Vertices of the grid's surface per vertex of the result, because most triangles from tetrahedra are slivers.
 const SURPLUS: f64 = 2.2;
-/// Steps that move vertices onto the surface, and the step of differences for its gradient.
+/// Number of steps that move vertices onto the surface, and the step of finite differences for the gradient.
 const STEPS: usize = 3;
 const DIFFERENCE: f64 = 1e-4;
 
-/// Rounded piece of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum RoundedPiece {
     /// Ellipsoid: center and radii.
@@ -29,12 +28,12 @@ pub(super) enum RoundedPiece {
     Limb([f64; 3], [f64; 3], [f64; 2]),
     /// Upright cylinder with round edges: center, then radius, half of the height, and the edges' radius.
     Drum([f64; 3], [f64; 3]),
-    /// Level ring: center, then its radius and that of its section.
+    /// Horizontal torus: center, then major and minor radius.
     Ring([f64; 3], [f64; 2]),
 }
 
 impl RoundedPiece {
-    /// Distance from the piece, about: negative inside.
+    /// Approximate signed distance from the piece, negative inside.
     fn distance(self, at: DVec3) -> f64 {
         match self {
             Self::Ball(center, radii) => {
@@ -62,8 +61,8 @@ impl RoundedPiece {
     }
 }
 
-/// Folds around the vertical axis: `count` of them, up to `depth` deep, between two heights, turned by `twist` full
-/// turns of their pattern per unit of height.
+/// Folds around the vertical axis: `count` folds, up to `depth` deep, between two heights. `twist` is the rotation per
+/// unit of height, in periods of the pattern.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Folds {
     pub(super) count: f64,
@@ -81,7 +80,6 @@ impl Folds {
     }
 }
 
-/// Step of a body's construction.
 #[derive(Clone, Copy, Debug)]
 enum BodyStep {
     /// Adds a piece, with the width of its blend into the body.
@@ -94,7 +92,7 @@ enum BodyStep {
 /// Body under construction; later pieces cover earlier folds and carvings.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RoundedBody {
-    /// Steps, and whether they are done to both sides, mirrored at x = 0.
+    /// Steps, with `true` if the step is repeated mirrored at x = 0.
     steps: Vec<(BodyStep, bool)>,
 }
 
@@ -108,12 +106,12 @@ impl RoundedBody {
         self.steps.push((BodyStep::Add(piece, width), true));
     }
 
-    /// Takes a piece away.
+    /// Removes a piece.
     pub(super) fn carve(&mut self, piece: RoundedPiece, width: f64) {
         self.steps.push((BodyStep::Carve(piece, width), false));
     }
 
-    /// Takes a piece at positive x away, and its mirror image.
+    /// Removes a piece at positive x, and its mirror image.
     pub(super) fn carve_both(&mut self, piece: RoundedPiece, width: f64) {
         self.steps.push((BodyStep::Carve(piece, width), true));
     }
@@ -123,7 +121,7 @@ impl RoundedBody {
         self.steps.push((BodyStep::Fold(folds), false));
     }
 
-    /// Distance from the body, about: negative inside.
+    /// Approximate signed distance from the body, negative inside.
     fn distance(&self, at: DVec3) -> f64 {
         let aside = DVec3::new(at.x.abs(), at.y, at.z);
         self.steps.iter().fold(f64::MAX, |before, (step, both)| {
@@ -136,7 +134,7 @@ impl RoundedBody {
         })
     }
 
-    /// The body's surface with `vertices` vertices; the body lies inside a cube of this half edge around the origin.
+    /// The body's surface with `vertices` vertices; the body lies inside a cube of half edge `half` around the origin.
     pub(super) fn surface(&self, half: f64, vertices: usize) -> ClosedSurface {
         let first = 2.0 * half / FIRST_CELLS;
         let found = self.cut(half, first).outermost();
@@ -147,7 +145,7 @@ impl RoundedBody {
         surface
     }
 
-    /// A point moved onto the surface, by at most about a cell.
+    /// Moves a point onto the surface, by at most about a cell.
     fn settled(&self, mut at: DVec3, cell: f64) -> DVec3 {
         for _ in 0..STEPS {
             let value = self.distance(at);
@@ -159,7 +157,7 @@ impl RoundedBody {
         at
     }
 
-    /// The surface in a grid of cubes.
+    /// Extracts the surface from a grid of cubes.
     fn cut(&self, half: f64, cell: f64) -> ClosedSurface {
         let side = (2.0 * half / cell).ceil() as usize + 1;
         let corner = |index: usize| {
@@ -179,13 +177,13 @@ impl RoundedBody {
     }
 }
 
-/// Minimum that is smooth where the two differ by less than a width (Quilez 2013, "Smooth minimum").
+/// Minimum that is smoothed where its arguments differ by less than `width` (Quilez 2013, "Smooth minimum").
 fn smooth_min(one: f64, other: f64, width: f64) -> f64 {
     let near = (width - (one - other).abs()).max(0.0);
     one.min(other) - if width > 0.0 { near * near / (4.0 * width) } else { 0.0 }
 }
 
-/// Paths along the edges of a cube from its first corner to its last: the axes in each order.
+/// Paths along the edges of a cube from its first corner to its last: all orders of the axes, one per tetrahedron.
 const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
 /// Surface of a grid of values under construction.

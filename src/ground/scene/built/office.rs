@@ -2,7 +2,7 @@
 //!
 //! | what | triangles |
 //! |---|---|
-//! | eight workplaces: 2,928 each, of which the keyboard 948, the chair 452, the lamp 348, the mug 318 | 23,424 |
+//! | eight workplaces of 2,928 (keyboard 948, chair 452, lamp 348, mug 318, ...) | 23,424 |
 //! | four shelves of 100 books | 5,232 |
 //! | three plants | 2,280 |
 //! | six lights below the ceiling | 936 |
@@ -81,7 +81,6 @@ fn shell(parts: &mut Parts, palette: &Palette) {
     piece(WINDOWS[1] + wide, sill, w - WINDOWS[1] - wide, head - sill);
 }
 
-/// Number of slats of a blind.
 const SLATS: u32 = 26;
 
 /// Adds the recess, a bright sky behind it, a frame and a half-closed blind. 10 + 72 + 12 `SLATS` triangles.
@@ -185,7 +184,6 @@ fn board(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// Adds a clock that faces its placement's z.
 fn clock(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.cylinder(place, 0.16, [0.002, 0.03], 32, palette.black);
     parts.cylinder(place, 0.145, [0.03, 0.033], 32, palette.paper);

@@ -1,8 +1,8 @@
-//! One floor of an office building, in the manner of Soda Hall: 11,052 triangles, as many as the model of the Ray
-//! Engine (Table 1).
+//! One floor of an office building, in the style of Soda Hall: 11,052 triangles, as many as the model of the Ray Engine
+//! (Table 1).
 //!
-//! Rooms along the outer walls, a corridor all around, rooms in the core. Walls have a thickness, doors are open at all
-//! angles, and there is no ceiling, so that the view from above shows many small, disjoint objects.
+//! A corridor separates the rooms along the outer walls from rooms in the core. Walls have a thickness, doors are open
+//! at various angles, and there is no ceiling, so that the view from above shows many small, disjoint objects.
 //!
 //! | what | triangles |
 //! |---|---|
@@ -94,7 +94,7 @@ fn ground(parts: &mut Parts) {
         let [x, y] = [high[0] - low[0], high[1] - low[1]];
         parts.quad(Placement::ROOM, [[low[0], low[1], 0.0], [x, 0.0, 0.0], [0.0, y, 0.0]], material);
     };
-    // Frames of four pieces, for the rooms and for the corridor.
+    // Rectangular rings of four pieces, for the rooms and for the corridor.
     let around = |parts: &mut Parts, outer: f64, inner: f64, material| {
         floor(parts, [outer, outer], [WIDTH - outer, inner], material);
         floor(parts, [outer, DEPTH - inner], [WIDTH - outer, DEPTH - outer], material);
@@ -117,8 +117,8 @@ fn ground(parts: &mut Parts) {
     floor(parts, [-GROUNDS, DEPTH], [WIDTH + GROUNDS, DEPTH + GROUNDS], lawn);
 }
 
-/// Adds a wall along its placement's x from 0 to `length`, `thick` to +y, with openings from left to right. Each
-/// stretch is a block.
+/// Adds a wall along its placement's x from 0 to `length`, `thick` to +y, with openings from left to right. Each solid
+/// section is a block.
 fn wall(
     parts: &mut Parts,
     place: Placement,
@@ -195,11 +195,12 @@ fn ajar(rng: &mut SceneRng) -> f64 {
 /// Adds the rows of nine rooms along the two long sides.
 fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, rng: &mut SceneRng) {
     for degrees in [0.0, 180.0] {
-        // In the frame of the row's corner of the house; the other row is rotated by half a turn.
+        // Each row is built in the frame of its corner of the house; the second row is the first, rotated by half a
+        // turn.
         let house = if degrees == 0.0 { Placement::ROOM } else { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) };
         let doors: Vec<Opening> =
             (0..9).map(|i| Opening::Door { left: 0.6 + 4.0 * f64::from(i), open: ajar(rng) }).collect();
-        // The doors open into the rooms, hence the wall is laid from its far end.
+        // The wall is built from its far end, so that the doors open into the rooms.
         let base = house.to(WIDTH - OUTER, ROOM, 0.0).facing(180.0);
         wall(parts, base, [WIDTH - 2.0 * OUTER, INNER], &doors, shell, shell.wall);
         for room in 1..9 {
@@ -265,8 +266,8 @@ fn corridor(parts: &mut Parts, palette: &Palette) {
     }
 }
 
-/// Furnishes a room of one or two workplaces, with or without a cupboard; the placement is the middle of its window's
-/// wall, the room lies towards +y.
+/// Furnishes a room of one or two workplaces, with or without a cupboard; the placement is the middle of the window's
+/// wall, and the room extends towards +y.
 fn furnish(parts: &mut Parts, place: Placement, [desks, cupboards]: [u32; 2], palette: &Palette, rng: &mut SceneRng) {
     let left = place.to(-1.35, 1.5 + rng.between(-0.15, 0.15), 0.0).facing(90.0);
     workplace(parts, left, palette, rng);

@@ -23,7 +23,7 @@ impl Placement {
     /// The room's own frame.
     pub(super) const ROOM: Self = Self { origin: DVec3::ZERO, axes: DVec3::AXES };
 
-    /// Creates a frame at a point of the room, not rotated.
+    /// Creates an unrotated frame at a point of the room.
     pub(super) const fn at(x: f64, y: f64, z: f64) -> Self {
         Self { origin: DVec3::new(x, y, z), ..Self::ROOM }
     }
@@ -127,8 +127,7 @@ impl Parts {
         }
     }
 
-    /// Returns the finished scene. Panics if a generator made coordinates that are not finite; the tests build every
-    /// scene.
+    /// Returns the finished scene. Panics if coordinates are not finite; tests build every scene.
     pub(super) fn scene(self, views: Vec<View>, point_lights: Vec<PointLight>) -> Scene {
         let mesh = Mesh::new(self.welder.into_positions(), self.triangles).expect("places are finite");
         let mut scene =
@@ -144,8 +143,8 @@ fn positive_zeros(vector: DVec3) -> [f32; 3] {
     narrow(vector).map(|value| value + 0.0)
 }
 
-/// Triangles of a grid of `columns` x `rows` quads whose vertices are numbered row by row from `first`; of each quad
-/// the two at its diagonal from the first corner.
+/// Triangles of a grid of `columns` x `rows` quads whose vertices are numbered row by row from `first`; each quad is
+/// split along the diagonal from its first corner.
 pub(super) fn grid_triangles(first: u32, [columns, rows]: [u32; 2]) -> impl Iterator<Item = [u32; 3]> {
     let quads = (0..rows).flat_map(move |row| (0..columns).map(move |column| first + row * (columns + 1) + column));
     quads.flat_map(move |a| {
@@ -154,7 +153,7 @@ pub(super) fn grid_triangles(first: u32, [columns, rows]: [u32; 2]) -> impl Iter
     })
 }
 
-/// A mesh with an attribute of each kind per vertex, all finite.
+/// Creates a mesh with one normal and texture coordinate per vertex; all must be finite.
 pub(super) fn with_attributes(
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -181,7 +180,6 @@ impl Default for SceneRng {
 }
 
 impl SceneRng {
-    /// Returns a number in [`low`, `high`).
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.drawn += 1;
         low + (high - low) * self.random.unit(self.drawn, 0, 0)

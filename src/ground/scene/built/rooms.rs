@@ -1,5 +1,5 @@
-//! Closed and closable rooms as test scenes of radiosity: a cube that sees only itself, and a Cornell box of straight
-//! walls. z is up, y points to the back, walls face inwards.
+//! Closed and closable rooms as test scenes of radiosity: a closed cube, and a Cornell box with right angles. z is up,
+//! y points to the back, walls face inwards.
 
 use crate::geom::Mesh;
 use crate::scene::{Color, Material, Scene, Surface, View};
@@ -11,10 +11,9 @@ pub const WALLS: [&str; 6] = ["floor", "ceiling", "left", "right", "front", "bac
 const WHITE: Color = [0.725, 0.71, 0.68];
 const RED: Color = [0.63, 0.065, 0.05];
 const GREEN: Color = [0.14, 0.45, 0.091];
-/// Radiance of its light.
+/// Radiance of the light.
 const LIGHT: Color = [17.0, 12.0, 4.0];
 
-/// Builder of a room from quadrilaterals.
 #[derive(Default)]
 struct RoomBuilder {
     positions: Vec<[f32; 3]>,
@@ -64,15 +63,15 @@ pub fn cube(materials: [Material; 6]) -> Scene {
     room.scene([0.5, 0.01, 0.5], [0.5, 1.0, 0.5], 0.75)
 }
 
-/// Builds a white furnace: the unit cube whose walls reflect `reflectance` and emit 1 minus that. Its radiosity is 1
-/// everywhere.
+/// Builds a white furnace: the unit cube whose walls reflect `reflectance` and emit 1 - `reflectance`. The radiosity is
+/// 1 everywhere.
 pub fn furnace(reflectance: f32) -> Scene {
     let radiance = ((1.0 - f64::from(reflectance)) / std::f64::consts::PI) as f32;
     let surface = Surface::Diffuse { albedo: [reflectance; 3] };
     cube(WALLS.map(|name| Material { name: name.to_owned(), surface, emission: [radiance; 3] }))
 }
 
-/// Parts of a Cornell box.
+/// Options of the Cornell box.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CornellBox {
     /// `true` to include the short and the tall block.
@@ -97,8 +96,8 @@ pub fn cornell(what: CornellBox) -> Scene {
         block(&mut room, [[4.23, 2.47], [2.65, 2.96], [3.14, 4.56], [4.72, 4.06]], 3.3);
     }
     let eye = if what.open { [2.75, -8.0, 2.75] } else { [2.75, 0.05, 2.6] };
-    // From inside wide enough to have the light in the picture, and a little low, so that no pixel looks into a corner
-    // exactly.
+    // The closed room is seen from inside, with a wide angle so that the light is visible. The target is a little low,
+    // so that no pixel looks exactly into a corner.
     let target = [2.75, 2.75, if what.open { 2.75 } else { 2.6 }];
     room.scene(eye, target, if what.open { 0.345 } else { 1.2 })
 }

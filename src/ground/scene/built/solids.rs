@@ -3,8 +3,7 @@
 use super::parts::{MaterialId, Parts, Placement};
 use crate::elementary::on_circle;
 
-/// Cosine of the largest angle between neighbouring stretches of a profile that is smoothed; sharper corners stay
-/// sharp.
+/// Cosine of the largest angle between neighbouring segments of a profile at which the corner is smoothed.
 const CREASE: f64 = 0.6;
 
 /// Materials of a block's faces: towards -x, +x, -y, +y, -z, +z.
@@ -81,9 +80,9 @@ impl Parts {
         self.revolve(place, &profile, normals, sides, material);
     }
 
-    /// Adds a surface of revolution around z. The profile is a line of (radius, height) with the outside to its right:
-    /// upwards on the outside, downwards on the inside of a vessel. Each stretch takes 2 `sides` triangles, or `sides`
-    /// where an end lies on the axis. Gentle corners of the profile are smoothed.
+    /// Adds a surface of revolution around z. The profile is a polyline of (radius, height) with the outside to its
+    /// right: upwards on the outside, downwards on the inside of a vessel. Each segment takes 2 `sides` triangles, or
+    /// `sides` if an end lies on the axis. Corners below an angle limit are smoothed.
     pub(super) fn lathe(&mut self, place: Placement, profile: &[[f64; 2]], sides: u32, material: MaterialId) {
         let stretches: Vec<[f64; 2]> = profile.windows(2).map(|ends| outward(ends[0], ends[1])).collect();
         let smooth = |one: [f64; 2], other: [f64; 2]| {
@@ -94,7 +93,7 @@ impl Parts {
             .map(|at| {
                 let (before, after) = (at.checked_sub(1).map(|i| stretches[i]), stretches.get(at).copied());
                 let (before, after) = (before.or(after).unwrap_or_default(), after.or(before).unwrap_or_default());
-                // On the axis a gentle top is level.
+                // On the axis, a smooth top is horizontal.
                 let level = |n: [f64; 2]| if profile[at][0] == 0.0 && n[1].abs() > CREASE { [0.0, n[1]] } else { n };
                 [level(smooth(before, after)), level(smooth(after, before))]
             })
@@ -102,8 +101,8 @@ impl Parts {
         self.revolve(place, profile, normals, sides, material);
     }
 
-    /// Revolves a profile around z; `normals` are those (radius, height) at each of its points, as the end of one
-    /// stretch and the start of the next.
+    /// Revolves a profile around z; `normals` (radius, height) are given at each of its points twice, for the segments
+    /// that end and begin there.
     fn revolve(
         &mut self,
         place: Placement,
@@ -163,7 +162,7 @@ impl Parts {
     }
 }
 
-/// Unit normal to the right of a line of a profile.
+/// Unit normal on the right side of a profile's segment.
 fn outward(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     let (across, up) = (to[0] - from[0], to[1] - from[1]);
     let length = (across * across + up * up).sqrt();

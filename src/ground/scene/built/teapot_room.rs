@@ -29,7 +29,7 @@ const HEIGHT: f64 = 1.1;
 /// Half a side of the light in the ceiling, in metres.
 const LIGHT: f64 = 0.18;
 
-/// Builds the room. Random numbers shift and rotate blocks and sphere a little.
+/// Builds the room. Random numbers slightly shift and rotate blocks and sphere.
 pub(super) fn teapot_room() -> Scene {
     let mut parts = Parts::default();
     walls(&mut parts);
@@ -59,7 +59,7 @@ fn walls(parts: &mut Parts) {
     ceiling(parts, [[-w, -d], [w, d]], [[-LIGHT, -LIGHT], [LIGHT, LIGHT]], h, white, lamp);
 }
 
-/// Adds a ceiling that faces down, with a square in it. 10 triangles.
+/// Adds a ceiling that faces down, with a square light in it. 10 triangles.
 pub(super) fn ceiling(
     parts: &mut Parts,
     [low, high]: [[f64; 2]; 2],
@@ -100,12 +100,12 @@ fn things(parts: &mut Parts, random: CounterRng) {
     parts.block(Placement::at(0.2, HALF_DEPTH, 0.56), [-0.2, -0.015, 0.0], [0.2, -0.002, 0.32], picture);
 }
 
-/// Adds the teapot with smooth normals: each corner has the mean of its part's triangles there, weighted by area.
+/// Adds the teapot with smooth normals: each corner has the area-weighted mean normal of its part's triangles there.
 fn teapot(parts: &mut Parts, place: Placement, scale: f64, material: MaterialId) {
     let teapot = tessellate(RATE).expect("a rate in range");
     let corners: Vec<[DVec3; 3]> = teapot.mesh.iter_corners().map(|corners| corners.map(wide)).collect();
     let part = |triangle: usize| match part_of_patch(u32::from(teapot.patch_of[triangle])) {
-        // Joined without a crease.
+        // Body and bottom join without a crease.
         TeapotPart::Bottom => TeapotPart::Body,
         other => other,
     };

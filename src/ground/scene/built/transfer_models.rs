@@ -1,9 +1,9 @@
-//! Models with the vertex counts of those in the papers on compressed transfer (Table 1 of each): the Stanford bunny,
-//! and stand-ins for those that are not available, a Buddha, a bird, a head, an armor, and two polygons, one shadowing
-//! the other.
+//! Models with the vertex counts of the models in the papers on compressed transfer (Table 1 of each): the Stanford
+//! bunny, two polygons of which one shadows the other, and stand-ins for unavailable models, a Buddha, a bird, a head
+//! and an armor.
 //!
-//! All have normals and texture coordinates. All but the polygons are closed; where the texture's two ends meet, the
-//! mesh repeats vertices, which have the same position, normal and tangent and count once.
+//! All have normals and texture coordinates. All but the polygons are closed; at the texture's seam the mesh repeats
+//! vertices, which have the same position, normal and tangent and are counted once.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -18,36 +18,36 @@ use crate::elementary::{acos, atan2};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit};
 
-/// Model with the vertex count of a paper's.
+/// Model with the vertex count of a paper's model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TransferModel {
-    /// A bird with the 48,688 vertices of that in the paper on clustered principal components.
+    /// A bird with 48,688 vertices, as in the paper on clustered principal components.
     Bird,
-    /// A Buddha in many folds, with the 49,990 vertices of that paper's.
+    /// A Buddha in many folds with 49,990 vertices, as in that paper.
     FoldedBuddha,
-    /// A head with the 50,060 vertices of that paper's.
+    /// A head with 50,060 vertices, as in that paper.
     Head,
     /// A ground 4 units wide, and above it a blocker 1 unit wide, both facing up (Figure 6).
     Polygons,
-    /// The Stanford bunny with the 11,556 vertices of that in the paper on all-frequency transfer.
+    /// The Stanford bunny with 11,556 vertices, as in the paper on all-frequency transfer.
     Bunny,
-    /// The bird with the 32,768 vertices of that paper's.
+    /// The bird with 32,768 vertices, as in that paper.
     Tweety,
-    /// The Buddha with the 54,100 vertices of that paper's.
+    /// The Buddha with 54,100 vertices, as in that paper.
     Buddha,
-    /// The Stanford bunny with the 3,286 vertices of that in the paper on bi-scale transfer (its Tables I and II).
+    /// The Stanford bunny with 3,286 vertices, as in the paper on bi-scale transfer (its Tables I and II).
     BiScaleBunny,
     /// The Stanford bunny with 12,380 vertices (Table II).
     BiScaleBunnyMiddle,
     /// The Stanford bunny with 47,960 vertices (Table II).
     BiScaleBunnyFine,
-    /// An armor with the 10,652 vertices of that paper's (Table I).
+    /// An armor with 10,652 vertices, as in that paper (Table I).
     BiScaleArmor,
 }
 
 impl TransferModel {
-    /// Builds the mesh with edges about `coarser` times as long: with 1, as many vertices as the paper's. Values above
-    /// 16 count as 16.
+    /// Builds the mesh. `coarser` 1 gives the paper's number of vertices; larger values, up to 16, lengthen edges by
+    /// about that factor.
     pub fn mesh(self, coarser: u32) -> Mesh {
         let coarser = coarser.clamp(1, 16);
         let (build, vertices): (fn(usize) -> ClosedSurface, usize) = match self {
@@ -85,12 +85,12 @@ fn polygons(coarser: u32) -> Mesh {
     with_attributes(positions, triangles, normals, texture)
 }
 
-/// Mesh of a surface around the origin with texture coordinates by direction: longitude, and latitude, whose sign
-/// changes where the surface looks inwards, so that no texture is mirrored.
+/// Mesh of a surface around the origin with texture coordinates by direction: longitude and latitude. The latitude's
+/// sign changes where the surface faces inwards, so that no texture is mirrored.
 fn textured(surface: &ClosedSurface) -> Mesh {
     let toward = |at: DVec3| longitude_and_latitude(unit(at).unwrap_or(DVec3::Z));
     let around: Vec<[f64; 2]> = surface.positions.iter().map(|&at| toward(at)).collect();
-    // Vertices by vertex of the surface and texture coordinate.
+    // Mesh vertices by surface vertex and texture coordinate.
     let mut known = BTreeMap::new();
     let (mut of, mut texture) = (Vec::new(), Vec::new());
     let triangles = surface.triangles.iter().map(|face| {
@@ -114,8 +114,8 @@ fn textured(surface: &ClosedSurface) -> Mesh {
     with_attributes(of(&surface.positions), triangles, of(&surface.normals()), texture)
 }
 
-/// Longitudes of a face's corners, unwrapped to less than half a turn apart; the face around a pole, where that is
-/// impossible, gets its first longitude throughout: its texture has no area.
+/// Longitudes of a face's corners, unwrapped to less than half a turn apart. For the face around a pole this is
+/// impossible; all its corners get its first longitude, so its texture has no area.
 fn unrolled(turns: [f64; 3]) -> [f64; 3] {
     let least = turns.map(|at| if at + 0.5 < turns[0] { at + 1.0 } else { at });
     let behind = least.iter().any(|&at| at > turns[0] + 0.5);

@@ -1,4 +1,4 @@
-//! A closed box of grey emitting walls: 12 triangles. Inside it the radiance is emission / (1 - albedo) everywhere.
+//! A closed box of grey emitting walls: 12 triangles. The radiance inside is emission / (1 - albedo) everywhere.
 
 use super::super::{Material, Scene, View};
 use super::parts::{Parts, Placement};

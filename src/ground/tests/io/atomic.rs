@@ -40,7 +40,7 @@ fn a_link_stays_a_link_and_a_device_a_device() {
     assert_eq!(fs::read(&file).expect("read"), b"new");
     assert_eq!(listing(folder.path()), ["file", "link"]);
 
-    // A link of its own to the null device, so that a failure of the test cannot harm the machine.
+    // The test writes through its own link to the null device, so that a failing test cannot replace the device.
     let null = folder.path().join("null");
     symlink("/dev/null", &null).expect("linked");
     write_file(&null, |out| out.write_all(b"gone")).expect("written");
@@ -126,7 +126,7 @@ fn files_of_others_stay() {
     assert_eq!(fs::read(root.path().join("a")).expect("read"), b"new");
 }
 
-/// While another process holds the folder's lock no files are moved; the lock of an ended process is free.
+/// No files are moved while another process holds the folder's lock; the end of a process releases its lock.
 #[cfg(unix)]
 #[test]
 fn a_set_waits_for_the_lock_of_its_folder() {

@@ -32,7 +32,7 @@ fn what_is_no_matrix_is_refused() {
     assert!(parse("%%MatrixMarket matrix coordinate pattern skew-symmetric\n2 2 1\n2 1\n").is_err());
     let integer =
         |value: &str| parse(&format!("\u{feff}%%MatrixMarket matrix coordinate integer general\n1 1 1\n1 1 {value}"));
-    // 2^53 + 1 is the first integer between two doubles; 2^54 is one.
+    // 2^53 + 1 is the first integer that is not a double; 2^54 is a double.
     let inexact = "t.mtx:3: expected an integer that a 64-bit float holds exactly, found ";
     assert_eq!(integer("9007199254740993").unwrap_err(), format!("{inexact}`9007199254740993`"));
     assert_eq!(integer("1.5").unwrap_err(), format!("{inexact}`1.5`"));

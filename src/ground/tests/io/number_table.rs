@@ -14,7 +14,7 @@ fn a_line_is_a_row() {
 
 #[test]
 fn numbers_are_rounded_once_to_the_precision_asked_for() {
-    // A hair above the middle of two f32: by way of f64 it would become the lower one.
+    // Slightly above the middle of two f32: rounding to f64 first would give the lower one.
     let text = b"1.000000059604644775390626,0.1,1e39\n";
     let wide: NumberTable<f64> = parse_number_table(text, Path::new("s.csv")).expect("a table");
     assert_eq!(wide.values, [1.000_000_059_604_644_8, 0.1, 1e39]);

@@ -53,7 +53,7 @@ fn graded_matrices_are_solved_in_any_order_of_their_grades() {
             let grade = |i: usize| (0..at(i) * power / size).fold(1.0, |grade, _| grade * 0.5);
             matrix(size, |i, j| grade(i) * grade(j) * (((i * 31 + j * 17 + seed) % 23) as f64 - 11.0))
         };
-        // Squares of squares of these vanish; the pairs are checked where they are found.
+        // Fourth powers of these elements underflow; `new` itself checks the eigenpairs.
         assert!(LeadingEigen::new(&graded(600), size).is_ok());
         let m = graded(60);
         let (all, leading) = (SymmetricEigen::new(&m).expect("all"), LeadingEigen::new(&m, size).expect("pairs"));

@@ -62,7 +62,7 @@ fn small_values_keep_their_digits() {
     for (k, value) in leading.values.iter().enumerate() {
         assert_abs_diff_eq!(*value, m.row(k)[k], epsilon = 4.0 * f64::EPSILON * m.row(k)[k]);
     }
-    // The same values behind rotations.
+    // A rotated matrix with the same singular values.
     let turned = matrix([20, 20], |i, j| {
         let h = |a: usize, b: usize| f64::from(u8::from(a == b)) - 2.0 * (a + 1) as f64 * (b + 1) as f64 / 2870.0;
         (0..20).map(|k| h(i, k) * m.row(k)[k] * h(k, j)).sum()
@@ -89,7 +89,7 @@ fn ranks_below_the_size_and_equal_values_are_found() {
     assert_eq!(LeadingSvd::new(&matrix([0, 0], |_, _| 0.0), 2).expect("none").values, [0.0; 0]);
 }
 
-/// Zero rows and columns between others, as maps have beyond their rim.
+/// Zero rows and columns between others, as in maps with texels beyond the rim.
 #[test]
 fn zeros_in_between_change_nothing() {
     let inner = |i: usize, j: usize| 1.0 / (1.0 + i as f64 + 2.0 * j as f64);

@@ -19,7 +19,7 @@ fn a_matrix_without_inverse_is_refused() {
     assert_eq!(error(&nan), told(0));
 }
 
-/// Sizes on both sides of a panel's, a tile's and a piece's.
+/// Sizes just below and above those of a panel, a tile and a parallel task.
 #[test]
 fn panels_change_no_bit_of_elimination_column_by_column() {
     for size in [1_usize, 2, 5, 63, 64, 65, 100, 129, 333] {

@@ -44,14 +44,14 @@ fn green_against_blue_is_the_largest_difference() {
     assert!((found.mean - 1.0).abs() < 1e-9, "{}", found.mean);
 }
 
-/// Plain colors differ by their HyAB distance alone. Red of sRGB in CIELAB is (53.24, 80.09, 67.20) in the literature;
-/// the Hunt effect takes 0.5324 of its chroma.
+/// Uniform colors differ only by their HyAB distance. The literature gives (53.24, 80.09, 67.20) for sRGB red in
+/// CIELAB; the Hunt effect multiplies its chroma by 0.5324.
 #[test]
 fn red_against_black_is_their_distance_in_cielab() {
     let [black, red] = [[0.0; 3], [1.0, 0.0, 0.0]].map(|color| screen(8, 8, |_, _| color));
     let found = flip(&black, &red, DEFAULT_PPD).expect("one size");
     let distance = pow(53.24 + 0.5324 * hypot(80.09, 67.20), 0.7);
-    // The largest distance of the paper, of green and blue.
+    // The paper's largest distance, between green and blue.
     let (largest, knee) = (41.276, 0.4 * 41.276);
     let expected = 0.95 + (distance - knee) / (largest - knee) * 0.05;
     assert!((found.mean - expected).abs() < 2e-5, "{}, expected {expected}", found.mean);

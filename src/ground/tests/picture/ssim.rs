@@ -18,7 +18,7 @@ fn equal_pictures_have_similarity_one_and_the_order_does_not_matter() {
     assert!(ssim(&one, &negative).is_some_and(|similarity| similarity < -0.5), "what is inverted is unlike");
 }
 
-/// Without structure only the term of the means remains.
+/// Without structure, only the term of the means is left.
 #[test]
 fn two_greys_are_as_alike_as_the_formula_says() {
     let (a, b) = (0.25, 0.75);

@@ -10,7 +10,7 @@ fn the_ground_of_the_paper_has_36_864_vertices_and_looks_up() {
     assert!(ground.vertex_normals().iter().all(|normal| *normal == DVec3::Z));
 }
 
-/// No triangle of a box lies in the plane of its ground, which is too near to be seen.
+/// No triangle of a box lies in the plane of its ground, and the gap between them is too small to be visible.
 #[test]
 fn a_flat_base_lies_above_its_ground() {
     let model = built::build("white-box").expect("a scene").mesh().clone();

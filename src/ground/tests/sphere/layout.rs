@@ -1,4 +1,4 @@
-//! Pictures of the whole sphere: every layout's directions written down again, and integrated by a product rule.
+//! Pictures of the whole sphere: an independent version of every layout's directions, integrated by a product rule.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,8 +17,8 @@ fn shapes(layout: EnvironmentLayout) -> Vec<[usize; 2]> {
     }
 }
 
-/// The direction at a place of a picture, in pixels from its upper left corner, and the solid angle per squared pixel
-/// there; `None` where nothing is shown.
+/// The direction at a position of a picture, in pixels from its upper left corner, and the solid angle per squared
+/// pixel there; `None` where nothing is shown.
 fn shown(layout: EnvironmentLayout, [width, height]: [usize; 2], [x, y]: [f64; 2]) -> Option<(DVec3, f64)> {
     let [across, down] = [width, height].map(|side| side as f64);
     match layout {
@@ -40,7 +40,7 @@ fn shown(layout: EnvironmentLayout, [width, height]: [usize; 2], [x, y]: [f64; 2
             let side = across.max(down) / 4.0;
             let tile = [x, y].map(|at| (at / side) as usize);
             let [u, v] = [x, y].map(|at| 2.0 * (at / side).fract() - 1.0);
-            // Right and up of the middle, as one looks along +y.
+            // Right and up axes of the face, for a viewer who looks along +y.
             let point = match (tile, width > height) {
                 ([1, 0], _) => DVec3::new(u, v, 1.0),
                 ([0, 1], _) => DVec3::new(-1.0, u, -v),

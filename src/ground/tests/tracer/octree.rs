@@ -9,13 +9,12 @@ use crossbar_ground::tracer::octree::{Flow, Octree, OctreeParameters};
 use glam::DVec3;
 use proptest::prelude::*;
 
-/// Rays from anywhere within and around the teapot to anywhere, on a grid that includes the planes of cells and both
-/// zeros.
+/// Rays between random points within and around the teapot, on a grid that includes the planes of cells and both zeros.
 fn rays(mesh: &Mesh, count: u64) -> Vec<Ray> {
     let random = CounterRng::new(17);
     let [low, high] = mesh.bounds().expect("bounds").map(wide);
     let widest = (high - low).max_element();
-    // The side of the octree's root, as `Octree::new` has it.
+    // The side of the octree's root, as in `Octree::new`.
     let size = widest * (1.0 + 1e-3) + low.abs().max(high.abs()).max_element() * 1e-6;
     let middle = (low + high) / 2.0;
     let ray = |i: u64| {
@@ -31,7 +30,7 @@ fn rays(mesh: &Mesh, count: u64) -> Vec<Ray> {
     (0..count).filter_map(ray).collect()
 }
 
-/// Hits and all counters are the same: cells and leaves entered, and triangles tested until a hit settles the search.
+/// Hits and all counters are equal: cells and leaves entered, and triangles tested until a hit ends the search.
 #[test]
 fn the_fast_traversal_visits_what_the_plain_one_visits() {
     let mesh = teapot(3).expect("a teapot");
@@ -50,7 +49,7 @@ fn the_fast_traversal_visits_what_the_plain_one_visits() {
     }
 }
 
-/// The part of a polygon on one side of a plane across an axis.
+/// The part of a polygon on one side of a plane perpendicular to an axis.
 fn clipped(polygon: &[DVec3], axis: usize, sign: f64, least: f64) -> Vec<DVec3> {
     let height = |at: DVec3| sign * at[axis] - least;
     let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
@@ -63,7 +62,7 @@ fn clipped(polygon: &[DVec3], axis: usize, sign: f64, least: f64) -> Vec<DVec3> 
 }
 
 fn corner() -> impl Strategy<Value = [f32; 3]> {
-    // Steps of a quarter make points, needles, and triangles in the planes of cells.
+    // Coordinates in quarter steps produce points, needles, and triangles in the planes of cells.
     prop::array::uniform3(prop_oneof![-1.0..1.0_f32, (-4..5_i8).prop_map(|step| f32::from(step) / 4.0)])
 }
 
@@ -79,7 +78,7 @@ proptest! {
         if repeated < 2 {
             corners[1 + repeated] = corners[0];
         }
-        // The second triangle holds the middle at the origin.
+        // The second triangle contains the middle, the origin.
         let frame = [[-2.0; 3], [2.0; 3], [-2.0, 2.0, -2.0]];
         let positions = corners.into_iter().chain(frame).collect();
         let mesh = Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5]]).expect("a mesh");

@@ -1,8 +1,8 @@
-//! A bucket of rays against cells (section 5.3, after Arvo and Kirk 1987): the beam that holds all of its rays.
+//! Beams: volumes that contain all rays of a bucket, tested against cells (section 5.3, after Arvo and Kirk 1987).
 //!
-//! The rays of a bucket look through one face of the unit cube, so that along its axis all of them go one way, and
-//! their slopes across it are bounded. Each bound is a plane with all rays on one side: `p_u - most * p_k` never
-//! exceeds the largest value that it has at an origin. No ray meets a cell on the other side of one of them.
+//! All rays of a bucket pass through one face of the unit cube, so along the face's axis k they share a sign, and their
+//! slopes along the other axes u are bounded. Each bound is a plane with all rays on one side: `p_u - most * p_k` along
+//! a ray never exceeds its largest value at an origin. No ray meets a cell on the other side of such a plane.
 
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ struct Plane {
     most: f64,
 }
 
-/// Volume that holds all rays of a bucket.
+/// Volume that contains all rays of a bucket.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
     planes: Vec<Plane>,

@@ -10,7 +10,7 @@ use crate::geom::vector::wide;
 /// Growth of a cell for its list of triangles, relative to the side of the root and to the magnitudes of coordinates: a
 /// few units in the last place of fp32.
 const MARGIN: f64 = 5e-7;
-/// Relative growth of the root over the mesh, so that nothing lies on its outer planes.
+/// Relative growth of the root over the mesh's bounds, so that no triangle lies on the root's outer planes.
 const ROOT_MARGIN: f64 = 1e-3;
 /// Maximum number of consecutive useless levels: splits that leave a child with all of its parent's triangles.
 const MAX_USELESS_LEVELS: u32 = 3;
@@ -29,7 +29,7 @@ impl Octree {
         let [low, high] = mesh.bounds().unwrap_or_default().map(wide);
         let widest = (high - low).max_element();
         let magnitude = low.abs().max(high.abs()).max_element();
-        // A root of no size cannot be cut: a mesh in one point gets some room.
+        // A root of size 0 cannot be split, so a mesh that is a single point gets a larger one.
         let size =
             (widest * (1.0 + ROOT_MARGIN) + magnitude * ROOT_MARGIN * ROOT_MARGIN).max(f64::from(f32::MIN_POSITIVE));
         let corner = (low + high) / 2.0 - size / 2.0;
@@ -49,7 +49,7 @@ impl OctreeBuilder {
     /// Makes `node` a leaf of these triangles, or splits it. `useless` counts the useless levels above.
     fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, useless: u32) {
         let deepest = self.parameters.most_depth.min(MAX_DEPTH);
-        // Cells as small as the margin separate triangles no better than their parents.
+        // Cells about as small as the margin do not separate triangles better than their parents.
         let small = half < 4.0 * self.margin;
         if inside.len() <= self.parameters.most_triangles || depth >= deepest || useless >= MAX_USELESS_LEVELS || small
         {

@@ -20,8 +20,8 @@ impl CellId {
     }
 }
 
-/// Cells whose triangles go to the card together, found in a pass over the finished octree: the largest ones whose
-/// number of distinct triangles lies in a range (`T` of Table 4). GPU cells are never nested.
+/// Cells whose triangles go to the card together: the largest cells of the finished octree whose number of distinct
+/// triangles lies in a range (`T` of Table 4). GPU cells are never nested.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GpuCells {
     /// Range of each node's triangles in the list; empty for a node that is not a GPU cell.

@@ -1,12 +1,13 @@
 //! Compact form of the octree for rays that the host traces alone: the same cells in the same order as `traverse.rs`,
 //! found with less work.
 //!
-//! - A word per child, the eight of a cell together: whether a child is cut, empty or a leaf is known before it is
-//!   touched.
-//! - Cells behind the origin are not stepped through: the first child is the one that holds the ray at t = max(entry,
-//!   0). A child's half is the upper one if its middle plane lies before that, which is where stepping from the entry
-//!   would arrive.
-//! - No recursion: a cell with children left to visit waits on a stack; one whose last child is entered does not.
+//! - Each child is a word, and a cell's eight words are adjacent: whether a child is split, empty or a leaf is known
+//!   before its data are read.
+//! - Cells behind the origin are skipped: the first child is the one that contains the ray at t = max(entry, 0). Along
+//!   each axis this child is in the upper half if the middle plane lies before that t, as stepping from the entry would
+//!   find.
+//! - A stack replaces recursion: it holds cells that have children left to visit; a cell whose last child is entered is
+//!   not pushed.
 //!
 //! Parameters come from the reference's own functions, so both enter the same cells at the same parameters, to the bit.
 
@@ -18,8 +19,8 @@ use crate::geom::Ray;
 
 /// Word of a leaf without triangles.
 const EMPTY: u32 = u32::MAX;
-/// Bit of a leaf's word; the other bits are the owner's number of the leaf. Words without it are the index of a split
-/// cell's children.
+/// Bit of a leaf's word; the other bits are the leaf's number as given by the owner. A word without this bit is the
+/// index of a split cell's children.
 const LEAF: u32 = 1 << 31;
 
 /// Words of an octree's cells.
@@ -47,12 +48,12 @@ struct WaitingCell {
     level: u32,
 }
 
-/// Traversal stack. Its initial contents do not matter: one serves many rays.
+/// Traversal stack. Its initial contents do not matter, so one stack serves many rays.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Waiting([WaitingCell; MAX_DEPTH as usize + 1]);
 
-/// Parameters as the bits of f64. The order of non-negative numbers is kept, and negative numbers come before them:
-/// comparisons and selections then run on the integer units, in one clock.
+/// Parameters as the bits of f64: this keeps the order of non-negative numbers, and negative numbers come before them.
+/// Comparisons and selections then run on the integer units, in one clock.
 type Keys = [i64; 3];
 
 impl Compact {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Returns `true` if the triangle, its corners given relative to the center of the box, touches the closed box of these
 /// half sides. Rounding can make it accept a triangle that misses by less than 1e-14 of the corners' magnitude, and
-/// reject one that overlaps by less: callers grow the box.
+/// reject a triangle that overlaps by less, so callers grow the box.
 pub(super) fn touches(corners: &[DVec3; 3], half: DVec3) -> bool {
     let [a, b, c] = *corners;
     for axis in 0..3 {
@@ -33,8 +33,8 @@ fn separates(direction: DVec3, corners: &[DVec3; 3], half: DVec3) -> bool {
     apart(a.dot(direction), b.dot(direction), c.dot(direction), half.dot(direction.abs()))
 }
 
-/// Like [`separates`], for the cross product of an edge and an axis: one of its components is 0, the others are the
-/// edge's.
+/// Like [`separates`], for the cross product of an edge and an axis; one component of the product is 0, the others are
+/// components of the edge.
 #[inline]
 fn separates_across(axis: usize, edge: DVec3, corners: &[DVec3; 3], half: DVec3) -> bool {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

@@ -8,12 +8,12 @@ use super::cells::{CellId, GpuCells};
 use super::{Octree, OctreeNode};
 use crate::geom::Ray;
 
-/// Substitute for a zero component of a direction: a plane one scene away is met at a parameter that f64 can represent,
-/// and the middle between two such parameters still shows which half of a cell the ray is in.
+/// Substitute for a zero component of a direction: f64 can represent the parameter of a plane at the scene's size, and
+/// the mean of two such parameters still shows which half of a cell the ray is in.
 const TINY_COMPONENT: f64 = 1e-200;
 
-/// Maximum distance of a ray's origin, in margins: the parameter of a plane is a difference and a quotient, each
-/// rounded to 53 bits, and those of inner planes are differences of such, one more per level.
+/// Maximum distance of a ray's origin, in margins. The parameter of a plane is a difference and a quotient, each
+/// rounded to 53 bits; each level adds a difference of such parameters.
 const MAX_DISTANCE: f64 = (1u64 << 48) as f64;
 
 /// Traversal control after a cell.
@@ -63,7 +63,7 @@ pub(super) type Planes = [[f64; 3]; 2];
 struct Walk<'a, F> {
     octree: &'a Octree,
     gpu: Option<&'a GpuCells>,
-    /// Cells left by this parameter are skipped.
+    /// Cells that the ray leaves up to this parameter are skipped.
     from: f64,
     /// Bits of child numbers flipped by mirroring.
     mirror: u32,
@@ -101,7 +101,7 @@ impl Octree {
         let span = [0, 1, 2].map(|i| high[i] - low[i]);
         let mut walk = Walk { octree: self, gpu, from, mirror, span, counts: TraversalCounts::default(), visit };
         if latest(low) <= earliest(high) {
-            // Stopping and running out of cells need no distinction here.
+            // The two ends of a traversal, a stop and no more cells, need no distinction here.
             let _: ControlFlow<()> = walk.enter(0, 0, [low, high]);
         }
         walk.counts
@@ -113,8 +113,8 @@ impl Octree {
         is_too_far(self.corner, self.margin, ray)
     }
 
-    /// Visits all leaves, for a ray whose crossings cannot be computed. No hit rules out the other leaves, so each has
-    /// t of minus infinity. GPU cells are not visited: a ray could not continue behind one.
+    /// Visits all leaves, for a ray whose crossings cannot be computed. No hit excludes the other leaves, so each has t
+    /// of minus infinity. GPU cells are not visited, because a ray could not continue behind one.
     fn all_leaves<'a>(&'a self, mut visit: impl FnMut(&Visit<'a>) -> Flow) -> TraversalCounts {
         let mut counts = TraversalCounts::default();
         for node in 0..self.nodes.len() as u32 {
@@ -150,7 +150,7 @@ pub(super) fn root_planes(corner: DVec3, size: f64, ray: &Ray) -> (Planes, u32) 
             (origin, speed) = (near + far - origin, -speed);
             mirror |= 4 >> axis;
         }
-        // +0 or -0.
+        // Includes -0.
         if speed == 0.0 {
             speed = TINY_COMPONENT;
         }
@@ -218,11 +218,11 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
     }
 }
 
-/// Parameters of the middle planes of a cell with `level` splits above it: half of the cell's fraction of the root's
-/// span before its upper planes. The fraction is a power of two, so that only the difference is rounded.
+/// Parameters of the middle planes of a cell with `level` splits above it: the upper planes' parameters minus half of
+/// the cell's fraction of the root's span. The fraction is a power of two, so only the difference is rounded.
 #[inline(always)]
 pub(super) fn middle(high: [f64; 3], span: [f64; 3], level: u32) -> [f64; 3] {
-    // 2^-(level + 1), made of its exponent bits.
+    // 2^-(level + 1), built from its exponent bits.
     let half = f64::from_bits(u64::from(1022 - level) << 52);
     [high[0] - half * span[0], high[1] - half * span[1], high[2] - half * span[2]]
 }

@@ -1,5 +1,5 @@
-//! The common input of the baselines; exit radiance towards a fixed view as a diffuse signal: a row of numbers per vertex,
-//! one for each light texel.
+//! The common input of the baselines, and the fixed-view baseline: exit radiance towards a fixed view as a diffuse
+//! signal, a row per vertex with a number per light texel.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -40,13 +40,13 @@ impl BaselineSubject<'_> {
     }
 }
 
-/// \[NRH03\]: "glossy objects seen from a fixed view". Rows are those of equation 10 with f(v, s) in place of F(s).
+/// \[NRH03\]: "glossy objects seen from a fixed view". Rows follow equation 10 with f(v, s) in place of F(s).
 #[derive(Clone, Copy, Debug)]
 pub struct FixedView<'a>(pub BaselineSubject<'a>);
 
 impl FixedView<'_> {
-    /// The row of a map's vertex: the contribution of each light texel of radiance 1 to its radiance towards a local
-    /// view. Panics if there is no such map.
+    /// The row of a map's vertex: for each light texel, the radiance towards a local view under radiance 1 of that
+    /// texel. Panics if there is no such map.
     pub fn row(&self, map: usize, view: DVec3) -> Vec<f64> {
         let BaselineSubject { vertices, maps, hats, product } = self.0;
         let response = |light: DVec3, into: &mut [f64]| into[0] = product.value(view, light);
@@ -60,10 +60,10 @@ impl FixedView<'_> {
         row
     }
 
-    /// Radiance of each map's vertex towards an eye under each of some lights, which are radiances of the cube's
-    /// texels: truncated ones as they are put together from the coefficients that are kept
-    /// ([`HaarLight::radiances`](crate::transfer::light::HaarLight::radiances)). 0 from below. Panics if a light does
-    /// not have 6,144 texels.
+    /// Radiance of each map's vertex towards an eye under each of some lights. A light is given by the radiances of the
+    /// cube's texels; a truncated light is reconstructed first
+    /// ([`HaarLight::radiances`](crate::transfer::light::HaarLight::radiances)). The radiance is 0 if the eye is below
+    /// the horizon. Panics if a light does not have 6,144 texels.
     pub fn radiance(&self, eye: DVec3, lights: &[&[[f64; 3]]]) -> Vec<Vec<[f64; 3]>> {
         assert!(lights.iter().all(|light| light.len() == LIGHT_TEXELS), "lights of {LIGHT_TEXELS} texels");
         let of_map = |map: usize| {

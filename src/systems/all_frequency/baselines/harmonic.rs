@@ -1,4 +1,4 @@
-//! Transfer in spherical harmonics, of an order on both sides.
+//! Transfer in spherical harmonics of one order on both sides.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,24 +8,25 @@ use crate::sphere::{DirectionRule, function_count, harmonics};
 use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections, LIGHT_TEXELS};
 use crate::transfer::linear_basis::BasisWeights;
 
-/// The degree of the rule that reflectance is projected by: exact for polynomials, a degree or two per direction else.
+/// Degree of the quadrature rule by which reflectance is projected.
 const DEGREE: usize = 44;
 
-/// \[SKS02\]: light of n x n harmonics, and matrices that map it to n x n harmonics of incident radiance. The exit
-/// radiance is computed as in \[KSS02\], by the coefficients of reflectance times cosine for the exact direction of the
-/// eye, so that the order of the harmonics is the only approximation.
+/// \[SKS02\]: matrices map light of n x n harmonics to n x n harmonics of incident radiance. The exit radiance is
+/// computed as in \[KSS02\], from the coefficients of reflectance times cosine for the exact direction of the eye, so
+/// the truncation to n x n harmonics is the only approximation.
 ///
-/// Everything is in the global frame: rotating both sides of a sum over whole bands changes nothing.
+/// All harmonics are in the global frame, because rotating both sides of a sum over whole bands does not change it.
 #[derive(Debug)]
 pub struct HarmonicTransfer<'a> {
     subject: BaselineSubject<'a>,
     order: usize,
-    /// Per fine direction the functions.
+    /// Values of the harmonics at each fine direction.
     functions: Vec<f64>,
 }
 
 impl<'a> HarmonicTransfer<'a> {
-    /// Baseline of an order; 5 in the paper. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
+    /// Creates the baseline of an order; the paper uses 5. Panics if the order is not 1 to
+    /// [`crate::sphere::MAX_ORDER`].
     pub fn new(subject: BaselineSubject<'a>, order: usize) -> Self {
         let count = function_count(order);
         let mut functions = vec![0.0; FINE_DIRECTIONS * count];
@@ -39,7 +40,7 @@ impl<'a> HarmonicTransfer<'a> {
         &self.functions[fine * count..(fine + 1) * count]
     }
 
-    /// The light's coefficients: of its texels' radiances, interpolated by their hat functions. Panics if the light
+    /// Projects a light to coefficients; its texels' radiances are interpolated by hat functions. Panics if the light
     /// does not have 6,144 texels.
     pub fn light(&self, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
         assert_eq!(texels.len(), LIGHT_TEXELS, "texels of a light");
@@ -56,8 +57,8 @@ impl<'a> HarmonicTransfer<'a> {
         coefficients
     }
 
-    /// Radiance of each map's vertex towards an eye under a light of coefficients. 0 from below. Panics if there is not
-    /// a coefficient per function.
+    /// Radiance of each map's vertex towards an eye under a light given by coefficients; 0 if the eye is below the
+    /// horizon. Panics if there is not a coefficient per function.
     pub fn radiance(&self, eye: DVec3, light: &[[f64; 3]]) -> Vec<[f64; 3]> {
         assert_eq!(light.len(), function_count(self.order), "a coefficient per function");
         let incident = |fine: usize| {
@@ -81,7 +82,7 @@ impl<'a> HarmonicTransfer<'a> {
         (0..self.subject.maps.len()).into_par_iter().map(of_map).collect()
     }
 
-    /// The matrix of a map's vertex times the light: coefficients of the unoccluded incident radiance.
+    /// Coefficients of the radiance that reaches a map's vertex: its transfer matrix times the light.
     fn arriving(&self, map: usize, incident: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut coefficients = vec![[0.0; 3]; function_count(self.order)];
         for (block, &word) in self.subject.maps.bits(map).iter().enumerate() {

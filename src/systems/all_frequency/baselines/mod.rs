@@ -1,10 +1,10 @@
-//! The methods that Figure 1 of the paper compares with, on the same visibility and the same reflectance:
+//! The methods to which Figure 1 compares the paper's method, with its visibility and reflectance:
 //!
-//! - [`FixedView`]: \[NRH03\], transfer of one row per vertex for a view that is fixed, and a light of few wavelets;
-//! - [`HarmonicTransfer`]: \[SKS02, KSS02\], matrices of spherical harmonics, and a light of as few.
+//! - [`FixedView`]: \[NRH03\], transfer with one row per vertex for a fixed view, and a light of few wavelets;
+//! - [`HarmonicTransfer`]: \[SKS02, KSS02\], matrices of spherical harmonics, and a light of equally few.
 //!
-//! Both are in f64 and without compression of transfer. With all coefficients of the light [`FixedView`] is also the
-//! picture that no factor and no code has touched.
+//! Both compute in f64 without compression of transfer. With all coefficients of the light, [`FixedView`] also gives
+//! the reference picture without factorisation and coding.
 
 mod fixed_view;
 mod harmonic;

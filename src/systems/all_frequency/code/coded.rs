@@ -9,12 +9,12 @@ use crate::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
 use crate::clustering::Clustering;
 use crate::error::InputError;
 
-/// The transfer of one lighting segment, coded.
+/// The coded transfer of one lighting segment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CodedSegment {
     /// The segment's index, from 0.
     pub segment: usize,
-    /// The vertices at which the segment's transfer is not 0, increasing.
+    /// The vertices at which the segment's transfer is not 0, in increasing order.
     pub vertices: Vec<u32>,
     /// The cluster of each of these vertices.
     pub cluster_of: Vec<u16>,
@@ -22,11 +22,11 @@ pub struct CodedSegment {
     pub counts: Vec<u8>,
     /// The representatives, one row each.
     pub representatives: SparseRows,
-    /// Per representative the quantisation step of its numbers.
+    /// Quantisation step of each representative's numbers.
     pub representative_steps: Vec<f32>,
-    /// Vertex by vertex the weights of its cluster's representatives.
+    /// For each vertex, the weights of its cluster's representatives.
     pub weights: Vec<i16>,
-    /// Per representative the quantisation step of its weights.
+    /// Quantisation step of each representative's weights.
     pub weight_steps: Vec<f32>,
 }
 
@@ -41,7 +41,7 @@ pub struct CodedTransfer {
     pub vertices: usize,
     /// Options of the quantisation.
     pub options: CodeOptions,
-    /// The segments that are not 0 at all vertices, in increasing order.
+    /// The segments with transfer at some vertex, in increasing order.
     pub segments: Vec<CodedSegment>,
 }
 
@@ -56,7 +56,7 @@ pub struct CodeSize {
     pub weights: u64,
     /// Quantisation steps.
     pub steps: u64,
-    /// The set of vertices of each segment, one bit each, and their clusters, 2 bytes each.
+    /// The set of vertices of each segment, one bit per vertex, and the cluster of each vertex in it, 2 bytes.
     pub clusters: u64,
 }
 
@@ -66,7 +66,7 @@ impl CodeSize {
         self.as_the_paper_counts() + self.columns + self.steps + self.clusters
     }
 
-    /// Representatives and weights alone, which match the paper's columns (docs/papers/all_frequency.md).
+    /// Bytes of representatives and weights alone, as in the paper's columns (docs/papers/all_frequency.md).
     pub fn as_the_paper_counts(&self) -> u64 {
         self.representatives + self.weights
     }
@@ -82,7 +82,7 @@ impl CodedTransfer {
         Ok(Self { rows, coefficients, vertices: transfer.vertices, options, segments })
     }
 
-    /// The first part that contradicts the others; `None` if all are consistent.
+    /// The first part that is inconsistent with the others, if there is one.
     pub fn fault(&self) -> Option<&'static str> {
         if self.options.check().is_err() {
             return Some("bits");
@@ -93,7 +93,6 @@ impl CodedTransfer {
         self.segments.iter().find_map(|part| part.fault(self))
     }
 
-    /// Its size.
     pub fn size(&self) -> CodeSize {
         let mut size = CodeSize::default();
         let bytes = |count: usize, bits: u64| (count as u64 * bits).div_ceil(8);
@@ -116,7 +115,7 @@ impl CodedTransfer {
         self.segments.iter().map(|part| part.counts.len()).sum()
     }
 
-    /// Number of non-zero numbers of the representatives, and of all.
+    /// Number of non-zero numbers of the representatives, and number of all their numbers.
     pub fn nonzeros(&self) -> (usize, usize) {
         let count = |part: &CodedSegment| {
             let rows = &part.representatives;
@@ -133,9 +132,9 @@ impl CodedSegment {
         Ok(Self::new(part, options))
     }
 
-    /// Quantises a compressed segment in an absolute step, the same for all representatives. Each is multiplied by the
-    /// root mean square of its weights beforehand, so that its weights are about 1; numbers beyond 16 bits of the step
-    /// are cut off. Weights are coded by the options. Panics as [`CodedTransfer::new`] does.
+    /// Quantises a compressed segment with one absolute step for all representatives. Each representative is first
+    /// multiplied by the root mean square of its weights, so that its weights are about 1; numbers beyond 16 bits are
+    /// clamped. Weights are coded by the options. Panics as [`CodedTransfer::new`] does.
     pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let sizes = mean_weights(&part.clustering, &firsts(&counts(&part.clustering)));
@@ -148,7 +147,7 @@ impl CodedSegment {
         Self::with_steps(part, options, steps(&largest, options.representative_bits, options.scale))
     }
 
-    /// Quantises representatives in these steps, and weights by the options.
+    /// Quantises representatives with these steps, and weights by the options.
     fn with_steps(part: &CompressedSegment, options: CodeOptions, representative_steps: Vec<f32>) -> Self {
         let clustering = &part.clustering;
         assert!(clustering.subspaces().len() <= 1 << 16, "clusters that 16 bits can number");
@@ -211,7 +210,6 @@ fn vectors(clustering: &Clustering) -> impl Iterator<Item = &[f64]> {
     clustering.subspaces().iter().flat_map(|cluster| cluster.vectors())
 }
 
-/// Number of representatives of each cluster.
 fn counts(clustering: &Clustering) -> Vec<u8> {
     let counts = clustering.subspaces().iter().map(|cluster| u8::try_from(cluster.len()));
     counts.collect::<Result<_, _>>().expect("at most 255 vectors")
@@ -230,7 +228,6 @@ fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     values.fold(0.0, |largest, value| largest.max(value.abs()))
 }
 
-/// The largest magnitude of a weight on each representative.
 fn largest_weights(clustering: &Clustering, firsts: &[usize], rows: usize) -> Vec<f64> {
     let mut most = vec![0.0_f64; rows];
     for (point, &cluster) in clustering.of_point().iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Decoding of a coded segment, and coding in fewer bits, which a precision study compares.
+//! Decoding of a coded segment, and coding again in fewer bits for a precision study.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -21,8 +21,8 @@ impl CodedSegment {
         next.collect()
     }
 
-    /// Decodes the transfer of all vertices: `into` is called with the index of each vertex within the segment and its
-    /// numbers, from several threads.
+    /// Decodes the transfer of all vertices; several threads call `into` with the index of each vertex within the
+    /// segment and its numbers.
     pub fn decode(&self, into: impl Fn(usize, &[f64]) + Sync) {
         let (codes, columns) = (self.representatives.decode(), self.representatives.columns());
         let (firsts, begins) = (self.firsts(), self.weight_begins());
@@ -43,7 +43,7 @@ impl CodedSegment {
         );
     }
 
-    /// Vertex by vertex the decoded weights of its cluster's representatives.
+    /// Iterates over vertices: the decoded weights of the vertex's cluster's representatives.
     pub fn decoded_weights(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         let (firsts, begins) = (self.firsts(), self.weight_begins());
         self.cluster_of.iter().zip(begins).map(move |(&cluster, begin)| {
@@ -82,7 +82,7 @@ impl CodedSegment {
 }
 
 impl CodedTransfer {
-    /// The decoded numbers, coded again. A number that is rounded twice has an error of up to half a step of each code.
+    /// Codes the decoded numbers again. A number's error is then up to half a step of each code.
     pub fn recoded(&self, options: CodeOptions) -> Result<Self, InputError> {
         options.check()?;
         let segments = self.segments.iter().map(|part| part.recoded(options)).collect();
@@ -122,7 +122,6 @@ impl CodedSegment {
         }
     }
 
-    /// Weight by weight the representative that it weighs.
     pub(in crate::all_frequency) fn representative_of_weight(&self) -> Vec<usize> {
         let firsts = self.firsts();
         let of_vertex = |&cluster: &u16| {

@@ -1,5 +1,5 @@
-//! Coding of compressed transfer (section 4 of the paper): weights and representatives as integers of a few bits, with
-//! the non-zero numbers of the representatives only, which are mostly 0 in the Haar basis.
+//! Coding of compressed transfer (section 4 of the paper): weights and representatives as integers of a few bits. Only
+//! the non-zero numbers of representatives are stored, because most are 0 in the Haar basis.
 //!
 //! - [`CodedTransfer`]: coded transfer of a mesh, with its size in bytes;
 //! - [`SparseRows`]: rows of integers in blocks of 256, column by column, with a row number and a value for each

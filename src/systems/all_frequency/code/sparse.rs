@@ -5,13 +5,13 @@ use serde::{Deserialize, Serialize};
 /// Rows of a block: as many as a byte can number.
 pub const BLOCK_ROWS: usize = 256;
 
-/// Rows of integers in blocks of [`BLOCK_ROWS`], the last one shorter. For each column of a block, the nonzero numbers
-/// are kept, each with its row in the block, in increasing order.
+/// Rows of integers in blocks of [`BLOCK_ROWS`], the last one shorter. For each column of a block, the non-zero numbers
+/// are stored in order of rows, each with its row in the block.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SparseRows {
     rows: usize,
     columns: usize,
-    /// Numbers that are not 0, of each column of each block.
+    /// Number of non-zero numbers of each column of each block.
     counts: Vec<u16>,
     row_in_block: Vec<u8>,
     values: Vec<i16>,
@@ -43,9 +43,9 @@ impl SparseRows {
         sparse
     }
 
-    /// Rows from their parts: per column of each block the number of values; all row numbers; all values. `None` if
-    /// these contradict each other: a row beyond its block or out of order, a 0 among the values, too many or too few
-    /// numbers.
+    /// Creates rows from their parts: the number of values of each column of each block; all row numbers; all values.
+    /// `None` if the parts are inconsistent: a row beyond its block or out of order, a 0 among the values, too many or
+    /// too few numbers.
     pub fn from_parts(
         rows: usize,
         columns: usize,
@@ -119,12 +119,12 @@ impl SparseRows {
         self.rows.div_ceil(BLOCK_ROWS)
     }
 
-    /// Numbers that are not 0.
+    /// Number of non-zero numbers.
     pub fn nonzeros(&self) -> usize {
         self.values.len()
     }
 
-    /// Bytes of it: 3 for each number that is not 0, 2 for the count of each column of a block.
+    /// Size in bytes: 3 per non-zero number, and 2 for the count of each column of each block.
     pub fn bytes(&self) -> usize {
         3 * self.nonzeros() + 2 * self.counts.len()
     }

@@ -1,4 +1,4 @@
-//! Errors of approximations, over texels whose directions lie above the horizon, of terms and of spherical harmonics.
+//! Errors of approximations by terms and by spherical harmonics, over texels whose directions lie above the horizon.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ pub struct ProductErrors {
     pub max: f64,
     /// The sum of squared differences divided by the sum of squares of f.
     pub relative_squared_error: f64,
-    /// The least value of the approximation: truncated sums may be negative where f is not.
+    /// The minimum of the approximation; truncated sums may be negative although f is not.
     pub least: f64,
     /// The fraction of pairs for which the approximation is negative.
     pub negative: f64,
@@ -40,7 +40,7 @@ struct RowErrors {
 }
 
 impl ProductErrors {
-    /// Errors over `rows` views and `columns` lights; `row` writes f and the approximation at all lights of a view.
+    /// Errors over `rows` views and `columns` lights; `row` writes f and the approximation for a view at all lights.
     /// Rows are summed in order.
     fn over([rows, columns]: [usize; 2], row: impl Fn(usize, &mut [f64], &mut [f64]) + Sync) -> Self {
         let of_row = |at: usize| {
@@ -113,7 +113,7 @@ impl ProductErrors {
 pub struct HemisphereSamples {
     /// Directions of the views and of the lights.
     pub directions: [Vec<DVec3>; 2],
-    /// Solid angles of the same, in steradians.
+    /// Solid angles of these directions, in steradians.
     pub solid_angles: [Vec<f64>; 2],
     /// f, one row per view, one column per light.
     pub values: Matrix,
@@ -133,7 +133,8 @@ impl HemisphereSamples {
         Self { directions: [directions.clone(), directions], solid_angles, values }
     }
 
-    /// Errors of the `terms` largest singular values of these samples themselves, or of all there are.
+    /// Errors of the approximation by the `terms` largest singular values of these samples, or by all if there are
+    /// fewer.
     pub fn term_errors(&self, terms: usize) -> Result<ProductErrors, InputError> {
         let svd = LeadingSvd::new(&self.values, terms.max(1)).map_err(of_svd)?;
         let lights: Vec<Vec<f64>> = (0..self.values.column_count()).map(|at| column(&svd.right, at)).collect();
@@ -188,7 +189,7 @@ impl DiscSamples {
         self.samples.counts()
     }
 
-    /// The texels as directions, with f.
+    /// The texels' directions, with f at them.
     pub const fn samples(&self) -> &HemisphereSamples {
         &self.samples
     }
@@ -205,7 +206,7 @@ impl DiscSamples {
     }
 }
 
-/// A quantity of each of some texels, by column and row.
+/// Evaluates a function of column and row at each of some texels.
 fn each<T>(map: ParabolicMap, texels: &[usize], of: impl Fn(ParabolicMap, usize, usize) -> T) -> Vec<T> {
     texels.iter().map(|texel| of(map, texel % map.side(), texel / map.side())).collect()
 }
@@ -215,9 +216,9 @@ fn inside(map: ParabolicMap) -> Vec<usize> {
     (0..map.texels()).filter(|texel| map.direction(texel % map.side(), texel / map.side()).z > 0.0).collect()
 }
 
-/// Errors of harmonics of an order on both sides, at samples above the horizon. Coefficients are integrals with the
-/// functions, f being 0 below the horizon: sums over these samples, weighted by their solid angles. Fails with
-/// [`InputError`] if a matrix is too large. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
+/// Errors of an approximation by harmonics of one order on both sides, at samples above the horizon. Coefficients are
+/// integrals of f times the harmonics, with f = 0 below the horizon: sums over these samples, weighted by solid angles.
+/// Fails with [`InputError`] if a matrix is too large. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
 pub fn harmonic_errors(samples: &HemisphereSamples, order: usize) -> Result<ProductErrors, InputError> {
     let [view, light] = [0, 1].map(|side| Expansion::new(samples, side, order));
     Ok(samples.errors_of(&view?.rows(&light?.columns(&samples.values)?)?))
@@ -225,9 +226,9 @@ pub fn harmonic_errors(samples: &HemisphereSamples, order: usize) -> Result<Prod
 
 /// Converts values at texels to coefficients, and back.
 struct Expansion {
-    /// A row per function.
+    /// Maps values at texels to coefficients: one row per function.
     analysis: Matrix,
-    /// A row per function.
+    /// Values of the functions at texels: one row per function.
     synthesis: Matrix,
 }
 

@@ -1,4 +1,5 @@
-//! Singular values of a table of f, the part that a number of terms keeps (equation 8), and G and F of equation 9.
+//! Singular value decomposition of a table of f, its truncation to a number of terms (equation 8), and G and F of
+//! equation 9.
 
 use glam::DVec3;
 
@@ -7,7 +8,8 @@ use crate::error::{InputError, ensure};
 use crate::linalg::{LeadingSvd, dot};
 use crate::sphere::ParabolicMap;
 
-/// f(v, s) as the sum over k of G_k(v) F_k(s), by texels of parabolic maps and bilinear between their centers.
+/// f(v, s) as the sum over k of G_k(v) F_k(s). G and F are stored in texels of parabolic maps, with bilinear
+/// interpolation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProductFactors {
     terms: usize,
@@ -15,11 +17,11 @@ pub struct ProductFactors {
     light: FactorMap,
 }
 
-/// Terms by texels.
+/// Map of all terms.
 #[derive(Clone, Debug, PartialEq)]
 struct FactorMap {
     map: ParabolicMap,
-    /// All terms of a texel, followed by those of the next.
+    /// Values texel by texel, all terms of a texel together.
     values: Vec<f64>,
 }
 
@@ -37,8 +39,8 @@ impl FactorMap {
 }
 
 impl ProductFactors {
-    /// Factors of this many terms from two maps, each with the values of its texels, term by term. Panics if a map does
-    /// not have `terms` values per texel.
+    /// Creates factors of this many terms from two maps, each with its texels' values, term by term. Panics if a map
+    /// does not have `terms` values per texel.
     pub fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
         let of = |(map, values): (ParabolicMap, Vec<f64>)| FactorMap { map, values };
         let (view, light) = (of(view), of(light));
@@ -68,7 +70,7 @@ impl ProductFactors {
         [&self.view.values, &self.light.values]
     }
 
-    /// G at a texel, by row times side plus column. Panics if there is no such texel.
+    /// G at the texel with index row times side plus column. Panics if there is no such texel.
     pub fn view_texel(&self, texel: usize) -> &[f64] {
         self.view.texel(self.terms, texel)
     }
@@ -78,13 +80,13 @@ impl ProductFactors {
         self.light.texel(self.terms, texel)
     }
 
-    /// G at a direction of length 1 towards the viewer. Panics if there is not a place per term.
+    /// G at a direction of length 1 towards the viewer. Panics if `into` does not have one element per term.
     pub fn view(&self, direction: DVec3, into: &mut [f64]) {
         assert_eq!(into.len(), self.terms, "a place per term");
         self.view.read(direction, into);
     }
 
-    /// F at a direction of length 1 towards the light. Panics if there is not a place per term.
+    /// F at a direction of length 1 towards the light. Panics if `into` does not have one element per term.
     pub fn light(&self, direction: DVec3, into: &mut [f64]) {
         assert_eq!(into.len(), self.terms, "a place per term");
         self.light.read(direction, into);
@@ -99,17 +101,17 @@ impl ProductFactors {
     }
 }
 
-/// Two singular values whose relative difference is less than this count as a pair. A lobe that is symmetric around the
-/// normal has its values in such pairs, which differ by rounding, or by the square of a texel's size: by 4e-4 in a map
-/// of 32 x 32.
+/// Two singular values whose relative difference is below this count as a pair. A lobe that is symmetric around the
+/// normal has pairs of equal singular values; in a table they differ by rounding, or by the square of a texel's size:
+/// by 4e-4 in a map of 32 x 32.
 pub const PAIR_DISTANCE: f64 = 1e-3;
 
-/// A pair of equal singular values, one kept and one dropped: the terms then prefer a direction that f does not.
+/// A pair of equal singular values, one kept and one dropped. The terms then prefer a direction although f does not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitPair {
-    /// The terms that are kept.
+    /// Number of terms that are kept.
     pub terms: usize,
-    /// The last value that is kept and the first that is not.
+    /// The last value that is kept and the first that is dropped.
     pub values: [f64; 2],
 }
 
@@ -131,7 +133,7 @@ impl Factorization {
         Ok(found)
     }
 
-    /// As [`Self::new`], with fewer terms where the rank is lower. Fails with [`InputError`] for a table of zeros.
+    /// Like [`Self::new`], with fewer terms if the rank is lower. Fails with [`InputError`] for a table of zeros.
     pub fn up_to(table: &ProductTable, terms: usize) -> Result<Self, InputError> {
         let svd = LeadingSvd::new(table.values(), terms.max(1)).map_err(of_svd)?;
         ensure!(svd.rank != 0, "crossbar::factor::dark" =>
@@ -150,29 +152,29 @@ impl Factorization {
         self.svd.rank
     }
 
-    /// The most terms that there are vectors for.
+    /// Largest number of terms for which there are vectors.
     pub fn terms(&self) -> usize {
         self.svd.right.row_count()
     }
 
-    /// The error of Figure 2: the sum of squared differences by the sum of squares, over all pairs of texels. It is
-    /// that of the squared singular values that are left out.
+    /// The error of Figure 2: the sum of squared differences divided by the sum of squares, over all pairs of texels.
+    /// It is computed from the squared singular values that are dropped.
     pub fn relative_squared_error(&self, terms: usize) -> f64 {
-        // From the smallest.
+        // Summed from the smallest value.
         let squares = |values: &[f64]| values.iter().rev().map(|value| value * value).sum::<f64>();
         let values = self.singular_values();
         squares(&values[terms.min(values.len())..]) / squares(values)
     }
 
-    /// The pair that a number of terms splits, if it does ([`PAIR_DISTANCE`]).
+    /// The pair of singular values that a number of terms splits, if any ([`PAIR_DISTANCE`]).
     pub fn split_pair(&self, terms: usize) -> Option<SplitPair> {
         let values = [*self.svd.values.get(terms.checked_sub(1)?)?, *self.svd.values.get(terms)?];
         let is_pair = terms < self.rank() && values[0] - values[1] < PAIR_DISTANCE * values[0];
         is_pair.then_some(SplitPair { terms, values })
     }
 
-    /// The factors of the largest singular values, whose square roots are multiplied into both (equation 9). The
-    /// component of F_k of largest magnitude is positive. Panics if there are no vectors for this many terms.
+    /// The factors of the largest singular values; G and F both contain the square roots of the values (equation 9).
+    /// The component of F_k of largest magnitude is positive. Panics if there are no vectors for this many terms.
     pub fn factors(&self, terms: usize) -> ProductFactors {
         assert!((1..=self.terms()).contains(&terms), "1 to {} terms, not {terms}", self.terms());
         let by_texel = |vectors: &crate::linalg::Matrix| {
@@ -183,7 +185,7 @@ impl Factorization {
     }
 }
 
-/// The singular values cannot be had.
+/// Error: the singular value decomposition failed.
 pub(super) fn of_svd(error: InputError) -> InputError {
     error.coded("crossbar::factor::svd")
 }

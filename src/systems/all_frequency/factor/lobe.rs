@@ -1,7 +1,7 @@
 //! Microfacet lobes in the forms that the paper leaves open.
 //!
-//! The paper names Cook and Torrance 1982 and Schlick 1994 with two or three parameters each, and prints errors; it
-//! does not name the factors of these models that it used. [`Lobe`] has each factor as an option.
+//! The paper cites Cook and Torrance 1982 and Schlick 1994 with two or three parameters each, and prints errors; it
+//! does not say which factors of these models it used. [`Lobe`] has each factor as an option.
 
 use std::f64::consts::PI;
 
@@ -15,7 +15,8 @@ use crate::transfer::brdf::facets::{
 };
 use crate::transfer::brdf::fresnel::{dielectric, schlick};
 
-/// The factor before distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual ones.
+/// The factor before distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual
+/// distributions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Denominators {

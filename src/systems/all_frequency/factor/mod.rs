@@ -1,10 +1,11 @@
 //! Factors of reflectance (section 3): f(v, s) = b(v, s) s_z as a sum of products G_k(v) F_k(s).
 //!
-//! - [`ProductFunction`]: f of a reflectance; [`Lobe`] has the forms that the paper leaves open, [`Brdf`] are those of
+//! - [`ProductFunction`]: f of a reflectance: a [`Lobe`], with options that the paper leaves open, or a [`Brdf`] of
 //!   `transfer::brdf`;
-//! - [`FactorSampling`]: f on parabolic maps, a [`ProductTable`]; choices that the paper leaves open are named options;
-//! - [`Factorization`]: its singular values, and [`ProductFactors`] of any number of terms, interpolated between
-//!   texels;
+//! - [`FactorSampling`]: samples f on parabolic maps, a [`ProductTable`]; choices that the paper leaves open are named
+//!   options;
+//! - [`Factorization`]: the table's singular values, and [`ProductFactors`] of any number of terms, interpolated
+//!   between texels;
 //! - [`ProductErrors`], [`harmonic_errors`]: errors of approximations by terms and by spherical harmonics, at texels
 //!   ([`DiscSamples`]) or at directions with equal solid angles ([`HemisphereSamples`]).
 //!

@@ -1,13 +1,13 @@
-//! The product of reflectance and cosine, and the motions of a square of texels under which it keeps its values.
+//! The product of reflectance and cosine, and the symmetries of a square of texels that leave it unchanged.
 
 use glam::DVec3;
 
 use crate::transfer::brdf::Brdf;
 
-/// Motions of both maps that leave f unchanged. Only one row of each orbit must be computed.
+/// Symmetries of both maps that leave f unchanged. Only one row per orbit needs to be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProductSymmetry {
-    /// None is known.
+    /// No symmetry is known.
     None,
     /// Mirrors along tangent and bitangent: anisotropic models.
     Mirrors,
@@ -15,7 +15,7 @@ pub enum ProductSymmetry {
     TurnsAndMirrors,
 }
 
-/// A symmetry of the map: images of x and y of a texel, counted from the middle of the map.
+/// A symmetry of the map: the images of a texel's x and y, counted from the middle of the map.
 pub(super) type Motion = [[isize; 2]; 2];
 
 const SAME: Motion = [[1, 0], [0, 1]];
@@ -28,7 +28,7 @@ const DIAGONAL: Motion = [[0, 1], [1, 0]];
 const OTHER_DIAGONAL: Motion = [[0, -1], [-1, 0]];
 
 impl ProductSymmetry {
-    /// The motions, the identity first; with each its inverse.
+    /// The motions, a group; the identity is first.
     pub(super) const fn motions(self) -> &'static [Motion] {
         match self {
             Self::None => &[SAME],
@@ -43,7 +43,7 @@ impl ProductSymmetry {
 /// The texel (row times side plus column) to which a motion takes `texel`.
 pub(super) fn moved(motion: Motion, side: usize, texel: usize) -> usize {
     let last = side.cast_signed() - 1;
-    // Twice the distance from the middle.
+    // Coordinates are twice the distance from the middle.
     let [x, y] = [texel % side, texel / side].map(|at| 2 * at.cast_signed() - last);
     let [column, row] = motion.map(|[a, b]| ((a * x + b * y + last) / 2).cast_unsigned());
     row * side + column

@@ -17,7 +17,7 @@ pub const MAX_SUPERSAMPLES: usize = 16;
 const BATCH: usize = 16;
 
 /// Numbers of samples along an edge of a texel of each map. "We supersample each pair of view/light samples by a factor
-/// of 16 x 16" may mean [`Self::FOUR_EACH`], 16 x 16 samples of one side, or of both.
+/// of 16 x 16" may mean [`Self::FOUR_EACH`], 16 x 16 samples of one map's texels, or of both maps' texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Supersamples {
     /// Along an edge of the view's texel.
@@ -40,12 +40,12 @@ pub struct FactorSampling {
     pub side: usize,
     /// Samples per texel, 1 to [`MAX_SUPERSAMPLES`] along an edge.
     pub supersamples: Supersamples,
-    /// The limit that the mean over a pair of texels is clamped to, where f is "bigger than 3" in the paper; infinity
-    /// for none.
+    /// The limit to which the mean over a pair of texels is clamped (in the paper where f is "bigger than 3"); infinity
+    /// for no clamping.
     pub limit: f64,
 }
 
-/// The paper's parameters; where it is ambiguous, the first reading.
+/// The paper's parameters; where the paper is ambiguous, the first reading.
 impl Default for FactorSampling {
     fn default() -> Self {
         Self { side: 32, supersamples: Supersamples::FOUR_EACH, limit: 3.0 }
@@ -115,8 +115,8 @@ impl FactorSampling {
         lights.iter().map(mean).collect()
     }
 
-    /// Per texel the directions at which f is sampled. Samples outside the disc of the map, whose directions lie below
-    /// the horizon, are left out and count as 0: 212 of 1,024 texels of a map of 32 x 32 have their centers there.
+    /// For each texel, the directions at which f is sampled. Samples outside the map's disc, whose directions lie below
+    /// the horizon, are skipped and count as 0. In a map of 32 x 32, 212 of 1,024 texels have their centers outside.
     fn directions(&self, edge: usize) -> Vec<Vec<DVec3>> {
         let (coarse, fine) = (self.side, ParabolicMap::new(self.side * edge));
         let of_texel = |texel: usize| {
@@ -128,7 +128,7 @@ impl FactorSampling {
     }
 }
 
-/// The first texel of a map that a motion of a group takes to `texel`, and that motion; the identity is first.
+/// The first texel of a map that one of `motions` takes to `texel`, and the motion.
 fn first(motions: &'static [Motion], side: usize, texel: usize) -> (usize, Motion) {
     let from = |&motion: &Motion| (moved_back(motion, side, texel), motion);
     motions.iter().map(from).min_by_key(|&(first, _)| first).unwrap_or((texel, [[1, 0], [0, 1]]))

@@ -1,4 +1,4 @@
-//! Tables of f by texels of two parabolic maps: Q of section 3.
+//! Tables of f at texels of two parabolic maps: Q of section 3.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use crate::io::{NumberTable, load_numbers, number_table};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
-/// Texels along an edge of the largest map.
+/// Maximum number of texels along an edge of a map.
 pub const MAX_MAP_SIDE: usize = 48;
 
-/// Q: f at a texel of the view's map (row) and one of the light's (column). Texels count row by row.
+/// Q: f at each texel of the view's map (row) and of the light's map (column). Texels are numbered row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProductTable {
     view: ParabolicMap,
@@ -19,15 +19,15 @@ pub struct ProductTable {
 }
 
 impl ProductTable {
-    /// A table from values, with one row per texel of the view's map and one column per texel of the light's. Panics if
-    /// the numbers of rows and columns differ from those of the maps' texels.
+    /// A table from values, with one row per texel of the view's map and one column per texel of the light's. Panics
+    /// unless the numbers of rows and columns are the maps' numbers of texels.
     pub(super) fn new([view, light]: [ParabolicMap; 2], values: Matrix) -> Self {
         assert_eq!([values.row_count(), values.column_count()], [view.texels(), light.texels()], "a value per texel");
         Self { view, light, values }
     }
 
     /// A table from rows of numbers; `name` is the file's name in messages. Fails with [`InputError`] if the number of
-    /// rows or columns is not that of a square map's texels, or a number is below 0, NaN or infinite.
+    /// rows or columns is not a square map's number of texels, or a number is below 0, NaN or infinite.
     pub fn of_numbers(table: &NumberTable<f64>, name: &Path) -> Result<Self, InputError> {
         let columns = table.columns.max(1);
         let map = |what: &'static str, found: usize| {

@@ -1,6 +1,7 @@
 //! The layout of a vertex's numbers in texture coordinate sets.
 
-/// The representation of the view that is interpolated (section 6 says "compute the local view direction", not where).
+/// The representation of the view that is interpolated (section 6 says "compute the local view direction", but not
+/// where).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "kebab-case")]
@@ -8,8 +9,8 @@ pub enum ViewNumbers {
     /// Two coordinates in the parabolic map, computed at the vertices: nothing is normalised per pixel.
     #[default]
     Coordinates,
-    /// The local view vector, not normalised at the vertices. The pixel program divides by its length plus z, so that
-    /// the direction is exact on a flat triangle with a constant frame.
+    /// The local view vector, unnormalised. The pixel program divides by its length plus z, so that the direction is
+    /// exact on a flat triangle with a constant frame.
     Vector,
 }
 
@@ -26,8 +27,8 @@ impl ViewNumbers {
 /// Components of a coordinate set.
 pub(super) const COMPONENTS: [char; 4] = ['x', 'y', 'z', 'w'];
 
-/// The layout of m terms for each channel, and of the view: first full sets of four terms per channel, then the view,
-/// then the remaining terms of each channel.
+/// The layout of m terms per channel and of the view in coordinate sets: full sets of four terms per channel, then the
+/// view, then the remaining terms of each channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SetLayout {
     /// The number m of terms.

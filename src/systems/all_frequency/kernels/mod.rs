@@ -1,5 +1,5 @@
-//! The programs that draw all-frequency transfer (section 6, "Per-Vertex Computation", last paragraph), beside those of
-//! [`mod@crate::card::kernels`]: text written here, as the number of terms decides.
+//! The programs that draw all-frequency transfer (section 6, "Per-Vertex Computation", last paragraph). Their text is
+//! generated from the number of terms; [`mod@crate::card::kernels`] has the others.
 
 mod layout;
 mod product;
@@ -13,7 +13,7 @@ pub use layout::{SetLayout, ViewNumbers};
 pub use product::{MapFilter, ProductKernel};
 pub use vertex::TransferredVertexKernel;
 
-/// Programs for a few numbers of terms, by name.
+/// Programs for some numbers of terms, with their names.
 pub fn programs() -> Vec<(String, String)> {
     let mut all = Vec::new();
     let (two, three) = (ViewNumbers::Coordinates, ViewNumbers::Vector);

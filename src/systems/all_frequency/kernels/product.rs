@@ -2,8 +2,8 @@
 //!
 //! - t0 and up: the numbers of [`SetLayout`].
 //! - s0 and up: G in parabolic maps, four or two terms per map. With two, every second map stores its terms in reverse
-//!   order, so that one instruction combines it with the one before.
-//! - Output: the product; in a pass of one channel in all components. Alpha is 1.
+//!   order, so that one instruction combines it with the previous map.
+//! - Output: the product; in a pass of one channel, all components are that channel. Alpha is 1.
 
 use std::fmt::Write as _;
 
@@ -48,7 +48,6 @@ impl ProductKernel {
         self.maps() * if self.filter == MapFilter::Program { 4 } else { 1 }
     }
 
-    /// The register with the map coordinates.
     fn coordinates(&self) -> String {
         match (self.layout.view, self.filter) {
             (ViewNumbers::Coordinates, MapFilter::Sampler) => format!("t{}", self.layout.view_set()),
@@ -56,8 +55,8 @@ impl ProductKernel {
         }
     }
 
-    /// Writes the map coordinates, in full precision. For interpolation by the program they are split into the center
-    /// of the upper left of four texels and weights, so that reads of the nearest texel are certain to get that texel.
+    /// Writes the map coordinates, in full precision. For interpolation by the program, they are split into weights and
+    /// the center of the upper left of four texels, so that a nearest read certainly gets that texel.
     fn push_coordinates(&self, text: &mut String) {
         let view = format!("t{}", self.layout.view_set());
         let given = match self.layout.view {

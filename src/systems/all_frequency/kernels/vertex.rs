@@ -1,8 +1,7 @@
-//! The vertex program that section 6 proposes: it passes transferred radiance on and adds the local view.
+//! The vertex program that section 6 proposes: it forwards transferred radiance and adds the local view.
 //!
-//! - v0: position, w = 1; v1 and up: the numbers of [`SetLayout`], one set each; then
-//!   the tangent and the normal.
-//! - c0 to c3 rows of the projection; c4 the eye.
+//! - v0: position, w = 1; v1 and up: the numbers of [`SetLayout`], one set each; then the tangent and the normal.
+//! - c0 to c3: rows of the projection; c4: the eye.
 //! - oT0 and up: the sets.
 
 use std::fmt::Write as _;
@@ -12,7 +11,7 @@ use refsim::isa::Version;
 use super::layout::{SetLayout, ViewNumbers};
 use crate::card::{TO_CLIP, WrittenKernel, local_view};
 
-/// A vertex program that passes transferred radiance on.
+/// A vertex program that forwards transferred radiance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TransferredVertexKernel {
     /// The layout of the numbers.
@@ -70,7 +69,8 @@ impl WrittenKernel for TransferredVertexKernel {
         let sets = self.layout.sets();
         let mut text = format!("{}\n; {}\n", self.version, self.name());
         if self.layout.view == ViewNumbers::Coordinates {
-            // 2^-20, the least |v| + z in units of the body's frame: views along -z have coordinates.
+            // 2^-20, a lower bound of |v| + z in units of the body's frame, so that views along -z have finite
+            // coordinates.
             text.push_str("def c5, 0.00000095367431640625, 0.5, 0, 0\n");
         }
         text.push_str("dcl_position v0\n");

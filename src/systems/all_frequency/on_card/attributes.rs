@@ -14,7 +14,7 @@ use crate::transfer::Vertices;
 pub struct TransferredMesh<'a> {
     /// The mesh.
     pub vertices: &'a Vertices,
-    /// The reflectance for which its transfer was computed.
+    /// The reflectance for which transfer was computed.
     pub reflectance: &'a Reflectance,
     /// The surface color of each material.
     pub colors: &'a [[f64; 3]],
@@ -28,7 +28,6 @@ impl TransferredMesh<'_> {
         self.reflectance.terms()
     }
 
-    /// The surface's color at a vertex.
     pub(super) fn color(&self, vertex: usize) -> [f64; 3] {
         self.colors[self.vertices.materials()[vertex] as usize]
     }
@@ -43,11 +42,11 @@ impl TransferredMesh<'_> {
     }
 }
 
-/// Counts of clamped colors. Truncated factors have negative lobes, which targets and vertex colors in fractions clamp
+/// Counts of clamped colors. Truncated factors have negative lobes, which fixed-point targets and vertex colors clamp
 /// to 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FactoredCounts {
-    /// Pixels that show the mesh; `None` if the device has no floating-point target by which to count.
+    /// Pixels that show the mesh; `None` if the device has no floating-point target, which counting needs.
     pub covered: Option<u64>,
     /// Covered pixels with a negative channel before clamping.
     pub below_zero: Option<u64>,
@@ -57,13 +56,13 @@ pub struct FactoredCounts {
     pub vertices_above_one: Option<u64>,
 }
 
-/// Step 4 per vertex, for vertex colors.
+/// Computes step 4 per vertex, for vertex colors.
 pub(super) fn radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
     let transferred = |vertex: usize, row: usize| mesh.transferred.of(vertex)[row].map(f64::from);
     exit_radiance(mesh.vertices, mesh.reflectance, &|vertex| mesh.color(vertex), &transferred, wide(eye))
 }
 
-/// Step 4 per vertex of a diffuse surface, which is the same from everywhere.
+/// Computes step 4 per vertex of a diffuse surface, whose radiance does not depend on the view.
 pub(super) fn diffuse_radiance(mesh: &TransferredMesh<'_>) -> Vec<[f64; 3]> {
     let mut g = [0.0];
     Reflectance::Diffuse.view(DVec3::Z, &mut g);
@@ -74,7 +73,7 @@ pub(super) fn diffuse_radiance(mesh: &TransferredMesh<'_>) -> Vec<[f64; 3]> {
     (0..mesh.vertices.len()).map(of).collect()
 }
 
-/// Vertex colors, and how many are below 0 or above 1, which bytes do not hold.
+/// Vertex colors, and the numbers of vertices below 0 and above 1, which bytes clamp.
 pub(super) fn colors(
     radiance: &[[f64; 3]],
     exposure: f64,
@@ -96,11 +95,11 @@ pub(super) fn colors(
     Ok((stream, counts))
 }
 
-/// Requirements of attributes.
+/// The expectation in messages on attributes.
 const HELD: &str = "radiance that its format holds";
 
-/// The coordinate sets of a pass of products per pixel: T_p times exposure, color and `scales`, which compensate the
-/// scale of G's texels, one per term.
+/// The coordinate sets of a pass of products per pixel: T_p times exposure, color and `scales`, one per term, which
+/// compensate the scale of G's texels.
 pub(super) fn radiance_sets(
     mesh: &TransferredMesh<'_>,
     options: &ProductOptions,

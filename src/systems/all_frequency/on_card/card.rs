@@ -1,4 +1,4 @@
-//! A mesh with transferred radiance on an emulated card, and a picture with its counts of colors out of range.
+//! A mesh with transferred radiance on an emulated card, and a picture with counts of colors out of range.
 
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ pub struct FactoredCard<'a> {
 
 impl<'a> FactoredCard<'a> {
     /// Uploads a mesh, and the maps of G. Fails with [`CardError`] if the device lacks programs, coordinate sets,
-    /// samplers or filtering of the format, or the parts of the mesh have contradictory sizes.
+    /// samplers or filtering of the format, or the mesh's parts have inconsistent sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -89,8 +89,8 @@ impl<'a> FactoredCard<'a> {
         Ok(self.show(view, false)?.0)
     }
 
-    /// As [`Self::view_texels`], with the log of host and card for [`time`]; `host` are the multiplications of steps 2
-    /// and 3.
+    /// Like [`Self::view_texels`], with the log of host and card for [`time`]; `host` are the multiplications of steps
+    /// 2 and 3.
     pub fn logged_view(
         &mut self,
         view: &MeshView,
@@ -141,7 +141,7 @@ pub fn draw(
 ) -> Result<FactoredDrawing, CardError> {
     let mut card = FactoredCard::new(profile, executor, mesh, place)?;
     let (texels, mut counts, log) = card.logged_view(view, host)?;
-    // Floating point shows values that other targets clamp.
+    // A floating-point target shows values that other targets clamp.
     let formats = &card.display.machine().profile().limits.target_formats;
     let float = [TexelFormat::Rgba32f, TexelFormat::Rgba16f].into_iter().find(|format| formats.contains(format));
     let signed = match float {
@@ -158,7 +158,7 @@ pub fn draw(
     Ok(FactoredDrawing { texels, signed, counts, pixel_slots: slots(&card.programs.pixel), log })
 }
 
-/// The attributes between positions and tangents that the host sends for a view, pass by pass, and counts of colors.
+/// The attributes that the host sends for a view between positions and tangents, pass by pass, and counts of colors.
 fn attributes(
     mesh: &TransferredMesh<'_>,
     place: &ProductPlace,
@@ -173,7 +173,7 @@ fn attributes(
     }
     let (colors, counts) = match *place {
         ProductPlace::Vertices(format) => colors(&radiance(mesh, view.camera.eye()), view.exposure, format)?,
-        // The one term of a diffuse surface, whose G does not depend on the view.
+        // A diffuse surface has one term, whose G does not depend on the view.
         ProductPlace::Pixels(_) => colors(&diffuse_radiance(mesh), view.exposure, VertexColors::Floats)?,
     };
     Ok((vec![vec![colors]], counts))

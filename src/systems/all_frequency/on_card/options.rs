@@ -10,10 +10,10 @@ use crate::card::{CardError, require_versions};
 /// The place of step 4, G(v) . T_p.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ProductPlace {
-    /// At each vertex, by the host; the card interpolates colors. This is the authors' implementation.
+    /// The host multiplies at each vertex, and the card interpolates colors: the authors' implementation.
     Vertices(VertexColors),
-    /// At each pixel, by the card. This is the authors' proposal. A diffuse surface has one term that does not depend
-    /// on the view: vertex colors give the same picture, and are drawn instead.
+    /// The card multiplies at each pixel: the authors' proposal. A diffuse surface has one term that does not depend on
+    /// the view, so vertex colors are drawn instead, with an identical picture.
     Pixels(ProductOptions),
 }
 
@@ -22,7 +22,7 @@ pub enum ProductPlace {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
 pub enum VertexColors {
-    /// Four bytes, as Direct3D's `D3DCOLOR`: 8-bit fractions in [0, 1]. Runs on every card.
+    /// Four bytes, as in Direct3D's `D3DCOLOR`: 8-bit fractions in [0, 1]. Every card supports them.
     #[default]
     Bytes,
     /// Three floats as texture coordinates, of any sign and magnitude; needs ps_2_0.
@@ -63,7 +63,8 @@ pub struct ProductOptions {
     pub map_format: TexelFormat,
     /// The interpolation between texels of G.
     pub filter: MapFilter,
-    /// G is rounded to signed fractions of this many bits (2 to 24) before it is stored; `None`: only by its format.
+    /// The number of bits (2 to 24) of signed fractions to which G is rounded before it is stored; `None`: rounding
+    /// only by its format.
     pub map_bits: Option<u32>,
     /// The format of T_p in vertices.
     pub radiance: RadianceFormat,
@@ -86,7 +87,6 @@ impl Default for ProductOptions {
 }
 
 impl ProductOptions {
-    /// Number of terms per texel.
     pub(super) fn terms_per_texel(&self) -> usize {
         usize::from(self.map_format.record().channel_count)
     }

@@ -93,7 +93,7 @@ impl FactorMaps {
             let texels = (0..map.texels()).map(|texel| match (per_texel, number % 2) {
                 (4, _) => [0, 1, 2, 3].map(|at| value(texel, first + at)),
                 (_, 0) => [value(texel, first), value(texel, first + 1), 0.0, 0.0],
-                // Exchanged, as the program joins it with the one before.
+                // The two terms are exchanged, because the program combines this map with the previous one.
                 _ => [value(texel, first + 1), value(texel, first), 0.0, 0.0],
             });
             new_texture(machine, options.map_format, TextureKind::D2, [map.side() as u32, map.side() as u32, 1], texels)

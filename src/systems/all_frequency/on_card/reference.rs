@@ -8,7 +8,7 @@ use crate::all_frequency::kernels::ViewNumbers;
 use crate::geom::vector::wide;
 use crate::sphere::ParabolicMap;
 
-/// G(v) . T_p times the surface's color, per vertex: red, green, blue, of any sign. There is nothing to see from below.
+/// G(v) . T_p times the surface's color for each vertex: red, green, blue, of any sign; 0 from below.
 pub fn vertex_radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
     let mut all = Vec::with_capacity(mesh.vertices.len());
     for vertex in 0..mesh.vertices.len() {
@@ -25,7 +25,7 @@ pub fn vertex_radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3
     all
 }
 
-/// Colors of vertices, interpolated.
+/// Interpolates vertex colors.
 pub fn pixel_of_colors(colors: &[[f64; 3]], corners: [u32; 3], weights: [f64; 3]) -> [f64; 3] {
     let mut pixel = [0.0; 3];
     for (corner, weight) in corners.into_iter().zip(weights) {
@@ -34,8 +34,8 @@ pub fn pixel_of_colors(colors: &[[f64; 3]], corners: [u32; 3], weights: [f64; 3]
     pixel
 }
 
-/// G(v) . T_p of a pixel: transferred radiance times the surface's color, and the view in the representation `view`,
-/// are interpolated between three vertices. Below the horizon G continues as its map does.
+/// G(v) . T_p of a pixel. Transferred radiance times the surface's color, and the view in the representation `view`,
+/// are interpolated between three vertices. Below the horizon, G is read from the map's texels beyond the horizon.
 pub fn pixel_of_products(
     mesh: &TransferredMesh<'_>,
     view: ViewNumbers,

@@ -1,4 +1,4 @@
-//! The time of a frame (Table 1): the host's steps by one calibrated rate, transfer over the bus, vertices and pixels.
+//! The time of a frame (Table 1): the host's steps at one calibrated rate, transfer over the bus, vertices and pixels.
 
 use refsim::event::{Event, ResourceId};
 use refsim::isa::Version;
@@ -12,7 +12,7 @@ use crate::card::frame_time::{UnseenFrame, host_work};
 
 /// Channels of light.
 const CHANNELS: u64 = 3;
-/// Representatives per cluster, the same throughout Table 1.
+/// Representatives per cluster in all of Table 1.
 const REPRESENTATIVES: u64 = 16;
 /// Number of lighting segments, and of coefficients per segment.
 const SEGMENTS: u64 = 24;
@@ -21,7 +21,7 @@ const COEFFICIENTS: u64 = 256;
 /// A column of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrintedModel {
-    /// The name and, in parentheses, d for diffuse and g for glossy.
+    /// The name, with (d) for diffuse and (g) for glossy.
     pub name: &'static str,
     /// Vertices, in hundreds.
     pub vertex_hundreds: u64,
@@ -57,7 +57,7 @@ pub const TABLE_1: [PrintedModel; 6] = [
 ];
 
 impl PrintedModel {
-    /// Multiplications of a frame, without skipping zeros: 3 n m 256 per cluster, and 24 omega 3 n m per vertex.
+    /// Multiplications of a frame, including those by zero: 3 n m 256 per cluster, and 24 omega 3 n m per vertex.
     pub fn multiplies(&self) -> Multiplies {
         let per_row = CHANNELS * REPRESENTATIVES * self.terms;
         Multiplies {
@@ -67,8 +67,8 @@ impl PrintedModel {
     }
 }
 
-/// The host of section 7 (two processors of 3 GHz), calibrated by one figure: the time of one frame of each model of
-/// Table 1 without drawing, summed.
+/// The host of section 7 (two processors of 3 GHz), calibrated by one number: the sum of the times of one frame of each
+/// model of Table 1 without drawing.
 pub fn host_of_table_1() -> Result<HostModel, HostError> {
     let work = |model: &PrintedModel| {
         let Multiplies { per_cluster, per_vertex } = model.multiplies();
@@ -94,8 +94,8 @@ pub fn streamed_bytes(place: &ProductPlace, terms: usize) -> usize {
     }
 }
 
-/// The host's work in a frame: the multiplications of steps 2 and 3, 3 m more per vertex (the product with G, or with
-/// the scales of G's texels), the submission of vertices, and their upload.
+/// The host's work in a frame: the multiplications of steps 2 and 3, 3 m multiplications per vertex (by G, or by the
+/// scales of G's texels), and the submission and upload of vertices.
 pub(super) fn host_log(mesh: &TransferredMesh<'_>, place: &ProductPlace, host: Multiplies) -> Vec<Event> {
     share_of_host(mesh.vertices.len() as u64, mesh.terms(), place, host)
 }
@@ -114,7 +114,7 @@ fn share_of_host(vertices: u64, terms: usize, place: &ProductPlace, host: Multip
 pub struct FactoredFrame {
     /// Vertices of the mesh.
     pub vertices: u64,
-    /// Its triangles.
+    /// Triangles of the mesh.
     pub triangles: u64,
     /// Terms m.
     pub terms: usize,
@@ -131,7 +131,7 @@ const COLOR_SLOTS: u64 = 5;
 const COLOR_ATTRIBUTES: u64 = 2;
 
 impl FactoredFrame {
-    /// The log of such a frame, in which pixels take no time.
+    /// The log of the frame, in which pixels take no time.
     pub fn log(&self, place: &ProductPlace) -> Vec<Event> {
         let (passes, (slots, attributes)) = match place {
             ProductPlace::Pixels(options) if self.terms > 1 => {

@@ -1,9 +1,10 @@
-//! Rendering (section 6 of the paper): light through the clusters' representatives, then a weighted sum per vertex.
+//! Rendering (section 6 of the paper): products of light and the clusters' representatives, then a weighted sum per
+//! vertex.
 //!
-//! - [`Shader`]: coded transfer laid out for that;
+//! - [`Shader`]: coded transfer laid out for rendering;
 //! - [`TransferredRadiance`]: T_p of every vertex, equation 13;
 //! - [`exit_radiance`]: G(v) . T_p, equation 7;
-//! - [`plain`]: the same from transfer that is not coded, by plain loops in f64.
+//! - [`plain`]: T_p from uncoded transfer, by plain loops in f64.
 
 pub mod plain;
 mod shader;

@@ -10,11 +10,11 @@ struct PlainSegment<'a> {
     /// M^i L of each representative, m rows of 3 channels.
     products: Vec<[f64; 3]>,
     vertices: &'a [u32],
-    /// Per vertex its representatives and their weights.
+    /// For each vertex, its representatives and their weights.
     weights: Vec<Vec<(usize, f64)>>,
 }
 
-/// T_p by equation 13: per vertex `rows` rows of 3 channels.
+/// T_p by equation 13: `rows` rows of 3 channels per vertex.
 fn sums<'a>(vertices: usize, rows: usize, segments: impl Iterator<Item = PlainSegment<'a>>) -> Vec<[f64; 3]> {
     let mut radiance = vec![[0.0; 3]; vertices * rows];
     for PlainSegment { products, vertices, weights } in segments {
@@ -30,7 +30,7 @@ fn sums<'a>(vertices: usize, rows: usize, segments: impl Iterator<Item = PlainSe
     radiance
 }
 
-/// T_p from transfer that is not coded. `light` is as in [`Shader::transferred`](super::Shader::transferred).
+/// T_p from uncoded transfer. `light` is as in [`Shader::transferred`](super::Shader::transferred).
 pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LightSizeError> {
     let coefficients = transfer.coefficients();
     LightSizeError::check(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;

@@ -1,7 +1,7 @@
 //! Coded transfer laid out for rendering.
 //!
-//! All sums run in a fixed order in f32: those of a representative over the light's coefficients, those of a vertex
-//! over its segments and their representatives. So the bits depend neither on threads nor on vector instructions.
+//! All sums are in f32 in a fixed order: a representative's over the light's coefficients, a vertex's over its segments
+//! and their representatives. So the bits depend neither on threads nor on vector instructions.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -24,7 +24,6 @@ pub struct Shader {
     begins: Vec<u32>,
     entries: Vec<Entry>,
     weights: Vec<i16>,
-    /// Number of representatives of all segments.
     representatives: usize,
 }
 
@@ -33,11 +32,11 @@ pub struct Shader {
 struct ShaderSegment {
     segment: usize,
     blocks: Vec<Block>,
-    /// Per representative the product of its own step and its weights' step.
+    /// For each representative, the product of its step and its weights' step.
     steps: Vec<f32>,
 }
 
-/// The non-zero numbers of up to 256 representatives: per column their count, then their rows and values.
+/// The non-zero numbers of up to 256 representatives: the count of each column, and the rows and values.
 #[derive(Clone, Debug)]
 struct Block {
     counts: Vec<u16>,
@@ -48,7 +47,7 @@ struct Block {
 /// A segment's part of a vertex.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
-    /// The index of its cluster's first representative among those of all segments.
+    /// The index of the cluster's first representative among the representatives of all segments.
     first: u32,
     /// The index of its first weight, and the number of weights.
     weights: u32,
@@ -90,7 +89,8 @@ impl Shader {
         }
     }
 
-    /// Numbers per vertex or representative: 3 per row, one more for stores of 4, padded to a multiple of [`LANES`].
+    /// Numbers per vertex or representative: 3 per row, plus one because stores write 4, padded to a multiple of
+    /// [`LANES`].
     fn stride(&self) -> usize {
         (3 * self.rows + 1).next_multiple_of(LANES)
     }
@@ -100,7 +100,7 @@ impl Shader {
         Ok(self.weighted(&self.per_cluster(light)?))
     }
 
-    /// M^i L for all representatives, times the steps of both codes: step 2 of section 6.
+    /// M^i L for all representatives, times the steps of representative and weights: step 2 of section 6.
     pub fn per_cluster(&self, light: &[[f32; 3]]) -> Result<Vec<f32>, LightSizeError> {
         let last = self.segments.last().map(|part| part.segment);
         LightSizeError::check(light.len(), self.coefficients, last)?;
@@ -203,7 +203,7 @@ impl Block {
             if [r, g, b] == [0.0; 3] {
                 continue;
             }
-            // The fourth number is 0, and adds nothing to the first of the next row.
+            // The fourth number is 0, so it adds 0 to the first number of the next row.
             let (light, at) = ([r, g, b, 0.0], 3 * (column / light.len()));
             for (&row, &value) in rows[range.clone()].iter().zip(&values[range]) {
                 let into = &mut into[usize::from(row) * stride + at..][..4];

@@ -1,4 +1,4 @@
-//! The result of transfer, transferred radiance, and step 4 of section 6: radiance of vertices towards the eye.
+//! Transferred radiance, and step 4 of section 6: radiance of vertices towards the eye.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -41,7 +41,7 @@ impl TransferredRadiance {
     }
 }
 
-/// Multiplications that are executed, over all channels; those by skipped zeros do not count.
+/// Number of executed multiplications over all channels, without skipped zeros.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Multiplies {
     /// By light coefficients: step 2 of section 6.
@@ -71,7 +71,7 @@ impl LightSizeError {
 }
 
 /// G(v) . T_p times the surface's color for every vertex: `color` returns the color of a vertex, `transferred` a row of
-/// its T_p. `eye` is in the frame of the mesh. Truncated factors have negative lobes: negative results are kept.
+/// its T_p. `eye` is in the frame of the mesh. Truncated factors have negative lobes; negative results are kept.
 pub fn exit_radiance(
     vertices: &Vertices,
     reflectance: &Reflectance,

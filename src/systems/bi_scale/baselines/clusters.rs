@@ -16,14 +16,14 @@ pub struct RowClusterOptions {
     pub clusters: usize,
     /// Number of vectors per cluster; 8 in the paper.
     pub vectors: usize,
-    /// Affine (with a mean) or linear subspaces.
+    /// Affine subspaces (with a mean) or linear ones.
     pub form: CpcaForm,
-    /// Number of rows for the initial clusters, drawn without repetition from the non-zero rows. A row takes 4 bytes
-    /// per column: 4,096 rows of 6,144 columns take 100 MB.
+    /// Number of sample rows for the initial clusters, drawn without repetition from the non-zero rows. A row takes 4
+    /// bytes per column: 4,096 rows of 6,144 columns take 100 MB.
     pub sample: usize,
-    /// Largest number of iterations for each number of vectors, on the sample.
+    /// Maximum number of iterations on the sample for each number of vectors.
     pub iterations: usize,
-    /// Number of rounds over all rows afterwards.
+    /// Number of rounds over all rows after the sample.
     pub rounds: usize,
     /// Random seed of the sample and of the first representatives.
     pub seed: u64,
@@ -59,14 +59,13 @@ fn name_bytes(clusters: usize) -> usize {
 pub struct RowClusters {
     columns: usize,
     form: CpcaForm,
-    /// One mean per cluster, cluster by cluster.
     means: Vec<f32>,
-    /// Per cluster its vectors, concatenated.
+    /// The vectors of each cluster, concatenated.
     vectors: Vec<Vec<f32>>,
     of_row: Vec<u32>,
-    /// Row by row, with as many weights as the row's cluster has vectors.
+    /// Weights row by row: one for each vector of the row's cluster.
     weights: Vec<f32>,
-    /// The squared error over all rows before each round and after the last: it does not grow, up to rounding.
+    /// The squared error over all rows before each round and after the last; except for rounding it never grows.
     pub history: Vec<f64>,
 }
 
@@ -191,7 +190,7 @@ fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSu
     Ok(subspaces.map(|s| RowSubspace { mean: s.mean.clone(), vectors: s.vectors.clone() }).collect())
 }
 
-/// At most `most` rows of those that are not 0, in increasing order: those with the lowest random numbers.
+/// At most `most` of the non-zero rows, those with the lowest random numbers, in increasing order.
 fn sample(matrix: &SparseMatrix, most: usize, seed: u64) -> Vec<usize> {
     let random = CounterRng::new(seed);
     let lit = (0..matrix.rows()).filter(|&row| !matrix.row(row).is_empty());

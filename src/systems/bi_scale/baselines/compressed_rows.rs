@@ -1,34 +1,33 @@
-//! Compressed rows: the columns and values of each row one after another.
+//! Compressed sparse rows: columns and values of each row.
 
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::error::{InputError, ensure};
 
-/// A sparse matrix row by row, four bytes more for where each row begins (CSR). Products are in f32 or f64; a layout of
-/// fewer bytes holds the same numbers.
+/// A sparse matrix in compressed sparse row format (CSR), with four bytes for the start of each row. Products are in
+/// f32 or f64; both layouts store the same numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompressedRows {
-    /// Bytes of an entry: 3 or 8.
+    /// Bytes per entry: 3 or 8.
     entry: usize,
     width: usize,
     begins: Vec<u32>,
     columns: Vec<u32>,
-    /// Exact up to 24 bits.
+    /// Values, exact up to 24 bits.
     values: Vec<f32>,
 }
 
 impl CompressedRows {
-    /// Three bytes per entry: two for the column, and one for the value in units of the matrix. Fails with
-    /// [`InputError`] if this has no room for a column or value. Panics if there are more entries than 32 bits can
-    /// count.
+    /// Stores three bytes per entry: two for the column, and one for the value in units of the matrix. Fails with
+    /// [`InputError`] if a column or value does not fit. Panics if there are more entries than 32 bits can count.
     pub fn narrow(matrix: &SparseMatrix) -> Result<Self, InputError> {
         let has_unit = matrix.values().fraction_bits().is_some();
         let fits = |entry: i32| has_unit && i8::try_from(entry).is_ok();
         Self::new(matrix, 3, u16::MAX.into(), "values of -128 to 127 units", fits)
     }
 
-    /// Eight bytes per entry: four for the column, and four for the value in f32. Fails with [`InputError`] if a value
-    /// is beyond single precision. Panics as [`Self::narrow`] does.
+    /// Stores eight bytes per entry: four for the column, and four for the value in f32. Fails with [`InputError`] if a
+    /// value is beyond single precision. Panics as [`Self::narrow`] does.
     pub fn wide(matrix: &SparseMatrix) -> Result<Self, InputError> {
         let fits = |entry| (matrix.value(entry) as f32).is_finite();
         Self::new(matrix, 8, u32::MAX, "values within single precision", fits)
@@ -68,8 +67,8 @@ impl CompressedRows {
         self.columns.len()
     }
 
-    /// Rows times C lights, or channels of one, in f32: of a row one product after the other, columns increasing,
-    /// beginning with 0. Panics if the light has not as many numbers as the matrix has columns.
+    /// Multiplies rows by C lights, or channels of one light, in f32. The products of a row are added to 0 in the order
+    /// of columns. Panics if the light does not have one number per column.
     pub fn multiply_singles<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
         assert_eq!(light.len(), self.width, "as many numbers as columns");
         self.sums([0.0; C], |sum, column, value| {
@@ -78,7 +77,7 @@ impl CompressedRows {
         })
     }
 
-    /// A sum per row over its entries in their order.
+    /// Sums each row's entries in their order.
     #[inline(always)]
     fn sums<S: Copy>(&self, zero: S, add: impl Fn(S, usize, f32) -> S) -> Vec<S> {
         let row = |ends: &[u32]| {

@@ -1,4 +1,4 @@
-//! Rows by a few Haar wavelet coefficients each (section VI-B, Figure 6; \[NRH03\]'s non-linear approximation).
+//! Rows as a few Haar wavelet coefficients each (section VI-B, Figure 6; \[NRH03\]'s non-linear approximation).
 
 use rayon::prelude::*;
 
@@ -14,7 +14,7 @@ pub(super) const FACE: usize = LIGHT_SIDE * LIGHT_SIDE;
 /// The largest value of a signed byte.
 const BYTE: f64 = 127.0;
 
-/// The criterion by which a row's coefficients are chosen; among equal ones the lowest number comes first.
+/// The criterion by which a row's coefficients are chosen; among equals the lowest number is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientPriority {
@@ -43,9 +43,9 @@ pub enum CoefficientStorage {
 pub struct HaarRowOptions {
     /// Largest number of coefficients per row; 12 in the paper.
     pub keep: usize,
-    /// The criterion by which they are chosen.
+    /// The criterion by which coefficients are chosen.
     pub priority: CoefficientPriority,
-    /// The storage of their values.
+    /// The storage of coefficient values.
     pub storage: CoefficientStorage,
 }
 
@@ -74,7 +74,7 @@ impl CoefficientStorage {
     }
 }
 
-/// Rows in Haar wavelets over the six faces of 32 x 32 texels: the most important coefficients of each.
+/// Rows as their most important coefficients in Haar wavelets over the six faces of 32 x 32 texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HaarRows {
     options: HaarRowOptions,
@@ -86,7 +86,7 @@ pub struct HaarRows {
 }
 
 impl HaarRows {
-    /// The most important coefficients of each row of a matrix.
+    /// Selects the most important coefficients of each row of a matrix.
     pub fn new(matrix: &SparseMatrix, options: HaarRowOptions) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
             return Err(columns_error(matrix.columns()));

@@ -1,4 +1,4 @@
-//! Low-frequency bi-scale transfer: light of an order of spherical harmonics in place of texels.
+//! Low-frequency bi-scale transfer: light in spherical harmonics of an order, instead of texels.
 
 use rayon::prelude::*;
 
@@ -14,10 +14,10 @@ use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 pub enum HarmonicSides {
-    /// The distant light alone: M x n^2 numbers per vertex, the local directions stay.
+    /// Only the distant light: M x n^2 numbers per vertex for M local directions.
     Light,
-    /// Both, as in the paper's reference 3: n^2 x n^2 numbers per vertex; the light of a local direction is their
-    /// integral over its part of the hemisphere.
+    /// Both sides, as in the paper's reference 3: n^2 x n^2 numbers per vertex; the light of a local direction is the
+    /// integral of the local harmonics over the direction's part of the hemisphere.
     Both,
 }
 
@@ -30,12 +30,12 @@ pub struct HarmonicRows {
     height: usize,
     /// Vertex by vertex, row by row, n^2 numbers per row.
     values: Vec<f32>,
-    /// Weight of each local harmonic per local direction; only where both sides are in harmonics.
+    /// Weight of each local harmonic per local direction; empty unless both sides are in harmonics.
     cells: Vec<Vec<f64>>,
 }
 
 impl HarmonicRows {
-    /// Rows whose light is of an order. Nothing is to be known of vertices.
+    /// Converts rows to light in harmonics of an order, without data of vertices.
     pub fn of_light(matrix: &SparseMatrix, order: usize) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
             return Err(columns_error(matrix.columns()));
@@ -55,8 +55,8 @@ impl HarmonicRows {
         Ok(Self { order, sides: HarmonicSides::Light, height: 1, values, cells: Vec::new() })
     }
 
-    /// Matrices from harmonics of the distant light to harmonics of the light around a vertex, in its frame: integrals
-    /// over light texels, at their centers, of visibility and both.
+    /// Matrices from harmonics of the distant light to harmonics of the light around a vertex, in the vertex's frame:
+    /// integrals over light texels of visibility times both harmonics at the texel's center.
     pub fn of_both(transfer: &LocalTransfer<'_>, order: usize) -> Result<Self, InputError> {
         let functions = TexelHarmonics::new(order)?;
         let count = function_count(order);
@@ -141,7 +141,7 @@ impl TexelHarmonics {
         &self.functions[texel * self.count..][..self.count]
     }
 
-    /// Coefficients of a light whose texels are given times their solid angles.
+    /// Coefficients of a light, given by its texels' radiances times their solid angles.
     fn project(&self, light: &[f64]) -> Vec<f64> {
         assert_eq!(light.len(), LIGHT_TEXELS, "a number per light texel");
         let mut coefficients = vec![0.0; self.count];

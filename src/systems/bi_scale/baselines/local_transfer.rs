@@ -8,8 +8,8 @@ use crate::sphere::{function_count, harmonics};
 use crate::transfer::LocalFrame;
 use crate::transfer::grid::LIGHT_TEXELS;
 
-/// Number of cells along an edge by which the part of the square of one local direction is divided, for integrating
-/// over its part of the hemisphere.
+/// Number of cells along an edge of one local direction's part of the square, for integrals over its part of the
+/// hemisphere.
 const CELLS: usize = 16;
 
 /// A transfer matrix, the frames of its vertices, and its local directions.
@@ -21,7 +21,7 @@ pub struct LocalTransfer<'a> {
 }
 
 impl<'a> LocalTransfer<'a> {
-    /// Row M p + j of the matrix is local direction j in frame p.
+    /// Creates local transfer. Row M p + j of the matrix belongs to local direction j in frame p.
     pub fn new(
         matrix: &'a SparseMatrix,
         frames: &'a [LocalFrame],
@@ -54,7 +54,7 @@ impl<'a> LocalTransfer<'a> {
         self.directions.directions().len()
     }
 
-    /// The visible fraction of each light texel at a vertex: a column has at most one entry per vertex.
+    /// The visible fraction of each light texel at a vertex. A column has at most one entry per vertex.
     pub(super) fn visibility(&self, vertex: usize) -> Vec<f64> {
         let mut shares = vec![0.0; LIGHT_TEXELS];
         for row in vertex * self.local()..(vertex + 1) * self.local() {
@@ -66,9 +66,9 @@ impl<'a> LocalTransfer<'a> {
     }
 }
 
-/// Per local direction the integrals of the harmonics of an order over the part of the hemisphere that is nearest to
-/// it, in steradians: a sum over 16 x 16 points of equal solid angle for each direction. With order 1 times the root of
-/// 4 pi these are solid angles, which sum to 2 pi. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
+/// For each local direction, the integrals of the harmonics of an order over the part of the hemisphere nearest to it,
+/// in steradians: sums over 16 x 16 points of equal solid angle per direction. For order 1 and times the square root of
+/// 4 pi, they are solid angles, which sum to 2 pi. Panics if the order is not 1 to [`crate::sphere::MAX_ORDER`].
 pub fn cell_integrals(directions: &LocalDirections, order: usize) -> Vec<Vec<f64>> {
     let count = function_count(order);
     let side = directions.side() * CELLS;

@@ -1,15 +1,16 @@
 //! Baselines: other ways to store transfer, which the paper compares with biclusters or rejects (sections II, IV-A,
 //! VI-B):
 //!
-//! - [`CompressedRows`]: rows of columns and values, three or eight bytes per entry; lossless;
+//! - [`CompressedRows`]: rows as columns and values, three or eight bytes per entry; lossless;
 //! - [`RowClusters`]: clustered principal components of rows (Figure 6, c);
 //! - [`HaarRows`]: a few wavelet coefficients of each row (Figure 6, d);
 //! - [`HarmonicRows`]: transfer of spherical harmonics, on one side or on both (Figures 1 and 5);
-//! - [`ReshuffledVisibility`]: visibility of few texels and a shuffle of them in place of a rotation (section IV-A);
-//! - [`StoredTransfer`]: their common interface with biclusters: sizes, and products with light; [`LocalLightError`]:
-//!   the error of local light.
+//! - [`ReshuffledVisibility`]: visibility of few texels, with a permutation of texels instead of a rotation (section
+//!   IV-A);
+//! - [`StoredTransfer`]: the common interface of baselines and biclusters: sizes, and products with light;
+//!   [`LocalLightError`]: the error of local light.
 //!
-//! Products are computed in f64 from the stored numbers, so that errors are those of the storage.
+//! Products are computed in f64 from the stored numbers, so that only the storage causes errors.
 
 mod clusters;
 mod compressed_rows;

@@ -1,11 +1,11 @@
 //! Refinement of clusters of sparse rows by rounds over all rows.
 //!
-//! Dense rows of a whole transfer matrix would take 25 GB for a million rows; inner products with the clusters' vectors
-//! need the entries alone. A round assigns each row to the cluster that approximates it best, the first among equal
-//! ones; then each cluster takes the mean of its rows, and its vectors are multiplied with the covariance of its rows
-//! and orthonormalised (orthogonal iteration). No step increases the error: means and nearest clusters are optimal, and
-//! for a positive semidefinite C and orthonormal V the trace of U^T C U is at least that of V^T C V where U spans C V,
-//! since U maximises the tangent of this convex function at V.
+//! A million dense rows of a transfer matrix would take 25 GB; inner products with the clusters' vectors need only the
+//! entries. A round assigns each row to the cluster that approximates it best, the first of equals. Then each cluster
+//! takes the mean of its rows, and its vectors are multiplied by the covariance of its rows and orthonormalised
+//! (orthogonal iteration). No step increases the error. Means and nearest clusters are optimal. For positive
+//! semidefinite C and orthonormal V, let U be an orthonormal basis of C V: then tr(U^T C U) >= tr(V^T C V), because U
+//! maximises the tangent of this convex function at V.
 
 use rayon::prelude::*;
 
@@ -33,11 +33,11 @@ pub(super) struct PlacedRow {
 
 /// All means and vectors interleaved by column, so that each entry of a row reads contiguous numbers.
 struct ByColumn {
-    /// Per cluster the index of its mean; its vectors follow.
+    /// The index of each cluster's mean, which its vectors follow.
     begins: Vec<usize>,
     stride: usize,
     values: Vec<f64>,
-    /// The inner product of each index with the cluster's mean.
+    /// The inner product of each mean and vector with its cluster's mean.
     with_mean: Vec<f64>,
 }
 
@@ -61,7 +61,7 @@ impl ByColumn {
         Self { begins, stride, values, with_mean }
     }
 
-    /// Inner products of a row with all means and vectors, into `sums`; returns that with itself.
+    /// Writes inner products of a row with all means and vectors to `sums`; returns the row's squared length.
     fn products(&self, matrix: &SparseMatrix, row: usize, sums: &mut [f64]) -> f64 {
         sums.fill(0.0);
         let mut square = 0.0;
@@ -93,14 +93,14 @@ impl ByColumn {
     }
 }
 
-/// Assigns each row to its best cluster, the first among equal ones.
+/// Assigns each row to its best cluster, the first of equals.
 pub(super) fn placed(matrix: &SparseMatrix, subspaces: &[RowSubspace]) -> Vec<PlacedRow> {
     let lines = ByColumn::new(subspaces);
     let rows = (0..matrix.rows()).into_par_iter();
     rows.map_init(|| vec![0.0; lines.stride], |sums, row| lines.place(matrix, row, sums)).collect()
 }
 
-/// The subspaces fitted to the rows of each cluster. A cluster without rows keeps its own.
+/// Fits the subspaces to the rows of each cluster. A cluster without rows keeps its subspace.
 pub(super) fn refitted(
     matrix: &SparseMatrix,
     (before, form): (Vec<RowSubspace>, CpcaForm),
@@ -140,7 +140,7 @@ fn refit(matrix: &SparseMatrix, before: &RowSubspace, form: CpcaForm, rows: &[us
     }
     let mut vectors = Vec::with_capacity(images.len());
     for (image, vector) in images.chunks_exact(length).zip(before.vectors.chunks_exact(length)) {
-        // A vector to which all rows are orthogonal stays as it is.
+        // A vector to which all rows are orthogonal does not change.
         if !add_orthonormal(&mut vectors, image) {
             add_orthonormal(&mut vectors, vector);
         }
@@ -153,7 +153,7 @@ fn add(matrix: &SparseMatrix, row: usize, scale: f64, into: &mut [f64]) {
     matrix.row(row).iter().for_each(|entry| into[entry.index as usize] += scale * matrix.value(entry.value));
 }
 
-/// Appends a vector to orthonormal ones after orthonormalising it; false if it is linearly dependent on them.
+/// Orthonormalises a vector against orthonormal vectors and appends it; false if it is linearly dependent on them.
 fn add_orthonormal(vectors: &mut Vec<f64>, vector: &[f64]) -> bool {
     let mut vector = vector.to_vec();
     let mut before = dot(&vector, &vector).sqrt();

@@ -1,10 +1,10 @@
 //! The variant that section IV-A rejects: down-sample first, rotate afterwards.
 //!
 //! Visibility is stored at few texels of a coarse cube in the global frame; a rotation into a vertex's frame becomes a
-//! list with the coarse texel of each local direction. That is small, and L~ takes one product per local direction; but
-//! the order of down-sampling and rotation is swapped. A coarse texel contributes as a whole to all local directions
-//! nearest to it, and to no others; its light and its visibility are means, so that an occluder of a part of a texel
-//! dims its light instead.
+//! list with the coarse texel of each local direction. This is small, and L~ takes one product per local direction, but
+//! down-sampling comes before the rotation. A coarse texel contributes as a whole to the local directions nearest to
+//! it, and to no others. Its light and its visibility are means, so an occluder of part of a texel dims the whole
+//! texel.
 
 use rayon::prelude::*;
 
@@ -14,21 +14,20 @@ use crate::error::{InputError, ensure};
 use crate::sphere::CubeMap;
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS, face_row_column};
 
-/// Visibility of a coarse cube's texels, and its shuffle, per vertex.
+/// For each vertex, visibility of a coarse cube's texels, and the list of texels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReshuffledVisibility {
     cube: CubeMap,
-    /// Per vertex and coarse texel the mean of its light texels' visible shares.
+    /// For each vertex and coarse texel, the mean visible fraction of its light texels.
     visibility: Vec<f32>,
-    /// Per vertex and local direction the coarse texel that it lies in.
+    /// For each vertex and local direction, the coarse texel that contains the direction.
     shuffle: Vec<u16>,
-    /// The solid angle of each local direction.
     solid_angles: Vec<f64>,
 }
 
 impl ReshuffledVisibility {
-    /// Baseline with coarse cubes of `side` texels along an edge, a power of two up to 32. With 4 they have 96 texels,
-    /// about as many over the hemisphere as there are local directions of 8 x 8.
+    /// Creates the baseline with coarse cubes of `side` texels along an edge, a power of two up to 32. A cube with
+    /// `side` 4 has 96 texels, about as many over the hemisphere as 8 x 8 local directions.
     pub fn new(transfer: &LocalTransfer<'_>, side: usize) -> Result<Self, InputError> {
         ensure!(
             side.is_power_of_two() && side <= LIGHT_SIDE,
@@ -92,7 +91,6 @@ impl StoredTransfer for ReshuffledVisibility {
     }
 }
 
-/// The coarse texel that a light texel lies in.
 fn coarse(texel: usize, side: usize) -> usize {
     let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
     let parts = LIGHT_SIDE / side;

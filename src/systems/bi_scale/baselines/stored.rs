@@ -1,4 +1,4 @@
-//! The common interface of stored transfer, and the error of the local light that it gives.
+//! The common interface of stored transfer, and the error of its local light.
 
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::paper;
@@ -31,7 +31,7 @@ pub struct LocalLightError {
     pub root_mean_square: f64,
     /// The largest difference, in the unit of the light.
     pub largest: f64,
-    /// `root_mean_square` relative to the root mean square of T L; 0 where nothing differs.
+    /// `root_mean_square` relative to the root mean square of T L; 0 without a difference.
     pub relative: f64,
 }
 
@@ -51,7 +51,7 @@ impl LocalLightError {
     }
 }
 
-/// Bytes of a row number, and of a column's number and value, which agree with the paper's sizes.
+/// Bytes of a row index, and of a column's index and value, as implied by the paper's sizes.
 const PER_ROW: usize = 4;
 const PER_COLUMN: usize = 8;
 
@@ -66,12 +66,12 @@ impl StoredTransfer for Biclustering {
     }
 }
 
-/// The matrix does not have a column for each light texel.
+/// Error: the matrix does not have one column per light texel.
 pub fn columns_error(found: usize) -> InputError {
     input_error!("expected a matrix of {LIGHT_TEXELS} columns, a light texel each, found {found}")
 }
 
-/// The matrix has no principal components.
+/// Error: the matrix has no principal components.
 pub(super) fn dark_error() -> InputError {
     input_error!("expected a row with a value other than 0, found none")
 }

@@ -2,13 +2,13 @@
 
 use crate::geom::random::CounterRng;
 
-/// The start element of a bicluster, by its index among the non-zeros row by row: uniformly one of `count`.
+/// Chooses the start element of a bicluster uniformly among `count` non-zeros; returns its index, counted row by row.
 pub(in crate::bi_scale) fn start(seed: u64, bicluster: u64, count: u64) -> u64 {
     let bits = CounterRng::new(seed).bits(bicluster, 0, 0);
     ((u128::from(bits) * u128::from(count)) >> 64) as u64
 }
 
-/// Numbers of elements per row, with the sums that find the row of an element by its number (Fenwick 1994).
+/// Numbers of elements per row, with a Fenwick tree (1994) that finds the row of an element by its index.
 #[derive(Clone, Debug)]
 pub(super) struct Counts {
     /// Nodes of the Fenwick tree, counted from 1: node i is the sum of `i & -i` rows, the last of which is row i - 1.
@@ -36,7 +36,7 @@ impl Counts {
         self.total
     }
 
-    /// Adds elements to a row, or takes some away.
+    /// Adds elements to a row; `more` may be negative.
     pub(super) fn add(&mut self, row: usize, more: i64) {
         self.total = self.total.wrapping_add_signed(more);
         let mut node = row + 1;
@@ -46,7 +46,7 @@ impl Counts {
         }
     }
 
-    /// The row of an element, and the element's number within the row.
+    /// The row of an element, and the element's index within the row.
     pub(super) fn find(&self, mut element: u64) -> (usize, u64) {
         let mut before = 0;
         let mut step = self.sums.len().next_power_of_two();

@@ -7,7 +7,6 @@ use crate::bi_scale::matrix::MatrixEntry;
 /// Entries line by line, in any order.
 pub(super) type Lines = Vec<Vec<MatrixEntry>>;
 
-/// The columns, `width` of them, of rows.
 pub(super) fn transposed(rows: &[Vec<MatrixEntry>], width: usize) -> Lines {
     let mut columns = vec![Vec::new(); width];
     for (index, row) in (0..).zip(rows) {
@@ -55,7 +54,7 @@ impl ColumnTally {
         self.most + self.nonzeros
     }
 
-    /// Count of `value` plus number of non-zeros: the same for a column inside.
+    /// Count of `value` plus number of non-zeros: half the gain of keeping a column inside.
     pub(super) fn matches_and_nonzeros(&self, value: i32) -> u32 {
         self.values.iter().find(|(known, _)| *known == value).map_or(0, |(_, count)| *count) + self.nonzeros
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
-/// Numbers behind the integers of a search; 0 represents 0.
+/// Maps the integers of a search to the numbers that they represent; 0 represents 0.
 pub(super) trait SearchNumbers {
     /// The integer for the difference of two numbers; `None` if no integer is left for it.
     fn difference(&mut self, value: i32, t: i32) -> Option<i32>;
@@ -17,7 +17,7 @@ pub(super) trait SearchNumbers {
     fn is_dropped(&self, residual: i32) -> bool;
 }
 
-/// Whole numbers of the matrix's unit, by themselves.
+/// Multiples of the matrix's unit; each integer represents itself.
 #[derive(Debug)]
 pub(super) struct UnitNumbers {
     /// The largest residual that is dropped.
@@ -27,7 +27,7 @@ pub(super) struct UnitNumbers {
 impl UnitNumbers {
     /// `drop` in the scale of the matrix.
     pub(super) fn new(drop: f64, fraction_bits: u32) -> Self {
-        // Saturates; NaN becomes 0.
+        // The conversion saturates; NaN becomes 0.
         Self { drop: (drop * f64::from(1_u32 << fraction_bits)) as u32 }
     }
 }
@@ -49,8 +49,8 @@ impl SearchNumbers for UnitNumbers {
     }
 }
 
-/// Any numbers, by the order in which they were met first. A difference is rounded to the nearest f64; it is 0 for
-/// equal numbers alone.
+/// Arbitrary numbers, indexed in the order of first appearance. A difference is rounded to the nearest f64; it is 0
+/// only for equal numbers.
 #[derive(Debug, Default)]
 pub(super) struct KnownNumbers {
     numbers: Vec<f64>,
@@ -60,7 +60,8 @@ pub(super) struct KnownNumbers {
 }
 
 impl KnownNumbers {
-    /// The numbers of a matrix, and its entries by these, row by row; `None` if there are more numbers than integers.
+    /// The numbers of a matrix, and its entries as their indices, row by row; `None` if there are more numbers than
+    /// integers.
     pub(super) fn new(matrix: &SparseMatrix, drop: f64) -> Option<(Self, Vec<Vec<MatrixEntry>>)> {
         let mut known = Self { drop, ..Self::default() };
         known.integer(0.0);

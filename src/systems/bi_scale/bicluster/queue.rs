@@ -3,12 +3,12 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Lines ordered by key; of equal keys the lowest line comes first. Outdated entries, whose line has another key by now
-/// or is no longer a candidate, are skipped when they come up, so that a line may be in several buckets.
+/// Lines ordered by key; among equal keys the lowest line comes first. A line may be in several buckets: outdated
+/// entries, whose line has a new key or is no longer a candidate, are skipped when they are reached.
 #[derive(Debug, Default)]
 pub(super) struct BucketQueue {
     buckets: Vec<BinaryHeap<Reverse<u32>>>,
-    /// No bucket outside of these has lines.
+    /// Buckets below `lowest` and above `highest` are empty.
     lowest: usize,
     end: usize,
 }
@@ -33,7 +33,6 @@ impl BucketQueue {
         found
     }
 
-    /// The line of the lowest key.
     pub(super) fn lowest(&mut self, is_current: impl Fn(u32, u32) -> bool) -> Option<(u32, u32)> {
         let found = self.first(self.lowest..self.end, is_current);
         self.lowest = found.map_or(0, |(key, _)| key as usize);
@@ -41,7 +40,7 @@ impl BucketQueue {
         found
     }
 
-    /// The first of some keys with a line that is current, and the lowest such line; outdated entries before it are
+    /// The first of some keys that has a current line, and its lowest current line; outdated entries before it are
     /// removed.
     fn first(
         &mut self,

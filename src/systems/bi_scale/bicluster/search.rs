@@ -1,9 +1,9 @@
 //! Algorithm 1 by influence values (section V, Precomputation Optimization): the gain of each insertion or deletion is
-//! kept up to date, and an operation changes only the lines that it crosses.
+//! updated incrementally, because an operation changes only the lines that it crosses.
 //!
 //! With r rows and l columns inside, inserting a row gains 2 (matches + non-zeros) - 2l - 1, inserting a column 2 (most
 //! frequent + non-zeros) - 2r - 2, and a deletion gains the negative of that. So the key of a line is the sum in
-//! brackets, which depends on the entries that cross the line, not on r or l.
+//! parentheses, which depends on the entries of the line, but not on r or l.
 
 use std::collections::BTreeSet;
 
@@ -18,9 +18,9 @@ use crate::error::{InputError, ensure, input_error};
 /// Biclusters of a matrix, identical to those of [`paper::biclusters`](crate::bi_scale::paper::biclusters). `found` is
 /// called after each with the number of remaining non-zeros.
 ///
-/// Memory is 16 bytes per non-zero and some 80 per row and column, besides the biclusters. Without a unit in which 32
-/// bits hold the values and all residuals, some 100 bytes per distinct number more. If a residual is the first that 32
-/// bits do not hold, the search begins again, and `found` counts down from all non-zeros once more.
+/// Besides the biclusters, the search takes 16 bytes per non-zero and about 80 per row and column. If no unit exists in
+/// which 32 bits hold the values and all residuals, it takes about 100 bytes more per distinct number. If only a
+/// residual exceeds 32 bits, the search restarts, and `found` counts down from all non-zeros again.
 pub fn bicluster(
     matrix: &SparseMatrix,
     options: BiclusterOptions,
@@ -51,8 +51,8 @@ fn residuals_error() -> InputError {
 #[derive(Debug)]
 struct SearchSide {
     lines: Lines,
-    /// Key of each line within the submatrix: matches (for a column outside, its most frequent value's count) plus
-    /// non-zeros.
+    /// Key of each line: within the submatrix, matches (for a column outside, the count of its most frequent value)
+    /// plus non-zeros.
     keys: Vec<u32>,
     /// Index of the line in `inside`, or [`OUTSIDE`].
     places: Vec<u32>,
@@ -61,7 +61,7 @@ struct SearchSide {
     touched: Vec<u32>,
     insertions: BucketQueue,
     deletions: BucketQueue,
-    /// Scratch of [`Self::subtract`]: crossing lines that were met, by index in `inside`.
+    /// Scratch of [`Self::subtract`]: `true` for crossing lines that have an entry, by index in `inside`.
     met: Vec<bool>,
 }
 
@@ -99,7 +99,7 @@ impl SearchSide {
         }
     }
 
-    /// Sets the key of a line, and queues the line; outside only if its insertion may gain (`key` at least `least`).
+    /// Sets the key of a line, and queues the line, if it is inside or its insertion may gain (`key` at least `least`).
     #[inline]
     fn set_key(&mut self, line: u32, key: u32, least: u32) {
         let old = std::mem::replace(&mut self.keys[line as usize], key);
@@ -127,7 +127,7 @@ impl SearchSide {
         }
     }
 
-    /// Queues all lines outside with a key of `least` or more again, after the deletion of a crossing line has lowered
+    /// Queues all lines outside with a key of at least `least`, after the deletion of a crossing line has lowered
     /// `least`.
     fn queue_again(&mut self, least: u32) {
         self.insertions.clear();
@@ -138,7 +138,7 @@ impl SearchSide {
         }
     }
 
-    /// The best operation on a line of this direction, where a key of `cost / 2` gains nothing.
+    /// The best operation on a line of this direction; a key of `cost / 2` has gain 0.
     fn best(&mut self, cost: i64, deletion: bool) -> Option<Operation> {
         let (keys, places) = (&self.keys, &self.places);
         let is_outside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] == OUTSIDE;
@@ -153,9 +153,9 @@ impl SearchSide {
         Operation::better(insertion, deletion)
     }
 
-    /// Subtracts the bicluster's entries from a line inside: `all` entries of the line; `places` are the crossing
-    /// lines' indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if
-    /// there is no integer for a residual. Residuals for which `goes` is true are dropped.
+    /// Subtracts the bicluster's values from the entries `all` of a line inside; `places` are the crossing lines'
+    /// indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if no integer
+    /// represents a residual. Residuals for which `goes` is true are dropped.
     fn subtract<N: SearchNumbers>(
         &mut self,
         line: u32,
@@ -212,7 +212,7 @@ struct Search<N> {
     numbers: N,
     rows: SearchSide,
     columns: SearchSide,
-    /// Per column the counts of its values in the rows inside.
+    /// Counts of each column's values in the rows inside.
     tallies: Vec<ColumnTally>,
     /// The value of each column inside.
     values: Vec<i32>,
@@ -250,7 +250,7 @@ impl<N: SearchNumbers> Search<N> {
         Some(biclustering)
     }
 
-    /// The least key of a row, and of a column, whose insertion may gain.
+    /// The least key with which the insertion of a row, and of a column, may gain.
     fn least_keys(&self) -> [u32; 2] {
         [self.columns.inside.len() as u32 + 1, self.rows.inside.len() as u32 + 2]
     }
@@ -271,7 +271,7 @@ impl<N: SearchNumbers> Search<N> {
         let column = self.columns.best(2 * r + 2, self.options.deletion).filter(|operation| operation.gain > 0);
         let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
         match (row, column) {
-            // Gains of rows are odd and those of columns even, so that two operations never tie.
+            // Gains of rows are odd and gains of columns even, so a row and a column never tie.
             (Some(Operation { line, .. }), _) if gain(row) > gain(column) => {
                 if self.rows.places[line as usize] == OUTSIDE { self.insert_row(line) } else { self.delete_row(line) }
             }
@@ -295,7 +295,7 @@ impl<N: SearchNumbers> Search<N> {
     fn delete_row(&mut self, row: u32) {
         self.rows.delete(row);
         self.cross_columns(row, ColumnTally::remove);
-        // With one row less inside, columns may gain that were not worth queueing before.
+        // With one row less inside, the insertion of further columns may gain.
         let [_, least] = self.least_keys();
         self.columns.queue_again(least);
     }
@@ -323,13 +323,13 @@ impl<N: SearchNumbers> Search<N> {
     fn delete_column(&mut self, column: u32) {
         self.columns.delete(column);
         let [least, least_column] = self.least_keys();
-        // Inserted again, the column may gain with another value.
+        // If it is inserted again, the column may gain with a different value.
         self.columns.set_key(column, self.tallies[column as usize].most_and_nonzeros(), least_column);
         self.cross_rows(column, u32::wrapping_sub);
         self.rows.queue_again(least);
     }
 
-    /// Changes the keys of the rows that a column crosses: by 2 where they have its value, by 1 elsewhere.
+    /// Changes the keys of the rows that a column crosses: by 2 in rows with the column's value, by 1 in others.
     #[inline(always)]
     fn cross_rows(&mut self, column: u32, change: impl Fn(u32, u32) -> u32) {
         let ([least, _], t) = (self.least_keys(), self.values[column as usize]);
@@ -346,7 +346,8 @@ impl<N: SearchNumbers> Search<N> {
         let (numbers, dropped) = (&mut self.numbers, &mut self.dropped);
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
-            // Columns come first and only look residuals up; the rows below drop the same ones and record them.
+            // Columns are first and only look up dropped residuals; the rows below drop the same residuals and record
+            // them.
             let goes = |numbers: &N, row, value: i32| numbers.is_dropped(value) && !dropped.contains(&(row, column));
             self.columns.subtract(column, all, (&self.rows.places, numbers), |_| t, goes)?;
         }

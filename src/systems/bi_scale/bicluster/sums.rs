@@ -1,4 +1,4 @@
-//! Sums of biclusters, and the residual of a matrix: exact in units of the matrix, else in f64.
+//! Sums of biclusters, and the residual of a matrix: exact if the matrix has a unit, else in f64.
 
 use super::Biclustering;
 use crate::bi_scale::matrix::{EntryValues, SparseMatrix};
@@ -25,9 +25,9 @@ impl BiclusterResidual {
 }
 
 impl Biclustering {
-    /// The sum of the biclusters: in units of the matrix exactly the original matrix, else the same except for the
-    /// rounding of residuals and of the sum. Fails with [`InputError`] if a sum can be no value of a matrix, which
-    /// happens for biclusters from elsewhere and where residuals were dropped.
+    /// The sum of the biclusters: exactly the original matrix if that has a unit, else the original matrix up to
+    /// rounding of residuals and of the sum. Fails with [`InputError`] if a sum is not a valid matrix value, which can
+    /// happen for biclusters from other programs or with dropped residuals.
     pub fn sum(&self) -> Result<SparseMatrix, InputError> {
         let ([rows, columns], bits) = (self.matrix_size(), self.values().fraction_bits());
         let units = bits.map(EntryValues::units);
@@ -48,7 +48,7 @@ impl Biclustering {
         Ok(sum.expect("finite numbers in a matrix of this size"))
     }
 
-    /// Difference of the sum from a matrix of the same size; zero if the matrix is in units and nothing was dropped.
+    /// Difference of the sum from a matrix of the same size; zero if the matrix has a unit and no residual was dropped.
     /// Panics if the sizes differ.
     pub fn residual(&self, matrix: &SparseMatrix) -> BiclusterResidual {
         assert_eq!(self.matrix_size(), [matrix.rows(), matrix.columns()], "the size of the matrix");
@@ -61,8 +61,8 @@ impl Biclustering {
         residual
     }
 
-    /// Calls `take` with the row and column of each sum other than 0, `less` a matrix, and the sum: row by row, added
-    /// in the order of the biclusters. f64 holds sums of multiples of one unit exactly.
+    /// Calls `take` with the row, column and value of each non-zero sum of biclusters minus the matrix `less`, row by
+    /// row. Sums are in the order of biclusters; f64 represents sums of multiples of one unit exactly.
     fn sums(
         &self,
         less: Option<&SparseMatrix>,

@@ -5,20 +5,20 @@ use crate::bi_scale::matrix::{EntryValues, MatrixEntry};
 /// A constant-column bicluster: within each of its columns, all of its rows have the same value (equation 4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bicluster {
-    /// Its rows j_1 ... j_r, increasing.
+    /// Rows j_1 ... j_r, increasing.
     pub rows: Vec<u32>,
-    /// Its columns k_1 ... k_l, increasing, each with its value t, other than 0, as [`Biclustering::values`] has it.
+    /// Columns k_1 ... k_l, increasing, each with its non-zero value t, encoded as in [`Biclustering::values`].
     pub columns: Vec<MatrixEntry>,
 }
 
 impl Bicluster {
-    /// Cost W = r + 2l - 1: multiplications and additions of its product (equation 7).
+    /// Cost W = r + 2l - 1: multiplications and additions of the bicluster's product (equation 7).
     pub fn cost(&self) -> u64 {
         self.rows.len() as u64 + 2 * self.columns.len() as u64 - 1
     }
 
-    /// True if it fits a matrix of this size: rows and columns in range and increasing, values other than 0 that there
-    /// are.
+    /// True if the bicluster fits a matrix of this size: rows and columns are in range and increasing, and values are
+    /// non-zero and exist.
     pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2], values: &EntryValues) -> bool {
         let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
         let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
@@ -40,7 +40,7 @@ pub struct Biclustering {
 }
 
 impl Biclustering {
-    /// No biclusters, for a zero matrix of this size.
+    /// The biclustering of a zero matrix of this size.
     pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, values: EntryValues) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
@@ -59,7 +59,7 @@ impl Biclustering {
         self.row_begins.len() - 1
     }
 
-    /// True if there are none, so that the matrix is 0.
+    /// True if there are no biclusters, so that the matrix is 0.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -69,8 +69,8 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// These biclusters with other integers for values, by the number of each: in units of 2^-`fraction_bits` if it
-    /// is given and 32 bits hold all, else in a table.
+    /// Changes the encoding of values; `number` decodes each. The new encoding is units of 2^-`fraction_bits` if
+    /// `fraction_bits` is given and 32 bits hold all values, else a table.
     pub(in crate::bi_scale) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
         self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
         for entry in &mut self.columns {
@@ -84,7 +84,7 @@ impl Biclustering {
         &self.values
     }
 
-    /// The number that a value of a column represents. Panics if there can be no such value.
+    /// The number that a value of a column represents. Panics if no such value exists.
     #[inline]
     pub fn value(&self, entry: i32) -> f64 {
         self.values.value(entry)
@@ -120,8 +120,8 @@ impl Biclustering {
         (self.rows.len() + 2 * self.columns.len() - self.len()) as u64
     }
 
-    /// The biclusters I_j of each row j, increasing within a row, one row after the other; the first vector holds the
-    /// start of each row followed by the end of the last.
+    /// The biclusters I_j of each row j, increasing within a row, row by row; the first vector has the start of each
+    /// row, then the end of the last.
     pub fn by_row(&self) -> (Vec<usize>, Vec<u32>) {
         let mut begins = vec![0; self.matrix_rows + 1];
         self.rows.iter().for_each(|&row| begins[row as usize + 1] += 1);

@@ -1,5 +1,5 @@
-//! A bidirectional texture as a volume (Figure 4): one layer per view, which holds one block of texels per direction of
-//! light, in rows like the directions in their square.
+//! A bidirectional texture as a volume (Figure 4): one layer per view. A layer has one block of texels per direction of
+//! light, arranged as the directions in their square.
 
 /// Borders between the blocks of a layer.
 #[non_exhaustive]
@@ -54,7 +54,7 @@ impl BlockGrid {
         [self.pitch() * (light % self.lights), self.pitch() * (light / self.lights)]
     }
 
-    /// The direction of light, and the row and column of the patch, for a texel of a layer.
+    /// Maps a texel of a layer to a direction of light, and to the row and column of the patch.
     pub const fn shown(&self, column: usize, row: usize) -> (usize, [usize; 2]) {
         let pitch = self.pitch();
         let light = self.lights * (row / pitch) + column / pitch;

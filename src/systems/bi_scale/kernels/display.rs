@@ -4,7 +4,7 @@
 //!
 //! - t0 and up: the numbers of [`LocalLayout`].
 //! - s0: the bidirectional texture in a volume ([`BlockGrid`]), filtered by the sampler within a block. Layers are read
-//!   at their centers, so that a read is not interpolated between layers.
+//!   at their centers, so the sampler does not interpolate between layers.
 //! - c[`FIRST_ORIGIN`] and up: the origin of each direction's block, in coordinates of the volume.
 //! - Output: the sum over the directions of the pass; alpha is 1.
 //!
@@ -22,7 +22,7 @@ use crate::card::WrittenKernel;
 /// The constant register of the first direction's block origin.
 pub const FIRST_ORIGIN: usize = 8;
 
-/// atan(t) / (pi / 4) for t of 0 to 1 as t times a polynomial in t^2: the coefficients of least largest error.
+/// Minimax coefficients of atan(t) / (pi / 4) for t from 0 to 1, as t times a polynomial in t^2.
 const ARC_TANGENT: [f64; 8] = [
     1.273_238_7,
     -0.424_368_97,
@@ -33,15 +33,15 @@ const ARC_TANGENT: [f64; 8] = [
     0.027_836_784,
     -0.005_162_436,
 ];
-/// Squares of lengths, in units of the body's frame, are taken to be at least this.
+/// Lower bound to which squared lengths, in units of the body's frame, are clamped.
 const LEAST: f64 = 1.0 / 1_099_511_627_776.0;
 
 /// A program for the display.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct DisplayKernel {
-    /// The places of the numbers.
+    /// The layout of the interpolated numbers.
     pub layout: LocalLayout,
-    /// The places of blocks.
+    /// The layout of blocks in the volume.
     pub grid: BlockGrid,
     /// Directions of the pass.
     pub directions: usize,
@@ -75,7 +75,7 @@ impl DisplayKernel {
         );
     }
 
-    /// Writes the view's point of the square into r4.xy. Views below the horizon are moved onto it.
+    /// Computes the view's point in the square in r4.xy. Views below the horizon are moved to the horizon.
     fn push_square(&self, text: &mut String) {
         let last = self.layout.last();
         let _ = write!(
@@ -95,7 +95,7 @@ impl DisplayKernel {
         );
     }
 
-    /// The four layers into r7, as coordinates of their middles, and their weights into r8.
+    /// Computes the coordinates of the four layers' centers in r7, and their weights in r8.
     fn push_samples(&self, text: &mut String) {
         text.push_str(
             "; cells around the point, and weights\nmad r4.xy, r4, c3.x, c3.y\nmax r4.xy, r4, c0.y\n\
@@ -106,7 +106,7 @@ impl DisplayKernel {
         );
     }
 
-    /// The four places in a block at the volume's corner into r0, r1, r2, r3.
+    /// Computes the four positions in a block at the volume's corner in r0 to r3.
     fn push_coordinates(&self, text: &mut String) {
         let _ = writeln!(text, "; the place in a block\nfrc r9.xy, t{}", self.layout.last());
         if self.grid.edges == BlockEdges::Touching {
@@ -120,11 +120,11 @@ impl DisplayKernel {
         text.push_str("mov r0.z, r7.x\n");
     }
 
-    /// b of a direction, interpolated between four views, times its light, added to r11.
+    /// Interpolates b of a direction between four views, multiplies it by the direction's light, and adds it to r11.
     fn push_direction(&self, text: &mut String, direction: usize) {
         let origin = FIRST_ORIGIN + direction;
         for (from, into) in (0..4).zip(4..) {
-            // r7 and r9 are done with; r4 to r7 hold coordinates, then texels.
+            // r7 and r9 are free here; r4 to r7 hold coordinates, then texels.
             let _ = writeln!(text, "add r{into}, r{from}, c{origin}");
         }
         for register in 4..8 {

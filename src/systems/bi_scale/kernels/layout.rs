@@ -1,4 +1,4 @@
-//! The layout of local light in texture coordinate sets, and the vertex program that hands it on.
+//! The layout of local light in texture coordinate sets, and the vertex program that forwards it.
 
 use std::fmt::Write as _;
 
@@ -15,11 +15,11 @@ pub struct LocalLayout {
     pub sets: usize,
 }
 
-/// Numbers of a pixel beside local light: u, v and three of the view.
+/// Interpolated numbers besides local light: u, v and the three of the view.
 const BESIDE: usize = 5;
 
 impl LocalLayout {
-    /// Number of directions per pass: three numbers each of those left by u, v and the view.
+    /// Number of directions per pass: each takes three of the numbers that u, v and the view leave.
     pub const fn directions(self) -> usize {
         (4 * self.sets).saturating_sub(BESIDE) / 3
     }
@@ -44,10 +44,10 @@ impl LocalLayout {
     }
 }
 
-/// A vertex program that hands local light on.
+/// A vertex program that forwards local light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LocalVertexKernel {
-    /// The places of the numbers.
+    /// The layout of the numbers.
     pub layout: LocalLayout,
     /// [`Version::Vs2_0`] or [`Version::Vs1_1`].
     pub version: Version,

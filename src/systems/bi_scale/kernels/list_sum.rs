@@ -1,18 +1,18 @@
-//! Sums over lists of texels (section V, Algorithm 2): of light over the columns of a bicluster, weighted by their
-//! values, or of biclusters over those of a row. A fragment computes one sum for red, green and blue in parallel.
+//! Sums over lists of texels (section V, Algorithm 2): sums of light over a bicluster's columns, weighted by their
+//! values, or sums over a row's biclusters. A fragment computes one sum for red, green and blue in parallel.
 //!
-//! - t0: coordinates in texture 0 of the first texel of the fragment's list; t1: the fragment's own, for the sum so
+//! - t0: coordinates of the first texel of the fragment's list in texture 0; t1: coordinates of the fragment's sum so
 //!   far.
 //! - c0: 1 / width and 1 / (width x height) of texture 1, which are powers of two; c1: the step between texels of a
 //!   list.
-//! - texture 0: lists. A texel holds four places, or two places with a value each; a place is the number of a texel of
+//! - texture 0: the lists. A texel has four places, or two places with a value each. A place is the index of a texel of
 //!   texture 1, counted row by row, plus one half.
-//! - texture 1: the summands, repeated along its rows: both coordinates are the place times c0, which is exact while
-//!   places have at most 23 bits.
+//! - texture 1: the summands, with wrapped addressing along u: both coordinates are the place times c0, which is exact
+//!   for places of at most 23 bits.
 //! - texture 2: the sum so far; not in the first program.
 //!
-//! Additions run one after the other, beginning with 0, as in the host's sums. Unused places of a list's last texel
-//! point at a texel of 0, which changes no sum.
+//! Additions are sequential from 0, as in the host's sums. Unused places of a list's last texel point to a texel of 0,
+//! which changes no sum.
 
 use std::fmt::Write as _;
 
@@ -30,9 +30,9 @@ pub const SUM: usize = 2;
 /// A program that sums over lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ListSumKernel {
-    /// Number of list texels that it reads per fragment.
+    /// Number of list texels read per fragment.
     pub texels: usize,
-    /// True if each place has a value by which its texel is multiplied.
+    /// True if each place has a value that multiplies its texel.
     pub is_weighted: bool,
     /// True if the sums begin at 0; otherwise they continue texture 2.
     pub is_first: bool,
@@ -49,7 +49,8 @@ impl ListSumKernel {
         if is_weighted { 2 } else { 4 }
     }
 
-    /// Instructions per texel: its read, the step to the next; and for each place coordinates, read, product and sum.
+    /// Instructions per texel: a read and the step to the next texel; and for each place, coordinates, read, product
+    /// and sum.
     const fn per_texel(is_weighted: bool) -> usize {
         2 + Self::places_per_texel(is_weighted) * if is_weighted { 4 } else { 3 }
     }

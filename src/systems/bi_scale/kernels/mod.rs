@@ -1,4 +1,4 @@
-//! The programs of bi-scale transfer on a card, written here because the number of reads decides: sums over lists
+//! The programs of bi-scale transfer on a card, generated because they depend on the number of reads: sums over lists
 //! (section V, Algorithm 2), and the product of a bidirectional texture with local light (equation 3).
 
 mod blocks;
@@ -15,7 +15,7 @@ use refsim::isa::Version;
 
 use crate::card::WrittenKernel;
 
-/// Every program that there is, by name, for a few numbers of reads and of directions.
+/// Programs by name, for some numbers of reads and of directions.
 pub fn programs() -> Vec<(String, String)> {
     let mut all = Vec::new();
     for (texels, is_weighted) in [(1, true), (3, true), (50, true), (1, false), (7, false), (36, false)] {

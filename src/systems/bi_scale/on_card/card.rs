@@ -1,6 +1,6 @@
 //! Display of bi-scale transfer by an emulated card (section V): passes over the mesh, each with as many directions as
-//! fit its interpolated coordinates, added up by blending. The depth buffer is filled first, so that passes add the
-//! nearest surface only.
+//! the interpolated coordinates can hold, summed by blending. The depth buffer is filled first, so that passes add only
+//! the nearest surface.
 
 use std::sync::Arc;
 
@@ -22,14 +22,14 @@ use crate::card::{
 
 /// Red, green and blue: later passes leave alpha, which marks covered pixels.
 const COLORS: WriteMask = WriteMask(7);
-/// Texture coordinate sets of ps_2_x, and the least number that can hold a direction.
+/// Number of texture coordinate sets of ps_2_x, and the least number that can hold a direction.
 const SETS: usize = 8;
 const LEAST_SETS: usize = 3;
 
-/// Counts of a frame, which do not depend on its light and view.
+/// Counts of a frame, which do not depend on light and view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DisplayCounts {
-    /// Draws, without that into the depth buffer: the passes of all textures.
+    /// Number of draws, without the draw into the depth buffer: the passes of all textures.
     pub draws: usize,
     /// Passes per texture.
     pub passes: usize,
@@ -67,8 +67,8 @@ pub struct BiScaleCard<'a> {
 impl<'a> BiScaleCard<'a> {
     /// Uploads a mesh and its textures.
     ///
-    /// [`CardError`] if the device lacks programs, texture coordinates, the volumes' size or their format, or
-    /// the parts of the mesh have contradictory sizes.
+    /// Fails with [`CardError`] if the device lacks programs, texture coordinates, or support of the volumes' size or
+    /// format, or the mesh's parts have inconsistent sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -140,20 +140,20 @@ impl<'a> BiScaleCard<'a> {
         }
     }
 
-    /// The target of a frame from local light, which is M times red, green and blue for each vertex. Background pixels
-    /// are 0, alpha is 1 elsewhere. Fails with [`CardError`] for an exposure out of range, light of another size or
-    /// outside its format's range, and draws that the card refuses.
+    /// Draws a frame from local light, M colors (red, green, blue) per vertex, and returns the target. Background
+    /// pixels are 0, alpha is 1 elsewhere. Fails with [`CardError`] for an exposure out of range, light of another size
+    /// or outside its format's range, and draws that the card refuses.
     pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(local, view, false)?.0)
     }
 
-    /// As [`Self::view_texels`], with the log of the frame's work: without read-back, and without upload of local
+    /// Like [`Self::view_texels`], with the log of the frame's work, without read-back, and without upload of local
     /// light, which the paper keeps on the card.
     pub fn logged_view(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
         self.show(local, view, true)
     }
 
-    /// Draws a frame: the mesh into the depth buffer, then the directions of each texture, added up pass by pass.
+    /// Draws a frame: the mesh into the depth buffer, then the directions of each texture, summed pass by pass.
     fn show(
         &mut self,
         local: &[[f32; 3]],

@@ -1,10 +1,10 @@
 //! Product of light and biclusters on a card (section V, Algorithm 2): first the bicluster buffer, then the sums of
 //! rows, both as sums over lists in textures. Red, green and blue are computed in parallel.
 //!
-//! The sums are those of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), with additions in the same
-//! order, so that a card with single precision gives its bits unless one of them is subnormal, which `gt200` flushes.
-//! Lists have about the paper's size: four bytes for a row of a bicluster, eight for a column. Values of biclusters are
-//! rounded to single precision, which is exact for shares of visibility; those beyond its range are refused.
+//! Additions have the order of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), so a card with single
+//! precision gives the same bits, except for subnormal numbers, which `gt200` flushes. Lists have about the paper's
+//! size: four bytes per row of a bicluster, eight per column. Values of biclusters are rounded to single precision,
+//! which is exact for visibility; values beyond its range are refused.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,13 +25,12 @@ use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::kernels::ListSumKernel;
 use crate::card::{CardError, FullScreenPass, KernelError, Texels, WrittenKernel, constants, require_versions};
 
-/// Lists and sums are in single precision.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
 /// Largest texture side where the device states no limit.
 const SIDE: usize = 8192;
-/// Instructions where the device states no limit: those of ps_2_b.
+/// Instructions where the device states no limit: the limit of ps_2_b.
 const INSTRUCTIONS: usize = 512;
-/// Wraps in u, because a texel is addressed by its number alone.
+/// Wraps in u, because a texel is addressed only by its index.
 const BY_NUMBER: SamplerState = SamplerState { address_u: AddressMode::Wrap, ..SamplerState::NEAREST_CLAMP };
 
 /// Sums over lists of places in a texture.
@@ -42,7 +41,7 @@ struct Stage {
     order: Vec<u32>,
     passes: Vec<ListPass>,
     sheets: Vec<(TextureId, usize)>,
-    /// The first holds the final sums, the second intermediate ones.
+    /// The first target has the final sums, the second intermediate sums.
     targets: [TextureId; 2],
 }
 
@@ -53,7 +52,7 @@ pub struct GatherCounts {
     pub passes: [usize; 2],
     /// Places read in these passes, padding included.
     pub places: [u64; 2],
-    /// Bytes of the lists of each.
+    /// Bytes of the lists for the bicluster buffer, and for the rows.
     pub list_bytes: [u64; 2],
 }
 
@@ -139,8 +138,9 @@ impl GatherCard {
         }
     }
 
-    /// Local light of each row in red, green and blue, from one color per column. Fails with [`CardError`]: light of
-    /// another size, numbers that are not finite, or negative in [`LightFormat::Bytes`], draws that the card refuses.
+    /// Local light of each row in red, green and blue, from one color per column. Fails with [`CardError`] for light of
+    /// another size, numbers that are not finite (or negative in [`LightFormat::Bytes`]), and draws that the card
+    /// refuses.
     pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, CardError> {
         let scale = self.draw(light)?;
         let texels = Texels::read_back(&self.machine, self.stages[1].targets[0])?.texels;
@@ -151,7 +151,7 @@ impl GatherCard {
         Ok(local)
     }
 
-    /// As [`Self::multiply`], with the log of the work of host and card: upload of light and passes, without the
+    /// Like [`Self::multiply`], with the log of the work of host and card: upload of light and passes, but not the
     /// read-back, because the paper leaves local light on the card.
     pub fn logged_multiply(&mut self, light: &[[f32; 3]]) -> Result<(Vec<[f32; 3]>, Vec<Event>), CardError> {
         self.machine.record(true);
@@ -159,11 +159,11 @@ impl GatherCard {
         self.machine.record(false);
         let log = self.machine.take_log();
         drawn?;
-        // Drawn a second time without recording, because reading the result back must not enter the log.
+        // The second draw is not recorded, because the read-back must not enter the log.
         Ok((self.multiply(light)?, log))
     }
 
-    /// Draws the sums; returns the factor by which they must be multiplied.
+    /// Draws the sums; returns the factor that scales them to local light.
     fn draw(&mut self, light: &[[f32; 3]]) -> Result<f32, CardError> {
         CardError::check_size("numbers of light", self.columns, light.len())?;
         let is_good = |value: &&f32| value.is_finite() && (**value >= 0.0 || self.format != LightFormat::Bytes);
@@ -260,7 +260,8 @@ fn require_singles(biclusters: &Biclustering) -> Result<(), CardError> {
     Ok(())
 }
 
-/// The lists of the bicluster buffer: columns, increasing, with their values. The texel after the last column is 0.
+/// The lists of the bicluster buffer: columns in increasing order, with their values. The texel after the last column
+/// is 0.
 fn buffer_lists(biclusters: &Biclustering, limits: ListLimits<'_>) -> Result<Lists, CardError> {
     let [_, columns] = biclusters.matrix_size();
     let none = columns as f32 + 0.5;
@@ -278,8 +279,8 @@ fn buffer_lists(biclusters: &Biclustering, limits: ListLimits<'_>) -> Result<Lis
     Lists::new("biclusters", &lengths, &texel, [none, 0.0, none, 0.0], limits)
 }
 
-/// The lists of rows: the buffer places of their biclusters, in the order in which these were found. The place after
-/// the last one is 0.
+/// The lists of rows: buffer places of the row's biclusters, in the order in which biclusters were found. The buffer is
+/// 0 after the last place.
 fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: ListLimits<'_>) -> Result<Lists, CardError> {
     let mut places = vec![0; biclusters.len()];
     (0_u32..).zip(&buffer.order).for_each(|(place, &bicluster)| places[bicluster as usize] = place);

@@ -1,15 +1,15 @@
 //! Lists of places as textures, grouped into passes that sum the same number of texels per fragment.
 //!
-//! Sums are sorted by the lengths of their lists, so that the lists within a row of the target have similar lengths: a
-//! pass covers rows whose longest lists have the same number of texels, and reads that many for each fragment. Shorter
+//! Sums are sorted by the lengths of their lists, so that lists within a row of the target have similar lengths. A pass
+//! covers rows whose longest lists have the same number of texels, and reads that many texels per fragment. Shorter
 //! lists are padded with places of 0.
 
 use crate::card::{CardError, Texels};
 
-/// The number of places that remain distinct in single precision after one half is added: 23 bits.
+/// The number of places that stay distinct in single precision with one half added: 23 bits.
 const MOST_PLACES: usize = 1 << 23;
 
-/// Refuses more sums or columns than have distinct places.
+/// Refuses more sums or columns than there are distinct places.
 pub(super) fn check_places(what: &str, found: usize) -> Result<(), CardError> {
     if found < MOST_PLACES {
         return Ok(());
@@ -40,14 +40,13 @@ pub(super) struct ListLimits<'a> {
 /// A pass: a range of rows of the target, and the list texels that it reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ListPass {
-    /// The first row of the target, and the number of rows.
+    /// First target row, and number of rows.
     pub(super) rows: [usize; 2],
     /// The index of the texture of lists, and its first row for this pass.
     pub(super) sheet: usize,
     pub(super) sheet_row: usize,
-    /// Number of texels per list.
     pub(super) texels: usize,
-    /// The index of this pass among those over the same rows, and their number.
+    /// The index of this pass among the passes over the same rows, and the number of these passes.
     pub(super) pass: [usize; 2],
 }
 
@@ -63,9 +62,9 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    /// The lists of `lengths.len()` sums with `lengths[i]` texels each; `texel(i, n)` gives the n-th texel of a list,
-    /// and `filler` is a texel of places of 0. The target has at least one place more than there are sums, which stays
-    /// 0. Fails with [`CardError`] if the target exceeds the largest texture, or has more places than remain distinct.
+    /// Creates the lists of `lengths.len()` sums with `lengths[i]` texels each; `texel(i, n)` gives the n-th texel of
+    /// list i, and `filler` is a texel of places of 0. The target has at least one unused place, which stays 0. Fails
+    /// with [`CardError`] if the target exceeds the largest texture, or has more places than remain distinct.
     pub(super) fn new(
         what: &'static str,
         lengths: &[usize],
@@ -87,7 +86,7 @@ impl Lists {
         let mut order: Vec<u32> = (0..count as u32).collect();
         order.sort_by_key(|&sum| lengths[sum as usize]);
         let mut lists = Self { order, size, passes: Vec::new(), sheets: Vec::new() };
-        // Lists are sorted by length, so that the last one of a row is its longest.
+        // Lists are sorted by length, so the last list of a row is its longest.
         let longest = |row: usize| lengths[lists.order[((row + 1) * width).min(count) - 1] as usize];
         let rows: Vec<usize> = (0..count.div_ceil(width)).map(longest).collect();
         let mut first = 0;

@@ -1,9 +1,9 @@
 //! Bi-scale transfer on an emulated card (section V, Rendering; section VI).
 //!
 //! - [`GatherCard`]: light times biclusters (Algorithm 2) by pixel programs over textures, in the host's order of sums.
-//!   The paper wrote it in CUDA, which is not emulated.
+//!   The paper's implementation is in CUDA, which is not emulated.
 //! - [`BiScaleCard`]: the display: a bidirectional texture in a volume, local light as interpolated texture
-//!   coordinates, pass by pass added up by blending.
+//!   coordinates, and passes summed by blending.
 //! - [`mod@reference`]: pixels in f64.
 
 mod card;

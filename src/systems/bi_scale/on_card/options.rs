@@ -50,7 +50,7 @@ pub enum LocalFormat {
 }
 
 impl LocalFormat {
-    /// A number rounded to the format, for a frame whose largest number is `largest`.
+    /// Rounds a number to the format, for a frame whose largest number is `largest`.
     pub(super) fn rounded(self, value: f64, largest: f64) -> f32 {
         match self {
             Self::Fp32 => value as f32,

@@ -1,4 +1,4 @@
-//! Data of a pass: textures with the triangles that show them, and local light of vertices.
+//! Data of a pass: textures with their triangles, and local light of vertices.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,17 +13,17 @@ use super::textures::VolumeTexture;
 use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
 use crate::card::{Attribute, CardError, WrittenKernel, by_register, check_finite};
 
-/// A texture, its triangles and its programs: a place in a volume depends on the volume's size.
+/// A texture, its triangles, and its programs, which depend on the volume's size.
 #[derive(Debug)]
 pub(super) struct CardPart {
     pub(super) indices: Vec<u32>,
     pub(super) volume: VolumeTexture,
-    /// By number of directions: of a full pass, and of the last one if it has fewer.
+    /// Programs by number of directions: for a full pass, and for the last pass if it has fewer.
     pub(super) pixels: BTreeMap<usize, CheckedProgram>,
 }
 
 impl CardPart {
-    /// The constants of the pixel program for directions: where their blocks begin.
+    /// The constants of the pixel program for directions: the origins of their blocks.
     pub(super) fn constants(&self, directions: Range<usize>) -> Vec<[f32; 4]> {
         let grid = &self.volume.grid;
         let [width, height, _] = grid.extents().map(|side| side as f64);
@@ -35,7 +35,7 @@ impl CardPart {
     }
 }
 
-/// The parts of a mesh: textures that no triangle names stay away.
+/// The parts of a mesh, without textures that no triangle uses.
 pub(super) fn parts(
     machine: &mut Machine,
     mesh: &TexturedMesh<'_>,
@@ -72,15 +72,15 @@ pub(super) struct LocalStream<'a> {
     /// M times red, green and blue for each vertex.
     pub(super) local: &'a [[f32; 3]],
     pub(super) directions: usize,
-    /// Exposure, and the factor of the texels.
+    /// Exposure times the texels' factor.
     pub(super) factor: f64,
-    /// The largest number times that.
+    /// The largest number times `factor`.
     pub(super) largest: f64,
     pub(super) format: LocalFormat,
 }
 
 impl LocalStream<'_> {
-    /// The sets of a pass but the last, which is begun by the first direction of the pass.
+    /// All sets but the last of a pass, given by its first direction and number of directions.
     pub(super) fn sets(&self, first: usize, count: usize) -> Result<Vec<Attribute>, CardError> {
         let of_vertex = |at: usize| {
             let vertex = self.vertices.vertices[at] as usize;
@@ -101,8 +101,7 @@ impl LocalStream<'_> {
     }
 }
 
-/// The largest value of local light times a factor. Fails with [`CardError::Input`] if single precision does not hold
-/// it.
+/// The largest value of local light times a factor. Fails with [`CardError::Input`] if it is beyond single precision.
 pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, CardError> {
     let numbers = local.as_flattened().iter();
     let found = numbers.fold(0.0_f64, |most, &value| most.max((factor * f64::from(value)).abs()));

@@ -8,7 +8,8 @@ use crate::bi_scale::texture::ViewSamples;
 use crate::card::SeenPixel;
 use crate::geom::vector::wide;
 
-/// A patch at u, v, bilinear between texel centers and repeated; blocks that touch end half a texel inside.
+/// Interpolates a repeating patch at u, v bilinearly between texel centers; without borders, blocks are clamped half a
+/// texel inside.
 pub fn patch_at(patch: &[[f32; 3]], size: usize, [u, v]: [f64; 2], edges: BlockEdges) -> [f64; 3] {
     let axis = |at: f64| {
         let mut texel = (at - at.floor()) * size as f64;
@@ -31,7 +32,7 @@ pub fn patch_at(patch: &[[f32; 3]], size: usize, [u, v]: [f64; 2], edges: BlockE
     sum
 }
 
-/// Equation 3 at a pixel: texture coordinates, the local view and local light are interpolated between three vertices.
+/// Equation 3 at a pixel, with texture coordinates, local view and local light interpolated between three vertices.
 pub fn pixel(
     mesh: &TexturedMesh<'_>,
     local: &[[f64; 3]],

@@ -20,8 +20,8 @@ pub struct TexturedMesh<'a> {
     pub texture_of: &'a [u32],
 }
 
-/// Texture coordinates of the corners of a mesh's triangles, in units of a patch that repeats `repeat` times. Fails
-/// with [`CardError::Input`] for a mesh without texture coordinates.
+/// Texture coordinates of triangle corners, in units of a patch that repeats `repeat` times. Fails with
+/// [`CardError::Input`] for a mesh without texture coordinates.
 pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]; 3]>, CardError> {
     let none = "the mesh has no texture coordinates, by which a bidirectional texture is placed";
     let of = mesh.texcoords().ok_or_else(|| CardError::input(none))?;
@@ -32,12 +32,12 @@ pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]
     Ok(mesh.triangles().iter().map(|corners| corners.map(corner)).collect())
 }
 
-/// A mesh's corners as vertices of a card: corners with the same vertex and texture coordinates are shared.
+/// A mesh's corners as vertices of a card; corners with equal vertex and texture coordinates become one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CardVertices {
     /// The mesh's vertex for each vertex of the card.
     pub(super) vertices: Vec<u32>,
-    /// The texture coordinates of each.
+    /// The texture coordinates of each vertex of the card.
     pub(super) coordinates: Vec<[f32; 2]>,
     /// Three indices per triangle.
     pub(super) indices: Vec<u32>,

@@ -12,8 +12,8 @@ use crate::card::CardError;
 /// The largest number of half precision.
 const HALF_MOST: f32 = 65_504.0;
 
-/// The image of a volume, and the factor by which its texels must be multiplied. Fails with [`CardError`] for a format
-/// other than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or has no volumes of the size, and
+/// The image of a volume, and the factor that scales its texels to samples. Fails with [`CardError`] for a format other
+/// than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter the format or support the volume's size, and
 /// samples outside the format's range.
 pub fn volume_image(
     profile: &Profile,
@@ -80,12 +80,12 @@ pub struct VolumeTexture {
     pub id: TextureId,
     /// The layout of its blocks.
     pub grid: BlockGrid,
-    /// The factor by which its texels must be multiplied.
+    /// The factor that scales its texels to samples.
     pub scale: f64,
 }
 
 impl VolumeTexture {
-    /// Uploads a texture. Errors: as [`volume_image`], and if the card refuses the texture.
+    /// Uploads a texture. Fails as [`volume_image`] does, and if the card refuses the texture.
     pub fn new(
         machine: &mut Machine,
         texture: &BidirectionalTexture,

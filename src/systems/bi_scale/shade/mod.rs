@@ -3,7 +3,7 @@
 //!
 //! - [`ShadedPixel`]: a pixel's vertices, texture coordinates and view; [`pixel_frame`]: its local frame;
 //! - [`TexelSamples`]: the four texels around texture coordinates;
-//! - [`TextureLookup`]: the bits of [`paper::radiance`](super::paper::radiance), faster;
+//! - [`TextureLookup`]: computes the bits of [`paper::radiance`](super::paper::radiance) faster;
 //! - [`TracedScene`]: a pixel by rays, and the causes of its error.
 
 mod pixel;

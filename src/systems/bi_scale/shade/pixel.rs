@@ -1,5 +1,6 @@
-//! Inputs of equation 3 for a pixel; and equation 3 for many: the texture laid out so that all directions of light of a
-//! texel are adjacent. Sums have the order of the paper's, so that the bits are equal, on any number of threads.
+//! Inputs of equation 3 for a pixel, and a fast evaluation of equation 3 with a texture in which all directions of
+//! light of a texel are adjacent. Sums have the order of [`paper`](crate::bi_scale::paper), so bits are equal on any
+//! number of threads.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,14 +15,14 @@ pub struct ShadedPixel {
     pub corners: [u32; 3],
     /// Their barycentric weights, which sum to 1.
     pub weights: [f64; 3],
-    /// u: texture coordinates; the patch has length 1.
+    /// Texture coordinates u; the patch has length 1.
     pub place: [f64; 2],
-    /// e: the direction to the eye in the pixel's local frame, of length 1.
+    /// Direction e to the eye in the pixel's local frame, of length 1.
     pub view: DVec3,
 }
 
 /// The local frame of a pixel: normals and tangents of the vertices, interpolated and orthonormalised. If they cancel,
-/// the frame of the vertex with the largest weight.
+/// the result is the frame of the vertex with the largest weight.
 pub fn pixel_frame(vertices: &Vertices, corners: [u32; 3], weights: [f64; 3]) -> LocalFrame {
     let frames = corners.map(|corner| vertices.frames()[corner as usize]);
     let mix = |axis: fn(&LocalFrame) -> DVec3| -> DVec3 {
@@ -36,14 +37,14 @@ pub fn pixel_frame(vertices: &Vertices, corners: [u32; 3], weights: [f64; 3]) ->
 /// The four texels around texture coordinates of a repeating patch, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexelSamples {
-    /// Texel numbers, row by row.
+    /// Texel indices, row by row.
     pub numbers: [usize; 4],
     /// Bilinear weights.
     pub weights: [f64; 4],
 }
 
 impl TexelSamples {
-    /// For a patch of `size` x `size` texels, whose centers are at (texel + 1/2) / `size`.
+    /// The samples for a patch of `size` x `size` texels, with centers at (texel + 1/2) / `size`.
     pub fn around(size: usize, place: [f64; 2]) -> Self {
         let along = |at: f64| {
             let texels = (at - at.floor()) * size as f64 - 0.5;
@@ -66,7 +67,7 @@ pub struct TextureLookup {
     size: usize,
     view: crate::bi_scale::directions::LocalDirections,
     lights: usize,
-    /// View by view, texel by texel, light by light.
+    /// Samples ordered by view, texel, and light.
     samples: Vec<[f32; 3]>,
 }
 

@@ -1,8 +1,8 @@
-//! A pixel by ray tracing (the paper's reference pictures), and the same with the approximations of transfer introduced
-//! one after another, so that the error of a picture can be attributed to its causes.
+//! A pixel by ray tracing, as in the paper's reference pictures, and with the approximations of transfer introduced one
+//! by one, so that the error of a picture can be attributed to its causes.
 //!
-//! Exact here means: light in 128 x 128 texels per face, each visible or not from the pixel's own point, and the patch
-//! of heights evaluated at the exact directions. Sums run over directions in the order of their numbers, in f64.
+//! Exact here means: light in 128 x 128 texels per face, each visible or not from the pixel's point, and the patch of
+//! heights evaluated at the exact directions. Sums are in f64, in the order of directions.
 
 use glam::DVec3;
 
@@ -65,9 +65,9 @@ pub struct TracedPoint {
 /// A mesh that casts shadows.
 #[derive(Debug)]
 pub struct TracedScene<'a> {
-    /// Tracer of both sides of its triangles.
+    /// Tracer that hits both sides of the mesh's triangles.
     pub tracer: &'a HostTracer,
-    /// A length of rays that reaches beyond the mesh from any of its points.
+    /// A ray length that reaches beyond the mesh from all of its points.
     pub length: f64,
     /// Sampling of visibility for transfer.
     pub sampling: VisibilitySampling,
@@ -155,7 +155,7 @@ impl TracedScene<'_> {
 }
 
 impl TracedPoint {
-    /// The point of a triangle at these weights; `None` if the triangle is degenerate.
+    /// The point of a triangle at these barycentric weights; `None` if the triangle is degenerate.
     pub fn new(corners: [[f32; 3]; 3], weights: [f64; 3], frame: LocalFrame) -> Option<Self> {
         let point = SurfacePoint::of(corners.map(wide), DVec3::from(weights), crate::tracer::offset::SINGLE)?;
         Some(Self { point, frame })

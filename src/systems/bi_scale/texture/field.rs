@@ -1,12 +1,11 @@
 //! Heights of a small square patch that repeats in both directions.
 //!
-//! Lengths are in edges of the patch. Texel (row, column) of n x n has its height at u = (column + 1/2) / n,
-//! v = (row + 1/2) / n; between four of them the surface is bilinear. Internally, positions are in texels:
-//! x = n u - 1/2, y = n v - 1/2, so that heights are at integers and cell (i, j) extends from (i, j) to
-//! (i + 1, j + 1).
+//! The unit of length is an edge of the patch. Texel (row, column) of n x n has its height at u = (column + 1/2) / n, v
+//! = (row + 1/2) / n; the surface is bilinear between four texels. Internally, positions are in texels: x = n u - 1/2,
+//! y = n v - 1/2, so that heights are at integers and cell (i, j) extends from (i, j) to (i + 1, j + 1).
 //!
-//! Heights are at most 0, and the highest is 0: the patch lies below the mesh's own surface, and light and view at a
-//! point of the mesh are those at the top of the patch. (The paper does not say where its patches lie.)
+//! The highest height is 0: the patch lies below the mesh's surface, and light and view of a point of the mesh reach
+//! the top of the patch. (The paper does not say where its patches lie.)
 
 use glam::DVec3;
 
@@ -19,7 +18,7 @@ pub struct HeightField {
     heights: Vec<f64>,
     /// The largest height of each cell.
     tops: Vec<f64>,
-    /// The least height, at most 0.
+    /// The minimum height, at most 0.
     bottom: f64,
 }
 
@@ -33,7 +32,7 @@ pub(super) struct CellPatch {
 }
 
 impl CellPatch {
-    /// The height at a place of the cell.
+    /// The height at a position in the cell.
     pub(super) fn height(&self, [a, b]: [f64; 2]) -> f64 {
         self.corner + a * self.along + b * self.across + a * b * self.twist
     }
@@ -50,12 +49,12 @@ impl CellPatch {
 }
 
 impl HeightField {
-    /// The most texels along an edge.
+    /// Maximum number of texels along an edge.
     pub const MOST: usize = 1024;
-    /// The largest depth in edges of the patch.
+    /// Maximum depth in edges of the patch.
     pub const DEEPEST: f64 = 16.0;
 
-    /// Checks the number of texels along an edge. Fails with [`InputError`] for 0, and for more than [`Self::MOST`].
+    /// Checks the number of texels along an edge. Fails with [`InputError`] if it is 0 or above [`Self::MOST`].
     pub fn check_side(side: usize) -> Result<(), InputError> {
         ensure!(
             (1..=Self::MOST).contains(&side),
@@ -65,7 +64,8 @@ impl HeightField {
         Ok(())
     }
 
-    /// A height field from heights row by row, in edges of the patch, shifted so that the highest is 0.
+    /// Creates a height field from heights row by row, in edges of the patch; they are shifted so that the highest is
+    /// 0.
     pub fn new(side: usize, heights: &[f64]) -> Result<Self, InputError> {
         Self::check_side(side)?;
         ensure!(
@@ -153,19 +153,19 @@ impl HeightField {
         self.normal_in(cell, at)
     }
 
-    /// Texture coordinates as a place in texels, folded into the patch.
+    /// Converts texture coordinates to a position in texels, wrapped into the patch.
     pub(super) fn texels(&self, place: [f64; 2]) -> [f64; 2] {
         let side = self.side as f64;
         place.map(|at| (at - at.floor()) * side - 0.5)
     }
 
-    /// The height at a place in texels.
+    /// The height at a position in texels.
     pub(super) fn height_at(&self, at: [f64; 2]) -> f64 {
         let cell = at.map(|at| at.floor() as isize);
         self.cell(cell).height(within(cell, at))
     }
 
-    /// The unit normal at a place of a cell.
+    /// The unit normal at a position in a cell.
     pub(super) fn normal_in(&self, cell: [isize; 2], at: [f64; 2]) -> DVec3 {
         let [along, across] = self.cell(cell).slope(within(cell, at));
         let side = self.side as f64;
@@ -173,7 +173,7 @@ impl HeightField {
     }
 }
 
-/// A place as seen from a cell's first corner, within the cell.
+/// A position relative to a cell's first corner, clamped to the cell.
 pub(super) fn within([i, j]: [isize; 2], [x, y]: [f64; 2]) -> [f64; 2] {
     [(x - i as f64).clamp(0.0, 1.0), (y - j as f64).clamp(0.0, 1.0)]
 }

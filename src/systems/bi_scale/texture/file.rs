@@ -1,7 +1,7 @@
 //! Bidirectional textures as NumPy arrays: f4 or f8 in C order, with shape (views, lights, size, size, 3).
 //!
-//! Views and lights are those of squares of k x k cells, so their numbers are squares. Rows of texels run along v,
-//! columns along u; the last axis is red, green, blue. `BidirectionalTexture` defines the numbers.
+//! Views and lights are the directions of k x k cells, so their numbers are squares. Rows of texels run along v,
+//! columns along u; the last axis is red, green, blue. `BidirectionalTexture` defines the samples.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -46,7 +46,7 @@ pub fn load_bidirectional_texture(path: &Path) -> Result<BidirectionalTexture, I
         .map_err(|reason| input_error!("crossbar::bidirectional_texture::samples" => "{reason}").at(path))
 }
 
-/// Writes a texture. Errors: those of `out`.
+/// Writes a texture. Fails with errors of `out`.
 pub fn write_bidirectional_texture(texture: &BidirectionalTexture, out: &mut dyn Write) -> io::Result<()> {
     let [views, lights] = [texture.view(), texture.light()].map(|directions| directions.directions().len());
     let shape = [views, lights, texture.size(), texture.size(), 3];

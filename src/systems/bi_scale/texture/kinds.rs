@@ -25,7 +25,7 @@ pub enum PatchKind {
     Weave,
 }
 
-/// A point of a patch: its height in edges of the patch, its material, its tangent's angle in turns.
+/// A point of a patch: height in edges of the patch, material, and angle of the tangent in turns.
 struct Place {
     height: f64,
     material: u32,
@@ -66,7 +66,7 @@ impl PatchKind {
             Self::Bumps => vec![glossy([0.42, 0.26, 0.16], facets(0.35), [1.0; 3])],
             Self::Mail => vec![
                 diffuse([0.05, 0.04, 0.035]),
-                // Rough across the wire, smooth along it.
+                // Rough across the wire, smooth along the wire.
                 glossy([0.06, 0.06, 0.065], brushed(0.7, [0.12, 0.45]), [1.0, 0.97, 0.92]),
             ],
             Self::Tiles => vec![
@@ -109,7 +109,7 @@ fn noise([u, v]: [f64; 2], count: usize, seed: u64) -> f64 {
     (1.0 - b) * row(0.0) + b * row(1.0)
 }
 
-/// 5 x 5 hemispheres of random sizes, displaced a little from their grid.
+/// 5 x 5 hemispheres of random sizes, slightly displaced from a grid.
 fn bumps(place: [f64; 2]) -> Place {
     const COUNT: u64 = 5;
     let random = CounterRng::new(7);
@@ -135,7 +135,7 @@ fn mail(place: [f64; 2]) -> Place {
     const TILT: f64 = 0.3;
     let mut found = Place { height: -0.09, material: 0, turns: 0.0 };
     for ring in 0..8 {
-        // Rings of one grid lean one way; rings of the other, half a ring further, lean the other way.
+        // Rings of one grid lean one way; rings of the other grid, shifted by half a ring, lean the other way.
         let (grid, at) = (ring / 4, ring % 4);
         let shift = 0.25 * f64::from(grid);
         let center = [f64::from(at % 2) * 0.5 + shift, f64::from(at / 2) * 0.5 + shift];
@@ -147,7 +147,7 @@ fn mail(place: [f64; 2]) -> Place {
             let lean = if grid == 0 { TILT } else { -TILT };
             let height = square.sqrt() + lean * x;
             if height > found.height {
-                // Along the wire: perpendicular to the direction from the ring's center.
+                // The tangent follows the wire, perpendicular to the direction from the ring's center.
                 let turns = atan2(x, -y) / std::f64::consts::TAU;
                 found = Place { height, material: 1, turns };
             }

@@ -1,10 +1,11 @@
-//! The meso-scale half: bidirectional textures, the outgoing light of a small patch of a surface by place, view and
-//! light (section III, equation 3).
+//! The meso scale: bidirectional textures, the outgoing light of a small surface patch by position, view and light
+//! (section III, equation 3).
 //!
-//! - [`BidirectionalTexture`]: samples of b(u, e, d); [`ViewSamples`]: the four views around a direction; `file`: NPY;
+//! - [`BidirectionalTexture`]: samples of b(u, e, d); [`ViewSamples`]: the four views around a direction; `file`:
+//!   textures as NPY files;
 //! - [`HeightField`], [`MesoMaterial`], [`MesoPatch`]: a repeated patch of heights and materials, seen and lit by rays;
-//! - [`PatchKind`]: bumps, mail, tiles, bricks and weave by code;
-//! - [`TextureSampling`]: textures of patches;
+//! - [`PatchKind`]: procedural bumps, mail, tiles, bricks and weave;
+//! - [`TextureSampling`]: samples patches into textures;
 //! - [`mod@reference`]: rays against heights by plain loops.
 
 mod field;

@@ -1,7 +1,7 @@
 //! A patch of heights with a material per texel: b(u, e, d) for any directions.
 //!
 //! A point u of the mesh's surface shows the point of the patch behind it along the view (parallax). The response is
-//! its BRDF times the cosine at the patch's own surface, or 0 where the patch blocks the light.
+//! that point's BRDF times the cosine at the patch's surface, or 0 if the patch blocks the light.
 
 use std::f64::consts::FRAC_1_PI;
 use std::ops::ControlFlow;
@@ -53,8 +53,8 @@ impl MesoMaterial {
     }
 }
 
-/// Detail of the heights that is drawn (section VII: normal maps and spatially invariant BRDFs in place of a
-/// bidirectional texture).
+/// The drawn detail of the heights (section VII: normal maps and spatially invariant BRDFs instead of a bidirectional
+/// texture).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum MesoDetail {
@@ -80,7 +80,7 @@ pub struct MesoPatch {
 /// Material and tangent of a texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MesoTexel {
-    /// The number of its material.
+    /// The index of its material.
     pub material: u32,
     /// The tangent's angle from u towards v, in turns.
     pub turns: f64,
@@ -131,9 +131,9 @@ impl MesoPatch {
         &self.heights
     }
 
-    /// b(u, e, d): radiance that leaves towards `view` at texture coordinates `place`, per radiance times solid angle
-    /// from `light`. Directions have length 1, in the mesh's local frame; light from below its horizon gives 0, a view
-    /// from below is moved to the horizon.
+    /// b(u, e, d): radiance towards `view` at texture coordinates `place`, per radiance times solid angle from `light`.
+    /// Directions have length 1, in the mesh's local frame; light from below the horizon gives 0, and a view from below
+    /// is moved to the horizon.
     pub fn response(&self, place: [f64; 2], view: DVec3, light: DVec3) -> [f64; 3] {
         self.reflected(&self.seen(place, view), light)
     }
@@ -153,7 +153,7 @@ impl MesoPatch {
         })
     }
 
-    /// The point that is seen, with a function that finds the first hit of a ray.
+    /// The point that a view sees; a function finds the first hit of a ray.
     pub(super) fn seen_by(
         &self,
         place: [f64; 2],
@@ -168,7 +168,7 @@ impl MesoPatch {
             MesoDetail::Normals | MesoDetail::Flat => (through, floor(through)),
             MesoDetail::Relief => {
                 let ray = TexelRay::new(field.side(), through, 0.0, (-view).to_array(), -field.depth());
-                // A ray without a hit ends on the lowest ground, or after the largest distance.
+                // A ray without a hit ends at the lowest height, or after the maximum distance.
                 let end = ray.place(ray.end.max(0.0));
                 first_hit(field, &ray).map_or_else(|| (end, floor(end)), |hit| (hit.at, hit.cell))
             }
@@ -187,7 +187,7 @@ impl MesoPatch {
         }
     }
 
-    /// The response of a seen point, with a function that tests whether a ray is blocked.
+    /// The response of a seen point; a function tests whether a ray is blocked.
     pub(super) fn reflected_by(
         &self,
         seen: &SeenPoint,
@@ -210,15 +210,15 @@ impl MesoPatch {
 }
 
 impl SeenPoint {
-    /// The point's position u, v and height in edges of the patch: parallax moves it away from the place through which
-    /// it was seen.
+    /// The point's position u, v and height in edges of the patch; parallax moves it from the texture coordinates
+    /// through which it is seen.
     pub fn point(&self, patch: &MesoPatch) -> DVec3 {
         let [u, v] = self.at.map(|at| (at + 0.5) / patch.heights().side() as f64);
         DVec3::new(u, v, self.height)
     }
 }
 
-/// A direction below the horizon, moved onto it.
+/// Moves a direction below the horizon to the horizon.
 fn level(view: DVec3) -> DVec3 {
     DVec3::new(view.x, view.y, 0.0).try_normalize().unwrap_or(DVec3::Z)
 }

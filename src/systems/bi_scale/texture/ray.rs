@@ -1,14 +1,14 @@
 //! Rays against a repeating height field: exact up to rounding, since along a ray the surface of a cell is a parabola.
 //!
 //! [`follow`] visits the cells along the ray and stops at the first hit. [`reference`](super::reference) tests all
-//! cells around instead; both clip the ray against a cell by the same two divisions and intersect the cell by the same
-//! function, so that they give the same bits.
+//! cells around the ray instead. Both clip the ray against a cell by the same two divisions and intersect the cell by
+//! the same function, so they give the same bits.
 
 use std::ops::ControlFlow;
 
 use super::field::{HeightField, within};
 
-/// Largest horizontal length of a ray, in edges of the patch: rays nearly parallel to the surface end there.
+/// Maximum horizontal length of a ray, in edges of the patch: rays nearly parallel to the surface end there.
 pub const REACH: f64 = 64.0;
 /// Depth below the surface at which a ray counts as blocked, in edges of the patch: far more than the rounding error of
 /// rays that start on the surface.
@@ -21,7 +21,7 @@ pub(super) struct TexelRay {
     pub(super) height: f64,
     pub(super) step: [f64; 2],
     pub(super) rise: f64,
-    /// The parameter at which it ends.
+    /// The parameter at which the ray ends.
     pub(super) end: f64,
 }
 
@@ -33,7 +33,6 @@ pub(super) struct CellSpan {
     pub(super) to: f64,
 }
 
-/// The intersection of a ray with the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SurfaceHit {
     pub(super) t: f64,
@@ -50,7 +49,7 @@ impl TexelRay {
         let step = [x, y].map(|along| along * side as f64);
         let across = (x * x + y * y).sqrt();
         let out = if rise > 0.0 { (0.0 - height) / rise } else { (lowest - height) / rise };
-        // A vertical ray is limited by the heights alone, a horizontal one by the reach alone.
+        // Only heights limit a vertical ray, and only the reach limits a horizontal ray.
         let reach = if across > 0.0 { REACH / across } else { f64::INFINITY };
         Self { at, height, step, rise, end: if rise == 0.0 { reach } else { out.min(reach) } }
     }
@@ -117,7 +116,7 @@ fn first_root([c0, c1, c2]: [f64; 3], most: f64) -> Option<f64> {
     if discriminant < 0.0 {
         return None;
     }
-    // The root of larger magnitude by a sum without cancellation, the other one from their product.
+    // The root of larger magnitude follows from a sum without cancellation, the other root from their product.
     let sum = -0.5 * (c1 + discriminant.sqrt().copysign(c1));
     let roots = [sum / c2, c0 / sum].into_iter().filter(|root| (0.0..=most).contains(root));
     roots.fold(None, |least: Option<f64>, root| Some(least.map_or(root, |least| least.min(root))))

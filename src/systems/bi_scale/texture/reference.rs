@@ -5,7 +5,7 @@ use super::patch::{MesoPatch, SeenPoint};
 use super::ray::{SurfaceHit, TexelRay};
 use glam::DVec3;
 
-/// The cells under the bounding box of a ray, and one more on each side.
+/// The cells under the bounding box of a ray, and one more cell on each side.
 fn cells_below(ray: &TexelRay) -> Vec<[isize; 2]> {
     let (begin, end) = (ray.at, ray.place(ray.end));
     let range = |axis: usize| {
@@ -28,7 +28,7 @@ pub(super) fn first_hit(field: &HeightField, ray: &TexelRay) -> Option<SurfaceHi
     for cell in cells_below(ray) {
         let Some(span) = ray.span(cell) else { continue };
         let Some(hit) = ray.hit(field, &span) else { continue };
-        // On the line between two cells, the cell that the ray leaves counts.
+        // For a hit on the border of two cells, the cell that the ray leaves is taken.
         if nearest.is_none_or(|(from, before)| (hit.t, span.from) < (before.t, from)) {
             nearest = Some((span.from, hit));
         }
@@ -47,12 +47,12 @@ pub(super) fn is_blocked(field: &HeightField, ray: &TexelRay) -> bool {
     blocked
 }
 
-/// The point that a view sees through a position of the reference plane, by a test of every cell.
+/// The point that a view sees through a position of the reference plane, with a test of every cell.
 pub fn seen(patch: &MesoPatch, place: [f64; 2], view: DVec3) -> SeenPoint {
     patch.seen_by(place, view, first_hit)
 }
 
-/// b(u, e, d) by a test of every cell: the response at a position for a view and a light direction.
+/// b(u, e, d) with a test of every cell: the response at a position for a view and a light direction.
 pub fn response(patch: &MesoPatch, place: [f64; 2], view: DVec3, light: DVec3) -> [f64; 3] {
     patch.reflected_by(&seen(patch, place, view), light, is_blocked)
 }

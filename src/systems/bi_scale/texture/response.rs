@@ -1,11 +1,10 @@
-//! A bidirectional texture function b(u, e, d) as samples: a square patch, repeated over the surface, for each of the
-//! view's and each of the light's local directions.
+//! A bidirectional texture function b(u, e, d) as samples: a square patch, repeated over the surface, for each pair of
+//! local directions of view and light.
 //!
-//! A sample is the radiance that leaves towards the view per radiance times solid angle that comes from the light, per
-//! color channel: the cosine at the surface and all shadows of the patch itself are in it (the paper leaves open where
-//! the cosine stands; transfer holds none). Texel (row, column) has its center at u = (column + 1/2) / size,
-//! v = (row + 1/2) / size of the texture coordinates; u runs along the tangent of the local frame, v along the
-//! bitangent.
+//! A sample is, per color channel, the radiance towards the view per radiance times solid angle from the light. It
+//! includes the cosine at the surface and all shadows of the patch itself. (The paper leaves open where the cosine
+//! belongs; transfer does not contain it.) Texel (row, column) has its center at u = (column + 1/2) / size, v = (row +
+//! 1/2) / size of the texture coordinates; u runs along the tangent of the local frame, v along the bitangent.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -30,17 +29,17 @@ pub(super) fn size_error(found: usize) -> InputError {
 /// The four samples of the view around a direction, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ViewSamples {
-    /// Indices of the view's directions; equal ones at the square's rim.
+    /// Indices of view directions; at the square's rim they repeat.
     pub numbers: [usize; 4],
     /// Bilinear weights in the square.
     pub weights: [f64; 4],
 }
 
 impl BidirectionalTexture {
-    /// The most texels along an edge of the patch.
+    /// Maximum number of texels along an edge of the patch.
     pub const MOST: usize = 1024;
 
-    /// A texture of samples: view by view, in a view light by light, then row by row.
+    /// Creates a texture from samples, ordered by view, light, and texel row by row.
     pub fn new(
         size: usize,
         view: LocalDirections,
@@ -78,7 +77,7 @@ impl BidirectionalTexture {
         self.size
     }
 
-    /// The M directions of light, which are those of the rows of transfer.
+    /// The M directions of light, as in the rows of transfer.
     pub fn light(&self) -> &LocalDirections {
         &self.light
     }
@@ -103,9 +102,9 @@ impl BidirectionalTexture {
 }
 
 impl ViewSamples {
-    /// The samples around a local direction, bilinear in the square that the hemisphere is mapped from (section V: "we
-    /// map the view direction back" and take "the four adjacent samples"); at the square's rim, the horizon, the
-    /// nearest ones.
+    /// The samples around a local direction, bilinear in the square that is mapped to the hemisphere (section V: "we
+    /// map the view direction back" and take "the four adjacent samples"). At the square's rim, the horizon, the
+    /// nearest samples are taken.
     pub fn around(view: &LocalDirections, direction: DVec3) -> Self {
         let side = view.side();
         let [across, down] = square(direction).map(|at| {
@@ -130,12 +129,12 @@ pub struct TextureSampling {
     pub view: LocalDirections,
     /// The M directions of light.
     pub light: LocalDirections,
-    /// n: a texel is the mean over n x n points; 1 is its middle.
+    /// n: a texel is the mean over n x n points; 1: its middle.
     pub samples: usize,
 }
 
 impl MesoPatch {
-    /// The texture of a patch, with the same bits on any number of threads. `done` is called with the number of
+    /// Samples a patch into a texture, with the same bits on any number of threads. `done` is called with the number of
     /// finished views and their total. Panics if there are no samples per texel.
     pub fn texture(
         &self,
@@ -164,7 +163,7 @@ impl MesoPatch {
     }
 }
 
-/// The texture coordinates of a point: texel by texel, in a texel row by row.
+/// The texture coordinates of point `at`; points are ordered by texel, then row by row within the texel.
 fn place(at: usize, size: usize, fine: usize) -> [f64; 2] {
     let (texel, point) = (at / (fine * fine), at % (fine * fine));
     let along = |texel: usize, point: usize| (texel as f64 + (point as f64 + 0.5) / fine as f64) / size as f64;

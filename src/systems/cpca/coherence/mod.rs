@@ -1,10 +1,10 @@
 //! Coherence of clusters over a mesh (section 5 of the paper): a triangle whose vertices are in different clusters is
-//! drawn once for each.
+//! drawn once for each of them.
 //!
 //! - [`overdraw`]: how many triangles are drawn;
 //! - [`reclassify`]: vertices move to clusters of their neighbours, within a budget of error;
-//! - [`Superclusters`]: clusters that are drawn as one, as many as the constant registers hold, or a given number. They
-//!   change no error.
+//! - [`Superclusters`]: groups of clusters that are drawn as one, up to the number of constant registers, or of a given
+//!   size; they do not change the error.
 
 mod reclassify;
 mod supercluster;
@@ -15,8 +15,8 @@ pub use supercluster::{ConstantRegisters, Superclusters};
 use crate::clustering::{Clustering, Signal};
 use crate::error::{InputError, ensure, input_error};
 
-/// The number of triangles drawn: for each triangle the number of different clusters of its vertices, summed. Divided
-/// by the number of triangles it is the overdraw that the paper prints. Panics if a triangle names a vertex without a
+/// The number of triangles drawn: the sum over triangles of the number of different clusters of their vertices. Divided
+/// by the number of triangles, it is the overdraw that the paper prints. Panics if a triangle has a vertex without a
 /// cluster.
 pub fn overdraw(triangles: &[[u32; 3]], of_point: &[u32]) -> u64 {
     triangles.iter().map(|corners| distinct(corners.map(|corner| of_point[corner as usize]))).sum()

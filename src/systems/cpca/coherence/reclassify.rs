@@ -1,4 +1,4 @@
-//! Reclassification: fewer triangles drawn for a little more error.
+//! Reclassification: fewer drawn triangles for slightly more error.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -12,18 +12,19 @@ use crate::error::{InputError, input_error};
 pub struct Reclassified {
     /// The subspaces of the input, with new weights for moved points.
     pub clustering: Clustering,
-    /// Points that changed their cluster; one that moved twice counts twice.
+    /// Number of moves of points between clusters.
     pub moved: usize,
-    /// The squared error that the moves added; below 0 if they took some away.
+    /// The squared error that the moves added; below 0 if they reduced the error.
     pub added_error: f64,
     /// Triangles drawn before and after.
     pub drawn: [u64; 2],
 }
 
-/// Moves vertices to clusters of their neighbours (section 5): always the vertex with the greatest reduction of
-/// overdraw per increase of squared error, one without an increase first; the lowest among equals. Moves add at most
-/// `budget` times the initial squared error; one that would exceed it is skipped. The paper takes 0.05 to 0.1. Fails
-/// with [`InputError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
+/// Moves vertices to clusters of their neighbours (section 5). The next move is always the one with the greatest
+/// reduction of overdraw per increase of squared error, infinite without an increase; of equals the lowest vertex.
+/// Moves add at most `budget` times the initial squared error; a move that would exceed it is skipped. The paper uses
+/// 0.05 to 0.1. Fails with [`InputError`] if mesh, signal and clustering contradict each other, or the budget is
+/// invalid.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,
@@ -50,12 +51,12 @@ struct Move {
     to: u32,
     reduction: u64,
     increase: f64,
-    /// Number of times that the vertex's best move had been computed before; moves of earlier rounds are outdated.
+    /// How often the vertex's best move was computed before this one; moves of earlier rounds are outdated.
     round: u32,
 }
 
 impl Move {
-    /// Reduction divided by increase; infinite where the error does not grow.
+    /// Reduction divided by increase; infinite if the error does not grow.
     fn quotient(&self) -> f64 {
         if self.increase <= 0.0 { f64::INFINITY } else { self.reduction as f64 / self.increase }
     }
@@ -88,7 +89,7 @@ struct Search<'a> {
     signal: &'a Signal,
     clustering: &'a Clustering,
     triangles: &'a [[u32; 3]],
-    /// Per vertex its triangles.
+    /// The triangles of each vertex.
     around: Vec<Vec<u32>>,
     of_point: Vec<u32>,
     errors: Vec<f64>,
@@ -139,7 +140,7 @@ impl<'a> Search<'a> {
         (moved, added)
     }
 
-    /// A vertex and those it shares triangles with, in order.
+    /// A vertex and its neighbours, in increasing order.
     fn neighbours(&self, vertex: usize) -> Vec<u32> {
         let triangles = self.around[vertex].iter().map(|&triangle| self.triangles[triangle as usize]);
         let mut found: Vec<u32> = triangles.flatten().chain([vertex as u32]).collect();
@@ -148,7 +149,8 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// The best move of a vertex to a cluster of a neighbour, if one reduces overdraw. Makes earlier ones void.
+    /// The best move of a vertex to a cluster of a neighbour, if one reduces overdraw. Earlier moves of the vertex
+    /// become outdated.
     fn best_move(&mut self, vertex: usize) -> Option<Move> {
         self.rounds[vertex] += 1;
         let mut clusters: Vec<u32> =
@@ -168,7 +170,7 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// The number of times that the triangles around a vertex are drawn if it belongs to `cluster`.
+    /// How often the triangles around a vertex are drawn if it belongs to `cluster`.
     fn drawn(&self, vertex: usize, cluster: u32) -> u64 {
         let of = |corner: u32| if corner as usize == vertex { cluster } else { self.of_point[corner as usize] };
         let triangles = self.around[vertex].iter().map(|&triangle| self.triangles[triangle as usize]);

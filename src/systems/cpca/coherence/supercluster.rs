@@ -16,17 +16,18 @@ pub struct ConstantRegisters {
 }
 
 impl ConstantRegisters {
-    /// For glossy transfer with N_r rows and one color per pass: four numbers per register, whole registers per vector.
+    /// Registers for glossy transfer with N_r rows and one color per pass: four numbers per register, whole registers
+    /// per vector.
     pub fn glossy(limit: usize, rows: usize) -> Self {
         Self { limit, per_vector: rows.div_ceil(4) }
     }
 
-    /// For diffuse transfer: one color per register.
+    /// Registers for diffuse transfer: one color per register.
     pub fn diffuse(limit: usize) -> Self {
         Self { limit, per_vector: 1 }
     }
 
-    /// Number of registers of a cluster with n' vectors: those of n' + 1 vectors.
+    /// Number of registers of a cluster with a mean and n' vectors.
     pub fn needed(self, vectors: usize) -> usize {
         (vectors + 1).saturating_mul(self.per_vector)
     }
@@ -40,9 +41,9 @@ pub struct Superclusters {
 }
 
 impl Superclusters {
-    /// Begins with one supercluster per cluster; then repeatedly merges the two with the most common triangles that fit
-    /// the registers together, the lowest among equals, until no two neighbours fit. Fails with [`InputError`] if a
-    /// triangle names a vertex without a cluster, or a single cluster exceeds the registers.
+    /// Begins with one supercluster per cluster. Repeatedly merges the two superclusters that share the most triangles
+    /// and fit the registers together (the lowest of equals), until no two neighbours fit. Fails with [`InputError`] if
+    /// a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
     pub fn new(
         clustering: &Clustering,
         triangles: &[[u32; 3]],
@@ -52,22 +53,22 @@ impl Superclusters {
         Ok(Self::merged(clustering, triangles, needed(clustering, registers)?, registers.limit))
     }
 
-    /// Superclusters of at most `clusters` clusters, with any number of registers: a size for all cards. Fails with
-    /// [`InputError`] if a triangle names a vertex without a cluster, or for a size of 0.
+    /// Creates superclusters of at most `clusters` clusters, for any number of registers, so that the size is the same
+    /// on all cards. Fails with [`InputError`] if a triangle names a vertex without a cluster, or for a size of 0.
     pub fn of_size(clustering: &Clustering, triangles: &[[u32; 3]], clusters: usize) -> Result<Self, InputError> {
         check_triangles(triangles, clustering.points())?;
         ensure!(clusters != 0, "expected superclusters of at least 1 cluster, found 0");
         Ok(Self::merged(clustering, triangles, vec![1; clustering.subspaces().len()], clusters))
     }
 
-    /// Superclusters by their numbers, one per cluster, in the order of their lowest clusters, as
-    /// [`PrtFile`](crate::transfer::file::PrtFile) holds them. `None` for another order.
+    /// Creates superclusters from the supercluster index of each cluster, as in a
+    /// [`PrtFile`](crate::transfer::file::PrtFile). `None` unless indices are in the order of lowest clusters.
     pub fn of_numbers(of_cluster: &[u32]) -> Option<Self> {
         let numbered = Self::numbered(of_cluster.to_vec());
         (numbered.of_cluster == of_cluster).then_some(numbered)
     }
 
-    /// Refuses superclusters that exceed the registers, or are of other clusters.
+    /// Refuses superclusters that exceed the registers, or belong to another clustering.
     pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), InputError> {
         let (expected, found) = (clustering.subspaces().len(), self.of_cluster.len());
         ensure!(expected == found, "expected superclusters of {expected} clusters, found those of {found}");
@@ -87,7 +88,7 @@ impl Superclusters {
         }
     }
 
-    /// Merges superclusters while two that have triangles in common need no more than `limit` together.
+    /// Merges superclusters while two that share triangles need at most `limit` together.
     fn merged(clustering: &Clustering, triangles: &[[u32; 3]], mut needed: Vec<usize>, limit: usize) -> Self {
         let mut of_cluster: Vec<u32> = (0..needed.len() as u32).collect();
         let mut corners = mixed_triangles(triangles, clustering.of_point());
@@ -125,8 +126,8 @@ impl Superclusters {
         &self.of_cluster
     }
 
-    /// The number of triangles drawn, summed over superclusters. Panics if clustering and triangles are not those from
-    /// which the superclusters were made.
+    /// The number of triangles drawn, summed over superclusters. Panics if the superclusters were made from another
+    /// clustering or other triangles.
     pub fn overdraw(&self, clustering: &Clustering, triangles: &[[u32; 3]]) -> u64 {
         let of_point: Vec<u32> = clustering.of_point().iter().map(|&k| self.of_cluster[k as usize]).collect();
         overdraw(triangles, &of_point)
@@ -146,7 +147,7 @@ fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<u
     }
 }
 
-/// The sets of two or three clusters of triangles, with the number of such triangles. Two are stored as [a, b, b].
+/// Numbers of triangles by their set of two or three clusters. A set of two is stored as [a, b, b].
 type MixedTriangles = BTreeMap<[u32; 3], u64>;
 
 fn mixed_triangles(triangles: &[[u32; 3]], of_point: &[u32]) -> MixedTriangles {
@@ -173,7 +174,7 @@ fn renamed(mixed: MixedTriangles, to: u32, from: u32) -> MixedTriangles {
     found
 }
 
-/// The two superclusters with the most common triangles that fit together, the lower first.
+/// The two superclusters, lower first, that share the most triangles and fit together.
 fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(u32, u32)> {
     let mut common: BTreeMap<(u32, u32), u64> = BTreeMap::new();
     for (&[a, b, c], &count) in mixed {
@@ -184,6 +185,6 @@ fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(
         }
     }
     let fitting = common.into_iter().filter(|((a, b), _)| needed[*a as usize] + needed[*b as usize] <= limit);
-    // max_by_key returns the last among equals; on the reversed iterator this is the first.
+    // max_by_key returns the last among equals, which in a reversed iterator is the first.
     fitting.rev().max_by_key(|&(_, count)| count).map(|(pair, _)| pair)
 }

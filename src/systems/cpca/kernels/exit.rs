@@ -1,16 +1,16 @@
 //! The pixel program of glossy transfer (section 6.2): exit radiance at the view vector, y(v_p) times e_p.
 //!
-//! - t0 on: e_p, four numbers per set; then the local view vector, of any length.
-//! - s0 on: y in parabolic maps, four functions per map.
+//! - t0 and up: e_p, four numbers per set; then the local view vector, of any length.
+//! - s0 and up: y in parabolic maps, four functions per map.
 
 use std::fmt::Write as _;
 
 use crate::card::{PARABOLIC, WrittenKernel, parabolic};
 
-/// The sets of coordinates that ps_2_0 has.
+/// Number of coordinate sets in ps_2_0.
 const SETS: usize = 8;
 
-/// The program for exit radiance with a number of registers of four coefficients.
+/// The program for exit radiance, with four coefficients per register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ExitKernel {
     /// Sets of coordinates with coefficients, and maps.
@@ -18,7 +18,7 @@ pub struct ExitKernel {
 }
 
 impl ExitKernel {
-    /// The most registers that can be interpolated beside the view vector.
+    /// Maximum number of registers that can be interpolated besides the view vector.
     pub const MAX_REGISTERS: usize = SETS - 1;
 }
 

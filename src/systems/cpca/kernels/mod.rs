@@ -1,5 +1,5 @@
-//! The programs that draw compressed transfer, beside those of [`mod@crate::card::kernels`]: text written here, as the
-//! numbers of vectors and of functions decide.
+//! The programs that draw compressed transfer. Their text is generated from the numbers of vectors and functions;
+//! [`mod@crate::card::kernels`] has the others.
 
 mod exit;
 mod vertex;
@@ -10,7 +10,7 @@ use refsim::isa::Version;
 use crate::card::WrittenKernel;
 pub use vertex::{VertexKernel, VertexShading};
 
-/// Programs for a few numbers of vectors and functions, by name.
+/// Programs for some numbers of vectors and functions, with their names.
 pub fn programs() -> Vec<(String, String)> {
     let mut all = Vec::new();
     let shadings = [1, 4, 6, 7].map(|registers| VertexShading::Glossy { registers });

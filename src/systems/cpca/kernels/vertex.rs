@@ -1,10 +1,10 @@
 //! The vertex programs of section 6.2: e_p = alpha M_0 l + w_1 M_1 l + w_2 M_2 l + ..., and the local view vector.
 //!
-//! - v0: position, w = 1; v1: in x the index of the first constant of the vertex's cluster relative to
-//!   [`VertexKernel::first`], in y alpha; v2 and up: weights, four per register; if glossy, then tangent and normal.
+//! - v0: position, w = 1; v1.x: index of the first constant of the vertex's cluster, relative to
+//!   [`VertexKernel::first`]; v1.y: alpha; v2 and up: weights, four per register; if glossy, then tangent and normal.
 //! - c0 to c3: rows of the projection; if glossy, c4: the eye; then the products of a supercluster's clusters with the
 //!   light, vector by vector.
-//! - Output, diffuse: the shade. Glossy: e_p in oT0 and up, four numbers per set, then the local view vector.
+//! - Output: if diffuse, the radiance; if glossy, e_p in oT0 and up, four numbers per set, then the local view vector.
 
 use std::fmt::Write as _;
 
@@ -17,7 +17,7 @@ use crate::card::{TO_CLIP, WrittenKernel, local_view};
 pub enum VertexShading {
     /// Radiance in three channels, in the first set of texture coordinates.
     Diffuse,
-    /// The same as the diffuse vertex color, which is clamped to [0, 1].
+    /// Radiance in the diffuse vertex color, which is clamped to [0, 1].
     DiffuseColor,
     /// Coefficients of exit radiance of one channel, and the local view vector.
     Glossy {
@@ -40,7 +40,6 @@ pub struct VertexKernel {
 /// First attribute register of the weights.
 const WEIGHTS: usize = 2;
 const COMPONENTS: [char; 4] = ['x', 'y', 'z', 'w'];
-/// Number of attribute registers.
 const ATTRIBUTES: usize = 16;
 
 impl VertexKernel {

@@ -89,14 +89,14 @@ pub(super) fn chunks(
 struct VertexSourceData<'a> {
     transfer: &'a CompressedTransfer<'a>,
     weights: &'a CardWeights,
-    /// Per cluster the index of its first constant, relative to the first with products.
+    /// Index of each cluster's first constant, relative to the first constant with products.
     addresses: &'a [usize],
     kernel: &'a VertexKernel,
     positions: &'a [[u32; 4]],
 }
 
 impl VertexSourceData<'_> {
-    /// The attributes by register. For vertices outside the supercluster alpha and weights are 0.
+    /// A vertex's attributes by register. Outside the supercluster, alpha and weights are 0.
     fn attributes(&self, vertex: usize, inside: bool) -> Vec<[u32; 4]> {
         let clustering = self.transfer.clustering;
         let cluster = clustering.of_point()[vertex] as usize;

@@ -1,8 +1,8 @@
 //! Compressed transfer on an emulated card (section 6 of the paper).
 //!
 //! A [`PrtCard`] holds the mesh in chunks, one per supercluster. For each frame the host multiplies the means and
-//! vectors of all clusters by the light ([`Products`]); the card draws the mesh into the depth buffer, then adds up
-//! the chunks, glossy transfer in one pass per color channel.
+//! vectors of all clusters by the light ([`Products`]); the card draws the mesh into the depth buffer, then sums the
+//! chunks by blending, for glossy transfer in one pass per color channel.
 
 mod attributes;
 pub mod model;
@@ -55,8 +55,8 @@ pub struct PrtCard<'a> {
 impl<'a> PrtCard<'a> {
     /// Uploads a mesh with its transfer.
     ///
-    /// [`CardError`] if the device has no such programs, the number of vectors or functions exceeds a limit,
-    /// clusters have more vectors than `transfer` states, or its parts have contradictory sizes.
+    /// Fails with [`CardError`] if the device does not support the programs, the number of vectors or functions exceeds
+    /// a limit, clusters have more vectors than `transfer` states, or its parts have inconsistent sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -105,14 +105,14 @@ impl<'a> PrtCard<'a> {
         self.display.machine_mut()
     }
 
-    /// The target of a frame. Background pixels are 0. Fails with [`CardError`] for light of too low an order, an
-    /// exposure out of range, products that are not finite, and draws that the card refuses.
+    /// Draws a frame and returns the target. Background pixels are 0. Fails with [`CardError`] for light of too low an
+    /// order, an exposure out of range, products that are not finite, and draws that the card refuses.
     pub fn view_texels(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(light, view, false)?.0)
     }
 
-    /// As [`Self::view_texels`], with the log of host and card for [`frame_time`](crate::card::frame_time::frame_time),
-    /// without read-back.
+    /// Like [`Self::view_texels`], with the log of host and card for
+    /// [`frame_time`](crate::card::frame_time::frame_time), without read-back.
     pub fn logged_view(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<(Texels, Vec<Event>), CardError> {
         let (texels, mut log) = self.show(light, view, true)?;
         log.insert(0, host_work(HostOperation::MultiplyAdd, self.size.host_multiply_adds() as u64));

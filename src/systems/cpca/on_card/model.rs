@@ -1,4 +1,5 @@
-//! The cost of a frame (sections 4.1, 6 and 6.2): the columns of the paper's Table 1 that follow from its first four.
+//! The cost of a frame (sections 4.1, 6 and 6.2): the columns of the paper's Table 1 that follow from the first four
+//! columns.
 
 use crate::cpca::coherence::ConstantRegisters;
 
@@ -36,12 +37,12 @@ impl TransferSize {
         self.clusters * (self.vectors + 1)
     }
 
-    /// Constants per cluster as the programs use them, with whole registers per vector.
+    /// Constant registers per cluster in the programs, with whole registers per vector.
     pub fn registers_per_cluster(&self) -> usize {
         self.registers(0).needed(self.vectors)
     }
 
-    /// Number of clusters whose constants fit `registers` together.
+    /// Number of clusters whose constants fit together into `registers`.
     pub fn clusters_per_batch(&self, registers: usize) -> usize {
         registers / self.registers_per_cluster()
     }
@@ -51,7 +52,7 @@ impl TransferSize {
         Some(self.clusters.div_ceil(Some(self.clusters_per_batch(registers)).filter(|&fit| fit > 0)?))
     }
 
-    /// Passes over each chunk: for glossy transfer one per channel.
+    /// Passes over each chunk: one per channel for glossy transfer.
     pub fn passes(&self) -> usize {
         if self.rows == 1 { 1 } else { CHANNELS }
     }

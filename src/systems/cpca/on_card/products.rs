@@ -1,4 +1,5 @@
-//! The host's share of a frame (section 6): the mean and vectors of every cluster times the light, M_i l or t_i . l.
+//! The host's part of a frame (section 6): the products of the light with the mean and vectors of every cluster, M_i l
+//! or t_i . l.
 
 use rayon::prelude::*;
 
@@ -8,18 +9,18 @@ use crate::card::CardError;
 use crate::linalg::dot;
 use crate::sphere::HarmonicLight;
 
-/// The products of all clusters, in single precision as the card takes them.
+/// The products of all clusters, in single precision, as the card reads them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Products {
     rows: usize,
-    /// Per cluster: vector by vector, the mean first, three channels of as many numbers as there are rows.
+    /// For each cluster, vector by vector with the mean first: three channels of one number per row.
     clusters: Vec<Vec<f32>>,
 }
 
 impl Products {
-    /// Products in double precision, times a factor and with the ranges of weights multiplied in, rounded once.
-    /// Coefficients of the light beyond the matrices' columns are ignored. Fails with [`CardError`] for parts with
-    /// contradictory sizes, light of too low an order, and products that overflow single precision.
+    /// Computes products in double precision, multiplied by `factor` and by the ranges of weights, and rounded once.
+    /// Light coefficients beyond the matrices' columns are ignored. Fails with [`CardError`] for parts with
+    /// inconsistent sizes, light of too low an order, and products that overflow single precision.
     pub fn new(
         transfer: &CompressedTransfer<'_>,
         weights: &CardWeights,
@@ -55,15 +56,15 @@ impl Products {
         }
     }
 
-    /// The vectors of a cluster, the mean first: the rows of three channels for each. Panics if there is no such
-    /// cluster.
+    /// The products of a cluster's mean and vectors, in this order: each has the rows of three channels. Panics if
+    /// there is no such cluster.
     pub fn vectors(&self, cluster: usize) -> impl ExactSizeIterator<Item = [&[f32]; 3]> {
         let vectors = self.clusters[cluster].chunks_exact(3 * self.rows);
         vectors.map(|vector| [0, 1, 2].map(|channel| &vector[channel * self.rows..(channel + 1) * self.rows]))
     }
 }
 
-/// The product of each channel's matrix, row by row.
+/// The product of each channel's matrix and the light, row by row.
 fn of_vector(vector: &[f64], light: &HarmonicLight, shape: TransferShape, factor: f64) -> Vec<f64> {
     let size = shape.rows * shape.columns;
     let channels = light.channels().iter().enumerate();

@@ -1,4 +1,5 @@
-//! The programs for a transfer on a device, the constants that they leave for clusters, and the maps that they read.
+//! The programs for a transfer on a device, the constant registers that they leave for clusters, and the maps that they
+//! read.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
@@ -54,7 +55,7 @@ pub(super) fn kernel(profile: &Profile, transfer: &CompressedTransfer<'_>) -> Re
 }
 
 impl ShadingPrograms {
-    /// The vertex program with its pixel programs, accepted by a device.
+    /// Checks the vertex program and its pixel programs for a device.
     pub(super) fn new(profile: &Profile, kernel: VertexKernel) -> Result<Self, KernelError> {
         let pixel = match kernel.shading {
             VertexShading::Diffuse => SHADE.checked(profile)?,
@@ -80,7 +81,7 @@ pub(super) fn map_scale(basis: &ExitBasis, map: ParabolicMap, format: TexelForma
     std::iter::successors(Some(1.0), |scale| Some(2.0 * scale)).find(|&scale| float || most <= scale).unwrap_or(1.0)
 }
 
-/// The functions at each texel, row by row. Outside the disc they are evaluated below the horizon.
+/// The functions at each texel, row by row. Texels outside the disc are evaluated below the horizon.
 fn texels(basis: &ExitBasis, map: ParabolicMap) -> impl Iterator<Item = Vec<f64>> {
     let places = (0..map.side()).flat_map(move |row| (0..map.side()).map(move |column| (column, row)));
     places.map(move |(column, row)| {
@@ -90,7 +91,7 @@ fn texels(basis: &ExitBasis, map: ParabolicMap) -> impl Iterator<Item = Vec<f64>
     })
 }
 
-/// Maps of four functions each, divided by a scale, as textures with their sampler states.
+/// Uploads maps of four functions each, divided by a scale; returns textures with their sampler states.
 pub(super) fn exit_maps(
     machine: &mut Machine,
     basis: &ExitBasis,

@@ -1,4 +1,4 @@
-//! The time of a frame: the host that section 7 times frames with, and the log of a frame from sizes and counts alone,
+//! The time of a frame: the host on which section 7 measures, and the log of a frame from sizes and counts alone,
 //! without mesh, clusters or pixels.
 
 use refsim::event::Event;
@@ -9,13 +9,13 @@ use super::model::TransferSize;
 use crate::card::frame_time::{UnseenFrame, host_work};
 use crate::cpca::kernels::{VertexKernel, VertexShading};
 
-/// The uncompressed head of section 7, whose matrices the host of 2.2 GHz multiplies by the light, every one of them.
+/// The uncompressed head of section 7; the 2.2 GHz host multiplies the matrix of every vertex by the light.
 const HEAD: TransferSize = TransferSize { vertices: 50_060, rows: 25, columns: 25, clusters: 0, vectors: 0 };
-/// Its frames in a number of seconds: 2.9 frames per second is the one figure by which the host is calibrated.
+/// Frames of the head in 10 seconds: 2.9 frames per second is the only number that calibrates the host.
 const HEAD_FRAMES: u64 = 29;
 const HEAD_SECONDS: u64 = 10;
 
-/// The host of section 7, with the speed at which the uncompressed head gets its 2.9 frames per second.
+/// The host of section 7, at the speed that gives the uncompressed head 2.9 frames per second.
 pub fn host_of_section_7() -> Result<HostModel, HostError> {
     let work = HEAD_FRAMES * HEAD.uncompressed_multiply_adds() as u64;
     HostModel::calibrate(&HostCounts::default().with(HostOperation::MultiplyAdd, work), HEAD_SECONDS, 1)
@@ -40,9 +40,8 @@ pub struct FrameCounts {
 const POSITION_SLOTS: u64 = 4;
 
 impl FrameCounts {
-    /// The log of such a frame, for [`frame_time`](crate::card::frame_time::frame_time), in which pixels take no time:
-    /// products on the host, the mesh into the depth buffer, then group by group its constants and passes. Groups have
-    /// equal sizes.
+    /// The log of a frame, for [`frame_time`](crate::card::frame_time::frame_time), without time for pixels: products
+    /// on the host, the mesh into the depth buffer, then constants and passes of each group. Groups have equal sizes.
     pub fn log(&self) -> Vec<Event> {
         let registers = self.size.rows.div_ceil(4);
         let shading = if self.size.rows == 1 { VertexShading::Diffuse } else { VertexShading::Glossy { registers } };
@@ -53,7 +52,7 @@ impl FrameCounts {
         let (groups, passes) = (self.groups.max(1), self.size.passes() as u64);
         let constants = (self.size.uploaded_registers() as u64 / (groups * passes)) as u32;
         for group in 0..groups {
-            // Differences of rounded shares, which sum to all drawn triangles.
+            // Differences of rounded multiples sum exactly to all drawn triangles.
             let triangles = self.drawn * (group + 1) / groups - self.drawn * group / groups;
             for _ in 0..passes {
                 frame.pass(constants, triangles, kernel.slots() as u64, kernel.attributes() as u64);

@@ -1,4 +1,4 @@
-//! Compressed transfer of a mesh, which is the drawn object.
+//! The drawn object: a mesh with compressed transfer.
 
 use crate::card::CardError;
 use crate::clustering::Clustering;
@@ -17,17 +17,16 @@ pub struct CompressedTransfer<'a> {
     pub vertices: &'a Vertices,
     /// The clusters, with one point per vertex.
     pub clustering: &'a Clustering,
-    /// The basis of the rows: [`ExitBasis::Radiance`] is diffuse transfer.
+    /// The basis of the rows; [`ExitBasis::Radiance`] for diffuse transfer.
     pub basis: &'a ExitBasis,
     /// Number of matrices per vertex: 1 for all channels, or 3.
     pub channels: usize,
     /// The number n' of vectors per cluster. A cluster of lower rank may have fewer.
     pub vectors: usize,
-    /// The superclusters that clusters are drawn in; `None`: as many clusters as the constant registers hold.
+    /// The superclusters that are drawn; `None`: superclusters of as many clusters as the constant registers hold.
     pub superclusters: Option<&'a Superclusters>,
 }
 
-/// The order of the light that a transfer takes, and whether it is glossy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct TransferShape {
     /// Number of matrices per vertex.
@@ -44,7 +43,7 @@ impl CompressedTransfer<'_> {
         matches!(self.basis, ExitBasis::Harmonics(_))
     }
 
-    /// Its sizes. Fails with [`CardError`] if the parts have contradictory sizes.
+    /// The sizes of the transfer. Fails with [`CardError`] if its parts are inconsistent.
     pub fn size(&self) -> Result<TransferSize, CardError> {
         let TransferShape { rows, columns, .. } = self.shape()?;
         let clusters = self.clustering.subspaces().len();

@@ -1,5 +1,5 @@
-//! Options of drawing compressed transfer, and weights as a vertex holds them. The paper does not describe the format;
-//! fewer bits make vertices smaller.
+//! Options of drawing compressed transfer, and the format of weights in vertices. The paper does not describe the
+//! format; fewer bits make vertices smaller.
 
 use refsim::texture::TexelFormat;
 
@@ -31,7 +31,7 @@ impl WeightFormat {
         }
     }
 
-    /// The largest code of a fraction; `None` for floats.
+    /// The largest code of a fixed-point weight; `None` for floats.
     fn largest_code(self) -> Option<f64> {
         match self {
             Self::Fp32 | Self::Fp16 => None,
@@ -41,17 +41,17 @@ impl WeightFormat {
     }
 }
 
-/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. Low and extent cost
-/// the card nothing, since they are multiplied into the products: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
+/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. They cost the card
+/// nothing, because the products include them: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
 #[derive(Clone, Debug)]
 pub struct CardWeights {
     format: WeightFormat,
-    /// Per cluster and vector: low and extent.
+    /// Low and extent of each cluster's vectors.
     ranges: Vec<Vec<[f64; 2]>>,
 }
 
 impl CardWeights {
-    /// The weights of a clustering in a format.
+    /// Creates the decoding of a clustering's weights in a format.
     pub fn new(clustering: &Clustering, format: WeightFormat) -> Self {
         let mut bounds: Vec<Vec<[f64; 2]>> = clustering
             .subspaces()
@@ -76,7 +76,7 @@ impl CardWeights {
         &self.ranges[cluster]
     }
 
-    /// A weight on a vector of a cluster, encoded as the attribute that the vertex program reads. Panics if there is no
+    /// Encodes a weight on a cluster's vector as the attribute that the vertex program reads. Panics if there is no
     /// such cluster or vector.
     pub fn attribute(&self, cluster: usize, vector: usize, weight: f64) -> f32 {
         let [low, extent] = self.ranges[cluster][vector];
@@ -92,8 +92,8 @@ impl CardWeights {
 /// Options of drawing compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrtCardOptions {
-    /// Clusters are drawn together, in the superclusters of the transfer or as far as the constant registers hold;
-    /// otherwise each alone.
+    /// True if clusters are drawn in superclusters, those of the transfer or as large as the constant registers allow;
+    /// false if each cluster is drawn alone.
     pub superclusters: bool,
     /// Texels along an edge of the maps of y; 32 in the paper.
     pub map_side: usize,
@@ -111,7 +111,6 @@ impl Default for PrtCardOptions {
 }
 
 impl PrtCardOptions {
-    /// Checks the ranges.
     pub(super) fn check(&self) -> Result<(), CardError> {
         if (1..=4096).contains(&self.map_side) {
             return Ok(());

@@ -10,7 +10,7 @@ use crate::sphere::{HarmonicRotation, MAX_ORDER, function_count, harmonics};
 use crate::transfer::brdf::ExitBasis;
 use crate::transfer::{FrontHit, LocalFrame, Vertices};
 
-/// Everything that is the same for all vertices.
+/// The data that all vertices share.
 pub(super) struct TransferGather<'a> {
     vertices: &'a Vertices,
     rays: &'a TracedRays,
@@ -22,11 +22,11 @@ pub(super) struct TransferGather<'a> {
     materials: Vec<WeightedResponse>,
 }
 
-/// A response times the rule's weights.
+/// A response with the rule's weights multiplied in.
 struct WeightedResponse {
-    /// A column per direction.
+    /// One column per direction.
     weighted: Vec<f64>,
-    /// The matrix, in local coordinates, of a vertex that sees the whole hemisphere.
+    /// The matrix of a vertex that sees the whole hemisphere, in local coordinates.
     whole: Vec<f64>,
 }
 
@@ -65,12 +65,12 @@ impl<'a> TransferGather<'a> {
         self.rows * self.columns
     }
 
-    /// The response of a vertex's material; a single one is that of all.
+    /// The response of a vertex's material; a single response is shared by all materials.
     fn material(&self, vertex: usize) -> &WeightedResponse {
         &self.materials[(self.vertices.materials()[vertex] as usize).min(self.materials.len() - 1)]
     }
 
-    /// Direct light at the vertices whose rays were traced: shadows alone.
+    /// Direct light with shadows at the vertices whose rays were traced.
     pub(super) fn direct(&self) -> Vec<f32> {
         self.each(|vertex, into| {
             let local = self.local_direct(vertex);
@@ -83,8 +83,8 @@ impl<'a> TransferGather<'a> {
         })
     }
 
-    /// The matrix of direct light with the light in local coordinates: the sum over directions that see light, or the
-    /// sum over all directions minus those that do not, whichever is shorter.
+    /// The matrix of direct light, with the light in local coordinates: the sum over unblocked directions, or the sum
+    /// over all directions minus the blocked ones, whichever is shorter.
     fn local_direct(&self, vertex: usize) -> Vec<f64> {
         let material = self.material(vertex);
         let directions = self.rays.rule().len();
@@ -103,8 +103,8 @@ impl<'a> TransferGather<'a> {
         sums
     }
 
-    /// One more reflection: light that arrives from the front faces that a vertex sees, if `last` is their exit
-    /// radiance in a basis.
+    /// One more reflection: light from the front faces that a vertex sees, where `last` is their exit radiance in
+    /// `basis`.
     pub(super) fn bounce(&self, last: &[f32], basis: &ExitBasis) -> Vec<f32> {
         self.each(|vertex, into| {
             let (material, frame) = (self.material(vertex), &self.vertices.frames()[vertex]);
@@ -120,8 +120,8 @@ impl<'a> TransferGather<'a> {
         })
     }
 
-    /// The radiance, per light function, that leaves a triangle: interpolated between its corners. A direction below
-    /// the horizon of a corner's normal is moved onto the horizon, since the exit basis is undefined there.
+    /// The exit radiance of a triangle per light function, interpolated between its corners. A direction below the
+    /// horizon of a corner's normal is moved to the horizon, because the exit basis is undefined below it.
     fn radiance(&self, hit: &FrontHit, view: DVec3, (last, basis): (&[f32], &ExitBasis), into: &mut [f64]) {
         into.fill(0.0);
         let mut y = [0.0; MAX_ORDER * MAX_ORDER];
@@ -138,7 +138,7 @@ impl<'a> TransferGather<'a> {
         }
     }
 
-    /// A matrix per vertex whose rays were traced, each computed independently.
+    /// Computes the matrix of each vertex whose rays were traced, independently of the others.
     fn each(&self, compute: impl Fn(usize, &mut [f32]) + Sync) -> Vec<f32> {
         let range = self.rays.range();
         let mut values = vec![0.0; range.len() * self.size()];

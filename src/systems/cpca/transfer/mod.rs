@@ -1,8 +1,8 @@
 //! Radiance transfer at the vertices of a mesh, as matrices of harmonics.
 //!
-//! - [`TracedRays`]: the directions that are blocked, and by what;
-//! - [`Response`]: how a material answers light from each direction;
-//! - [`Transfer`]: the matrix of each vertex, with bounces and [light that scatters below](Transfer::scattered).
+//! - [`TracedRays`]: which directions are blocked, and by which triangles;
+//! - [`Response`]: the exit radiance of a material per light from each direction;
+//! - [`Transfer`]: the matrix of each vertex, with bounces and [subsurface scattering](Transfer::scattered).
 
 mod gather;
 mod rays;

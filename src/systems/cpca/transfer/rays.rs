@@ -1,4 +1,4 @@
-//! The rays of all vertices: blocked or not, and their hits.
+//! The rays of all vertices: which are blocked, and their hits.
 
 use std::ops::Range;
 
@@ -20,13 +20,13 @@ const BLOCK: usize = 64;
 pub struct TransferCounts {
     /// Number of rays: vertices times directions.
     pub rays: u64,
-    /// Rays that the caster traced; all others are certainly unblocked, or run below the geometric horizon.
+    /// Number of rays that the caster traced; all others are certainly unblocked, or point below the geometric horizon.
     pub traced: u64,
     /// Number of blocked rays.
     pub blocked: u64,
     /// Blocked rays below the geometric horizon: behind all triangles on which the vertex lies.
     pub below_horizon: u64,
-    /// Blocked rays that end at the back of a triangle, which is black. Counted only if hits are kept.
+    /// Blocked rays that end at the back of a triangle, which is black; counted only if hits are kept.
     pub from_behind: u64,
     /// Vertices whose rays are all blocked.
     pub dark: Vec<u32>,
@@ -37,7 +37,7 @@ pub struct TransferCounts {
 }
 
 impl TransferCounts {
-    /// Adds the counts of other vertices, which follow.
+    /// Adds the counts of the vertices that follow.
     fn append(&mut self, next: Self) {
         self.rays += next.rays;
         self.traced += next.traced;
@@ -50,7 +50,7 @@ impl TransferCounts {
     }
 }
 
-/// The results of one ray per vertex and direction of a hemisphere rule in the vertex's local frame.
+/// Results of one ray per vertex and direction; directions are a hemisphere rule in the vertex's local frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TracedRays {
     rule: DirectionRule,
@@ -77,7 +77,7 @@ impl RayAnswers {
         self.range.clone()
     }
 
-    /// These rays without the results of single ones: counts alone.
+    /// Keeps the counts, and drops the results of single rays.
     #[must_use]
     pub fn counts_only(self) -> Self {
         Self { blocked: Vec::new(), hits: Vec::new(), ..self }
@@ -93,11 +93,11 @@ impl RayAnswers {
 }
 
 impl TracedRays {
-    /// Traces the directions of a rule over the hemisphere from each vertex. The caster must be one for the mesh from
-    /// which the vertices were made, and see both sides of triangles. `keep_hits` is needed for interreflection: it
-    /// takes 16 bytes per blocked ray.
+    /// Traces the directions of a rule over the hemisphere from each vertex. The caster must trace the mesh from which
+    /// the vertices were made, and both sides of triangles. Interreflection needs `keep_hits`, which takes 16 bytes per
+    /// blocked ray.
     ///
-    /// The result is that of tracing every ray, on any number of threads; rays that certainly hit nothing are not cast.
+    /// Rays that certainly hit nothing are not cast, which does not change the result; nor does the number of threads.
     /// Fails with [`InputError`] if the caster fails.
     pub fn trace(
         vertices: &Vertices,
@@ -108,8 +108,8 @@ impl TracedRays {
         Self::trace_range(vertices, 0..vertices.len(), rule, caster, keep_hits)
     }
 
-    /// [`Self::trace`] from the vertices of a range alone, with the same results. Fails as [`Self::trace`] does. Panics
-    /// if the range has vertices that do not exist.
+    /// Like [`Self::trace`], for a range of vertices, with the same results. Fails as [`Self::trace`] does. Panics if a
+    /// vertex of the range does not exist.
     pub fn trace_range(
         vertices: &Vertices,
         range: Range<usize>,
@@ -134,7 +134,7 @@ impl TracedRays {
         Ok(traced)
     }
 
-    /// Rays of a rule, with the results of [`Self::into_answers`].
+    /// Combines a rule and the results of [`Self::into_answers`].
     pub fn of(rule: DirectionRule, answers: RayAnswers) -> Self {
         Self { rule, answers }
     }
@@ -185,7 +185,7 @@ impl TracedRays {
         self.words(vertex).iter().enumerate().flat_map(|(word, &bits)| ones(bits).map(move |bit| 64 * word + bit))
     }
 
-    /// A bit per direction of a vertex, set if it is blocked.
+    /// One bit per direction of a vertex, set if the direction is blocked.
     fn words(&self, vertex: usize) -> &[u64] {
         let RayAnswers { range, words, blocked, .. } = &self.answers;
         &blocked[(vertex - range.start) * words..(vertex - range.start + 1) * words]
@@ -218,7 +218,8 @@ impl TracedRays {
         Ok(())
     }
 
-    /// Finds the hits of blocked rays: of all vertices if hits are kept, otherwise of dark ones, to find those buried.
+    /// Finds the hits of blocked rays: for all vertices if hits are kept, otherwise only for dark vertices, to find the
+    /// buried ones.
     fn hits(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), InputError> {
         let wanted: Vec<u32> = match self.keeps_hits() {
             true => self.range().map(|vertex| vertex as u32).collect(),

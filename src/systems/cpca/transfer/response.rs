@@ -8,52 +8,52 @@ use crate::sphere::{DirectionRule, function_count, harmonics};
 use crate::transfer::brdf::{Brdf, ExitBasis, Projector, exit_per_direction, integrals};
 use crate::transfer::error::require;
 
-/// The representation of incident radiance for the BRDF of a glossy material.
+/// The representation of incident radiance to which a glossy material's BRDF is applied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Incident {
     /// Spherical harmonics of this order, as in M_p = B R_p T_p, so that incident radiance is band-limited.
     Harmonics {
-        /// The order; 5 in the paper.
+        /// The order; the paper uses 5.
         order: usize,
         /// True if A_i^-1 is applied between B and R_p T_p, as in equation 1.
         inverse: bool,
     },
-    /// Directions, as in the double integral of section 3.1: no band limit other than the light's.
+    /// Directions, as in the double integral of section 3.1, with no band limit but the light's.
     Directions,
 }
 
-/// A material's exit radiance in an exit basis, per radiance from each direction of a rule, in the local frame. With a
-/// rule that is exact for products of two functions, all further steps are linear algebra: the transfer matrix is the
-/// integral of this column times the row of light functions, over the unblocked directions.
+/// A material's exit radiance in an exit basis, per radiance from each direction of a rule, in the local frame. The
+/// transfer matrix is the integral, over the unblocked directions, of a direction's column times its row of light
+/// functions. With a rule that is exact for products of two functions, all further steps are linear algebra.
 #[derive(Clone, Debug)]
 pub struct Response {
     basis: ExitBasis,
-    /// Number of directions of the rule.
     directions: usize,
     /// One column per direction.
     columns: Vec<f64>,
 }
 
 impl Response {
-    /// A diffuse response: exit radiance is albedo / pi times irradiance. One row, the t_p of section 3. Fails with
-    /// [`InputError`] if the albedo is not in [0, 1].
+    /// A diffuse response: exit radiance is albedo / pi times irradiance. It has one row, the t_p of section 3. Fails
+    /// with [`InputError`] if the albedo is not in [0, 1].
     pub fn diffuse(albedo: f64, rule: &DirectionRule) -> Result<Self, InputError> {
         require((0.0..=1.0).contains(&albedo), "the albedo", "a number from 0 to 1", albedo)?;
         let columns = rule.directions().iter().map(|s| albedo / PI * s.z).collect();
         Ok(Self { basis: ExitBasis::Radiance, directions: rule.len(), columns })
     }
 
-    /// The irradiance that enters a medium: cosine times the transmittance at that cosine. Its one row is not radiance:
-    /// it is the input of [`Transfer::scattered`](super::Transfer::scattered), and takes no part in interreflection.
+    /// The irradiance that enters a medium: cosine times the transmittance at that cosine. Its only row is not
+    /// radiance, but the input of [`Transfer::scattered`](super::Transfer::scattered), and must not take part in
+    /// interreflection.
     pub fn entering(transmittance: impl Fn(f64) -> f64, rule: &DirectionRule) -> Self {
         let columns = rule.directions().iter().map(|s| transmittance(s.z) * s.z).collect();
         Self { basis: ExitBasis::Radiance, directions: rule.len(), columns }
     }
 
-    /// A glossy response in harmonics: equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or a variant. A_r^-1 is applied if
-    /// `exit_inverse`; otherwise rows are the zero-hemisphere projection of exit radiance. `views` is the rule by which
-    /// B is integrated ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)). Fails with [`InputError`] for parameters
-    /// out of range.
+    /// A glossy response in harmonics, for equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or a variant. A_r^-1 is applied
+    /// if `exit_inverse`; otherwise rows are the zero-hemisphere projection of exit radiance. `views` is the rule that
+    /// integrates B ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)). Fails with [`InputError`] for parameters out
+    /// of range.
     pub fn glossy(
         brdf: &Brdf,
         exit: &ExitBasis,
@@ -101,9 +101,9 @@ impl Response {
         self.columns.chunks_exact(self.basis.len())
     }
 
-    /// The matrix of a vertex that sees the whole hemisphere, for light of `light_order` in local coordinates. Fails
-    /// with [`InputError`] never, since there are at most 100 functions. Panics if the order is not 1 to 10, or the
-    /// rule has another number of directions than the response.
+    /// The matrix of a vertex that sees the whole hemisphere, for light of `light_order` in local coordinates. Never
+    /// fails, because there are at most 100 functions. Panics if the order is not 1 to 10, or rule and response differ
+    /// in their number of directions.
     pub fn unoccluded(&self, light_order: usize, rule: &DirectionRule) -> Result<Matrix, InputError> {
         assert_eq!(rule.len(), self.directions, "the response's rule");
         let columns = function_count(light_order);

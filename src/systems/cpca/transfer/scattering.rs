@@ -1,5 +1,5 @@
-//! Light that scatters below the surface, after Jensen and Buhler 2002: irradiance at every vertex, gathered by a
-//! hierarchy with a reflectance that depends on distance alone (section 3.1, last paragraph).
+//! Subsurface scattering after Jensen and Buhler 2002: irradiance at the vertices is gathered by a hierarchy, with a
+//! reflectance that depends only on distance (section 3.1, last paragraph).
 
 use std::f64::consts::PI;
 
@@ -13,31 +13,31 @@ use crate::quadrature::graded_integral;
 use crate::transfer::Vertices;
 use crate::transfer::error::require;
 
-/// Vertices of a leaf.
+/// Maximum number of vertices of a leaf.
 const LEAF: usize = 8;
 /// Intervals of the quadrature over a vertex's own area.
 const PANELS: u32 = 12;
 
-/// Options of subsurface scattering: the unit of length, and when a cluster of vertices counts as one point.
+/// Options of subsurface scattering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScatteringOptions {
     /// Millimetres per unit of the mesh; above 0.
     pub mm_per_unit: f64,
-    /// The solid angle, in steradians, below which a cluster is one point: its area over the square of its distance. 0
-    /// takes every vertex separately.
+    /// The solid angle, in steradians, below which a cluster of vertices counts as one point; a cluster's solid angle
+    /// is its area divided by its squared distance. 0 sums every vertex separately.
     pub solid_angle: f64,
 }
 
-/// A cluster of vertices: a range of the order, the children, and sums.
+/// A cluster of vertices: a range of [`Hierarchy`]'s order, the children, and sums.
 struct Cluster {
     first: usize,
     count: usize,
     /// The second child; the first follows its parent. `None` for a leaf.
     second: Option<usize>,
     area: f64,
-    /// Mean place, by area.
+    /// Mean position, weighted by area.
     middle: DVec3,
-    /// The largest distance of a vertex from it.
+    /// The largest distance of a vertex from the mean position.
     radius: f64,
 }
 
@@ -50,12 +50,13 @@ struct Hierarchy {
 }
 
 impl Transfer {
-    /// The subsurface part of transfer: radiance, the same in all directions, that leaves each vertex after scattering.
+    /// The subsurface part of transfer: the radiance, equal in all directions, that leaves each vertex after
+    /// scattering.
     ///
-    /// `entering` is the irradiance that passes into the medium at each vertex, one row
-    /// ([`Response::entering`](super::Response::entering)). `reflectance` is the exitance per flux that enters at a
-    /// distance in mm, per mm^2, such as a dipole's; over a vertex's own area it is integrated as over a disk. The
-    /// triangles should be smaller than the mean free path. Fails with [`InputError`] if `entering` is not of these
+    /// `entering` is the irradiance that enters the medium at each vertex, in one row
+    /// ([`Response::entering`](super::Response::entering)). `reflectance`, such as a dipole's, maps a distance in mm to
+    /// the exitance per flux entering there, per mm^2; over a vertex's own area it is integrated as over a disk. The
+    /// triangles should be smaller than the mean free path. Fails with [`InputError`] if `entering` belongs to other
     /// vertices or has more than one row, or an option is out of range.
     pub fn scattered(
         vertices: &Vertices,
@@ -85,7 +86,7 @@ impl Transfer {
 impl Hierarchy {
     fn new(vertices: &Vertices, mm_per_unit: f64) -> Self {
         let places: Vec<DVec3> = vertices.positions().iter().map(|&at| mm_per_unit * wide(at)).collect();
-        // A third of each triangle belongs to each of its corners.
+        // Each corner gets a third of its triangles' areas.
         let mut areas = vec![0.0; places.len()];
         for corners in vertices.triangles() {
             let [a, b, c] = corners.map(|corner| places[corner as usize]);
@@ -124,7 +125,7 @@ impl Hierarchy {
         };
         let along = |vertex: u32| places[vertex as usize][axis];
         members.select_nth_unstable_by(count / 2, |&a, &b| along(a).total_cmp(&along(b)).then(a.cmp(&b)));
-        // The median divides in one way; within the halves the order is that of vertices.
+        // The median determines the halves; within a half, vertices are sorted by index.
         let (lower, upper) = members.split_at_mut(count / 2);
         lower.sort_unstable();
         upper.sort_unstable();

@@ -18,9 +18,9 @@ const CHUNK: usize = 1024;
 /// Number of interreflections, not counting the reflection towards the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bounces {
-    /// This many; 0 computes shadows alone.
+    /// This number; 0 computes only shadows.
     Count(u32),
-    /// Until a bounce adds less than this fraction of the direct transfer (root mean square over all numbers).
+    /// Bounces until one adds less than this fraction of the direct transfer (root mean square over all numbers).
     Tolerance {
         /// The fraction, above 0.
         share: f64,
@@ -29,8 +29,8 @@ pub enum Bounces {
     },
 }
 
-/// The transfer of every vertex: one matrix each, from light in global coordinates to exit radiance in an exit basis in
-/// local coordinates.
+/// The transfer of every vertex: a matrix from light in global coordinates to exit radiance in an exit basis in local
+/// coordinates.
 #[derive(Clone, Debug)]
 pub struct Transfer {
     basis: ExitBasis,
@@ -41,9 +41,9 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// The transfer of all vertices for light of an order. There must be one response per material, all in one exit
-    /// basis; the rays must have been traced from these vertices, with hits kept if `bounces` is not 0. Fails with
-    /// [`InputError`] for responses with different bases or of another rule, a missing material, an order not in 1 to
+    /// Computes the transfer of all vertices for light of an order. There must be one response per material, all in one
+    /// exit basis. The rays must have been traced from these vertices, with hits kept if `bounces` is not 0. Fails with
+    /// [`InputError`] for responses with different bases or of another rule, a missing material, an order outside 1 to
     /// 10, or bounces without hits.
     pub fn new(
         vertices: &Vertices,
@@ -57,8 +57,8 @@ impl Transfer {
         Self::with_bounces(vertices, rays, responses, light_order, (direct, bounces))
     }
 
-    /// The matrices of direct light at the vertices of a range, those whose rays were traced; each is computed
-    /// independently, with the same result for every range. Concatenated, row by row.
+    /// Computes the matrices of direct light at the vertices whose rays were traced, concatenated, row by row. Each
+    /// matrix is independent of the range.
     pub fn direct(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -77,8 +77,8 @@ impl Transfer {
         Ok(TransferGather::new(vertices, rays, responses, light_order).direct())
     }
 
-    /// The transfer of all vertices out of [`Self::direct`], with bounces. Without these the results of single rays are
-    /// not needed. Fails with [`InputError`] as of [`Self::new`], and if there is not one matrix per vertex.
+    /// Completes the result of [`Self::direct`] for all vertices with bounces. Without bounces, the results of single
+    /// rays are not needed. Fails as [`Self::new`] does, and if there is not one matrix per vertex.
     pub fn with_bounces(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -117,8 +117,8 @@ impl Transfer {
     }
 
     /// The transferred incident radiance, R_p T_p, of all vertices in local coordinates: projected onto `basis` by
-    /// integrals over the hemisphere (zero hemisphere), or if `inverse` by least squares. Radiance from other surfaces
-    /// is taken from their exit radiance `exit`; with `None` they send nothing.
+    /// integrals over the hemisphere (zero hemisphere), or if `inverse` by least squares. Light from other surfaces is
+    /// their exit radiance `exit`; `None` means no light from them.
     pub fn incident(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -173,7 +173,7 @@ impl Transfer {
         self.values
     }
 
-    /// A transfer with the same basis and size, and other numbers.
+    /// A transfer with this basis and size, and new values.
     pub(super) fn with_values(&self, values: Vec<f32>) -> Self {
         Self { basis: self.basis.clone(), columns: self.columns, values, bounces: Vec::new() }
     }
@@ -189,9 +189,9 @@ impl Transfer {
         y.iter().zip(rows).map(|(y, row)| y * exit(row)).sum()
     }
 
-    /// Adds the transfer of the same vertices in another exit basis, such as a diffuse part in [`ExitBasis::Radiance`],
-    /// whose radiance is added to the coefficient of y_0 (Figure 9). Fails with [`InputError`] if sizes do not fit, or
-    /// this basis lacks a function of the other.
+    /// Adds a transfer of the same vertices in another exit basis. A diffuse part in [`ExitBasis::Radiance`] is added
+    /// to the coefficient of y_0 (Figure 9). Fails with [`InputError`] if sizes differ, or this basis lacks a function
+    /// of the other.
     pub fn add(&mut self, other: &Self) -> Result<(), InputError> {
         differ("columns", [self.columns, other.columns])?;
         differ("vertices", [self.vertex_count(), other.vertex_count()])?;
@@ -208,7 +208,7 @@ impl Transfer {
     }
 }
 
-/// For each row of basis `from` the index of its row in `into`, and its factor.
+/// For each row of basis `from`, the index of its row in `into`, and a factor.
 fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, InputError> {
     let missing = exit_bases_error([into.len(), from.len()]);
     match (into, from) {
@@ -252,7 +252,7 @@ fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: Bounces) -> Re
     }
 }
 
-/// The first triangle whose material has no response, with that material.
+/// The first triangle whose material has no response, and the material.
 fn unknown_material(vertices: &Vertices, responses: &[Response]) -> Option<(usize, u32)> {
     let material = |corners: &[u32; 3]| vertices.materials()[corners[0] as usize];
     let mut materials = vertices.triangles().iter().map(material).enumerate();

@@ -6,7 +6,7 @@ use crate::geom::vector::narrow;
 use crate::radiosity::Patches;
 use glam::DVec3;
 
-/// Patches whose normals are farther apart than this (a cosine) do not share their corners: about 26 degrees.
+/// Cosine of the largest angle between normals of patches that share corners: about 26 degrees.
 const CREASE: f64 = 0.9;
 
 /// Sets of patches whose mean is the radiosity of a corner.
@@ -14,13 +14,13 @@ const CREASE: f64 = 0.9;
 pub(super) struct CornerSets {
     /// Each distinct set of patches, in ascending order, never empty.
     pub(super) sets: Vec<Vec<u32>>,
-    /// Index of the set of each corner of each patch; a triangle's fourth is 0.
+    /// Index of the set of each corner of each patch; a triangle's fourth index is 0.
     pub(super) of: Vec<[u32; 4]>,
 }
 
 impl CornerSets {
-    /// Collects, at each corner of each patch, the patches of one material that meet there, are not across an edge, and
-    /// are not covered.
+    /// Collects, at each corner of each patch, the uncovered patches of one material that meet there without a sharp
+    /// edge between them.
     pub(super) fn new(patches: &Patches) -> Self {
         let list = patches.list();
         let mut meeting: BTreeMap<[u32; 3], Vec<u32>> = BTreeMap::new();
@@ -39,7 +39,7 @@ impl CornerSets {
             };
             for (&corner, of) in patch.corners().iter().zip(of) {
                 let mut set: Vec<u32> = meeting[&place(corner)].iter().copied().filter(smooth).collect();
-                // Fully covered patches are dark and invisible: they count only where there is nothing else.
+                // Fully covered patches are dark and invisible: they count only where all patches are covered.
                 if set.iter().any(|&j| !covered[j as usize]) {
                     set.retain(|&j| !covered[j as usize]);
                 }
@@ -53,13 +53,13 @@ impl CornerSets {
     }
 }
 
-/// Vertex of the smooth display: a position where corners of patches of one smooth surface meet. Several share a
-/// position where surfaces of different materials, or both sides of an edge, meet.
+/// Vertex of the smooth display: a position where corners of patches of one smooth surface meet. Several vertices share
+/// a position if surfaces of different materials, or both sides of a sharp edge, meet there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SmoothVertex {
     /// Position.
     pub at: DVec3,
-    /// Patches over which its radiosity is the mean, in ascending order.
+    /// Patches whose mean is the vertex's radiosity, in ascending order.
     pub patches: Vec<u32>,
 }
 
@@ -74,21 +74,21 @@ impl SmoothVertex {
         first.map(|(at, set)| Self { at, patches: sets[set as usize].clone() }).collect()
     }
 
-    /// Returns its radiosity, given one radiosity per patch. Panics if there is no radiosity of one of its patches.
+    /// Returns the vertex's radiosity, given one radiosity per patch. Panics if the radiosity of one of its patches is
+    /// missing.
     pub fn mean(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         mean(&self.patches, radiosity)
     }
 }
 
-/// The mean over the patches of a set.
 fn mean(set: &[u32], radiosity: &[[f64; 3]]) -> [f64; 3] {
     let add = |sum: [f64; 3], &j: &u32| [0, 1, 2].map(|c| sum[c] + radiosity[j as usize][c]);
     set.iter().fold([0.0; 3], add).map(|sum| sum / set.len() as f64)
 }
 
-/// Computes the radiosity at each corner of each patch: the mean over the patches of one material that meet there and
-/// are not across an edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do
-/// not count. Constant radiosity stays constant. Panics if there is not one radiosity per patch.
+/// Computes the radiosity at each corner of each patch: the mean over the patches of one material that meet there
+/// without a sharp edge between them (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered
+/// patches are ignored. Constant radiosity stays constant. Panics if there is not one radiosity per patch.
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity per patch");
     let CornerSets { sets, of } = CornerSets::new(patches);
@@ -97,7 +97,7 @@ pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]
     corners.zip(&of).map(|(count, of)| of[..count].iter().map(|&set| means[set as usize]).collect()).collect()
 }
 
-/// Key of a corner: neighbours agree in f32, and -0 equals +0.
+/// Key of a corner: its f32 bits, which neighbours share, with -0 as +0.
 pub(super) fn place(corner: DVec3) -> [u32; 3] {
     narrow(corner).map(|x| (x + 0.0).to_bits())
 }

@@ -1,8 +1,8 @@
 //! Patches with T-junctions on their sides, drawn as triangle fans.
 //!
-//! A side that is drawn as one line while the neighbour's corners on it are snapped to the raster's grid would leave a
-//! crack of a sixteenth of a pixel. A patch with such a side is drawn as a fan around its centre, with a vertex at each
-//! corner on its sides.
+//! The card snaps corners to a grid of a sixteenth of a pixel. A side drawn as one line would leave a crack beside the
+//! neighbours' snapped corners on it. A patch with such a side is drawn as a fan around its centre, with a vertex at
+//! each corner on its sides.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use crate::geom::vector::wide;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
 
-/// Maximum distance of a corner from a side that it lies on, relative to the scene's diagonal: the precision of f32
+/// Maximum distance at which a corner counts as on a side, relative to the scene's diagonal: the precision of f32
 /// corners.
 const ON_SIDE: f64 = 1e-6;
 
@@ -20,7 +20,7 @@ pub(super) type FanVertex = (DVec3, [f64; 2]);
 
 type SnappedCorner = [u32; 3];
 
-/// Sides that no other patch shares from end to end.
+/// Sides that no other patch shares in full length.
 fn loose_sides(patches: &Patches) -> BTreeSet<[SnappedCorner; 2]> {
     let mut count: BTreeMap<[SnappedCorner; 2], u32> = BTreeMap::new();
     for patch in patches.list() {
@@ -43,7 +43,7 @@ fn key(side: [DVec3; 2]) -> [SnappedCorner; 2] {
     ends
 }
 
-/// Returns the fan of each patch on whose sides others have corners; `None` for a patch that is drawn unchanged.
+/// Returns the fan of each patch with other patches' corners on its sides; `None` for patches that are drawn unchanged.
 pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     let loose = loose_sides(patches);
     let ends: BTreeSet<SnappedCorner> = loose.iter().flatten().copied().collect();
@@ -68,7 +68,7 @@ pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     patches.list().iter().map(outline).collect()
 }
 
-/// Returns the parameter in (0, 1) of a point on a side; `None` if it is not on it.
+/// Returns the parameter in (0, 1) of a point on a side; `None` if the point is not on the side.
 fn share(point: DVec3, [a, b]: [DVec3; 2], near: f64) -> Option<f64> {
     let (along, to) = (b - a, point - a);
     let t = to.dot(along) / along.dot(along);
@@ -86,8 +86,8 @@ fn fan(patch: &Patch, outline: &[FanVertex]) -> Vec<[FanVertex; 3]> {
     (0..outline.len()).map(|i| [(middle, inside), outline[i], next(i)]).collect()
 }
 
-/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the weights of its second
-/// and third corner.
+/// Coordinates of a patch's corners within the patch: along two sides of a quadrilateral, or the weights of a
+/// triangle's second and third corner.
 pub(super) fn in_patch(patch: &Patch) -> [[f64; 2]; 4] {
     let [b, c] = [[1.0, 0.0], [0.0, 1.0]];
     if patch.corners().len() == 3 { [[0.0, 0.0], b, c, c] } else { [[0.0, 0.0], b, [1.0, 1.0], c] }

@@ -1,8 +1,8 @@
 //! Display of a solution by the card (section 3.1, Figure 2).
 //!
-//! *Flat*: each pixel fetches its patch's texel of the radiosity texture. *Smooth*: the texture is resampled first
-//! into one of corners, and each pixel interpolates between those of its patch. [`at_corners`] is the same on the
-//! host.
+//! *Flat*: each pixel fetches its patch's texel of the radiosity texture. *Smooth*: the texture is first resampled into
+//! a texture of corners, and each pixel interpolates between its patch's corners. [`at_corners`] computes the corners
+//! on the host.
 
 mod corners;
 mod fans;
@@ -34,8 +34,7 @@ struct PatchShape {
     smooth: CheckedProgram,
 }
 
-/// The programs, vertices and targets for drawing the patches of a scene from one camera, on the machine that it was
-/// made with.
+/// The programs, vertices and targets for drawing the patches of a scene from one camera, on one machine.
 #[derive(Debug)]
 pub struct Display {
     patches: usize,
@@ -44,13 +43,13 @@ pub struct Display {
     id: CheckedProgram,
     resampler: Resampler,
     target: NearestTarget,
-    /// Target of the patch numbers, with the same depth buffer.
+    /// Target of the patch numbers, which shares the depth buffer.
     ids: NearestTarget,
 }
 
 impl Display {
     /// Projects the patches, uploads the sets of patches that meet at corners, and creates targets of the camera's
-    /// size. A `target` of [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time;
+    /// size. A `target` of [`TexelFormat::Bgra8`] clamps to [0, 1] in 8 bits, like a screen of the time;
     /// [`TexelFormat::Rgba32f`] stores all values. Fails with [`DrawError`] if the card has no fragment programs, or
     /// its targets are too small.
     pub fn new(
@@ -76,8 +75,8 @@ impl Display {
         Ok(Self { patches: patches.list().len(), shapes, flat, id, resampler, target, ids })
     }
 
-    /// Uploads radiosities of the host, one per patch, as a texture to draw from: a row of texels. Fails with
-    /// [`DrawError`] if there is not one per patch, or the card's textures are too small.
+    /// Uploads the host's radiosities, one per patch, as a texture of one row, to draw from. Fails with [`DrawError`]
+    /// if there is not one radiosity per patch, or the card's textures are too small.
     pub fn upload(&self, machine: &mut Machine, radiosity: &[[f64; 3]]) -> Result<TextureId, DrawError> {
         if radiosity.len() != self.patches {
             return Err(DrawError::Count { patches: self.patches, found: radiosity.len() });
@@ -86,14 +85,14 @@ impl Display {
         Ok(Texels::vector(radiosity.iter().map(texel).collect()).upload(machine, TexelFormat::Rgba32f)?)
     }
 
-    /// Draws each patch in its constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity
-    /// over pi. Fails with [`DrawError`] if the card refuses.
+    /// Draws each patch with constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity
+    /// divided by pi. Fails with [`DrawError`] if the card refuses.
     pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         self.draw(machine, self.target, Some(radiosity), exposure, |_| &self.flat)?;
         self.picture(machine)
     }
 
-    /// Draws each patch interpolated between radiosities at its corners, resampled by the card; exposure as with
+    /// Draws each patch with radiosity interpolated between its corners, which the card resamples; exposure as in
     /// [`Display::flat`]. Fails with [`DrawError`] if the card refuses.
     pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         let corners = self.resampler.run(machine, radiosity)?;
@@ -140,8 +139,8 @@ impl Display {
     }
 }
 
-/// Returns the vertices of all patches in the picture: of quadrilaterals, of their fans, of triangles and their fans.
-/// Each has the texels of its patch and of its corners.
+/// Returns the vertices of all visible patches: quadrilaterals, their fans, triangles and their fans. Each vertex has
+/// the texels of its patch and of the patch's corners.
 fn vertices(patches: &Patches, camera: &Camera, corner_sets: &CornerSets, resampler: &Resampler) -> [Vec<Vertex>; 3] {
     let list = patches.list();
     let within = list.first().map_or(DVec3::ZERO, |patch| patch.corners()[0]);

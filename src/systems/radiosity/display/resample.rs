@@ -1,4 +1,4 @@
-//! Resampling of radiosities from patches to corners by fragment passes, which smooth display requires.
+//! Resampling of radiosities from patches to corners by fragment passes, for smooth display.
 
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
@@ -45,7 +45,7 @@ impl Resampler {
         Ok(Self { program, constants, size: size.map(|side| side as u32), passes, means })
     }
 
-    /// Computes the texture of corners from one of patches.
+    /// Computes the texture of corners from the texture of patches.
     pub(super) fn run(&self, machine: &mut Machine, radiosity: TextureId) -> Result<TextureId, DrawError> {
         machine.clear_target(self.means.read_by(0), [0; 4])?;
         for (pass, &[numbers, weights]) in self.passes.iter().enumerate() {
@@ -79,7 +79,7 @@ fn upload(
     let mut values = [(); 2].map(|()| Texels::from_fn(size, |_, _| [0.0; 4]));
     for (texel, set) in sets.iter().enumerate() {
         let from = pass * PER_PASS;
-        // Numbers with weight 0 are still read: they repeat one of the set's own, so that no other value gets in.
+        // Patches with weight 0 are still read, so their numbers repeat one of the set: no other value is read.
         let number = |k: usize| (f64::from(set[(from + k).min(set.len() - 1)]) + 0.5) as f32;
         let weight = |k: usize| if from + k < set.len() { (1.0 / (from + k + 1) as f64) as f32 } else { 0.0 };
         values[0].texels[texel] = [0, 1, 2, 3].map(number);

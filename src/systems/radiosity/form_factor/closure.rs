@@ -6,7 +6,7 @@ use super::FormFactors;
 use super::rows::mirror;
 use crate::error::{InputError, input_error};
 
-/// Maximum number of rounds of scaling; each halves the logarithm of the remaining error, or better.
+/// Maximum number of rounds of scaling; each at least halves the logarithm of the remaining error.
 const MAX_ROUNDS: u32 = 500;
 /// Tolerance within which a row sum counts as 1.
 const SCALED: f64 = 1e-13;
@@ -18,15 +18,15 @@ pub struct RowSums {
     pub least: f64,
     /// The largest sum.
     pub most: f64,
-    /// The fraction of the light leaving patches that leaves the room: 1 minus the mean sum, weighted with the areas.
-    /// Blind patches are excluded unless all are blind.
+    /// The fraction of the light leaving patches that leaves the room: 1 minus the area-weighted mean sum. Blind
+    /// patches are excluded unless all are blind.
     pub escaping: f64,
-    /// Number of patches that see nothing at all, such as those under a block.
+    /// Number of patches that see no other patch, such as patches under a block.
     pub blind: usize,
 }
 
 impl FormFactors {
-    /// The sum of each row: 1 for a patch from which all light arrives somewhere.
+    /// The sum of each row: 1 for a patch whose light reaches only patches.
     pub fn row_sums(&self) -> Vec<f64> {
         self.matrix.times(&vec![1.0; self.len()])
     }
@@ -48,12 +48,12 @@ impl FormFactors {
         }
     }
 
-    /// The patches that see nothing at all, such as those under a block.
+    /// The patches that see no other patch, such as patches under a block.
     pub fn blind(&self) -> Vec<usize> {
         self.row_sums().into_iter().enumerate().filter(|&(_, sum)| sum == 0.0).map(|(patch, _)| patch).collect()
     }
 
-    /// Enforces reciprocity: A_i F_ij and A_j F_ji both become their mean.
+    /// Enforces reciprocity: A_i F_ij and A_j F_ji become the mean of both.
     fn enforce_reciprocity(&mut self) {
         let n = self.len();
         for i in 0..n {
@@ -66,10 +66,9 @@ impl FormFactors {
         }
     }
 
-    /// Enforces closure (every row sums to 1) and reciprocity: factors are scaled by d_i d_j, the d found by Sinkhorn
-    /// and Knopp's iteration (1967) in its symmetric form. Rows without any light stay unchanged. Fails with
-    /// [`InputError`] if such a scaling does not exist, or was not found. The factors are then reciprocal, but not
-    /// closed.
+    /// Enforces closure (every row sums to 1) and reciprocity: factors are scaled by d_i d_j, where d is found by the
+    /// symmetric form of Sinkhorn and Knopp's iteration (1967). Zero rows stay unchanged. Fails with [`InputError`] if
+    /// no such scaling exists or is found; the factors are then reciprocal, but not closed.
     pub fn enforce_closure(&mut self) -> Result<(), InputError> {
         self.enforce_reciprocity();
         let mut scale = vec![1.0; self.len()];
@@ -103,7 +102,7 @@ impl FormFactors {
     }
 }
 
-/// The row farthest from 1, the first of equals, and its sum. Zero and zero for no rows.
+/// The row whose sum is farthest from 1 (the first of equals), and its sum; zeros without rows.
 fn farthest(sums: &[f64]) -> (usize, f64) {
     let off = |sum: f64| if sum.is_nan() { f64::INFINITY } else { (sum - 1.0).abs() };
     let start = (0, sums.first().copied().unwrap_or(0.0));

@@ -1,9 +1,9 @@
 //! The exchange of two polygons that lie in front of each other, by contour integrals (Stokes' theorem, twice):
 //!
-//! `A F = 1 / (2 pi) sum over sides a, b of (a . b) integral integral ln r`, a and b the unit directions of the sides.
+//! `A F = 1 / (2 pi) sum over sides a, b of (a . b) integral integral ln r`, with unit directions a and b of the sides.
 //!
-//! One of the two integrals has a closed form; the other takes eight Gauss points. Sides on one line, where the
-//! logarithm has its pole, are done in closed form altogether. See docs/papers/radiosity.md for the error.
+//! One of the two integrals has a closed form; the other takes eight Gauss points. For sides on one line, where the
+//! logarithm has its pole, both integrals are in closed form. See docs/papers/radiosity.md for the error.
 
 use std::f64::consts::PI;
 
@@ -12,9 +12,9 @@ use crate::geom::vector::unit;
 use crate::quadrature::EIGHT;
 use glam::DVec3;
 
-/// Maximum cosine between sides that contribute nothing.
+/// Cosine between sides below which they contribute nothing.
 const ACROSS: f64 = 1e-14;
-/// Maximum distance of sides on one line from it, relative to their length.
+/// Maximum distance at which sides count as on one line, relative to their length.
 const ON_LINE: f64 = 1e-9;
 
 /// A side of a polygon.
@@ -25,8 +25,8 @@ struct BoundaryEdge {
     length: f64,
 }
 
-/// Area of the first times its form factor to the second. Each polygon has its corners counter-clockwise seen from
-/// its front, and lies wholly in front of the other's plane.
+/// Area of the first polygon times its form factor to the second. Corners run counter-clockwise seen from the front,
+/// and each polygon lies wholly in front of the other's plane.
 pub(super) fn exchange(one: &[DVec3], other: &[DVec3]) -> f64 {
     let others: Vec<BoundaryEdge> = sides(other).collect();
     let mut sum = 0.0;
@@ -62,7 +62,7 @@ fn logarithm_between(a: &BoundaryEdge, b: &BoundaryEdge) -> f64 {
         from_point(a.length - along, away) - from_point(-along, away)
     };
     let sum = |value: &dyn Fn(f64) -> f64| EIGHT.iter().map(|&(t, weight)| weight * value(t)).sum::<f64>();
-    // Near a common corner the inner integral varies like s ln s: points are denser there, so that eight suffice.
+    // Near a common corner the inner integral varies like s ln s; points are denser there, so eight suffice.
     b.length
         * match [near, far].map(|[along, away]| away <= off && along >= -off && along <= a.length + off) {
             [true, _] => sum(&|t| 2.0 * t * inner(t * t)),

@@ -11,11 +11,10 @@ use glam::DVec3;
 const FAR: f64 = 8.0;
 /// Ratio above which five Gauss points suffice; below it, the contour integral is used.
 const NEAR: f64 = 3.0;
-/// Tolerance behind a plane, relative to the patch's radius, within which corners still count as in front of it or on
-/// it.
+/// Distance behind a plane, relative to the patch's radius, up to which corners count as on the plane.
 const ON_PLANE: f64 = 1e-9;
 
-/// Patch with the quadrature points of its far field.
+/// Patch with its far-field quadrature points.
 #[derive(Clone, Debug)]
 pub(super) struct QuadraturePatch<'a> {
     pub(super) patch: &'a Patch,
@@ -46,11 +45,11 @@ fn points(patch: &Patch, rule: &[GaussPoint]) -> Vec<WeightedPoint> {
 /// Mutual orientation of two patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Facing {
-    /// Each lies wholly in front of the other.
+    /// Each patch lies wholly in front of the other.
     Wholly,
-    /// The plane of one cuts the other.
+    /// The plane of one patch cuts the other.
     Partly,
-    /// One lies behind the other.
+    /// One patch lies behind the other.
     Not,
 }
 
@@ -73,7 +72,7 @@ fn facing(one: &Patch, other: &Patch) -> Facing {
     found
 }
 
-/// Area of one patch times its form factor to the other, with nothing between them.
+/// Area of one patch times its form factor to the other, without occluders.
 pub(super) fn unoccluded(one: &QuadraturePatch<'_>, other: &QuadraturePatch<'_>) -> f64 {
     let (p, q) = (one.patch, other.patch);
     let facing = facing(p, q);
@@ -103,8 +102,8 @@ fn kernel_sum([p, q]: [&Patch; 2], from: &[WeightedPoint], to: &[WeightedPoint])
     sum
 }
 
-/// The exchange of two points per area squared: the cosines at both over pi times the distance squared;
-/// 0 behind either.
+/// The exchange density of two points, per area squared: the product of both cosines divided by pi times the squared
+/// distance; 0 if one point is behind the other's plane.
 pub(super) fn kernel([p, q]: [&Patch; 2], x: DVec3, y: DVec3) -> f64 {
     let to = y - x;
     let (cosines, square) = (p.normal().dot(to).max(0.0) * (-q.normal().dot(to)).max(0.0), to.dot(to));

@@ -1,10 +1,10 @@
 //! Form factors: F_ij is the fraction of the light leaving patch i that reaches patch j directly.
 //!
-//! - unoccluded: Gauss quadrature far away, a contour integral near by, both in f64;
+//! - unoccluded: Gauss quadrature for distant patches, a contour integral for near ones, both in f64;
 //! - with visibility: the unoccluded factor times the weighted fraction of unoccluded sample rays;
-//! - of the open parts of patches ([`Patches::open_parts`](super::Patches::open_parts)), those that no solid stands on;
-//! - for rectangles in closed form ([`rectangles`]), from a point in closed form ([`point_to_polygon`]);
-//! - checked, and enforced on request: reciprocity, and closure (rows of a closed room sum to 1).
+//! - for the open parts of patches ([`Patches::open_parts`](super::Patches::open_parts)), which no solid covers;
+//! - in closed form for rectangles ([`rectangles`]), and from a point ([`point_to_polygon`]);
+//! - reciprocity and closure (rows of a closed room sum to 1) can be checked and enforced.
 
 mod closure;
 mod contour;
@@ -65,7 +65,7 @@ impl FormFactors {
         self.areas.is_empty()
     }
 
-    /// Areas of the patches: of their open parts, see [`Patches::areas`](super::Patches::areas).
+    /// Areas of the open parts of the patches, see [`Patches::areas`](super::Patches::areas).
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }

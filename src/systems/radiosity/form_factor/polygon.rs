@@ -1,5 +1,5 @@
-//! Form factors from a point to a polygon, in closed form (Lambert, 1760): `1 / (2 pi)` times the sum over the sides
-//! of the angle at which the point sees a side, times the cosine between the point's normal and the normal of the
+//! Form factors from a point to a polygon, in closed form (Lambert, 1760): `1 / (2 pi)` times the sum, over the sides,
+//! of the angle that the side subtends at the point times the cosine between the point's normal and the normal of the
 //! plane through point and side.
 
 use std::f64::consts::PI;
@@ -8,8 +8,8 @@ use crate::elementary::atan2;
 use crate::radiosity::Patch;
 use glam::DVec3;
 
-/// The form factor from a point with a normal (of length 1) to an unoccluded polygon, corners counter-clockwise from
-/// its front: between 0 and 1. The part behind the point's horizon does not count, nor does a polygon seen from behind.
+/// The form factor from a point with a normal (of length 1) to an unoccluded polygon with corners counter-clockwise
+/// from its front: between 0 and 1. The part behind the point's horizon, and a polygon seen from behind, count as 0.
 pub fn point_to_polygon(point: DVec3, normal: DVec3, corners: &[DVec3]) -> f64 {
     let above = clipped(corners, |corner| normal.dot(corner - point));
     let mut sum = 0.0;

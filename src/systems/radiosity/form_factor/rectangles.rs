@@ -1,9 +1,9 @@
-//! Form factors of rectangles in closed form: parallel ones, and ones at right angles. The contour integral of
-//! `contour` with both integrals done, which leaves a sum over the corners of both.
+//! Form factors of rectangles in closed form: parallel, or at right angles. Both contour integrals of `contour` are
+//! evaluated analytically, which leaves a sum over the corners of both rectangles.
 //!
-//! The corner sums cancel: between small patches far apart, sixteen numbers of order 1 leave one of the order of the
-//! patches' areas multiplied. So each result comes with an error bound (docs/papers/radiosity.md derives it), and
-//! matrices are not computed this way.
+//! The corner sums cancel: between small distant patches, sixteen numbers of order 1 sum to the order of the product of
+//! the areas. So each result comes with an error bound (docs/papers/radiosity.md derives it), and matrices are not
+//! computed this way.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub struct Bounded {
     pub error: f64,
 }
 
-/// Bound on the number of roundings between the corners and the sum: 12 in a term, 16 in adding up; in units of 2^-53.
+/// Bound on the number of roundings between the corners and the sum: 12 in a term, 16 in the sum; in units of 2^-53.
 const ROUNDINGS: f64 = 28.0;
 
 /// Form factor from the rectangle `one` (x and y intervals) at z = 0 to the rectangle `other` at height `apart`, above
@@ -38,8 +38,8 @@ pub fn parallel(one: [Interval; 2], other: [Interval; 2], apart: f64) -> Bounded
     })
 }
 
-/// Form factor from a rectangle to one at right angles. Both planes meet in the y axis: `one` is at `out` from it,
-/// `other` at `up` (intervals that may begin at 0); each extends along y over an interval.
+/// Form factor between rectangles at right angles, whose planes meet in the y axis. The first rectangle extends over
+/// `out` (distance from the axis) and `y`, the second over `up` and `y2`; `out` and `up` may begin at 0.
 pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounded {
     corner_sum([out, y], [up, y2], |x, y, z, y2| {
         let (square, v) = (x * x + z * z, y - y2);
@@ -51,8 +51,8 @@ pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounde
 }
 
 /// Signed sum of a corner function over all corners, divided by 2 pi and the area of the first rectangle, with a bound
-/// on the rounding error. The function returns its terms and the factor of its logarithm: near 1 the rounding error of
-/// a logarithm is not proportional to it.
+/// on the rounding error. The function returns its terms and the factor of its logarithm, because the rounding error of
+/// a logarithm near 0 is not proportional to its value.
 fn corner_sum(
     one: [Interval; 2],
     other: [Interval; 2],

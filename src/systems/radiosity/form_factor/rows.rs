@@ -1,4 +1,4 @@
-//! Rows of form factors before they are completed, which do not depend on each other: they can be computed apart.
+//! Incomplete rows of form factors, which are independent of each other, so that separate runs can compute them.
 
 use rayon::prelude::*;
 
@@ -9,18 +9,17 @@ use crate::linalg::Matrix;
 use crate::radiosity::Patches;
 use crate::tracer::Caster;
 
-/// Some rows of form factors, the others 0.
+/// Some rows of form factors; the others are 0.
 ///
-/// The exchange of two patches, area times form factor, is the same for both: it is in the row of the first, above the
-/// diagonal.
+/// The exchange of two patches, area times form factor, is symmetric: it is stored in the row of the first patch, above
+/// the diagonal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormFactorRows {
     matrix: Matrix,
 }
 
 impl FormFactorRows {
-    /// Computes the rows of some patches as [`FormFactors::unoccluded`] does. Errors: those of
-    /// [`FormFactors::unoccluded`].
+    /// Computes the rows of some patches. Fails as [`FormFactors::unoccluded`] does.
     pub fn unoccluded(patches: &Patches, is_wanted: &(dyn Fn(usize) -> bool + Sync)) -> Result<Self, InputError> {
         let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
         let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();
@@ -36,8 +35,7 @@ impl FormFactorRows {
         Ok(Self { matrix })
     }
 
-    /// Computes the rows of some patches as [`FormFactors::with_visibility`] does. Errors: those of
-    /// [`FormFactors::with_visibility`].
+    /// Computes the rows of some patches with occlusion. Fails as [`FormFactors::with_visibility`] does.
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,
@@ -55,8 +53,8 @@ impl FormFactorRows {
         &self.matrix.row(patch)[patch + 1..]
     }
 
-    /// Sets the row of a patch to one that was computed apart. Fails with [`InputError`] if it does not have the length
-    /// of [`Self::row`]. Panics if there is no such patch.
+    /// Sets the row of a patch, computed in another run. Fails with [`InputError`] if it does not have the length of
+    /// [`Self::row`]. Panics if there is no such patch.
     pub fn set_row(&mut self, patch: usize, values: &[f64]) -> Result<(), InputError> {
         let row = &mut self.matrix.row_mut(patch)[patch + 1..];
         ensure!(values.len() == row.len(), "radiosity::form_factors" =>
@@ -75,16 +73,16 @@ impl FormFactorRows {
 }
 
 impl FormFactors {
-    /// Computes form factors without occlusion: exact for convex rooms, and the first step for others. Reciprocal to
-    /// one ULP. Fails with [`InputError`] for too many patches.
+    /// Computes form factors without occlusion: exact for convex rooms, and the first step for others. They are
+    /// reciprocal to one ULP. Fails with [`InputError`] for too many patches.
     pub fn unoccluded(patches: &Patches) -> Result<Self, InputError> {
         Ok(FormFactorRows::unoccluded(patches, &|_| true)?.complete(patches))
     }
 
     /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
-    /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of pairs done
-    /// and of all pairs. Fails with [`InputError`] for too many patches, no samples, or rays that the ray caster fails
-    /// on.
+    /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of finished
+    /// pairs and of all pairs. Fails with [`InputError`] for too many patches or no samples, or if the ray caster
+    /// fails.
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,

@@ -1,7 +1,7 @@
 //! The visible fraction of the exchange of two patches, by rays between stratified points weighted with the integrand.
 //!
-//! The estimate is consistent, and exactly 1 where every ray is unoccluded: an empty room keeps its closed-form
-//! factors to the bit.
+//! The estimate is consistent, and exactly 1 where every ray is unoccluded: an empty room keeps its unoccluded factors
+//! to the bit.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ use crate::tracer::{CastError, Caster};
 /// Parameters of the visibility estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VisibilityParameters {
-    /// Strata along a side of a patch, at least 1: the square of this many rays per pair.
+    /// Strata along a side of a patch, at least 1; a pair has the square of this number of rays.
     pub side: u32,
     /// Random seed.
     pub seed: u64,
@@ -38,7 +38,7 @@ impl Default for VisibilityParameters {
 struct VisibilitySample {
     weight: f64,
     ray: Option<Ray>,
-    /// Parameter from which a hit counts as the far end.
+    /// Ray parameter from which a hit counts as the far end.
     arrives: f32,
 }
 
@@ -82,8 +82,8 @@ pub(super) fn hide(
     Ok(())
 }
 
-/// Generates the rays of a pair: a jittered point in each stratum of the open parts of one patch, each with one of a
-/// stratum of the other, assigned at random.
+/// Generates the rays of a pair: a jittered point in each stratum of one patch's open parts, paired with a point in a
+/// randomly assigned stratum of the other patch.
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (CounterRng::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
@@ -107,7 +107,7 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
     dealt
 }
 
-/// Returns the ray from one point to another, and the parameter from which a hit is at its end.
+/// Returns the ray from one point to another, and the parameter from which a hit counts as its end.
 fn ray_between(start: DVec3, end: DVec3, lift: f64) -> (Option<Ray>, f32) {
     let to = end - start;
     let ray = Ray::new(narrow(start), narrow(to)).ok();
@@ -124,15 +124,15 @@ fn share(
     let (mut open, mut all) = (0.0, 0.0);
     for sample in samples {
         all += sample.weight;
-        // No occluder, the far end itself, or a face that the ray starts or ends on: their planes cannot hide each
-        // other.
+        // A hit does not occlude if it is the far end, or on the face at which the ray starts or ends: their planes
+        // cannot hide each other.
         let passes = |hit: Hit| hit.t >= sample.arrives || faces.contains(&patches.face_of(hit.triangle));
         let hit = if sample.ray.is_some() { hits.next().flatten() } else { None };
         if hit.is_none_or(passes) {
             open += sample.weight;
         }
     }
-    // All weights may be 0, whose quotient is NaN.
+    // If all weights are 0, the quotient would be NaN.
     if open == all { 1.0 } else { open / all }
 }
 

@@ -1,7 +1,7 @@
 //! Cycle detection: an iteration in finite precision either reaches its tolerance or returns to an earlier state.
 //!
-//! The digest of every state that is read back is kept. If a digest repeats, the iteration runs until the state itself
-//! repeats, and states are compared bit for bit: a collision of digests is not a cycle.
+//! The digest of every state that is read back is stored. If a digest repeats, the iteration continues until the state
+//! repeats, compared bit for bit, because a collision of digests is not a cycle.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher as _};
@@ -13,17 +13,17 @@ use super::{CardError, CardSolver};
 /// The state of an iteration: red, green and blue of each patch.
 type Radiosities = [[f32; 3]];
 
-/// Cycle of states that repeats for ever, bit for bit: the limit of convergence in the card's number format.
+/// Cycle of states that repeats bit for bit: the limit of convergence in the card's number format.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cycle {
-    /// Iterations until the first state of the cycle; with [`super::CardOptions::check_every`] above 1, until the first
-    /// that was read back.
+    /// Iterations until the first state of the cycle; if [`super::CardOptions::check_every`] is above 1, until the
+    /// first state of the cycle that was read back.
     pub entered: u32,
-    /// Period: the smallest number of iterations after which every bit is the same; 1 is a fixed point.
+    /// Period: the smallest number of iterations after which every bit is equal; 1 is a fixed point.
     pub period: u32,
-    /// Maximum number of values, of three per patch, changed by one iteration; 0 at a fixed point.
+    /// Maximum number of values (three per patch) that one iteration changes; 0 at a fixed point.
     pub changing: usize,
-    /// Largest relative change of a value in one iteration, relative to the larger of the two.
+    /// Largest relative change of a value in one iteration, relative to the larger of both values.
     pub largest_change: f64,
 }
 
@@ -54,8 +54,8 @@ fn digest(state: &Radiosities) -> u64 {
 }
 
 impl CardSolver {
-    /// Iterates from `start`, which is on the card, at most `most` times until it repeats. `None` if it does not
-    /// repeat; the card then holds `start` again.
+    /// Iterates from `start`, which is on the card, until it repeats, at most `most` times. `None` if it does not
+    /// repeat; the card is then reset to `start`.
     pub(super) fn around(&mut self, start: &Radiosities, entered: u32, most: u32) -> Result<Option<Cycle>, CardError> {
         let mut cycle = Cycle { entered, period: 0, changing: 0, largest_change: 0.0 };
         let mut last = start.to_vec();

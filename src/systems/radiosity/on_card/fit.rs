@@ -11,7 +11,7 @@ use crate::radiosity::kernels;
 use crate::radiosity::packing::{self, Packing};
 use crate::radiosity::{System, model};
 
-/// Maximum texels per side where a device states no limit: the largest image.
+/// Maximum texels per side if a device states no limit: the largest image.
 const MAX_TEXELS: usize = 16384;
 
 /// The number format of textures and registers.
@@ -38,7 +38,7 @@ impl Storage {
 /// The limits of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fit {
-    /// Texels per block: the maximum that a program of the device's length allows.
+    /// Maximum number of texels per block in a program of the device's maximum length.
     pub block: usize,
     /// Maximum number of texels along a side of matrix and vector.
     pub limit: usize,
@@ -46,7 +46,7 @@ pub struct Fit {
 
 impl Fit {
     /// Limits of a device. A block is 254 texels on the paper's card. Fails with [`CardError::Input`] for a device
-    /// without programs of such length.
+    /// without fragment programs of sufficient length.
     pub fn of(profile: &Profile, packing: Packing) -> Result<Self, CardError> {
         let (instructions, limit) = limits(profile)?;
         let blocks = kernels::of(packing, false).map(|kernel| kernel.block(instructions));
@@ -63,7 +63,7 @@ impl Fit {
         Err(too_large(profile, packing::too_large("a matrix", self.limit, size)))
     }
 
-    /// Lays out a system for the device: one system of three channels, or three of one. Fails with
+    /// Lays out a system for the device: one system of three channels, or three systems of one channel. Fails with
     /// [`CardError::Input`].
     pub fn systems(self, profile: &Profile, packing: Packing, system: &System) -> Result<Vec<CardSystem>, CardError> {
         let made = match packing {
@@ -85,7 +85,7 @@ pub(super) fn limits(profile: &Profile) -> Result<(usize, usize), CardError> {
         return Err(no_programs(profile));
     }
     let instructions = limits.fragment_instructions.unwrap_or(model::MAX_INSTRUCTIONS) as usize;
-    // A vector is a target and a texture; a matrix is as wide as a vector is long.
+    // A vector is a target and a texture, and a matrix is as wide as a vector is long, so both limits apply.
     let sides = [limits.max_texture_size, limits.max_target_size].into_iter().flatten();
     Ok((instructions, sides.min().map_or(MAX_TEXELS, |side| side as usize)))
 }
@@ -94,7 +94,7 @@ pub(super) fn too_large(profile: &Profile, problem: InputError) -> CardError {
     CardError::input(format!("device `{}`: {problem}", profile.name))
 }
 
-/// The error of a device without shader version for programs of this length.
+/// The error for a device without a shader version for such programs.
 fn no_programs(profile: &Profile) -> CardError {
     let runs = |name: &&str| Profile::named(name).is_ok_and(|p| p.limits.versions.contains(&Version::Fp1_0));
     let mut have: Vec<&str> = Profile::card_names().into_iter().filter(runs).collect();

@@ -30,8 +30,8 @@ impl SystemLayout {
     }
 }
 
-/// A system's textures. A pass reads the radiosities and the partial sums of the pass before, and writes the next
-/// partial sums; the last ones are the new radiosities.
+/// A system's textures. A pass reads the radiosities and the previous pass's partial sums, and writes new partial sums;
+/// the last pass's sums are the new radiosities.
 #[derive(Debug)]
 pub(super) struct Layer {
     layout: SystemLayout,
@@ -72,7 +72,6 @@ impl Layer {
         Ok(texels.update(machine, into, self.storage.format())?)
     }
 
-    /// Texture that a pass draws into.
     pub(super) fn target(&self, pass: usize) -> TextureId {
         self.partial.written_by(pass)
     }

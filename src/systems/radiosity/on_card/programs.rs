@@ -1,5 +1,5 @@
-//! The programs of an iteration: one for the first pass, one for those in the middle, one for the last block, which
-//! may be shorter.
+//! The programs of an iteration: one for the first pass, one for middle passes, and one for the last block, which may
+//! be shorter.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
@@ -9,7 +9,7 @@ use crate::card::{KernelError, KernelText};
 /// Program for a block, accepted by the device.
 #[derive(Clone, Debug)]
 pub struct PassProgram {
-    /// Kernel that it was unrolled from.
+    /// Kernel from which the program was unrolled.
     pub kernel: KernelText,
     /// Texels per block.
     pub texels: usize,
@@ -38,7 +38,7 @@ pub(super) struct BlockPass {
     pub(super) program: usize,
 }
 
-/// The programs of an iteration, each once, and its passes.
+/// The distinct programs of an iteration, and its passes.
 #[derive(Clone, Debug)]
 pub(super) struct Programs {
     pub(super) list: Vec<PassProgram>,

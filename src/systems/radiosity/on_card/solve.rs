@@ -8,7 +8,7 @@ use crate::radiosity::solve::mean_square;
 /// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardOptions {
-    /// Tolerance: norm of the residual relative to that of the right-hand side, in each channel.
+    /// Tolerance: norm of the residual relative to the norm of the right-hand side, in each channel.
     pub tolerance: f64,
     /// Maximum number of iterations.
     pub most_iterations: u32,
@@ -42,8 +42,8 @@ pub struct CardSolution {
     pub history: Vec<(u32, [f64; 3])>,
     /// `true` if the tolerance was reached.
     pub converged: bool,
-    /// The cycle or fixed point in which the radiosities ended without meeting the tolerance. `None` if the iteration
-    /// ended before one was found.
+    /// The cycle or fixed point in which the radiosities ended without reaching the tolerance; `None` if none was
+    /// found.
     pub cycle: Option<Cycle>,
 }
 
@@ -57,8 +57,9 @@ impl CardSolution {
 impl CardSolver {
     /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state repeats bit
     /// for bit. `system` is the system on the card before rounding; `each` is called whenever the residual is computed.
-    /// Fails with [`CardError::Input`] if the system has another number of patches, or the iteration diverges;
-    /// [`CardError::Draw`]. Reaching the maximum of iterations is not an error: see [`CardSolution::converged`].
+    /// Fails with [`CardError::Input`] if the system has another number of patches, or the iteration diverges; with
+    /// [`CardError::Draw`] if the card refuses a draw. Reaching the maximum number of iterations is not an error: see
+    /// [`CardSolution::converged`].
     pub fn solve(
         &mut self,
         system: &System,
@@ -81,7 +82,7 @@ impl CardSolver {
             history.push((number, residual));
             each(&Iteration { number, residual, radiosity: &radiosity });
             let converged = channels.iter().all(|&c| residual[c] <= target[c]);
-            // A repeated digest may be a collision: only states that repeat bit for bit are a cycle.
+            // A repeated digest may be a collision; only states that repeat bit for bit are a cycle.
             let cycle = match seen.note(&radiosity, number) {
                 Some(first) if !converged => self.around(&radiosity, first, number - first)?,
                 _ => None,

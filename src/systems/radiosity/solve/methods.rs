@@ -4,7 +4,7 @@ use super::problem::{IterationHistory, Options, Problem, Solution, residual, sta
 use crate::error::InputError;
 use crate::linalg::{Lu, dot};
 
-/// Steps until the history ends. A step gets the radiosities and the residual that they leave.
+/// Repeats `step` until the stopping criterion holds. A step gets the radiosities and their residual.
 fn iterate(
     problem: &Problem<'_>,
     options: &Options,
@@ -20,7 +20,7 @@ fn iterate(
     }
 }
 
-/// Jacobi, equation 4. A step divides the residual by the diagonal, so the history costs no further product.
+/// Jacobi, equation 4. A step divides the residual by the diagonal, so the history costs no additional product.
 pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     let diagonal = problem.matrix.diagonal();
     iterate(problem, options, |b, left| {
@@ -39,8 +39,8 @@ pub(super) fn gauss_seidel(problem: &Problem<'_>, factor: f64, options: &Options
 }
 
 /// Progressive refinement (Cohen, Chen, Wallace and Greenberg, 1988): Southwell's relaxation, largest power first. The
-/// residual is the unshot radiosity. An iteration is as many shots as there are patches; then the residual is
-/// computed anew, so that rounding errors do not accumulate in it.
+/// residual is the unshot radiosity. An iteration is one shot per patch on average; then the residual is recomputed, so
+/// that rounding errors do not accumulate.
 pub(super) fn shoot(problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     // A shot reads a column of the matrix.
     let (diagonal, columns) = (problem.matrix.diagonal(), problem.matrix.transposed());
@@ -69,7 +69,7 @@ fn brightest(unshot: &[f64], areas: &[f64]) -> usize {
     at
 }
 
-/// Solves by LU. Counts as one iteration; the tolerance only decides whether the solution counts as converged.
+/// Solves by LU. This counts as one iteration; the tolerance only decides whether the solution counts as converged.
 pub(super) fn direct(problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     let radiosity =
         Lu::new(problem.matrix).map_err(|error| error.coded("radiosity::solve"))?.solve(problem.right_hand_side);

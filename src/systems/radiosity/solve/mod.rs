@@ -14,20 +14,20 @@ use crate::error::{InputError, input_error};
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
-    /// Jacobi (equations 3 and 4): every element from those of the last iteration.
+    /// Jacobi (equations 3 and 4): every element is computed from the previous iteration's elements.
     Jacobi,
-    /// Gauss-Seidel: every element from the newest values of the others.
+    /// Gauss-Seidel: every element is computed from the newest values of the others.
     GaussSeidel,
     /// SOR with this relaxation factor, in (0, 2).
     OverRelaxation(f64),
-    /// Progressive refinement (Cohen and others, 1988): shoots from the patch with the most unshot power. An
-    /// iteration is as many shots as there are patches.
+    /// Progressive refinement (Cohen and others, 1988): shoots from the patch with the most unshot power. An iteration
+    /// has as many shots as there are patches.
     Shooting,
     /// LU factorisation: no iterations.
     Direct,
 }
 
-/// Solves a system. Fails with [`InputError`]. Reaching the maximum of iterations is not an error: see
+/// Solves a system. Fails with [`InputError`]. Reaching the maximum number of iterations is not an error: see
 /// [`Solution::converged`].
 pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     check(problem)?;

@@ -6,7 +6,7 @@ use crate::linalg::Matrix;
 /// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Tolerance: norm of the residual relative to that of the right-hand side.
+    /// Tolerance: norm of the residual relative to the norm of the right-hand side.
     pub tolerance: f64,
     /// Maximum number of iterations.
     pub most_iterations: u32,
@@ -18,14 +18,14 @@ impl Default for Options {
     }
 }
 
-/// A linear system with the further inputs of solvers.
+/// A linear system with the other inputs of solvers.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// M of equation 2. Its diagonal has no zero.
     pub matrix: &'a Matrix,
     /// The right-hand side, E.
     pub right_hand_side: &'a [f64],
-    /// Areas of the patches, which shooting weights radiosities with.
+    /// Areas of the patches, by which shooting weights radiosities.
     pub areas: &'a [f64],
     /// The initial guess; `None` means 0.
     pub start: Option<&'a [f64]>,

@@ -35,13 +35,13 @@ pub struct EngineCounts {
 }
 
 impl EngineCounts {
-    /// Fraction of rays tested on the card at least once, in [0, 1]: one reading of Table 2.
+    /// Fraction of rays tested on the card at least once, in [0, 1], which is one reading of Table 2.
     pub fn share_on_card(&self) -> f64 {
         self.rays_on_card as f64 / self.rays.max(1) as f64
     }
 
-    /// Fraction of all visits of rays to the caches of GPU cells that ended on the card, in [0, 1]; the others were
-    /// forced to the host. The other reading of Table 2. A ray that visits several caches counts several times.
+    /// Fraction of rays' visits to GPU cells' caches that ended on the card, in [0, 1], which is the other reading of
+    /// Table 2. Other visits were forced to the host. A ray that visits several caches counts several times.
     pub fn share_of_visits_on_card(&self) -> f64 {
         self.pass_rays as f64 / (self.pass_rays + self.forced_rays).max(1) as f64
     }

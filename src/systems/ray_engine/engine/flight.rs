@@ -20,7 +20,7 @@ pub(super) struct Waiting {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cache {
     pub(super) rays: Vec<Waiting>,
-    /// Number of entries of the cell in the queue of full cells: one per full pass of rays.
+    /// Number of the cell's entries in the queue of full cells: one per full pass of rays.
     pub(super) turns: usize,
 }
 
@@ -41,7 +41,6 @@ pub(super) struct RayInFlight {
     pub(super) on_card: bool,
 }
 
-/// All rays in flight, in slots that are reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RaysInFlight {
     places: Vec<RayInFlight>,

@@ -1,17 +1,17 @@
-//! The Ray Engine: rays go in, in any order and number; first hits come out (sections 5 and 6.2).
+//! The Ray Engine: finds first hits of rays in any order and number (sections 5 and 6.2).
 //!
-//! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host takes each
-//! ray through the octree and tests triangles on the way; at a *GPU cell* the ray stops and waits in the cell's cache.
-//! A cache of `R_min` rays is sent to the card with all triangles of its cell, and its rays then continue behind the
-//! cell. Rays left in caches at the end are forced to the host.
+//! Rays wait in a 5-D ray tree until there are enough of them, and leave it in coherent buckets. The host traverses the
+//! octree with each ray and tests triangles; at a *GPU cell* the ray stops and waits in the cell's cache. A cache of
+//! `R_min` rays is sent to the card with all triangles of its cell, and its rays then continue behind the cell. Rays
+//! left in caches at the end are forced to the host.
 //!
-//! **The result does not depend on where a ray is tested.** A ray meets all triangles of each GPU cell on its way, on
-//! the card or on the host, which computes what a card with fp32 pipelines computes; at equal t the lowest triangle
-//! wins. So order, sizes of caches, `R_min` and threads change counts and time, never a hit. (On cards of other formats
-//! card and host can disagree, so that the caches matter, as they did on the cards of the time. And where fp32 reports
-//! a hit on a triangle outside the cells along the ray, which the ray does not truly hit, the result depends on whether
-//! the octree and its cells cause that test: one answer in thousands of scenes made to be hard;
-//! docs/papers/ray_engine.md counts them.)
+//! **The result does not depend on where a ray is tested.** A ray is tested against all triangles of each GPU cell on
+//! its way, on the card or on the host, whose results equal those of a card with fp32 pipelines; at equal t the
+//! triangle with the lowest index is taken. So order, sizes of caches, `R_min` and threads change counts and time,
+//! never a hit. There are two exceptions. On cards of other formats, card and host can disagree, so the caches matter,
+//! as on the cards of the time. And fp32 may report a hit on a triangle outside the cells along the ray, which the ray
+//! does not truly hit; then the result depends on whether the octree and its cells cause that test. This affects one
+//! answer in thousands of artificially hard scenes (docs/papers/ray_engine.md counts them).
 
 mod counts;
 mod flight;
@@ -52,9 +52,9 @@ pub struct RayEngine<'a> {
     flights: RaysInFlight,
     /// Caches of the GPU cells that have rays.
     caches: BTreeMap<usize, Cache>,
-    /// Rays that can continue, each with the parameter to continue from.
+    /// Rays that can continue, each with the parameter at which it continues.
     ready: VecDeque<(u32, f64)>,
-    /// Cells whose caches hold a full pass, once per pass.
+    /// Cells whose caches have full passes, once per pass.
     full: VecDeque<CellId>,
     answered: Vec<(Ticket, Option<Hit>)>,
     counts: EngineCounts,
@@ -91,8 +91,8 @@ impl<'a> RayEngine<'a> {
         })
     }
 
-    /// Submits rays, and may answer some of those that wait. Tickets count from the one returned. Fails with
-    /// [`EngineError`] if the card refuses the work.
+    /// Submits rays, and may answer some waiting rays. The rays get consecutive tickets from the returned one. Fails
+    /// with [`EngineError`] if the card refuses the work.
     pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
         let first = self.flights.given();
         self.flights.give(rays.len());
@@ -116,7 +116,7 @@ impl<'a> RayEngine<'a> {
         std::mem::take(&mut self.answered)
     }
 
-    /// Traces a bundle and returns its first hits in the order of the rays: the call of a host renderer.
+    /// Traces a bundle and returns its first hits in the order of the rays, as a renderer on the host calls it.
     ///
     /// ```
     /// # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*, crossbar_systems::*}; }
@@ -140,7 +140,7 @@ impl<'a> RayEngine<'a> {
         let first = self.submit(rays)?;
         self.finish()?;
         let mut hits = vec![None; rays.len()];
-        // Answers to earlier rays stay queued.
+        // Answers of earlier rays stay queued.
         self.answered.retain(|(ticket, hit)| {
             let place = ticket.0.checked_sub(first.0).and_then(|i| hits.get_mut(i as usize));
             let is_earlier = place.is_none();

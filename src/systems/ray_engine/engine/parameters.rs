@@ -1,4 +1,4 @@
-//! Parameters of an engine; none of them changes a hit of fp32.
+//! Parameters of an engine; none of them changes an fp32 hit.
 
 use std::ops::RangeInclusive;
 
@@ -6,20 +6,20 @@ use crate::geom::exact::Sides;
 use crate::ray_engine::ray_tree::RayTreeParameters;
 use crate::tracer::octree::OctreeParameters;
 
-/// Read-back mode: when the results of a pass on the card are taken (Table 3).
+/// Read-back mode: when the host takes the results of a pass on the card (Table 3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Readback {
     /// Draw, wait, read back, continue, as `glReadPixels` does.
     #[default]
     Synchronous,
-    /// Reads back behind the draw, with a fence (NV_fence) that is passed when the results are there. The rays stay in
-    /// flight while the host continues; results are taken when `passes` younger passes have been given to the card, or
-    /// when nothing else can continue. 0 counts as 1.
+    /// The read-back is queued behind the draw, with a fence (NV_fence) that is passed when the results have arrived.
+    /// The rays stay in flight while the host continues. The host takes results after it has given `passes` later
+    /// passes to the card, or if no other work is left. 0 counts as 1.
     Asynchronous {
         /// Maximum number of passes in flight while the host continues.
         passes: usize,
     },
-    /// Passes take no time: the log holds only the host's work, in the order of [`Readback::Synchronous`].
+    /// Passes take no time: the log contains only the host's work, in the order of [`Readback::Synchronous`].
     InfinitelyFast,
 }
 
@@ -30,22 +30,22 @@ pub struct EngineParameters {
     pub octree: OctreeParameters,
     /// Triangles of a GPU cell, from `T_min` to the maximum of one pass (Table 4: 5 to 15).
     pub triangles: RangeInclusive<usize>,
-    /// Number of rays at which a cell's cache is sent to the card (`R_min`), also the maximum of one pass (Table 5:
-    /// 64).
+    /// Number of rays at which a cell's cache is sent to the card (`R_min`), which is also the maximum of one pass
+    /// (Table 5: 64).
     pub rays: usize,
     /// Ray tree.
     pub tree: RayTreeParameters,
-    /// Number of rays that the tree holds before buckets leave it.
+    /// Number of rays in the tree above which buckets leave it.
     pub waiting: usize,
     /// Faces that can be hit.
     pub sides: Sides,
-    /// `true` to use the card; otherwise the host does everything, in the same order.
+    /// `true` to use the card; otherwise the host does all tests in equal order.
     pub card: bool,
     /// Read-back mode.
     pub readback: Readback,
     /// `true` to cull triangles that no ray of a pass can hit in the vertex program.
     pub cull: bool,
-    /// `true` to test a bucket that leaves the tree against the octree's cells first, as one beam.
+    /// `true` to first test a bucket that leaves the tree against the octree's cells as one beam.
     pub beams: bool,
     /// Seed of the random order in which the rays of a bundle enter the tree (section 5.3); `None` keeps their order.
     pub shuffle: Option<u64>,
@@ -56,7 +56,7 @@ pub struct EngineParameters {
 impl Default for EngineParameters {
     fn default() -> Self {
         Self {
-            // Triangles one by one, as the paper tests them.
+            // Tuned for testing triangles one by one, as in the paper.
             octree: OctreeParameters { most_triangles: 8, most_depth: 10 },
             triangles: 5..=15,
             rays: 64,

@@ -14,14 +14,13 @@ use crate::ray_engine::{EngineError, RayBatch};
 /// Rows of a pass's textures (section 5.3: 64 x 4).
 const ROWS: usize = 4;
 
-/// Pass that was given to the card.
 #[derive(Debug)]
 pub(super) struct PassInFlight {
     /// Rays of the pass.
     pub(super) waiting: Vec<Waiting>,
     /// Hits of the rays. The emulator knows them at once; the host must not use them before it has taken the pass.
     pub(super) hits: Vec<Option<CardHit>>,
-    /// Fence behind the read-back, if it has not been waited for.
+    /// Fence behind the read-back, if the host has not waited for it.
     fence: Option<FenceId>,
     /// Set of textures and targets.
     sheet: usize,
@@ -40,7 +39,7 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    /// Wraps a card; sets of textures and targets are created when a pass finds none free.
+    /// Wraps a card. A pass that finds no free set of textures and targets creates one.
     pub(super) fn new(mut card: PassCard, readback: Readback, record: bool) -> Self {
         card.machine.record(record && readback != Readback::InfinitelyFast);
         Self { card, readback, flying: VecDeque::new(), free: VecDeque::new(), sheets: 0 }
@@ -59,8 +58,7 @@ impl Passes {
         self.flying.len() > self.ahead()
     }
 
-    /// Gives a pass to the card; `waiting` are the rays of the cache. Returns the number of triangles that were not
-    /// culled.
+    /// Gives a pass to the card; `waiting` are the cache's rays. Returns the number of triangles that were not culled.
     pub(super) fn issue(
         &mut self,
         mesh: &Mesh,

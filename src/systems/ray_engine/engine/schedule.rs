@@ -11,7 +11,7 @@ use crate::ray_engine::card::CardHit;
 use crate::tracer::octree::{Beam, CellId, Flow, Visit};
 
 impl RayEngine<'_> {
-    /// Inserts a ray into the tree; buckets leave it when it is full.
+    /// Inserts a ray into the tree; buckets leave the tree when it is full.
     pub(super) fn take_in(&mut self, ticket: Ticket, ray: Ray) -> Result<(), EngineError> {
         let before = self.tree.counts().nodes_passed;
         let flight = self.flights.start(ticket, ray, self.tracer.host_ray(&ray));
@@ -24,7 +24,7 @@ impl RayEngine<'_> {
         Ok(())
     }
 
-    /// Removes a bucket from the tree and starts its rays through the octree.
+    /// Removes a bucket from the tree and starts its rays' traversal of the octree.
     pub(super) fn release_bucket(&mut self) -> Result<(), EngineError> {
         let bucket = self.tree.take();
         if self.parameters.beams && self.misses_all(&bucket) {
@@ -47,7 +47,7 @@ impl RayEngine<'_> {
         reached.cells.is_empty()
     }
 
-    /// Runs until only passes in flight remain: rays first, then full caches, in the order in which they filled.
+    /// Runs until only passes in flight are left: rays first, then full caches, in the order in which they were filled.
     fn drive(&mut self) -> Result<(), EngineError> {
         loop {
             while let Some((flight, from)) = self.ready.pop_front() {
@@ -56,7 +56,7 @@ impl RayEngine<'_> {
             let Some(cell) = self.full.pop_front() else { return Ok(()) };
             let cache = self.caches.entry(cell.index()).or_default();
             cache.turns = cache.turns.saturating_sub(1);
-            // Rays that came after the cache was full stay for the next pass.
+            // Rays beyond a full pass wait for the next pass.
             let rest = cache.rays.split_off(cache.rays.len().min(self.parameters.rays));
             let rays = std::mem::replace(&mut cache.rays, rest);
             if self.parameters.card { self.on_card(cell, rays)? } else { self.on_host(cell, &rays) }
@@ -71,7 +71,7 @@ impl RayEngine<'_> {
         Ok(())
     }
 
-    /// Continues a ray from where it left a cell: to its answer, or into the next GPU cell's cache.
+    /// Continues a ray behind a cell, until it is answered or enters the next GPU cell's cache.
     fn advance(&mut self, flight: u32, from: f64) {
         let here = *self.flights.at(flight);
         let (mut best, mut stop, mut tests) = (here.best, None, 0);
@@ -99,7 +99,7 @@ impl RayEngine<'_> {
         }
     }
 
-    /// Adds a ray to a cell's cache; each time this completes another pass, queues the cell once more.
+    /// Adds a ray to a cell's cache; queues the cell again for each completed pass.
     fn wait(&mut self, cell: CellId, ray: Waiting) {
         self.note(HostOperation::BucketInsert, 1);
         let cache = self.caches.entry(cell.index()).or_default();
@@ -110,7 +110,8 @@ impl RayEngine<'_> {
         }
     }
 
-    /// Forces all caches to the host, lowest cell number first; rays that continue may fill others, until none is left.
+    /// Forces all caches to the host, lowest cell number first, until all are empty: rays that continue may enter other
+    /// caches.
     pub(super) fn force_caches(&mut self) -> Result<(), EngineError> {
         while let Some((cell, Cache { rays, .. })) = self.caches.pop_first() {
             self.counts.forced_rays += rays.len() as u64;
@@ -122,7 +123,7 @@ impl RayEngine<'_> {
     }
 
     /// Tests the rays of a cache against the triangles of its cell on the card: section 3.3, with fp32 results in the
-    /// host's own units. They are in flight then; passes beyond the allowed number in flight are taken.
+    /// host's units. The rays are then in flight; results of passes beyond the allowed number in flight are taken.
     fn on_card(&mut self, cell: CellId, waiting: Vec<Waiting>) -> Result<(), EngineError> {
         let Some(triangles) = self.cells.triangles(cell).map(<[u32]>::to_vec) else { return Ok(()) };
         if waiting.is_empty() {
@@ -154,7 +155,7 @@ impl RayEngine<'_> {
             let flight = self.flights.at(ray.flight);
             flight.on_card = true;
             let Some(CardHit { triangle, t }) = hit else { continue };
-            // Back into the ray's range, by a power of two.
+            // Scales t back to the ray's range by a power of two.
             flight.best.offer((t / flight.host.power) as f32, triangle);
         }
         self.resume(&pass.waiting);
@@ -193,7 +194,7 @@ impl RayEngine<'_> {
         self.answered.push((ended.ticket, ended.best.hit(ended.host.power)));
     }
 
-    /// Logs work of the host: between two commands of the card, all work of one kind is one entry.
+    /// Logs host work: between two commands of the card, all work of one kind is one entry.
     pub(super) fn note(&mut self, operation: HostOperation, count: u64) {
         if !self.parameters.record || count == 0 {
             return;

@@ -1,4 +1,4 @@
-//! Intersection programs as period assembly, embedded.
+//! Intersection programs in the assembly languages of the time, embedded.
 
 use crate::card::kernels;
 

@@ -5,14 +5,14 @@ use crate::geom::Ray;
 /// Number of faces of the unit cube.
 pub(super) const FACES: usize = 6;
 
-/// Origin of a ray, and the point where its direction meets its face of the cube, both coordinates in [-1, 1].
+/// Origin of a ray, and the point at which its direction meets a face of the cube, both coordinates in [-1, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub(super) origin: [f32; 3],
     pub(super) direction: [f32; 2],
 }
 
-/// Ray of the tree: the caller's number, and its five-dimensional key.
+/// Ray of the tree: the caller's index, and its five-dimensional key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RayTreeEntry {
     pub(super) ray: u32,
@@ -20,7 +20,7 @@ pub(super) struct RayTreeEntry {
 }
 
 impl Key {
-    /// Returns the face that a ray looks through (0 to 5: +x -x +y -y +z -z; the first of equal components) and its
+    /// Returns the face through which a ray points (0 to 5: +x -x +y -y +z -z; the first of equal components) and its
     /// key.
     pub(super) fn of(ray: &Ray) -> (u32, Self) {
         let d = ray.direction();

@@ -1,9 +1,8 @@
-//! The 5-D ray tree (section 5.3, after Arvo and Kirk 1987): rays that start near one another and look the same way
-//! share a bucket.
+//! The 5-D ray tree (section 5.3, after Arvo and Kirk 1987): rays with similar origins and directions share a bucket.
 //!
-//! A ray is a point of five dimensions: its origin, and where its direction meets a face of the unit cube. The six
-//! faces have a tree each. A bucket that overflows is cut in four: in two at the mean of the origins along the axis on
-//! which they vary most, and in two at the mean of the directions in the same way.
+//! A ray is a point of five dimensions: its origin, and where its direction meets a face of the unit cube. Each of the
+//! six faces has a tree. A bucket that overflows is split in four: in two at the mean of the origins, along the axis on
+//! which they vary most, and in two at the mean of the directions, likewise.
 
 mod key;
 mod split;
@@ -16,9 +15,9 @@ use split::Split;
 /// Parameters of a ray tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RayTreeParameters {
-    /// Maximum number of rays of a bucket: the paper's is 256, two textures of 64 x 4.
+    /// Maximum number of rays of a bucket: the paper uses 256, two textures of 64 x 4.
     pub bucket: usize,
-    /// Subtrees left with at most this many rays are merged into one bucket.
+    /// Subtrees with at most this number of rays left are merged into one bucket.
     pub merge: usize,
 }
 
@@ -37,7 +36,7 @@ pub struct RayTreeCounts {
     pub nodes_passed: u64,
     /// Buckets split in four.
     pub splits: u64,
-    /// Batches taken out.
+    /// Batches removed.
     pub batches: u64,
     /// Rays of batches from the batch's own bucket.
     pub own: u64,
@@ -45,7 +44,7 @@ pub struct RayTreeCounts {
     pub stolen: u64,
     /// Levels of inner nodes merged into a bucket.
     pub levels_merged: u64,
-    /// Batches after which anything was merged.
+    /// Batches after which buckets were merged.
     pub merges: u64,
 }
 
@@ -57,13 +56,13 @@ enum RayTreeContent {
 
 #[derive(Clone, Debug)]
 struct RayTreeNode {
-    /// Rays in all buckets below.
+    /// Number of rays in all buckets below.
     count: usize,
     parent: Option<u32>,
     kind: RayTreeContent,
 }
 
-/// Rays in coherent buckets, identified by the caller's numbers.
+/// Rays in coherent buckets, identified by the caller's indices.
 #[derive(Clone, Debug)]
 pub struct RayTree {
     parameters: RayTreeParameters,

@@ -10,8 +10,8 @@ pub(super) struct Split {
 }
 
 impl Split {
-    /// Computes the planes at the means, across the axes of greatest variance; `None` if they would leave all rays
-    /// together.
+    /// Computes the planes at the means, perpendicular to the axes of greatest variance; `None` if they would not
+    /// separate any rays.
     pub(super) fn of(rays: &[RayTreeEntry]) -> Option<Self> {
         let origin = widest(rays, |key: &Key, axis| key.origin[axis], 3);
         let direction = widest(rays, |key: &Key, axis| key.direction[axis], 2);

@@ -1,10 +1,10 @@
-//! Removal of a batch: the fullest bucket that a greedy search finds, filled up from its siblings.
+//! Removal of a batch: a full bucket found by a greedy search, filled up from its siblings.
 
 use super::{RayTree, RayTreeContent, RayTreeEntry, RayTreeNode, key};
 
 impl RayTree {
-    /// Takes a batch of rays out for the card: at most one bucket full, empty if the tree is empty. The search descends
-    /// to the child with the most rays below it, so that it need not find the fullest bucket of all.
+    /// Removes a batch of rays for the card: at most the rays of one bucket; empty if the tree is empty. The search
+    /// always descends to the child with the most rays below it, which may miss the fullest bucket.
     pub fn take(&mut self) -> Vec<u32> {
         let root = self.fullest(0..key::FACES as u32);
         if self.nodes[root as usize].count == 0 {

@@ -16,17 +16,16 @@ use crate::scene::Scene;
 
 /// Offset of photon numbers in the random number sequence, so that photons share no numbers with pixels.
 const FIRST: u64 = 1 << 40;
-/// Offset of caustic photons, whose random numbers differ from those of the global map.
+/// Offset of caustic photons, so that they share no random numbers with the global map.
 const CAUSTIC: u64 = 1 << 41;
 
-/// Photons of one map.
 pub(super) struct PhotonEmission<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: &'a Settings,
     pub(super) lights: &'a Lights<'a>,
     /// Number of photons.
     pub(super) count: u32,
-    /// `true` to store only light that came by at least one mirror or glass and by nothing else.
+    /// `true` to store only light that has passed at least one mirror or glass, and no other surface.
     pub(super) caustic: bool,
 }
 
@@ -38,7 +37,7 @@ struct PhotonHit {
 }
 
 impl PhotonEmission<'_> {
-    /// Emits the photons, and returns the stored ones, by their number and then by their hits.
+    /// Emits photons, and returns the stored ones, ordered by photon and then by hit.
     pub(super) fn landed(&self, tracer: &mut CountingCaster<'_>) -> Result<Vec<Photon>, InputError> {
         tracer.begin(if self.caustic { "caustic photons" } else { "photons" }, u64::from(self.count));
         let chunk = self.settings.bundle.clamp(1, 1 << 24) as u32;
@@ -48,7 +47,7 @@ impl PhotonEmission<'_> {
             let end = self.count.min(start.saturating_add(chunk));
             let flights = (start..end).into_par_iter().filter_map(|photon| self.leaving(photon, start)).collect();
             let mut part = self.follow(tracer, flights)?;
-            // Sorted by photon, since waves order by depth: the map must not depend on the size of chunks.
+            // Waves order by depth; sorting by photon makes the map independent of the chunk size.
             part.sort_by_key(|(number, _)| *number);
             landed.extend(part.into_iter().map(|(_, photon)| photon));
             tracer.advance(u64::from(end - start));
@@ -93,7 +92,8 @@ impl PhotonEmission<'_> {
             let specular = choose_specular(&surfel, rng.at(flight.depth, 3)).filter(|_| more);
             let next = specular.and_then(|specular| {
                 let next = continue_photon(flight, &surfel, specular.towards, specular.weight)?;
-                // Not in the weight, so that Russian roulette ignores it: it is undone where the light leaves the glass.
+                // The factor comes after Russian roulette, which ignores it, because it is undone where the light
+                // leaves the glass.
                 Some(PathRay { weight: specular.flux_scale * next.weight, ..next })
             });
             return PhotonHit { stored: None, next };
@@ -123,7 +123,7 @@ fn adjoint(surfel: &Surfel<'_>, towards: DVec3) -> f64 {
     if flat > 0.0 { smooth / flat } else { 0.0 }
 }
 
-/// Continues with a probability equal to the weight, so that the power of photons stays about constant.
+/// Continues with a probability equal to the weight, so that the power of photons stays approximately constant.
 fn continue_photon(flight: &PathRay, surfel: &Surfel<'_>, towards: DVec3, weight: DVec3) -> Option<PathRay> {
     let chance = weight.max_element().min(1.0);
     if chance <= 0.0 || flight.rng.at(flight.depth, 6) >= chance {

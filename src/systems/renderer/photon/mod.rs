@@ -1,13 +1,13 @@
 //! Photon mapping with final gather (Jensen, Global Illumination using Photon Maps, 1996).
 //!
-//! Two maps are filled from the lights. The *global* map holds every landing on a diffuse or glossy surface; the
-//! *caustic* map the landings of light that met only mirrors and glass before. The radiance of a diffuse part is the
-//! sum of three terms that share no path: direct light (a shadow ray), caustics (the caustic map's density), and
-//! indirect light (gather rays, which end at the next diffuse or glossy surface in the global map's density, and see no
-//! light themselves). Glossy lobes, mirrors and glass send further rays as in [`super::distributed`]; a glossy lobe
-//! also samples point lights by shadow rays and the caustic map, since no ray hits a point.
+//! The lights fill two maps. The *global* map stores every photon hit on a diffuse or glossy surface; the *caustic* map
+//! only hits of photons that passed only mirrors and glass before. The radiance of a diffuse part is the sum of three
+//! terms that share no path: direct light (a shadow ray), caustics (the caustic map's density), and indirect light
+//! (gather rays, which end with the global map's density at the next diffuse or glossy surface, and see no emitters).
+//! Glossy lobes, mirrors and glass send further rays as in [`super::distributed`]; a glossy lobe also samples point
+//! lights by shadow rays and the caustic map, because no ray hits a point.
 //!
-//! Densities are estimated over disks of finite size, so this is the one biased renderer: it blurs within
+//! Densities are estimated over disks of finite size, so this renderer, unlike the others, is biased: it blurs within
 //! [`Photons::radius`], and darkens where a disk extends over an edge.
 
 mod emit;
@@ -38,11 +38,11 @@ pub struct Photons {
     pub global: u32,
     /// Number of photons emitted for the caustic map.
     pub caustic: u32,
-    /// Maximum number of nearest photons per estimate, at least 2: the farthest of them gives the area.
+    /// Maximum number of nearest photons per estimate, at least 2; the farthest determines the area.
     pub nearest: u32,
     /// Maximum radius of an estimate, in scene units.
     pub radius: f64,
-    /// Gather rays per diffuse hit of a sample; 0 shows the global map itself.
+    /// Gather rays per diffuse hit of a sample; 0 displays the global map directly.
     pub gather: u32,
 }
 
@@ -66,8 +66,8 @@ impl Photons {
     }
 }
 
-/// Renders with photon maps. `settings.depth` is the maximum number of surfaces that a photon hits, and of rays in
-/// sequence from the eye. Fails with [`InputError`] if a setting is out of range or the caster fails.
+/// Renders with photon maps. `settings.depth` is the maximum number of hits of a photon, and of rays in sequence from
+/// the eye. Fails with [`InputError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -98,7 +98,7 @@ struct Gathering<'a> {
 
 impl Shade for Gathering<'_> {
     fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter {
-        // Gather rays carry a density. They see no lights: shadow rays and the caustic map have counted those.
+        // Gather rays carry a density. They see no lights, because shadow rays and the caustic map have counted them.
         let gathers = flight.density.is_some();
         let seen = if gathers { DVec3::ZERO } else { Lights::emitted(surfel) };
         let mut scatter = Scatter::of(flight.weight * seen);
@@ -118,11 +118,11 @@ impl Shade for Gathering<'_> {
 
 impl Gathering<'_> {
     fn scatter(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, more: bool, scatter: &mut Scatter) {
-        // Without gather rays the global map holds all light of the diffuse part.
+        // Without gather rays, the global map contains all light of the diffuse part.
         let mapped = self.photons.gather == 0;
         let lit = if mapped { lobes.gloss() } else { lobes };
         distributed::direct(self.lights, flight, surfel, &lit, scatter);
-        // A glossy lobe's own ray finds emitters behind mirrors and glass, but no point light.
+        // A glossy lobe's ray finds emitters behind mirrors and glass, but no point light.
         let caustic = if self.lights.points() > 0 { lit } else { lit.diffuse() };
         scatter.light += flight.weight * self.estimate(self.caustic, surfel, &caustic);
         if mapped {
@@ -135,7 +135,7 @@ impl Gathering<'_> {
         }
     }
 
-    /// Emits cosine-distributed gather rays, so that each is weighted by the albedo over their number.
+    /// Emits cosine-distributed gather rays; each is weighted by the albedo divided by their number.
     fn gather(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
         let rays = self.photons.gather;
         let weight = 1.0 / f64::from(rays) * (flight.weight * lobes.albedo);
@@ -151,8 +151,8 @@ impl Gathering<'_> {
         }
     }
 
-    /// Radiance estimate by a map. A photon's flux is per area of the triangle; the surface scatters it by its shading
-    /// normal.
+    /// Radiance estimate by a map. A photon's flux is per area of the triangle; the surface scatters it according to
+    /// the shading normal.
     fn estimate(&self, map: &PhotonMap, surfel: &Surfel<'_>, lobes: &Lobes) -> DVec3 {
         if lobes.albedo.max(lobes.specular).max_element() <= 0.0 {
             return DVec3::ZERO;

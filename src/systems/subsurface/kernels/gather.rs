@@ -1,18 +1,18 @@
-//! Pass 2 (4.2.3): the programs that follow the links, written out for a number of them.
+//! Pass 2 (4.2.3): the programs that follow the links, generated for a number of links.
 //!
-//! Sampler 0 is the radiosity map. TEX0 is the texel; `p[0]` is what the sum is multiplied by at the end. The sum
-//! starts at 0, or at what the pass before wrote (sampler 1), and takes link after link: a product, then a sum.
+//! Sampler 0 is the radiosity map. TEX0 is the texel; `p[0]` is the factor of the final sum. The sum starts at 0, or at
+//! the previous pass's result (sampler 1), and adds one product per link.
 //!
-//! - *Fixed*: `p[1 + n]` is the place of link n in its level. Factors of four links are in one texel, or with three
-//!   channels in three: the first three links' in their xyz, the fourth's in the three w.
-//! - *Adaptive*: a texel of link n has u, v, factor (with three channels: nothing, and a second texel has the factors),
-//!   and in w the level. For a map with levels, w is 2^level / side, given as both components of a derivative to
-//!   `TXD`: the level of detail is then level + 1/2, of which the sampler's bias takes the half away. For a rectangle
-//!   that holds all levels side by side, w is side / 2^level, and `p[1]` is (-2, 2 side, 0, 0): a level begins at
-//!   2 side - 2 w.
+//! - *Fixed*: `p[1 + n]` is the place of link n in its level. The factors of four links are in one texel. With three
+//!   channels they are in three texels: the first three links' factors in xyz of one texel each, the fourth link's in
+//!   the three w.
+//! - *Adaptive*: a texel of link n has u, v, the factor, and the level in w; with three channels, z is unused and a
+//!   second texel has the factors. For a map with levels, w is 2^level / side, which is both components of a derivative
+//!   for `TXD`: the level of detail is then level + 1/2, and the sampler's bias subtracts 1/2. For a rectangle with all
+//!   levels side by side, w is side / 2^level, and `p[1]` is (-2, 2 side, 0, 0): a level begins at 2 side - 2 w.
 //!
-//! Textures of links may be tiles of fewer, larger ones, row by row: one more constant has the corner of each tile but
-//! the first of a texture, which is added to the place of the texel.
+//! Textures of links may be tiles of fewer, larger textures, row by row. Each tile but the first of a texture has a
+//! constant with its corner, which is added to the texel's position.
 
 use std::fmt::Write as _;
 
@@ -21,10 +21,10 @@ use refsim::exec::CheckedProgram;
 
 use crate::card::{KernelError, checked, instructions};
 
-/// How links are chosen, as the program sees it.
+/// The choice of links, as far as it affects the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LinkLayout {
-    /// All links of a texel lead to one level; places in constants.
+    /// All links of a texel lead to one level; constants contain their places.
     Fixed,
     /// Each link has its own place and level.
     Adaptive,
@@ -35,7 +35,7 @@ pub enum LinkLayout {
 pub enum MapTexture {
     /// A texture with levels.
     Leveled,
-    /// A rectangle: one level, or all of them side by side.
+    /// A rectangle: one level, or all levels side by side.
     Rectangle,
 }
 
@@ -55,18 +55,18 @@ pub struct GatherKernel {
     pub layout: LinkLayout,
     /// True for factors of three channels.
     pub rgb: bool,
-    /// Texture of the radiosity map.
+    /// Type of the radiosity map's texture.
     pub map: MapTexture,
-    /// True if it computes in half precision.
+    /// True if the program computes in half precision.
     pub half: bool,
-    /// True if it adds to the target of the previous pass.
+    /// True if the program adds to the result of the previous pass.
     pub continues: bool,
-    /// Tiles along an edge of a texture of links: 1 for a texture each.
+    /// Tiles along an edge of a texture of links; 1 if each is a separate texture.
     pub tiles: usize,
 }
 
 impl GatherKernel {
-    /// All of them, with a texture for each tile.
+    /// All programs, with a texture for each tile.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for layout in [LinkLayout::Fixed, LinkLayout::Adaptive] {
@@ -90,7 +90,7 @@ impl GatherKernel {
         format!("gather_{layout}_{map}{rgb}{half}{}{tiles}", part(self.continues, "_next"))
     }
 
-    /// The program for so many links.
+    /// The program for this number of links.
     pub fn text(&self, links: usize) -> String {
         let first = self.constants_before_tiles(links);
         let mut writer = Writer { kernel: *self, text: "!!FP1.0\n".to_owned(), textures: 0, first };
@@ -106,12 +106,12 @@ impl GatherKernel {
         writer.text
     }
 
-    /// Instructions for so many links.
+    /// Instructions for this number of links.
     pub fn instructions(&self, links: usize) -> usize {
         instructions(&self.text(links))
     }
 
-    /// Textures of so many links, each a tile of a larger texture or a separate one.
+    /// Number of separate or tiled textures for this number of links.
     pub const fn link_textures(&self, links: usize) -> usize {
         match (self.layout, self.rgb) {
             (LinkLayout::Fixed, false) => links.div_ceil(4),
@@ -120,12 +120,12 @@ impl GatherKernel {
         }
     }
 
-    /// Samplers for so many links.
+    /// Samplers for this number of links.
     pub const fn samplers(&self, links: usize) -> usize {
         1 + self.continues as usize + self.link_textures(links).div_ceil(self.tiles * self.tiles)
     }
 
-    /// Constants for so many links.
+    /// Constants for this number of links.
     pub fn constants(&self, links: usize) -> usize {
         let tiles = self.link_textures(links).min(self.tiles * self.tiles);
         self.constants_before_tiles(links) + tiles.saturating_sub(1)
@@ -139,14 +139,14 @@ impl GatherKernel {
         }
     }
 
-    /// The program for so many links, accepted by a device. Fails with [`KernelError`] if it breaks a rule of the
-    /// device.
+    /// The program for this number of links, checked for a device. Fails with [`KernelError`] if it breaks a rule of
+    /// the device.
     pub fn checked(&self, profile: &Profile, links: usize) -> Result<CheckedProgram, KernelError> {
         checked(profile, format!("`{}`, written out for {links} links", self.name()), &self.text(links))
     }
 }
 
-/// Registers: the sum, a texel of the map, a place, and texels of factors or links from [`FACTORS`] on.
+/// Registers: the sum, a texel of the map, a place; from [`FACTORS`] on, texels of factors or links.
 const SUM: usize = 1;
 const TEXEL: usize = 2;
 const FACTORS: usize = 3;
@@ -167,7 +167,7 @@ impl Writer {
         format!("{}{number}", if self.kernel.half { 'H' } else { 'R' })
     }
 
-    /// Reads a texture that has a texel for each of the target's.
+    /// Reads a texture with one texel per target texel.
     fn read(&mut self, into: usize, at: &str, unit: usize) {
         let _ = writeln!(self.text, "TEX {}, {at}, TEX{unit}, RECT;", self.register(into));
     }
@@ -197,7 +197,7 @@ impl Writer {
         let _ = writeln!(self.text, "MAD{letter} {sum}.{mask}, {texel}, {factor}, {sum};");
     }
 
-    /// Up to four links from `from` on.
+    /// Adds up to four links from `from` on.
     fn fixed(&mut self, from: usize, links: usize) {
         let count = (links - from).min(4);
         let textures = if self.kernel.rgb { count.min(3) } else { 1 };

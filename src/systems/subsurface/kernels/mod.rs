@@ -1,5 +1,4 @@
-//! The programs of the three passes: files where a program is one text, and text written here where the links, the
-//! lights or the options decide.
+//! The programs of the three passes: files, and text generated where it depends on links, lights or options.
 
 mod gather;
 mod repeated;
@@ -13,7 +12,7 @@ pub use repeated::LightKernel;
 pub use view::{DirectLight, EyeTransmittance, ViewKernel};
 
 kernels! {
-    /// Every file of this folder; those with lights have one.
+    /// Every file of this folder; files with lights are for one light.
     FILES:
     LIGHT_VERTICES "light_vertices.vsa"
     LIT "lit.fp"
@@ -36,17 +35,17 @@ pub const TEXEL_LIGHTS: [LightKernel; 2] = [
 /// Direct light at vertices in pass 3.
 pub const VIEW_LIGHTS: LightKernel = LightKernel { kernel: VIEW_LIT, prefix: "c", first: 7, step: 4 };
 
-/// Instruction slots and constants of a device's vertex programs; usual ones where it states no limit.
+/// Instruction slots and constants of a device's vertex programs; usual numbers if it states no limit.
 pub(super) fn vertex_room(limits: &Limits) -> [usize; 2] {
     [limits.vertex_instructions.unwrap_or(256) as usize, limits.vertex_constants.unwrap_or(256) as usize]
 }
 
-/// Instruction slots and constants of a device's fragment programs; usual ones where it states no limit.
+/// Instruction slots and constants of a device's fragment programs; usual numbers if it states no limit.
 pub(super) fn fragment_room(limits: &Limits) -> [usize; 2] {
     [limits.fragment_instructions.unwrap_or(1024) as usize, limits.fragment_parameters.unwrap_or(64) as usize]
 }
 
-/// Every program that there is, by name: files, and those written here for a few links or lights.
+/// All programs by name: files, and generated programs for some numbers of links or lights.
 pub fn programs() -> Vec<(String, String)> {
     let files = FILES.iter().map(|file| (file.name.to_owned(), file.text.to_owned()));
     let lights = [VERTEX_LIGHTS, TEXEL_LIGHTS[0], TEXEL_LIGHTS[1], VIEW_LIGHTS];

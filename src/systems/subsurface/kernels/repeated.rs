@@ -1,4 +1,4 @@
-//! Programs with a part for each light: these languages have no loops, and each copy reads separate constants.
+//! Programs with a repeated part per light, because these languages have no loops; each copy reads its own constants.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use refsim::isa::Instruction;
 
 use crate::card::{KernelError, KernelText, checked};
 
-/// A kernel with a part that is written out for each light. The file is the program for one light.
+/// A kernel with a part that is repeated for each light. The file is the program for one light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightKernel {
     /// The file.
@@ -23,7 +23,7 @@ pub struct LightKernel {
 }
 
 impl LightKernel {
-    /// The program for so many lights.
+    /// The program for this number of lights.
     pub fn text(&self, lights: usize) -> String {
         let [head, body, tail] = self.parts();
         let mut text = head.to_owned();
@@ -33,26 +33,25 @@ impl LightKernel {
         text + tail
     }
 
-    /// The program for so many lights, accepted by a device. Fails with [`KernelError`] if it breaks a rule of the
-    /// device.
+    /// The program for this number of lights, checked for a device. Fails with [`KernelError`] if it breaks a rule of
+    /// the device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.kernel.name;
         let name = if lights == 1 { format!("`{name}`") } else { format!("`{name}`, written out for {lights} lights") };
         checked(profile, name, &self.text(lights))
     }
 
-    /// The most lights that a program with so many instruction slots and constants can take.
+    /// The maximum number of lights within these numbers of instruction slots and constants.
     pub fn most_lights(&self, slots: usize, constants: usize) -> usize {
         self.most_within([0, 1].map(|lights| self.slots(lights)), slots, constants)
     }
 
-    /// As [`Self::most_lights`], for a program that takes `none` slots without a light and `one` with one.
+    /// Like [`Self::most_lights`], for a program of `none` slots without lights and `one` slots with one light.
     pub(super) fn most_within(&self, [none, one]: [usize; 2], slots: usize, constants: usize) -> usize {
         let by_length = slots.saturating_sub(none) / one.saturating_sub(none).max(1);
         by_length.min(constants.saturating_sub(self.first) / self.step)
     }
 
-    /// Instruction slots for so many lights.
     fn slots(&self, lights: usize) -> usize {
         let Ok(program) = assemble(&self.text(lights)) else { return 0 };
         let slots = |instruction: &Instruction| instruction.opcode.info().slot_cost(program.version).total();
@@ -69,7 +68,7 @@ impl LightKernel {
         [&text[..begin], body, &text[begin + body.len()..]]
     }
 
-    /// A copy of the body whose constants of a light have numbers greater by `by`.
+    /// Appends a copy of `body` with the indices of the light's constants increased by `by`.
     fn push_moved(&self, text: &mut String, body: &str, by: usize) {
         let mut rest = body;
         while let Some(at) = rest.find(self.prefix) {

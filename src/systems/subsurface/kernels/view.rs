@@ -1,12 +1,12 @@
 //! Pass 3 (4.2.4): the fragment programs that draw the model.
 //!
-//! - TEX0: two places in the atlas, xy and zw; their component-wise minimum is the fragment's; TEX1: the face's bounds
-//!   in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
+//! - TEX0: two places in the atlas, xy and zw, whose component-wise minimum is the fragment's place; TEX1: the face's
+//!   bounds in the atlas, half a texel inside; TEX2: the normal; TEX3: the position; TEX4: direct light by vertex.
 //! - sampler 0: scattered irradiance, a rectangle; sampler 1: transmittances by cosine, 1-D.
-//! - `p[0]`: from scattered irradiance times transmittance (exact: half of it) to the picture, in w the smallest
-//!   squared distance to a light. `p[1]`: eye, in w the smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta;
-//!   table: from cosine to coordinate, scale and offset; in w the shininess. `p[3]`: ambient light. Each light: `p[4]`
-//!   position (w = 1) or direction towards it (w = 0), `p[5]` attenuation k0, k1, k2, `p[6]` diffuse, `p[7]` specular.
+//! - `p[0]`: factor from scattered irradiance times transmittance (exact: half of it) to the picture; w: smallest
+//!   squared distance to a light. `p[1]`: eye; w: smallest squared length. `p[2]`: exact: eta^2 - 1, eta^2, eta; table:
+//!   scale and offset from cosine to coordinate; w: shininess. `p[3]`: ambient light. Per light: `p[4]` position (w 1)
+//!   or direction to the light (w 0), `p[5]` attenuation k0, k1, k2, `p[6]` diffuse, `p[7]` specular.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
@@ -30,7 +30,7 @@ pub enum EyeTransmittance {
 /// Where direct light is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DirectLight {
-    /// There is none.
+    /// No direct light.
     None,
     /// At the vertices, interpolated.
     #[default]
@@ -44,7 +44,7 @@ pub enum DirectLight {
 pub struct ViewKernel {
     /// Transmittance towards the eye.
     pub transmittance: EyeTransmittance,
-    /// Direct light, which is added.
+    /// Direct light that is added.
     pub direct: DirectLight,
 }
 
@@ -138,7 +138,7 @@ MADR R6.xyz, R7.z, p[7], R6;
 ";
 
 impl ViewKernel {
-    /// All of them.
+    /// All programs.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for transmittance in [EyeTransmittance::Exact, EyeTransmittance::Table, EyeTransmittance::Mean] {
@@ -163,7 +163,7 @@ impl ViewKernel {
         format!("view_{transmittance}{direct}")
     }
 
-    /// The program for so many lights by fragment.
+    /// The program for this number of lights by fragment.
     pub fn text(&self, lights: usize) -> String {
         let by_fragment = self.direct == DirectLight::ByFragment;
         let mut text = PLACE.to_owned();
@@ -188,13 +188,13 @@ impl ViewKernel {
         text
     }
 
-    /// The most lights by fragment of a program with so many instruction slots and constants.
+    /// The maximum number of lights by fragment within these numbers of instruction slots and constants.
     pub fn most_lights(&self, slots: usize, constants: usize) -> usize {
         LIGHT_PART.most_within([0, 1].map(|lights| instructions(&self.text(lights))), slots, constants)
     }
 
-    /// The program for so many lights by fragment, accepted by a device. Fails with [`KernelError`] if it breaks a rule
-    /// of the device.
+    /// The program for this number of lights by fragment, checked for a device. Fails with [`KernelError`] if it breaks
+    /// a rule of the device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.name();
         let name = if self.direct == DirectLight::ByFragment {

@@ -1,4 +1,4 @@
-//! Links of bands of rows of texels, which do not depend on each other.
+//! Links of bands (rows of texels), which are independent of each other.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,18 +11,18 @@ use crate::error::{InputError, ensure, input_error};
 use crate::subsurface::Dipole;
 use crate::subsurface::multipole::{BLOCK_LEVEL, BlockReceiver, ClusterId, Factors, SurfaceMoments};
 
-/// The largest number of factors: 1 GiB of them.
+/// Maximum number of factors: 1 GiB.
 pub const MAX_FACTORS: usize = 1 << 28;
 
 /// Rows of texels that are computed together.
 const BAND: usize = 1 << BLOCK_LEVEL;
 
-/// The links of the texels of consecutive bands: of rows of texels that are computed together.
+/// The links of consecutive bands; a band is a number of rows of texels that are computed together.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LinkBands {
-    /// For adaptive links per texel, row by row, then per link; for fixed ones empty.
+    /// Clusters of adaptive links: texel by texel, row by row, then link by link. Empty for fixed links.
     pub(super) clusters: Vec<PackedCluster>,
-    /// Per texel, row by row, then per link, then per channel.
+    /// Factors texel by texel, row by row, then link by link, then channel by channel.
     pub(super) factors: Vec<f32>,
 }
 
@@ -32,13 +32,12 @@ impl LinkBands {
         side as usize / Self::rows(side)
     }
 
-    /// Rows of texels of a band.
+    /// Number of rows of texels of a band.
     pub fn rows(side: u32) -> usize {
         BAND.min(side as usize)
     }
 
-    /// The links of a range of bands; otherwise as [`Links::new`](super::Links::new). Fails as
-    /// [`Links::new`](super::Links::new) does.
+    /// Like [`Links::new`](super::Links::new), for a range of bands.
     pub fn new(
         surface: &SurfaceMoments,
         dipoles: &[Dipole],
@@ -50,7 +49,7 @@ impl LinkBands {
         match *dipoles {
             [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice, range, done),
             [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice, range, done),
-            // As many dipoles as channels: one, or red, green and blue.
+            // One dipole per channel: one channel, or red, green and blue.
             _ => Err(input_error!("subsurface::links" => "expected one dipole, or three, found {}", dipoles.len())),
         }
     }
@@ -75,7 +74,7 @@ impl LinkBands {
         match choice {
             LinkChoice::Fixed { level } => bands.fill_fixed(factors, level, range.start, &band_done),
             LinkChoice::Adaptive { count } => {
-                // A link that is not used has the factor 0; it points to the root.
+                // An unused link has the factor 0 and points to the root.
                 bands.clusters = vec![PackedCluster::new(root(factors.surface())); links];
                 bands.fill_adaptive(factors, per_texel, count, range.start, &band_done);
             }
@@ -144,7 +143,7 @@ impl LinkBands {
     }
 }
 
-/// A cluster in 32 bits: level, row, column, of 4, 14 and 14 bits. Atlases have at most 8192 texels along a side.
+/// A cluster in 32 bits: level, row and column of 4, 14 and 14 bits. Atlases have at most 8192 texels per side.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct PackedCluster(u32);
 
@@ -158,7 +157,7 @@ impl PackedCluster {
     }
 }
 
-/// The number of links per texel of a choice.
+/// Checks a choice, and returns its number of links per texel.
 pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Result<usize, InputError> {
     let side = surface.side();
     match choice {
@@ -183,7 +182,7 @@ pub(super) fn level_error(found: u32, levels: u32) -> InputError {
     input_error!("subsurface::links" => "expected a level below {levels}, found {found}")
 }
 
-/// The clusters of fixed links, the same for each texel.
+/// The clusters of fixed links, which all texels share.
 pub(super) fn fixed_clusters(side: u32, level: u32) -> impl Iterator<Item = ClusterId> {
     let width = side >> level;
     (0..width).flat_map(move |y| (0..width).map(move |x| ClusterId { level, y, x }))

@@ -1,20 +1,20 @@
-//! Choice of the clusters that a texel links to.
+//! The choice of a texel's links, which are clusters.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use super::super::multipole::{ClusterId, TexelFactors, to_morton};
 
-/// Clusters that the texels of an atlas link to.
+/// The choice of the clusters to which texels link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinkChoice {
-    /// All clusters of a level, the same for every texel: 1, 4, 16, 64, ... links.
+    /// All clusters of a level, for every texel: 1, 4, 16, 64, ... links.
     Fixed {
         /// The level.
         level: u32,
     },
-    /// Per texel, from the root: the cluster with the highest factor gives way to its four children while there are at
-    /// most `count`.
+    /// Chosen for each texel, beginning with the root: the cluster with the highest factor is replaced by its four
+    /// children, as long as there are at most `count` links.
     Adaptive {
         /// The largest number of links.
         count: usize,
@@ -22,7 +22,7 @@ pub enum LinkChoice {
 }
 
 impl LinkChoice {
-    /// Links per texel of an atlas of `side` texels along a side.
+    /// Links per texel of an atlas with `side` texels per side.
     pub fn per_texel(self, side: u32) -> u64 {
         match self {
             Self::Fixed { level } => u64::from(side >> level.min(31)).pow(2),
@@ -39,7 +39,7 @@ impl LinkChoice {
     }
 }
 
-/// A link of a texel that may give way to its four children.
+/// A link of a texel that may be replaced by its four children.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate<const N: usize> {
     node: usize,
@@ -63,8 +63,8 @@ impl<const N: usize> Candidate<N> {
     }
 }
 
-/// Texels last; then the highest factor first (for RGB, the highest sum of the three), the higher level, the lower row,
-/// the lower column.
+/// Order of replacement: texels last; then by highest factor (for RGB, the sum of the three), higher level, lower row,
+/// lower column.
 impl<const N: usize> Ord for Candidate<N> {
     fn cmp(&self, other: &Self) -> Ordering {
         let sum = |link: &Self| link.factor.iter().sum::<f64>();
@@ -88,8 +88,8 @@ impl<const N: usize> PartialEq for Candidate<N> {
 
 impl<const N: usize> Eq for Candidate<N> {}
 
-/// Chooses the links of a texel, from the root of its tree: while three more fit into `count`, the cluster with the
-/// highest factor gives way to its children. A texel at the top stays a link. Returns 1 + 3 k links in the order of the
+/// Chooses the links of a texel, beginning with the root of its tree: while `count` allows three more, the cluster with
+/// the highest factor is replaced by its children; texels are not replaced. Returns 1 + 3 k links in the order of the
 /// tree.
 pub(super) fn adaptive<const N: usize>(texel: &mut TexelFactors<'_, '_, N>, count: usize) -> Vec<Candidate<N>> {
     let mut queue = BinaryHeap::with_capacity(count);

@@ -1,8 +1,8 @@
 //! Links as texels of textures for the card's pass 2.
 //!
-//! The card's map holds E_t a_t / (mean texel area of the atlas), so that plain means of its levels weigh by area. The
-//! factor of a link to cluster C is stored as F_iC times (mean texel area of the atlas) / (mean texel area of C). Where
-//! the map holds plain irradiance ([`MeanWeighting::Count`]), it is F_iC.
+//! The card's map contains E_t a_t / (mean texel area of the atlas), so that unweighted means of its levels are
+//! weighted by area. The factor of a link to cluster C is stored as F_iC times (mean texel area of the atlas) / (mean
+//! texel area of C). If the map contains irradiance ([`MeanWeighting::Count`]), the stored factor is F_iC.
 //!
 //! | choice, channels | textures | a texel |
 //! |---|---|---|
@@ -11,8 +11,8 @@
 //! | adaptive, 1 | L | u, v, factor, level |
 //! | adaptive, 3 | 2 L | texture 2 k: u, v, red factor, level; texture 2 k + 1: red, green, blue factor, 0 |
 //!
-//! If L is not a multiple of 4, the last texels are filled with factors 0. A place (u, v) is the center of the cluster
-//! in the atlas, whose sides are 1.
+//! If L is not a multiple of 4, the last texels are padded with factors 0. A place (u, v) is the cluster's center in
+//! the atlas, whose sides are 1.
 
 use refsim::num::{Format, FormatKind, ops, power_of_two};
 
@@ -20,7 +20,7 @@ use super::super::multipole::{ClusterId, SurfaceMoments};
 use super::{LinkChoice, Links, MeanWeighting};
 use crate::card::Texels;
 
-/// Place in the map that a link reads.
+/// Place in the map that is read for a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkPlace {
     /// The center of the cluster, from 0 to 1.
@@ -32,22 +32,22 @@ pub struct LinkPlace {
 }
 
 impl LinkPlace {
-    /// The place of a cluster in an atlas of `side` texels along a side. Exact in fp32. In fp16, which has 11 bits,
-    /// exact up to 1024 texels: the odd multiples of 1/2048. At 2048 every other half of the texel centers is rounded.
+    /// The place of a cluster in an atlas with `side` texels per side. It is exact in fp32, and in fp16, which has 11
+    /// bits, up to 1024 texels per side (odd multiples of 1/2048). At 2048, some texel centers beyond 1/2 are rounded.
     pub fn new(side: u32, ClusterId { level, y, x }: ClusterId) -> Self {
         let center = |at: u32| ((2 * at + 1) as f64 / (2 * (side >> level)) as f64) as f32;
         Self { u: center(x), v: center(y), level: level as f32 }
     }
 }
 
-/// Numbers of factors and places that a format loses.
+/// Numbers of factors and places that a format cannot represent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LostFactors {
-    /// Factors of links that are used: above 0.
+    /// Number of factors of used links, which are above 0.
     pub factors: usize,
     /// Number of factors that round to 0.
     pub flushed: usize,
-    /// Those that are denormal, which a card may flush to 0.
+    /// Number of denormal factors, which a card may flush to 0.
     pub denormal: usize,
     /// Number of adaptive links with a rounded coordinate.
     pub places: usize,
@@ -62,7 +62,7 @@ pub struct EncodedLinks<'a> {
 }
 
 impl<'a> EncodedLinks<'a> {
-    /// For a map whose plain means weigh texels by `weighting`.
+    /// Encodes links for a map whose unweighted means weigh texels by `weighting`.
     pub fn new(links: &'a Links, surface: &'a SurfaceMoments, weighting: MeanWeighting) -> Self {
         Self { links, surface, weighting }
     }
@@ -76,7 +76,7 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// A texture, not yet rounded to its format. Panics if there is no such texture.
+    /// A texture before rounding to its format. Panics if there is no such texture.
     pub fn texture(&self, index: usize) -> Texels {
         assert!(index < self.texture_count(), "there is no texture {index}");
         let side = self.links.side() as usize;
@@ -114,7 +114,7 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// Numbers of factors and places that a format loses.
+    /// Numbers of factors and places that a format cannot represent.
     pub fn lost(&self, format: Format) -> LostFactors {
         let mut lost = LostFactors::default();
         let least_normal = least_normal(format);
@@ -143,7 +143,6 @@ impl<'a> EncodedLinks<'a> {
     }
 }
 
-/// The least number of a format that has all its bits.
 fn least_normal(format: Format) -> f64 {
     match format.kind {
         FormatKind::Float { .. } => power_of_two(format.exponents().0),

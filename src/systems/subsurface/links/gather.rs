@@ -6,13 +6,13 @@ use super::super::multipole::{ClusterId, SurfaceMoments, check_values};
 use super::Links;
 use crate::error::InputError;
 
-/// How texels count in the mean irradiance of a cluster.
+/// The weights of texels in the mean irradiance of a cluster.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MeanWeighting {
     /// By their areas: links to every texel give equation 9.
     #[default]
     Area,
-    /// All alike, as plain mipmaps of the irradiance have it.
+    /// Equal weights, as in mipmaps of the irradiance.
     Count,
 }
 
@@ -20,12 +20,13 @@ pub enum MeanWeighting {
 #[derive(Clone, Debug, PartialEq)]
 pub struct IrradianceMeans {
     side: u32,
-    /// Per level, row by row.
+    /// Means level by level, row by row.
     levels: Vec<Vec<[f64; 3]>>,
 }
 
 impl IrradianceMeans {
-    /// The means of the irradiances of all texels, row by row. Fails with [`InputError`] if there is not one per texel.
+    /// The means of the irradiances of all texels, row by row. Fails with [`InputError`] if there is not one irradiance
+    /// per texel.
     pub fn new(
         surface: &SurfaceMoments,
         irradiances: &[[f64; 3]],
@@ -78,8 +79,8 @@ fn mean_of_children(
 }
 
 impl Links {
-    /// The radiosity of every texel, row by row: the sum over its links of factor times mean irradiance. A scalar
-    /// factor serves all three channels. Panics if the means are of an atlas of another size.
+    /// The radiosity of every texel, row by row: the sum over the texel's links of factor times mean irradiance. A
+    /// scalar factor applies to all three channels. Panics if the means belong to an atlas of another size.
     pub fn gather(&self, means: &IrradianceMeans) -> Vec<[f64; 3]> {
         assert_eq!(self.side, means.side, "links and irradiance are of one atlas");
         let side = self.side as usize;

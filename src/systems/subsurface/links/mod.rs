@@ -1,8 +1,9 @@
-//! Links, section 4.2.1: per texel, clusters whose irradiance it gathers, each with its throughput factor.
+//! Links (section 4.2.1): the clusters from which each texel gathers irradiance, each with its throughput factor.
 //!
-//! - [`Links`]: fixed or adaptive, with one factor per link or three; [`LinkBands`] are those of some rows of texels;
+//! - [`Links`]: fixed or adaptive links, with one factor per link or three; [`LinkBands`]: links of some rows of
+//!   texels;
 //! - [`IrradianceMeans`]: the mean irradiance of every cluster, by area or by number of texels;
-//! - [`EncodedLinks`]: links as texels of textures, and what fp16 loses of them.
+//! - [`EncodedLinks`]: links as texels of textures, and the numbers that fp16 cannot represent.
 
 mod bands;
 mod choice;
@@ -19,28 +20,28 @@ pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
 pub use gather::{IrradianceMeans, MeanWeighting};
 
-/// The channel whose coefficients make scalar factors: green. One dipole's factors, unlike a mean of three.
+/// The channel whose dipole gives scalar factors: green. A mean of three channels would not be one dipole's factors.
 pub const SCALAR_CHANNEL: usize = 1;
 
-/// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the mean
-/// irradiance of the cluster, weighted by area. Factors are rounded to f32 once.
+/// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the cluster's
+/// area-weighted mean irradiance. Factors are rounded to f32 once.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Links {
     side: u32,
     choice: LinkChoice,
     channels: usize,
     per_texel: usize,
-    /// For fixed links one per link; for adaptive ones per texel, row by row, and link.
+    /// Clusters of fixed links, one per link; of adaptive links, texel by texel, row by row, then link by link.
     clusters: Vec<PackedCluster>,
-    /// Per texel, row by row, then per link, then per channel.
+    /// Factors texel by texel, row by row, then link by link, then channel by channel.
     factors: Vec<f32>,
 }
 
 impl Links {
-    /// The links of every texel, for one dipole (scalar factors) or for red, green and blue. `done` is called with the
-    /// number of rows of texels done and of all, in any order and from any thread. Fails with [`InputError`] for
-    /// another number of dipoles, a level that the atlas does not have, a tolerance out of range, no links, or more
-    /// than [`MAX_FACTORS`] factors.
+    /// Computes the links of every texel, for one dipole (scalar factors) or for red, green and blue. `done` is called
+    /// with the number of finished rows of texels and of all rows, in any order and from any thread. Fails with
+    /// [`InputError`] for another number of dipoles, a level that the atlas does not have, a tolerance out of range, no
+    /// links, or more than [`MAX_FACTORS`] factors.
     pub fn new(
         surface: &SurfaceMoments,
         dipoles: &[Dipole],
@@ -52,7 +53,7 @@ impl Links {
         Self::of_bands(surface, dipoles.len(), choice, all)
     }
 
-    /// The links of every texel with given factors. Fails as [`Self::new`] does.
+    /// Computes the links of every texel with given factors. Fails as [`Self::new`] does.
     pub fn with<const N: usize>(
         factors: &Factors<'_, N>,
         choice: LinkChoice,
@@ -63,7 +64,7 @@ impl Links {
         Self::of_bands(surface, N, choice, all)
     }
 
-    /// The links of all bands, from the first on. Fails with [`InputError`] if these are not the bands of this atlas
+    /// Combines the links of all bands, in order. Fails with [`InputError`] if they are not the bands of this atlas
     /// with this choice.
     pub fn of_bands(
         surface: &SurfaceMoments,
@@ -104,7 +105,7 @@ impl Links {
         self.channels
     }
 
-    /// Links per texel. An adaptive texel uses 1 + 3 k of them; the others have the factor 0.
+    /// Links per texel. An adaptive texel uses 1 + 3 k links; the others have the factor 0.
     pub fn per_texel(&self) -> usize {
         self.per_texel
     }
@@ -122,12 +123,12 @@ impl Links {
         clusters.iter().map(|cluster| cluster.id()).zip(factors.chunks_exact(self.channels))
     }
 
-    /// Per texel, row by row, then per link, then per channel.
+    /// Factors texel by texel, row by row, then link by link, then channel by channel.
     pub fn factors(&self) -> &[f32] {
         &self.factors
     }
 
-    /// The clusters of fixed links; none of adaptive ones.
+    /// The clusters of fixed links; empty for adaptive links.
     pub fn fixed_clusters(&self) -> Vec<ClusterId> {
         match self.choice {
             LinkChoice::Fixed { .. } => self.clusters.iter().map(|cluster| cluster.id()).collect(),

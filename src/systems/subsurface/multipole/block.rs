@@ -1,16 +1,16 @@
-//! Factors of all texels of a square of an atlas together.
+//! Factors of all texels of a square of an atlas, computed together.
 //!
-//! The light of a far cluster varies smoothly among near texels. So a square of texels has one expansion to second
-//! order of the light of all clusters that are far from it; its four quarters do the same for the clusters that were
-//! too near, and so on; each texel gathers the remaining ones individually. The nodes of the tree of clusters keep
-//! these parts apart, so that a texel has the factor of any of them: sums of parts are sums over its children.
+//! The light of a far cluster varies smoothly among near texels. So a square of texels has one second-order expansion
+//! of the light of all clusters that are far from it. Its four quarters have expansions for the clusters that were too
+//! near, and so on; each texel gathers the remaining clusters individually. The nodes of the tree of clusters store
+//! these parts separately, so that a texel has the factor of every node: a node's parts plus the sum over its children.
 
 use super::expansion::Expansion;
 use super::integrate::Receiver;
 use super::kernel::{SPREAD, add};
 use super::surface::{ClusterId, from_morton, to_morton};
 
-/// The level of the largest squares of texels that are taken together: 16 x 16.
+/// The level of the largest squares of texels that are computed together: 16 x 16.
 pub(in crate::subsurface) const BLOCK_LEVEL: u32 = 4;
 
 /// Computes the factors of all texels of a square.
@@ -18,11 +18,11 @@ pub(in crate::subsurface) const BLOCK_LEVEL: u32 = 4;
 pub(in crate::subsurface) struct BlockReceiver<'a, const N: usize> {
     receiver: Receiver<'a, N>,
     nodes: Vec<Node<N>>,
-    /// Counts squares: which of a node's parts belong to the present ones.
+    /// Counter of squares, which tells the parts of current squares from older parts.
     stamp: u64,
-    /// The stamps of the squares around the present texel, by level.
+    /// The stamps of the squares around the current texel, by level.
     present: [u64; BLOCK_LEVEL as usize + 1],
-    /// Nodes that were divided for the present texel alone.
+    /// Nodes that were divided only for the current texel.
     divided: Vec<u32>,
 }
 
@@ -30,29 +30,29 @@ pub(in crate::subsurface) struct BlockReceiver<'a, const N: usize> {
 #[derive(Clone, Copy, Debug)]
 struct Node<const N: usize> {
     level: u32,
-    /// In Morton order.
+    /// Index in Morton order.
     place: u32,
     parent: u32,
     /// Index of the first of its four children.
     children: u32,
-    /// Part that the current texel gathers individually.
+    /// Part that the current texel gathers.
     own: Part<[f64; N]>,
-    /// Part that each square around the present texel gathers as a whole, by level, from 1.
+    /// Part that each square around the current texel gathers as a whole, by level from 1.
     shared: [Part<Expansion<N>>; BLOCK_LEVEL as usize],
 }
 
-/// A part of a node's light, of the square with this stamp.
+/// A part of a node's light, for the square with this stamp.
 #[derive(Clone, Copy, Debug)]
 struct Part<T> {
     stamp: u64,
     value: T,
 }
 
-/// A node without parent or children.
+/// Index for a missing parent or missing children.
 const NONE: u32 = u32::MAX;
-/// No square has this stamp.
+/// A stamp that no square has.
 const NEVER: u64 = 0;
-/// No part has this stamp: that of squares larger than the atlas.
+/// The stamp of squares larger than the atlas, which no part has.
 const NO_SQUARE: u64 = u64::MAX;
 
 impl<const N: usize> Node<N> {
@@ -87,8 +87,8 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         Self { receiver, nodes: Vec::new(), stamp: NEVER, present, divided: Vec::new() }
     }
 
-    /// Visits each texel of a square of level [`BLOCK_LEVEL`] at most, with the factors of the given clusters, which
-    /// are the first nodes of its tree.
+    /// Visits each texel of a square of at most level [`BLOCK_LEVEL`], with the factors of the given clusters, which
+    /// are the first nodes of the texel's tree.
     pub(in crate::subsurface) fn visit(
         &mut self,
         square: ClusterId,
@@ -101,7 +101,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         self.enter(square.level, to_morton(square.x, square.y), &pending, each);
     }
 
-    /// Gathers from nodes without children: nodes far from a square for the whole square, the rest for its quarters.
+    /// Gathers from nodes without children: from far nodes for the whole square, from the others for its quarters.
     fn enter(
         &mut self,
         level: u32,
@@ -148,7 +148,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         }
     }
 
-    /// Appends the children of a node. Returns their indices.
+    /// Appends the children of a node; returns their indices.
     fn divide(&mut self, at: u32) -> std::ops::Range<u32> {
         let Node { level, place, .. } = self.nodes[at as usize];
         let first = self.nodes.len() as u32;
@@ -157,8 +157,8 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         first..first + 4
     }
 
-    /// Adds the part of a node that a square gathers as a whole. Where it is too near, larger nodes are divided, and
-    /// smaller ones are appended to `near`: the square is divided first.
+    /// Adds the part of a node that a square gathers as a whole. If the node is too near, it is divided if it is larger
+    /// than the square; otherwise it is appended to `near`, and the square is divided first.
     fn gather_to_square(&mut self, level: u32, place: usize, at: u32, near: &mut Vec<u32>) -> Expansion<N> {
         let surface = self.receiver.surface();
         let node = &self.nodes[at as usize];
@@ -199,10 +199,10 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
     }
 }
 
-/// The factors of one texel; clusters by their place in its tree of nodes.
+/// The factors of one texel, by node of the texel's tree of clusters.
 pub(in crate::subsurface) struct TexelFactors<'b, 'a, const N: usize> {
     block: &'b mut BlockReceiver<'a, N>,
-    /// In Morton order.
+    /// Index in Morton order.
     texel: usize,
 }
 
@@ -218,7 +218,6 @@ impl<const N: usize> TexelFactors<'_, '_, N> {
         ClusterId { level, y, x }
     }
 
-    /// The factor of a node.
     pub(in crate::subsurface) fn factor(&self, node: usize) -> [f64; N] {
         let BlockReceiver { receiver, nodes, present, .. } = &*self.block;
         let surface = receiver.surface();

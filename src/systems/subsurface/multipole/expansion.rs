@@ -1,4 +1,4 @@
-//! Expansion of the light that near receivers get of far clusters, to second order in the receiver's place.
+//! Second-order expansion, in the receiver's position, of the light of far clusters.
 
 use glam::DVec3;
 

@@ -1,14 +1,14 @@
-//! The map of a face's rectangle of texels onto the face, and the moments of what lies under a piece of it.
+//! The map of a face's rectangle of texels onto the face, and the moments of the surface under a window of it.
 
 use glam::DVec3;
 
 use super::moments::{Covariance, Moments, size_squared};
 use crate::atlas::FacePlace;
 
-/// A face and its rectangle. In the rectangle's coordinates, which run from 0 to 1, corners (0, 0), (1, 0), (1, 1),
-/// (0, 1) lie on a, b, m, c, where m is the middle of the edge b c.
+/// A face and its rectangle. In the rectangle's coordinates, from 0 to 1, the corners (0, 0), (1, 0), (1, 1), (0, 1)
+/// map to a, b, m, c, where m is the middle of the edge b c.
 ///
-/// With e = b - a and f = m - b the map is a + e s + f t where s >= t and a + e t + f (2 t - s) beyond: in both halves
+/// With e = b - a and f = m - b, the map is a + e s + f t if s >= t, else a + e t + f (2 t - s). In both halves this is
 /// a + e M + f N with M = max(s, t), N = max(t, 2 t - s).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceMap {
@@ -26,7 +26,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Returns `true` if the diagonal, where the map bends, passes through the inside.
+    /// Returns `true` if the diagonal, at which the map bends, crosses the window's interior.
     pub(super) fn is_bent(&self) -> bool {
         self.s[0] < self.t[1] && self.t[0] < self.s[1]
     }
@@ -51,7 +51,7 @@ struct WindowMoments {
 }
 
 impl FaceMap {
-    /// The map of a face with corners a, b and c, in mm.
+    /// Creates the map of a face with corners a, b and c, in mm.
     pub(super) fn new([a, b, c]: [DVec3; 3], place: FacePlace) -> Self {
         Self { origin: a, e: b - a, f: 0.5 * (c - b), place }
     }
@@ -67,14 +67,15 @@ impl FaceMap {
         Window { s, t }
     }
 
-    /// The convex polygons under a window, on both sides of the diagonal; one without corners if the map is not bent.
+    /// The convex polygons under a window, on both sides of the diagonal; if the window is not bent, one has no
+    /// corners.
     pub(super) fn outlines(&self, Window { s: [s0, s1], t: [t0, t1] }: Window) -> [Vec<DVec3>; 2] {
         let corners = [(s0, t0), (s1, t0), (s1, t1), (s0, t1)].map(|(s, t)| DVec3::new(s, t, 0.0));
         let on_face = |at: DVec3| self.origin + at.x.max(at.y) * self.e + at.y.max(2.0 * at.y - at.x) * self.f;
         [1.0, -1.0].map(|side| clip(&corners, |at| side * (at.x - at.y)).into_iter().map(on_face).collect())
     }
 
-    /// From a point of one window to that of another window of its size on the same side of the diagonal.
+    /// The offset between corresponding points of two equally large windows on one side of the diagonal.
     pub(super) fn step(&self, from: &Window, to: &Window) -> DVec3 {
         let [s, t] = [to.s[0] - from.s[0], to.t[0] - from.t[0]];
         let is_below = from.s[0] >= from.t[1];
@@ -113,7 +114,7 @@ fn clip(outline: &[DVec3], function: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
     part
 }
 
-/// The corners of a window, and where the diagonal enters and leaves it.
+/// The corners of a window, and the points at which the diagonal enters and leaves it.
 fn corners(Window { s: [s0, s1], t: [t0, t1] }: Window) -> [[f64; 2]; 6] {
     let (enter, leave) = (s0.max(t0), s1.min(t1));
     let bend = |at: f64| if enter < leave { [at, at] } else { [s0, t0] };
@@ -121,10 +122,10 @@ fn corners(Window { s: [s0, s1], t: [t0, t1] }: Window) -> [[f64; 2]; 6] {
 }
 
 impl WindowMoments {
-    /// M = s + D and N = t + D with D = max(t - s, 0), whose integrals over a rectangle are made of powers at its
-    /// corners.
+    /// M = s + D and N = t + D with D = max(t - s, 0), whose integrals over a rectangle are combinations of powers at
+    /// its corners.
     fn of(Window { s: [s0, s1], t: [t0, t1] }: Window) -> Self {
-        // s from 0 to width, t from low to high.
+        // The window is shifted so that s runs from 0 to width, t from low to high.
         let (width, low, high) = (s1 - s0, t0 - s0, t1 - s0);
         let area = width * (high - low);
         let corners =

@@ -10,7 +10,7 @@ use crate::subsurface::Dipole;
 /// Factors of N channels between the texels and clusters of a surface.
 ///
 /// The error of a factor is at most the tolerance times the factor, plus the tolerance times 1e-5 of the plane's total
-/// ([`Dipole::total`]): clusters farther away than light of that order are not divided.
+/// ([`Dipole::total`]): clusters whose light is of that order are not divided.
 #[derive(Clone, Debug)]
 pub struct Factors<'a, const N: usize> {
     surface: &'a SurfaceMoments,
@@ -18,8 +18,8 @@ pub struct Factors<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Factors<'a, N> {
-    /// Factors within a tolerance, for example [`super::TOLERANCE`]. Fails with [`InputError`] if it is not from
-    /// [`MIN_TOLERANCE`] to [`MAX_TOLERANCE`].
+    /// Creates factors within a tolerance, for example [`super::TOLERANCE`]. Fails with [`InputError`] if the tolerance
+    /// is not from [`MIN_TOLERANCE`] to [`MAX_TOLERANCE`].
     pub fn new(surface: &'a SurfaceMoments, dipoles: [Dipole; N], tolerance: f64) -> Result<Self, InputError> {
         ensure!((MIN_TOLERANCE..=MAX_TOLERANCE).contains(&tolerance), "subsurface::links" =>
             "expected a tolerance of factors from {MIN_TOLERANCE} to {MAX_TOLERANCE}, found {tolerance}");
@@ -31,19 +31,19 @@ impl<'a, const N: usize> Factors<'a, N> {
         self.surface
     }
 
-    /// F_iC per channel, of the texel in column `x` and row `y` and a cluster. Panics if there is no such texel or
+    /// F_iC per channel for the texel in column `x` and row `y` and a cluster. Panics if there is no such texel or
     /// cluster.
     pub fn factor(&self, texel: [u32; 2], cluster: ClusterId) -> [f64; N] {
         self.receiver().factor(texel, cluster)
     }
 
-    /// Computes many factors, whose texels are best near each other.
+    /// A receiver that computes many factors; it is fastest for successive near texels.
     pub fn receiver(&self) -> Receiver<'_, N> {
         Receiver { factors: self, cache: PieceCache::new() }
     }
 }
 
-/// Computes factors, and keeps pieces of near texels for the next ones. Kept values change the time, never a factor.
+/// Computes factors, and caches pieces of near texels. The cache changes the time, never a factor.
 #[derive(Clone, Debug)]
 pub struct Receiver<'a, const N: usize> {
     factors: &'a Factors<'a, N>,
@@ -51,7 +51,7 @@ pub struct Receiver<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Receiver<'a, N> {
-    /// As [`Factors::factor`]. Panics if there is no such texel or cluster.
+    /// Like [`Factors::factor`].
     pub fn factor(&mut self, [x, y]: [u32; 2], cluster: ClusterId) -> [f64; N] {
         let side = self.factors.surface.side();
         assert!(x < side && y < side, "there is no texel ({x}, {y})");
@@ -66,7 +66,7 @@ impl<'a, const N: usize> Receiver<'a, N> {
         &self.factors.kernel
     }
 
-    /// The factor of a cluster of a level, both by Morton index.
+    /// The factor of a texel and a cluster of a level, both by Morton index.
     pub(super) fn descend(&mut self, texel: usize, level: u32, place: usize) -> [f64; N] {
         if let Some(factor) = self.undivided(texel, level, place) {
             return factor;
@@ -78,7 +78,7 @@ impl<'a, const N: usize> Receiver<'a, N> {
         sum
     }
 
-    /// The factor of a cluster that is far, or a texel.
+    /// The factor of a cluster that is far or a texel; `None` if it must be divided.
     #[inline]
     pub(super) fn undivided(&mut self, texel: usize, level: u32, place: usize) -> Option<[f64; N]> {
         let Factors { surface, kernel } = self.factors;

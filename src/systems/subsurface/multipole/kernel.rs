@@ -1,11 +1,10 @@
-//! R_d as a function of the squared distance, tabulated, and its means over pairs of far pieces of surface.
+//! R_d tabulated over the squared distance, and its means over pairs of far pieces of surface.
 //!
-//! A source at depth z contributes `alpha' z / (4 pi) psi_1(d)` with d^2 = r^2 + z^2 and
-//! `psi_1 = (sigma_tr + 1/d) e^(-sigma_tr d) / d^2`. With psi_0 = e^(-sigma_tr d) / d and
-//! `psi_(n+1) = ((2 n + 1) psi_n + sigma_tr^2 psi_(n-1)) / d^2`, the derivative of psi_n by d^2 is -psi_(n+1) / 2. So
-//! R_d is completely monotone in r^2: its derivatives alternate in sign and decrease in magnitude, and the error of a
-//! cubic Hermite polynomial on an interval of length h is between 0 and h^4 / 384 times the fourth derivative at the
-//! interval's left end.
+//! A source at depth z contributes `alpha' z / (4 pi) psi_1(d)` with d^2 = r^2 + z^2 and `psi_1 = (sigma_tr + 1/d)
+//! e^(-sigma_tr d) / d^2`. With psi_0 = e^(-sigma_tr d) / d and `psi_(n+1) = ((2 n + 1) psi_n + sigma_tr^2 psi_(n-1)) /
+//! d^2`, the derivative of psi_n by d^2 is -psi_(n+1) / 2. So R_d is completely monotone in r^2: its derivatives
+//! alternate in sign and decrease in magnitude, and the error of a cubic Hermite polynomial on an interval of length h
+//! is between 0 and h^4 / 384 times the fourth derivative at the interval's left end.
 
 use std::f64::consts::PI;
 
@@ -16,24 +15,24 @@ use super::moments::{BALL, Covariance, Moments};
 use crate::elementary::{cbrt, exp};
 use crate::subsurface::Dipole;
 
-/// The largest relative error of the table where light still matters.
+/// The largest relative error of the table within [`MATTERS`].
 const MAX_INTERPOLATION_ERROR: f64 = 1e-6;
-/// Beyond this many diffusion lengths the relative error does not matter: e^-25 is 1e-11.
+/// Number of diffusion lengths beyond which the relative error does not matter: e^-25 is 1e-11.
 const MATTERS: f64 = 25.0;
 /// Intervals per octave of 1 + (r / z)^2: 2^5 to 2^9.
 const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
-/// The logarithmic derivative of R_d is at most this over d, plus sigma_tr.
+/// The logarithmic derivative of R_d is at most `SLOPE` / d + sigma_tr.
 const SLOPE: f64 = 3.0;
-/// Two pieces are far at a tolerance of 1 % if the root of the sum of their squared sizes, times the logarithmic
-/// derivative, is at most this. Measured, see tests/laws/subsurface/links_factors.rs.
+/// At a tolerance of 1 %, two pieces are far if the root of the sum of their squared sizes, times the logarithmic
+/// derivative, is at most this. It was measured; see tests/laws/subsurface/links_factors.rs.
 const FAR: f64 = 0.5;
-/// By how much the squared size of a group of receivers counts more: a receiver at its rim, where terms of third
-/// order do not cancel, is to keep the tolerance too. Measured, see tests/laws/subsurface/links_blocks.rs.
+/// Factor of the squared size of a group of receivers: a receiver at the group's rim, where third-order terms do not
+/// cancel, must keep the tolerance too. It was measured; see tests/laws/subsurface/links_blocks.rs.
 pub(super) const SPREAD: f64 = 6.0;
-/// By how much the squared sizes of pieces may exceed this that are not divided any more.
+/// Factor by which squared sizes may exceed the reach for pieces that cannot be divided further.
 const LOOSE: f64 = 2.0;
-/// Light is negligible where R_d times the area of the whole surface is below the tolerance times this, relative to the
-/// total over the plane.
+/// Light is negligible if R_d times the area of the whole surface, relative to the total over the plane, is below the
+/// tolerance times this.
 pub(super) const FLOOR: f64 = 1e-5;
 
 /// R_d of N channels on intervals of the squared distance.
@@ -43,28 +42,27 @@ pub(super) struct DistanceTable<const N: usize> {
     /// The least depth of a source, squared, and its reciprocal.
     unit: f64,
     per_unit: f64,
-    /// Bits of a number to drop for its interval.
+    /// Number of low bits of v to drop for the index of its interval.
     shift: u32,
     intervals: Vec<Interval<N>>,
     /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
     pub(super) tolerance: f64,
-    /// The radius around an entering photon within which all light leaves, except for the tolerance, in any channel, in
-    /// mm.
+    /// The radius in mm around an entering photon within which, in every channel, all light but the tolerance leaves.
     pub(super) layer: f64,
 }
 
 /// One interval of v = 1 + r^2 / unit.
 #[derive(Clone, Copy, Debug)]
 struct Interval<const N: usize> {
-    /// Per channel, coefficients of powers of v less the interval's left end.
+    /// For each channel, coefficients of powers of v minus the interval's left end.
     cubic: [[f64; 4]; N],
-    /// Per channel, the integral of R_d over the disc whose radius belongs to the left end.
+    /// For each channel, the integral of R_d over the disc whose radius belongs to the left end.
     disc: [f64; N],
-    /// Per channel, pieces whose squared sizes sum to at most this are far.
+    /// For each channel, the largest sum of squared sizes at which two pieces are far.
     reach: [f64; N],
-    /// Per channel, pieces whose squared sizes sum to at most this are negligible. Channels are judged one by one: one
-    /// that falls off fast would divide pieces as far as one that falls off slowly reaches.
+    /// For each channel, the largest sum of squared sizes at which two pieces are negligible. Channels are separate,
+    /// because otherwise a channel that falls off fast would divide pieces as far as a slow channel reaches.
     negligible: [f64; N],
 }
 
@@ -76,7 +74,7 @@ struct Derivatives {
 }
 
 impl<const N: usize> DistanceTable<N> {
-    /// For pieces at most `diameter` apart of a surface of an area, in mm.
+    /// Creates the table for pieces at most `diameter` apart of a surface with an area, in mm and mm^2.
     pub(super) fn new(dipoles: [Dipole; N], diameter: f64, area: f64, tolerance: f64) -> Self {
         let depth = dipoles.iter().map(Dipole::z_r).fold(f64::INFINITY, f64::min);
         let unit = depth * depth;
@@ -136,7 +134,7 @@ impl<const N: usize> DistanceTable<N> {
 
     /// Largest size of pieces at each distance.
     fn set_reaches(&mut self, area: f64, tolerance: f64) {
-        // The error of the second order grows with the third power of the size.
+        // The error of the second-order mean grows with the third power of the size.
         let far = FAR * cbrt(tolerance / 0.01);
         let left_ends: Vec<f64> = (0..self.intervals.len()).map(|k| self.left_end(k)).collect();
         let distance = |k: usize| ((left_ends[k] - 1.0) * self.unit).sqrt();
@@ -149,7 +147,7 @@ impl<const N: usize> DistanceTable<N> {
                 let d = (r * r + dipole.z_r() * dipole.z_r()).sqrt();
                 let reach = far * d / (SLOPE + dipole.sigma_tr() * d);
                 interval.reach[channel] = reach * reach;
-                // Points of both are at least r less the balls' radii apart; (a + b)^2 <= 2 (a^2 + b^2).
+                // Points of both pieces are at least r minus the balls' radii apart; (a + b)^2 <= 2 (a^2 + b^2).
                 let spare = (r - dark_from).max(0.0);
                 interval.negligible[channel] = 0.5 * spare * spare / BALL;
             }
@@ -160,7 +158,7 @@ impl<const N: usize> DistanceTable<N> {
         f64::from_bits(((1.0_f64.to_bits() >> self.shift) + interval as u64) << self.shift)
     }
 
-    /// The interval of a squared distance, and how far into it v is.
+    /// The interval of a squared distance, and the offset of v in the interval.
     #[inline]
     fn find(&self, squared: f64) -> (&Interval<N>, f64) {
         let v = 1.0 + squared * self.per_unit;
@@ -169,9 +167,9 @@ impl<const N: usize> DistanceTable<N> {
         (&self.intervals[interval.min(self.intervals.len() - 1)], v - f64::from_bits(bits << self.shift))
     }
 
-    /// The mean of R_d over pairs of points of two pieces; `None` if they are too near. To second order: with
-    /// g(r^2) = R_d, x the difference of the mean points and C the sum of the covariances,
-    /// g + g' trace(C) + 2 g'' x^T C x.
+    /// The mean of R_d over pairs of points of two pieces; `None` if they are too near. To second order it is g + g'
+    /// trace(C) + 2 g'' x^T C x, with g(r^2) = R_d, x the difference of the mean points and C the sum of the
+    /// covariances.
     #[inline]
     pub(super) fn mean(&self, one: &Moments, other: &Moments) -> Option<[f64; N]> {
         let apart = other.point - one.point;
@@ -181,15 +179,16 @@ impl<const N: usize> DistanceTable<N> {
         (0..N).all(fits).then(|| self.second_order(one, other, apart, interval, t, 1.0))
     }
 
-    /// As [`Self::mean`], for pieces that are not divided any more; R_d between mean points if they are much too near.
+    /// Like [`Self::mean`], for pieces that cannot be divided further; R_d between mean points if they are much too
+    /// near.
     pub(super) fn mean_of_last(&self, one: &Moments, other: &Moments) -> [f64; N] {
         let apart = other.point - one.point;
         let (interval, t) = self.find(apart.length_squared());
         self.second_order(one, other, apart, interval, t, LOOSE)
     }
 
-    /// The mean to second order where the sum of the squared sizes is at most the reach times `loose`; R_d between mean
-    /// points elsewhere.
+    /// The mean to second order if the sum of the squared sizes is at most the reach times `loose`, else R_d between
+    /// mean points.
     #[inline]
     fn second_order(
         &self,
@@ -211,8 +210,8 @@ impl<const N: usize> DistanceTable<N> {
         })
     }
 
-    /// Light that receivers in a group of given moments get of a cluster: R_d times its area, by their offset from
-    /// the group's mean point. `None` if the two are too near.
+    /// The light of a cluster at a group of receivers: R_d times the cluster's area, by the receiver's offset from the
+    /// group's mean point. `None` if the two are too near.
     pub(super) fn expansion(&self, receivers: &Moments, cluster: &Moments) -> Option<Expansion<N>> {
         let apart = cluster.point - receivers.point;
         let squared = apart.length_squared();
@@ -252,7 +251,7 @@ impl<const N: usize> DistanceTable<N> {
         self.unit.sqrt()
     }
 
-    /// Number of halvings of two pieces until their parts are far from each other.
+    /// Number of halvings of two pieces after which their parts are far from each other.
     pub(super) fn halvings(&self, one: &Moments, other: &Moments) -> u32 {
         let balls = [one, other].map(|piece| (BALL * piece.size_squared).sqrt());
         let apart = (one.point.distance(other.point) - balls[0] - balls[1]).max(0.0);
@@ -284,7 +283,7 @@ pub(super) fn add<const N: usize>(sum: &mut [f64; N], terms: &[f64; N]) {
 
 /// The derivatives of R_d by v = 1 + r^2 / unit.
 fn derivatives(dipole: &Dipole, unit: f64, v: f64) -> Derivatives {
-    // Lengths in roots of the unit.
+    // Lengths are in units of the square root of `unit`.
     let length = unit.sqrt();
     let sigma = dipole.sigma_tr() * length;
     let scale = dipole.alpha_prime() / (4.0 * PI) / unit;

@@ -1,10 +1,10 @@
-//! Factors of near texels that are long against the mean free path.
+//! Factors of near texels that are long relative to the mean free path.
 //!
-//! The light that a flat polygon sends to a point is an integral along its outline. Its mean over the smaller one of two
-//! texels is an integral over two numbers: along lines across that texel, and over these lines. Both are taken by
-//! Simpson's rule, on intervals that are halved where it changes most, until it keeps the tolerance. Intervals start
-//! and end where the outline is nearest, and where hardly any of the light that leaves there is left: what lies
-//! between is smooth at the scale of an interval, or the rule sees that it is not.
+//! The light that a flat polygon sends to a point is an integral along its outline. Its mean over the smaller of two
+//! texels is a double integral: along lines across that texel, and over these lines. Both integrals use Simpson's rule;
+//! intervals with the largest change are halved until the tolerance is reached. Intervals begin and end where the
+//! outline is nearest, and where its light has become negligible: between these points the integrand is smooth at the
+//! scale of an interval, or the rule detects that it is not.
 
 use std::f64::consts::PI;
 
@@ -14,11 +14,10 @@ use super::kernel::{DistanceTable, FLOOR, add};
 use super::surface::SurfaceMoments;
 use crate::quadrature::EIGHT;
 
-/// Parts of the tolerance for the integral over lines, and for those along lines.
+/// Parts of the tolerance for the integral over lines, and for integrals along lines.
 const TOLERANCES: [f64; 2] = [0.5, 0.25];
-/// An integral has at most this many intervals.
 const MAX_INTERVALS: usize = 128;
-/// Texels with less area over the square of their outline have no normal to rely on.
+/// Minimum area divided by squared perimeter of a texel with a reliable normal.
 const LEAST_AREA: f64 = 1e-9;
 
 /// The surface under a texel.
@@ -42,7 +41,7 @@ struct OutlineSide {
     length: f64,
 }
 
-/// A parallelogram with sides e and f, or its half that has the side e and, from there, the side f.
+/// A parallelogram with sides e and f, or the triangle with side e followed by side f.
 struct TexelPatch {
     corner: DVec3,
     e: DVec3,
@@ -51,7 +50,7 @@ struct TexelPatch {
     area: f64,
 }
 
-/// The mean of R_d over the pairs of points of two near texels, by Morton index, the smaller one first.
+/// The mean of R_d over the pairs of points of two near texels, given by Morton index, the smaller index first.
 pub(super) fn long_mean<const N: usize>(
     surface: &SurfaceMoments,
     kernel: &DistanceTable<N>,
@@ -69,7 +68,7 @@ impl Part {
     fn new(outlines: [Vec<DVec3>; 2]) -> Self {
         let is_whole = outlines.iter().any(|outline| outline.len() < 3);
         let patches_of = |outline: &Vec<DVec3>| -> Vec<TexelPatch> {
-            // A rectangle of the atlas on one side of its face's diagonal.
+            // A whole rectangle of the atlas, on one side of its face's diagonal.
             if let ([a, b, c, _], true) = (outline.as_slice(), is_whole) {
                 return vec![TexelPatch::new([*a, *b, *c], false)];
             }
@@ -82,7 +81,7 @@ impl Part {
         Self { outlines: outlines.iter().filter_map(|corners| Outline::new(corners)).collect(), patches, area }
     }
 
-    /// The area whose light can be computed: none of a sliver without a normal.
+    /// The area whose light can be computed: 0 for a sliver without a normal.
     fn light(&self) -> f64 {
         if self.outlines.is_empty() { 0.0 } else { self.area }
     }
@@ -97,7 +96,7 @@ impl TexelPatch {
 }
 
 impl Outline {
-    /// `None` if rounding may have turned the normal.
+    /// `None` if rounding may have changed the normal's direction.
     fn new(corners: &[DVec3]) -> Option<Self> {
         let next = corners.iter().cycle().skip(1);
         let sides: Vec<OutlineSide> = corners.iter().zip(next).map(|(&a, &b)| OutlineSide::new(a, b)).collect();
@@ -108,9 +107,10 @@ impl Outline {
         has_normal.then(|| Self { normal: normal.normalize(), sides })
     }
 
-    /// The integral of R_d over the polygon from a point: with h the point's height above it and rho the distance from
-    /// its foot, `1 / (2 pi)` times that of `(G(sqrt(rho^2 + h^2)) - G(h)) dphi` around the polygon. Rounding would lift
-    /// points in its plane out of the light of media that are dense enough.
+    /// The integral of R_d over the polygon from a point: `1 / (2 pi)` times the integral of `(G(sqrt(rho^2 + h^2)) -
+    /// G(h)) dphi` around the polygon, with h the point's height above the polygon and rho the distance from its foot.
+    /// For points in the polygon's plane, `is_in_plane` sets h to 0, because a height from rounding would exceed the
+    /// reach of light in dense media.
     fn light_at<const N: usize>(&self, kernel: &DistanceTable<N>, point: DVec3, is_in_plane: bool) -> [f64; N] {
         let height = if is_in_plane { 0.0 } else { self.normal.dot(self.sides[0].start - point) };
         let squared = height * height;
@@ -121,7 +121,7 @@ impl Outline {
             let (from, away) = (offset.dot(along), self.normal.dot(offset.cross(along)));
             let p = away * away;
             let depth = kernel.depth();
-            // D is a smooth function of t^2 at this scale, and `D / rho^2` has no pole where rho is 0.
+            // At this scale D is a smooth function of t^2, and `D / rho^2` has no pole at rho = 0.
             let scale = (p + squared + depth * depth).sqrt();
             graded(from, from + length, scale, |t, weight| {
                 let rho = p + t * t;
@@ -139,8 +139,8 @@ impl OutlineSide {
         Self { start: a, along: (b - a).normalize_or_zero(), length: a.distance(b) }
     }
 
-    /// Parameter at which a line from a point along a vector is nearest to the side, in lengths of that vector; NaN if
-    /// the two are parallel.
+    /// Parameter, in lengths of `vector`, at which a line from a point along `vector` is nearest to the side; NaN if
+    /// they are parallel.
     fn nearest(&self, from: DVec3, vector: DVec3) -> f64 {
         let (offset, squared) = (self.start - from, vector.length_squared());
         let [along, across] = [self.along.dot(vector), offset.dot(vector)];
@@ -149,8 +149,8 @@ impl OutlineSide {
     }
 }
 
-/// Visits points of an interval with their weights, for an even function that is smooth at a scale about 0, and
-/// elsewhere at that of the distance from 0.
+/// Visits quadrature points of an interval with their weights, for an even function that is smooth at `scale` around 0,
+/// and elsewhere at the scale of the distance from 0.
 fn graded(from: f64, to: f64, scale: f64, mut visit: impl FnMut(f64, f64)) {
     let mut from_to = |mut from: f64, to: f64| {
         while from < to {
@@ -171,7 +171,7 @@ fn graded(from: f64, to: f64, scale: f64, mut visit: impl FnMut(f64, f64)) {
 struct Light<'a, const N: usize> {
     kernel: &'a DistanceTable<N>,
     part: &'a Part,
-    /// True if it falls on points of its own face.
+    /// True if the light falls on points of its own face.
     is_in_plane: bool,
 }
 
@@ -190,7 +190,7 @@ impl<const N: usize> Light<'_, N> {
         let &TexelPatch { corner, e, f, is_triangle, .. } = patch;
         let normal = e.cross(f);
         let allowed = TOLERANCES.map(|part| part * self.kernel.tolerance);
-        // The middle of a side that is this short has its mean light within a quarter of the tolerance.
+        // For such a short side, the light at its middle is the mean within a quarter of the tolerance.
         let is_short = |length: f64| length < self.kernel.depth() * (2.0 * self.kernel.tolerance).sqrt();
         let sides = || self.part.outlines.iter().flat_map(|outline| &outline.sides);
         let along = |s: f64| {
@@ -220,8 +220,8 @@ impl<const N: usize> Light<'_, N> {
         sum
     }
 
-    /// Ends of intervals from 0 to 1, of a length in mm: the places, and where light that leaves there has become
-    /// negligible; no two nearer to each other than a mean free path.
+    /// Ends of intervals from 0 to 1, for a `length` in mm: the `places`, and the distances from them at which light
+    /// has become negligible; no two ends are nearer than a mean free path.
     fn ends(&self, places: impl Iterator<Item = f64>, length: f64) -> Vec<f64> {
         let [layer, path] = [self.kernel.layer, self.kernel.depth()].map(|distance| distance / length);
         let places = [0.0, 1.0].into_iter().chain(places).flat_map(|at| [at - layer, at, at + layer]);
@@ -231,7 +231,7 @@ impl<const N: usize> Light<'_, N> {
         [0.0].into_iter().chain(inside).chain([1.0]).collect()
     }
 
-    /// An integral within a tolerance of itself and the least light that matters.
+    /// An integral within a tolerance relative to itself and to the least light that matters.
     fn integral(&self, ends: &[f64], tolerance: f64, mut value: impl FnMut(f64) -> [f64; N]) -> [f64; N] {
         let values: Vec<[f64; N]> = ends.iter().map(|&end| value(end)).collect();
         let intervals = ends.windows(2).zip(values.windows(2));
@@ -267,16 +267,16 @@ impl<const N: usize> Light<'_, N> {
 /// Simpson's rule on an interval and on its halves.
 struct Interval<const N: usize> {
     ends: [f64; 2],
-    /// Values at the ends, the middle and between.
+    /// Values at the ends, the middle and the quarter points.
     values: [[f64; N]; 5],
-    /// The rule on halves, and the error estimate from the change.
+    /// The rule on halves.
     integral: [f64; N],
-    /// The change from the whole to halves.
+    /// The error estimate: the change from the whole interval to halves.
     error: [f64; N],
 }
 
 impl<const N: usize> Interval<N> {
-    /// Out of values at both ends and the middle.
+    /// Creates an interval from values at both ends and the middle.
     fn new([from, to]: [f64; 2], [a, c, e]: [[f64; N]; 3], mut value: impl FnMut(f64) -> [f64; N]) -> Self {
         let [b, d] = [0.25, 0.75].map(|part| value(from + part * (to - from)));
         let sixth = (to - from) / 6.0;

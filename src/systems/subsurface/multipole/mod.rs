@@ -1,12 +1,12 @@
 //! A multipole method for the throughput factors of equation 10 (section 4.1): F_iC is 1 / A_i times the integral of
 //! R_d over a texel i and a cluster C. The paper does not describe its integration; the method is ours.
 //!
-//! - Moments: [`SurfaceMoments`] has area, mean point and covariance of every cluster of an atlas. For a far cluster
-//!   the mean of R_d is taken to second order (`kernel`), with the moments of both.
-//! - Descent: [`Factors`] goes from a cluster to its children until they are far from a texel (`integrate`).
+//! - Moments: [`SurfaceMoments`] has area, mean point and covariance of every cluster of an atlas. For a far cluster,
+//!   the mean of R_d is computed to second order from the moments of texel and cluster (`kernel`).
+//! - Descent: [`Factors`] descends from a cluster to its children until they are far from a texel (`integrate`).
 //! - Local expansions: squares of texels gather from far clusters together (`block`, `expansion`).
-//! - Near texels are divided into quarters (`near`); texels long against the mean free path are integrated by contours
-//!   (`long`).
+//! - Near texels are divided into quarters (`near`); texels that are long relative to the mean free path are integrated
+//!   by contours (`long`).
 //!
 //! A factor is an area times a mean of R_d that is symmetric in texel and cluster, so A_i F_ij = A_j F_ji.
 
@@ -29,7 +29,7 @@ pub use surface::{ClusterId, SurfaceMoments};
 
 /// The least number of millimeters per unit of a model.
 pub const MIN_MM_PER_UNIT: f64 = 1e-30;
-/// The largest: squares and fourth powers of lengths keep far from the range of floats.
+/// The largest number of millimeters per unit: fourth powers of lengths stay well inside the range of floats.
 pub const MAX_MM_PER_UNIT: f64 = 1e30;
 
 /// Checks that the scale of a model is within its limits.
@@ -39,13 +39,12 @@ pub(super) fn check_scale(mm_per_unit: f64) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Checks that there is a value for each texel.
 pub(super) fn check_values(found: usize, texels: usize) -> Result<(), InputError> {
     ensure!(found == texels, "subsurface::links" => "expected a value for each of {texels} texels, found {found}");
     Ok(())
 }
 
-/// The default tolerance of a factor, relative.
+/// The default relative tolerance of a factor.
 pub const TOLERANCE: f64 = 0.01;
 /// The least tolerance.
 pub const MIN_TOLERANCE: f64 = 1e-5;

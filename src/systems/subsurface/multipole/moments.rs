@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// The moments of a piece of surface. Lengths in mm.
+/// The moments of a piece of surface, with lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moments {
     pub(super) area: f64,
@@ -10,15 +10,14 @@ pub(super) struct Moments {
     pub(super) point: DVec3,
     /// Its covariance about the mean point.
     pub(super) covariance: Covariance,
-    /// The square of its size, see [`size_squared`].
     pub(super) size_squared: f64,
 }
 
-/// The square of the radius of a ball that holds a piece, over that of its size, is at most this.
+/// Maximum of a piece's squared bounding radius divided by its squared size.
 pub(super) const BALL: f64 = 5.0;
 
-/// The square of the size by which a piece counts as far: the mean squared distance from its mean point; more for
-/// pieces with far outliers, so that a ball of [`BALL`] times this squared radius holds all.
+/// The squared size by which a piece counts as far: the mean squared distance from its mean point, but at least the
+/// squared bounding radius divided by [`BALL`].
 pub(super) fn size_squared(covariance: &Covariance, radius_squared: f64) -> f64 {
     covariance.trace().max(radius_squared / BALL)
 }
@@ -38,7 +37,7 @@ impl Covariance {
         Self(sum)
     }
 
-    /// The covariance of the difference of two independent points is the sum of theirs.
+    /// The covariance of the difference of two independent points is the sum of their covariances.
     pub(super) fn plus(&self, other: &Self) -> Self {
         let (a, b) = (&self.0, &other.0);
         Self([a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]])
@@ -67,7 +66,8 @@ impl Covariance {
 }
 
 impl Moments {
-    /// Moments of the union of four pieces, with a size of 0. Pieces have equal weights if none has an area.
+    /// Moments of the union of four pieces, without its size, which is set to 0. Pieces have equal weights if none has
+    /// an area.
     pub(super) fn together(parts: &[Self; 4]) -> Self {
         let area: f64 = parts.iter().map(|part| part.area).sum();
         let weight = |part: &Self| if area > 0.0 { part.area / area } else { 0.25 };

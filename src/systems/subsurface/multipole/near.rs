@@ -1,5 +1,5 @@
-//! Factors of near texels: both parts are divided into quarters until their pieces are far; long ones are cut by
-//! [`super::long`].
+//! Factors of near texels: both texels' parts are divided into quarters until their pieces are far; long texels are
+//! left to [`super::long`].
 
 use std::collections::BTreeMap;
 
@@ -11,29 +11,29 @@ use super::long::long_mean;
 use super::moments::Moments;
 use super::surface::SurfaceMoments;
 
-/// Texels are halved at most this often along a side; those that need more are long.
+/// Maximum number of halvings of a texel's side; texels that need more are long.
 const MAX_HALVINGS: u32 = 4;
-/// Texels whose pieces are kept; a power of two.
+/// Number of texels whose pieces are cached; a power of two.
 const SLOTS: usize = 4096;
 
-/// Means of pairs that are kept.
+/// Number of cached means of pairs.
 const PAIRS: usize = 1 << 16;
 
-/// Pieces of recently near texels, and means of pairs of many pieces, which both texels need.
+/// Cache of pieces of recent near texels, and of means of pairs with many pieces, which both texels need.
 #[derive(Clone, Debug)]
 pub(super) struct PieceCache<const N: usize> {
     slots: Vec<TexelPieces>,
     means: BTreeMap<[usize; 2], [f64; N]>,
 }
 
-/// The pieces of one texel: 4^k of them after k halvings, those of a piece together.
+/// The pieces of one texel: 4^k after k halvings; the quarters of a piece are adjacent.
 #[derive(Clone, Debug)]
 struct TexelPieces {
     texel: usize,
     halvings: Vec<Vec<Moments>>,
 }
 
-/// No texel has this index.
+/// An index that no texel has.
 const NONE: usize = usize::MAX;
 
 impl<const N: usize> PieceCache<N> {
@@ -41,7 +41,7 @@ impl<const N: usize> PieceCache<N> {
         Self { slots: vec![TexelPieces { texel: NONE, halvings: Vec::new() }; SLOTS], means: BTreeMap::new() }
     }
 
-    /// Makes sure that the pieces of a texel are there. Returns their slot.
+    /// Ensures that a texel's pieces are cached, and returns their slot.
     fn fetch(&mut self, surface: &SurfaceMoments, texel: usize, halvings: u32) -> usize {
         let slot = texel % SLOTS;
         let kept = &mut self.slots[slot];
@@ -74,13 +74,13 @@ fn quarters(face: &FaceMap, window: Window, area: f64) -> [Moments; 4] {
     if window.is_bent() {
         return windows.map(|quarter| face.moments(quarter, area));
     }
-    // Quarters of a parallelogram are alike.
+    // Quarters of a parallelogram are congruent.
     let first = face.moments(windows[0], area);
     let [right, down] = [1, 2].map(|k| face.step(&windows[0], &windows[k]));
     [DVec3::ZERO, right, down, right + down].map(|step| Moments { point: first.point + step, ..first })
 }
 
-/// A pair of texels whose pieces are at hand.
+/// A pair of texels with their cached pieces.
 struct Pair<'a, const N: usize> {
     kernel: &'a DistanceTable<N>,
     from: &'a [Vec<Moments>],
@@ -88,7 +88,7 @@ struct Pair<'a, const N: usize> {
     halvings: usize,
 }
 
-/// The mean of R_d over the pairs of points of two texels' parts, by Morton index. The same bits in either order.
+/// The mean of R_d over the pairs of points of two texels' parts, by Morton index, with equal bits in either order.
 pub(super) fn texel_mean<const N: usize>(
     surface: &SurfaceMoments,
     kernel: &DistanceTable<N>,
@@ -126,7 +126,7 @@ fn quartered_mean<const N: usize>(
 ) -> [f64; N] {
     let slots = [from, to].map(|texel| cache.fetch(surface, texel, halvings));
     let displaced = if slots[0] == slots[1] && from != to {
-        // Both have the same slot, which holds the second one's pieces now.
+        // Both texels have the same slot, which now contains the second texel's pieces.
         let mut pieces = TexelPieces { texel: NONE, halvings: Vec::new() };
         pieces.fill(surface, from, halvings);
         Some(pieces)
@@ -139,13 +139,12 @@ fn quartered_mean<const N: usize>(
 }
 
 impl<const N: usize> Pair<'_, N> {
-    /// The mean over two pieces: how many times their texels were halved for them, and which ones they are.
     fn mean(&self, from: Piece, to: Piece) -> [f64; N] {
         let (p, q) = (&self.from[from.halvings][from.index], &self.to[to.halvings][to.index]);
         if let Some(mean) = self.kernel.mean(p, q) {
             return mean;
         }
-        // The larger one is divided.
+        // The larger piece is divided.
         let [from_last, to_last] = [from, to].map(|piece| piece.halvings == self.halvings);
         if from_last && to_last {
             return self.kernel.mean_of_last(p, q);

@@ -9,7 +9,7 @@ use super::moments::{BALL, Moments, size_squared};
 use crate::atlas::Atlas;
 use crate::error::InputError;
 
-/// A cluster of an atlas: the texel in column x, row y of a level; level 0 is the finest.
+/// A cluster of an atlas: the texel at column x and row y of a level; level 0 is the finest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ClusterId {
     /// The level.
@@ -21,14 +21,14 @@ pub struct ClusterId {
 }
 
 impl ClusterId {
-    /// Returns `true` if an atlas with this side and number of levels has such a cluster.
+    /// Returns `true` if an atlas with this side and number of levels contains the cluster.
     pub fn is_of(self, side: u32, levels: u32) -> bool {
         self.level < levels && self.x.max(self.y) < side >> self.level
     }
 }
 
 /// The moments (area, mean point, covariance) of every cluster of an atlas, in mm. Clusters of a level are in Morton
-/// order, so that the children of cluster k of a level are the clusters 4 k to 4 k + 3 of the level below.
+/// order, so the children of cluster k are the clusters 4 k to 4 k + 3 of the next finer level.
 #[derive(Clone, Debug)]
 pub struct SurfaceMoments {
     side: u32,
@@ -39,7 +39,7 @@ pub struct SurfaceMoments {
 }
 
 impl SurfaceMoments {
-    /// The moments of the clusters of an atlas. Fails with [`InputError`] if the scale is not from
+    /// Computes the moments of the clusters of an atlas. Fails with [`InputError`] if the scale is not from
     /// [`MIN_MM_PER_UNIT`](super::MIN_MM_PER_UNIT) to [`MAX_MM_PER_UNIT`](super::MAX_MM_PER_UNIT).
     pub fn new(atlas: &Atlas, mm_per_unit: f64) -> Result<Self, InputError> {
         check_scale(mm_per_unit)?;
@@ -89,16 +89,15 @@ impl SurfaceMoments {
         self.level(cluster.level)[to_morton(cluster.x, cluster.y)].area
     }
 
-    /// Mean point, covariance (xx, yy, zz, xy, xz, yz) and squared size of a cluster; tests compare them with its
-    /// polygons.
+    /// Mean point, covariance (xx, yy, zz, xy, xz, yz) and squared size of a cluster, for tests.
     #[doc(hidden)]
     pub fn moments(&self, cluster: ClusterId) -> (DVec3, [f64; 6], f64) {
         let found = &self.level(cluster.level)[to_morton(cluster.x, cluster.y)];
         (found.point, found.covariance.0, found.size_squared)
     }
 
-    /// The mean texel area of the atlas over that of a cluster: the multiplier of a factor if plain means of levels
-    /// weigh texels by their number. 0 for a cluster without area.
+    /// The mean texel area of the atlas divided by the cluster's: the multiplier of a factor if means of levels weigh
+    /// all texels equally. 0 for a cluster without area.
     pub(in crate::subsurface) fn area_ratio(&self, cluster: ClusterId) -> f64 {
         let texels = (1_u64 << (2 * cluster.level)) as f64;
         let all = f64::from(self.side) * f64::from(self.side);
@@ -114,12 +113,12 @@ impl SurfaceMoments {
         &self.levels[self.levels.len() - 1][0]
     }
 
-    /// No two points of the surface are farther apart than this, in mm.
+    /// Upper bound on the distance of two points of the surface, in mm.
     pub(super) fn diameter(&self) -> f64 {
         2.0 * (BALL * self.root().size_squared).sqrt()
     }
 
-    /// The face of a texel and the texel's window in it; texels by Morton index.
+    /// The face of a texel, given by Morton index, and the texel's window in the face.
     pub(super) fn window(&self, texel: usize) -> (&FaceMap, Window) {
         let face = &self.faces[self.texel_faces[texel] as usize];
         let (x, y) = from_morton(texel);
@@ -127,12 +126,12 @@ impl SurfaceMoments {
     }
 }
 
-/// Takes sizes from the atlas's balls, which are tight.
+/// Sets sizes from the atlas's bounding balls, which are tight.
 fn set_sizes(clusters: &mut [Moments], level: u32, atlas: &Atlas, mm_per_unit: f64) {
     clusters.par_iter_mut().enumerate().for_each(|(k, moments)| {
         let (x, y) = from_morton(k);
         let cluster = atlas.cluster(level, x, y);
-        // The two mean points may differ by rounding.
+        // The atlas's mean point may differ by rounding.
         let radius = mm_per_unit * cluster.radius + (mm_per_unit * cluster.point - moments.point).length();
         moments.size_squared = size_squared(&moments.covariance, radius * radius);
     });
@@ -143,7 +142,7 @@ fn row_major(texel: usize, side: u32) -> usize {
     y as usize * side as usize + x as usize
 }
 
-/// The place in Morton order of column x, row y.
+/// The Morton index of column x, row y.
 pub(in crate::subsurface) fn to_morton(x: u32, y: u32) -> usize {
     let spread = |value: u32| {
         let mut v = u64::from(value);
@@ -156,7 +155,7 @@ pub(in crate::subsurface) fn to_morton(x: u32, y: u32) -> usize {
     (spread(x) | (spread(y) << 1)) as usize
 }
 
-/// Column and row of a place in Morton order.
+/// Column and row of a Morton index.
 pub(super) fn from_morton(place: usize) -> (u32, u32) {
     let gather = |value: u64| {
         let mut v = value & 0x5555_5555_5555_5555;

@@ -11,14 +11,14 @@ use super::options::SubsurfaceCardOptions;
 use crate::card::{CardError, FullScreenPass, constants, nearest, new_target};
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture, fragment_room};
 
-/// A program of pass 2, accepted by the device.
+/// A program of pass 2, checked for the device.
 #[derive(Clone, Debug)]
 pub struct GatherProgram {
-    /// The kernel that it was written from.
+    /// The kernel that generated the program.
     pub kernel: GatherKernel,
-    /// The first link that it follows.
+    /// The first link of the program.
     pub from: usize,
-    /// The number of links that it follows.
+    /// The number of links of the program.
     pub links: usize,
     checked: CheckedProgram,
 }
@@ -34,7 +34,7 @@ impl GatherProgram {
         self.kernel.samplers(self.links)
     }
 
-    /// The number of textures on the card for its links, tiles counted as if all were taken.
+    /// The number of textures on the card for the program's links, including unused tiles.
     pub(super) fn link_textures(&self) -> usize {
         (self.samplers() - 1 - usize::from(self.kernel.continues)) * self.kernel.tiles * self.kernel.tiles
     }
@@ -45,11 +45,11 @@ impl GatherProgram {
 pub(super) struct Gather {
     side: u32,
     level: Option<u32>,
-    /// Factor of the sum at the end.
+    /// Factor of the final sum.
     factor: f32,
     textures: Vec<TextureId>,
     pub(super) programs: Vec<GatherProgram>,
-    /// One, or two that passes write in turn.
+    /// One target, or two that passes write in turn.
     targets: Vec<TextureId>,
 }
 
@@ -134,7 +134,7 @@ pub(super) fn map_texture(options: &SubsurfaceCardOptions) -> MapTexture {
     if options.map.is_leveled() { MapTexture::Leveled } else { MapTexture::Rectangle }
 }
 
-/// The programs that follow all links: as many per pass as the device's samplers, constants and instructions hold.
+/// The programs for all links, with as many links per pass as the device's samplers, constants and instructions allow.
 pub(super) fn programs(
     profile: &Profile,
     links: &LinkTextures,
@@ -152,7 +152,7 @@ pub(super) fn programs(
     Ok(programs)
 }
 
-/// The most links of one pass. Fixed ones by fours, which share textures.
+/// The maximum number of links of one pass; a multiple of four for fixed links, which share textures.
 fn most_links(profile: &Profile, kernel: GatherKernel) -> Result<usize, CardError> {
     let samplers = profile.limits.samplers.unwrap_or(16).min(16);
     let [instructions, constants] = fragment_room(&profile.limits);

@@ -1,4 +1,4 @@
-//! The radiosity map and its levels: made by the card of a map with 8 bits, by passes of a float map.
+//! The radiosity map and its levels: the card generates levels of an 8-bit map, passes compute levels of a float map.
 
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
@@ -10,7 +10,6 @@ use super::options::MapFormat;
 use crate::card::{CardError, FullScreenPass, Levels, ReadTexture, Texels, nearest, new_target};
 use crate::subsurface::kernels::{self, LinkLayout};
 
-/// The map with its levels.
 #[derive(Debug)]
 pub(super) struct LeveledMap {
     pub(super) format: MapFormat,
@@ -19,12 +18,12 @@ pub(super) struct LeveledMap {
     float: Option<FloatLevels>,
 }
 
-/// Levels of a float map, which has none of its own: separate rectangles, drawn by a program.
+/// Levels of a float map as separate rectangles, drawn by a program, because rectangles have no levels.
 #[derive(Debug)]
 struct FloatLevels {
     levels: Levels,
     mean: CheckedProgram,
-    /// All levels side by side, for links that choose theirs.
+    /// All levels side by side, for adaptive links.
     row: Option<(TextureId, CheckedProgram)>,
 }
 
@@ -61,7 +60,7 @@ impl LeveledMap {
         [base, levels, row]
     }
 
-    /// Makes all levels from the map.
+    /// Computes all levels from the map.
     pub(super) fn fill(&self, machine: &mut Machine) -> Result<(), CardError> {
         let Some(float) = &self.float else {
             machine.generate_mipmaps(self.map)?;
@@ -81,7 +80,7 @@ impl LeveledMap {
         Ok(())
     }
 
-    /// The texture that holds a level: the map itself of a map with levels.
+    /// The texture of a level; for a map with levels, the map itself.
     fn level(&self, level: u32) -> TextureId {
         match (&self.float, level.checked_sub(1)) {
             (Some(float), Some(below)) => float.levels.targets().get(below as usize).copied().unwrap_or(self.map),
@@ -89,7 +88,7 @@ impl LeveledMap {
         }
     }
 
-    /// Textures that pass 2 reads: one level for fixed links, all for adaptive ones.
+    /// The texture that pass 2 reads: one level for fixed links, all levels for adaptive links.
     pub(super) fn read(&self, links: FixedLevel) -> ReadTexture {
         let state = SamplerState::NEAREST_CLAMP;
         match (&self.float, links) {
@@ -112,5 +111,5 @@ impl LeveledMap {
     }
 }
 
-/// The level of fixed links; `None` for adaptive ones.
+/// The level of fixed links; `None` for adaptive links.
 pub(super) type FixedLevel = Option<u32>;

@@ -1,4 +1,4 @@
-//! Lights of OpenGL's kinds, and their constants for the programs.
+//! OpenGL's types of lights, and their constants for the programs.
 
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -7,17 +7,17 @@ use super::model::CardModel;
 use crate::card::CardError;
 use crate::geom::vector::unit;
 
-/// The farthest place of a point light, in units of the model: its square is a single float.
+/// The maximum distance of a point light, in units of the model: its square is within single precision.
 const FARTHEST: f64 = 1e15;
-/// The smallest squared distance to a light, in squared units of the model; nearer ones light as from there.
+/// The smallest squared distance to a light, in squared units of the model; nearer lights count as at this distance.
 pub(super) const LEAST_SQUARE: f32 = 1e-8;
-/// Squared lengths of vectors below this count as this: a vector without direction stays one.
+/// The smallest squared length by which a vector is normalised, so that a zero vector stays zero.
 pub(super) const LEAST_LENGTH: f32 = 1e-30;
 
 /// A light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
-    /// The same radiance from everywhere (OpenGL's ambient light): it enters with the mean transmittance.
+    /// Uniform radiance from all directions (OpenGL's ambient light); it enters with the mean transmittance.
     Sky {
         /// Radiance.
         radiance: [f64; 3],
@@ -26,21 +26,21 @@ pub enum Light {
     Directional {
         /// The direction towards the light, of any length.
         towards: [f64; 3],
-        /// Irradiance of a surface that faces it.
+        /// Irradiance of a surface that faces the light.
         irradiance: [f64; 3],
     },
     /// Light from a point; its irradiance at distance d is intensity / (k0 + k1 d + k2 d^2).
     Point {
-        /// Where it is.
+        /// Position.
         position: [f64; 3],
         /// Radiant intensity, if the attenuation is 0, 0, 1.
         intensity: [f64; 3],
-        /// k0, k1, k2; in nature 0, 0, 1.
+        /// k0, k1, k2; physically 0, 0, 1.
         attenuation: [f64; 3],
     },
 }
 
-/// A light beside skies, in the card's units.
+/// A directional or point light in the card's units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CardLight {
     /// Position and 1, or direction and 0.
@@ -49,7 +49,7 @@ pub(super) struct CardLight {
     pub(super) attenuation: [f32; 4],
 }
 
-/// All lights: skies as one radiance.
+/// All lights; skies are combined into one radiance.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CardLights {
     pub(super) sky: [f64; 3],
@@ -111,7 +111,7 @@ pub(super) fn colored(color: [f64; 3], factor: impl Fn(usize) -> f64) -> [f32; 4
     [r, g, b, 0.0]
 }
 
-/// Rounded to a single float; the largest one instead of infinity.
+/// Rounds to single precision; overflow gives the largest finite number.
 fn narrow(value: f64) -> f32 {
     (value as f32).min(f32::MAX)
 }

@@ -6,7 +6,7 @@ use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
 use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting};
 use crate::subsurface::multipole::SurfaceMoments;
 
-/// The links of all texels as textures, not yet rounded.
+/// The links of all texels as textures, before rounding.
 #[derive(Clone, Debug)]
 pub struct LinkTextures {
     pub(super) side: u32,
@@ -15,13 +15,13 @@ pub struct LinkTextures {
     pub(super) rgb: bool,
     /// Links per texel.
     pub(super) count: usize,
-    /// As [`EncodedLinks`] has them.
+    /// The textures of [`EncodedLinks`].
     textures: Vec<Texels>,
 }
 
 impl LinkTextures {
-    /// Weighting of the means of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times
-    /// area; with [`MeanWeighting::Count`] texels of levels count by their number.
+    /// Creates the textures of links. [`MeanWeighting::Area`] is for the map that pass 1 writes, irradiance times area;
+    /// [`MeanWeighting::Count`] weighs texels equally.
     pub fn new(links: &Links, surface: &SurfaceMoments, weighting: MeanWeighting) -> Self {
         let encoded = EncodedLinks::new(links, surface, weighting);
         let level = match links.choice() {
@@ -32,8 +32,8 @@ impl LinkTextures {
         Self { side: links.side(), level, rgb: links.channels() == 3, count: links.per_texel(), textures }
     }
 
-    /// For textures laid out like those of [`EncodedLinks`]: `count` links per texel, all to one level or (`None`) each
-    /// to its own. Fails with [`CardError::Input`] for another number of textures or texels.
+    /// Uses textures in the layout of [`EncodedLinks`], with `count` links per texel, to one level or (`None`) to a
+    /// level per link. Fails with [`CardError::Input`] for another number of textures or texels.
     pub fn from_textures(
         side: u32,
         level: Option<u32>,
@@ -62,12 +62,11 @@ impl LinkTextures {
         if self.level.is_some() { LinkLayout::Fixed } else { LinkLayout::Adaptive }
     }
 
-    /// The program that follows the links in a map of this kind.
+    /// The program that reads the links and a map of this type.
     pub(super) fn kernel(&self, map: MapTexture, half: bool) -> GatherKernel {
         GatherKernel { layout: self.layout(), rgb: self.rgb, map, half, continues: false, tiles: 1 }
     }
 
-    /// Checks that no factor is infinite in a format.
     pub(super) fn check(&self, format: FloatTexels) -> Result<(), CardError> {
         let (largest, format) = format.largest();
         let mut values = self.textures.iter().flat_map(|texture| &texture.texels).flatten();
@@ -87,8 +86,8 @@ impl LinkTextures {
         texels * count as u64 * format.format().bytes() as u64
     }
 
-    /// Textures from `first` on as tiles of one, row by row, `tiles` along an edge; 0 if there are no more than
-    /// `count`.
+    /// Combines textures from `first` on as tiles of one texture, row by row, `tiles` along an edge; tiles beyond
+    /// `count` textures are 0.
     pub(super) fn tiled(&self, first: usize, count: usize, tiles: usize, map: MapTexture) -> Texels {
         if tiles == 1 {
             return self.on_card(first, map);
@@ -100,14 +99,15 @@ impl LinkTextures {
         })
     }
 
-    /// A texture as [`GatherKernel`] reads it.
+    /// Converts a texture to the layout that [`GatherKernel`] reads.
     pub(super) fn on_card(&self, index: usize, map: MapTexture) -> Texels {
         let size = [self.side as usize; 2];
         let at = |texture: usize, x: usize, y: usize| self.textures[texture].row(y)[x];
         match (self.level, self.rgb) {
             (Some(_), false) => self.textures[index].clone(),
             (Some(_), true) => {
-                // Four links: three textures of a channel each become three of a link each, with the fourth link in w.
+                // For four links, three textures of one channel each become three textures of one link each, with the
+                // fourth link in w.
                 let (group, link) = (index / 3 * 3, index % 3);
                 Texels::from_fn(size, |x, y| {
                     let channels = [0, 1, 2].map(|channel| at(group + channel, x, y));

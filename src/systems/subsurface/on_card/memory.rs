@@ -1,4 +1,4 @@
-//! Memory of the card that the passes take.
+//! Memory of the card that the passes use.
 
 use super::gather::GatherProgram;
 use super::levels::LeveledMap;
@@ -30,7 +30,6 @@ impl CardMemory {
         Self { parts: parts.into_iter().filter(|part| part.1 > 0).collect() }
     }
 
-    /// All of it.
     pub fn bytes(&self) -> u64 {
         self.parts.iter().map(|part| part.1).sum()
     }

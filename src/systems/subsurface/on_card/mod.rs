@@ -1,7 +1,7 @@
 //! The three passes of section 4.2 on an emulated card.
 //!
 //! A [`SubsurfaceCard`] holds links, geometry and maps of one model. [`SubsurfaceCard::light`] runs passes 1 and 2 for
-//! new lights, [`SubsurfaceCard::view`] pass 3 for a new camera: links stay, and a view needs no new light.
+//! new lights; links do not change. [`SubsurfaceCard::view`] runs pass 3 for a new camera, without new light.
 
 mod gather;
 mod levels;
@@ -37,10 +37,10 @@ use light::CardLights;
 use radiosity_map::LightPass;
 use view::ViewPass;
 
-/// Texels per side where a device states no limit.
+/// Maximum number of texels per side if a device states no limit.
 const MAX_TEXELS: u32 = 16384;
 
-/// A model on a card, with its links. Dark at first.
+/// A model on a card, with its links; initially without light.
 #[derive(Debug)]
 pub struct SubsurfaceCard {
     options: SubsurfaceCardOptions,
@@ -51,14 +51,14 @@ pub struct SubsurfaceCard {
     gather: Gather,
     view: ViewPass,
     lights: CardLights,
-    /// The log by pass, while it is recorded.
+    /// The log by pass; `None` if it is not recorded.
     log: Option<Vec<PassEvent>>,
 }
 
 impl SubsurfaceCard {
-    /// Uploads a model and its links. `eta` is the index of refraction. Fails with [`CardError`] if the device has no
-    /// such programs, an atlas or a program is too large for it, the links are of another atlas, or a figure is out of
-    /// its range.
+    /// Uploads a model and its links. `eta` is the index of refraction. Fails with [`CardError`] if the device does not
+    /// support the programs, an atlas or a program is too large for it, the links belong to another atlas, or a number
+    /// is out of range.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -83,7 +83,7 @@ impl SubsurfaceCard {
         Ok(Self { options, model, memory, map, light, gather, view, lights, log: None })
     }
 
-    /// Checks the sizes before anything is made.
+    /// Checks sizes before any work.
     fn fits(profile: &Profile, links: &LinkTextures, options: &SubsurfaceCardOptions) -> Result<(), CardError> {
         require_versions(profile, &[Version::Fp1_0, Version::Vs2_0], "the passes")?;
         let sides = [profile.limits.max_texture_size, profile.limits.max_target_size].into_iter().flatten();
@@ -99,12 +99,12 @@ impl SubsurfaceCard {
         Ok(())
     }
 
-    /// The variants that it was made with.
+    /// The options of the card.
     pub fn options(&self) -> &SubsurfaceCardOptions {
         &self.options
     }
 
-    /// Memory of the card that the passes take.
+    /// Memory of the card that the passes use.
     pub fn memory(&self) -> &CardMemory {
         &self.memory
     }
@@ -114,22 +114,22 @@ impl SubsurfaceCard {
         &self.gather.programs
     }
 
-    /// New lights: passes 1 and 2. Fails with [`CardError::Input`], [`CardError::Draw`].
+    /// Runs passes 1 and 2 for new lights. Fails with [`CardError::Input`] or [`CardError::Draw`].
     pub fn light(&mut self, lights: &[Light]) -> Result<(), CardError> {
         self.lights = CardLights::new(lights, &self.model)?;
         self.light.run(self.view.machine_mut(), &self.lights, self.map.map)?;
         self.scatter()
     }
 
-    /// Irradiances of a table (equation 8: the light that entered the surface), one per texel, row by row, in place of
-    /// pass 1; then pass 2. Then there is no direct light. Fails with [`CardError::Input`], [`CardError::Draw`].
+    /// Replaces pass 1 by given irradiances (equation 8: the light that enters the surface), one per texel, row by row;
+    /// then runs pass 2. There is no direct light then. Fails with [`CardError::Input`] or [`CardError::Draw`].
     pub fn irradiate(&mut self, irradiances: &[[f64; 3]]) -> Result<(), CardError> {
         self.lights = CardLights::default();
         self.light.fill(self.view.machine_mut(), &self.model, irradiances, self.map.map)?;
         self.scatter()
     }
 
-    /// Levels and pass 2.
+    /// Computes levels and runs pass 2.
     fn scatter(&mut self) -> Result<(), CardError> {
         self.note(PassKind::RadiosityMap);
         self.map.fill(self.view.machine_mut())?;
@@ -137,7 +137,7 @@ impl SubsurfaceCard {
         self.gather()
     }
 
-    /// Pass 2 over the present map, as [`Self::light`] and [`Self::irradiate`] end with it. Fails with
+    /// Runs pass 2 with the current map, as [`Self::light`] and [`Self::irradiate`] do at their end. Fails with
     /// [`CardError::Draw`].
     pub fn gather(&mut self) -> Result<(), CardError> {
         self.gather.run(self.view.machine_mut(), &self.map)?;
@@ -145,7 +145,7 @@ impl SubsurfaceCard {
         Ok(())
     }
 
-    /// The model from a camera: pass 3. Pixels that show nothing are 0. Fails with [`CardError::Input`],
+    /// Draws the model from a camera: pass 3. Background pixels are 0. Fails with [`CardError::Input`] or
     /// [`CardError::Draw`].
     pub fn view(&mut self, view: &View) -> Result<Picture, CardError> {
         let Texels { width, height, texels } = self.view_texels(view)?;
@@ -153,20 +153,20 @@ impl SubsurfaceCard {
         Ok(Picture::rgb(width as u32, height as u32, &pixels))
     }
 
-    /// As [`Self::view`], with an alpha of 1 where the model is. Fails as [`Self::view`] does.
+    /// Like [`Self::view`], with alpha 1 where the model is visible. Fails as [`Self::view`] does.
     pub fn view_texels(&mut self, view: &View) -> Result<Texels, CardError> {
         let texels = self.view.show(&self.lights, self.gather.scattered(), view)?;
         self.note(PassKind::View);
         Ok(texels)
     }
 
-    /// Reads all levels of the radiosity map, finest first: irradiance times transmittance times area over the mean
-    /// area, times the map's scale. Fails with [`CardError::Draw`].
+    /// Reads all levels of the radiosity map, finest first: irradiance times transmittance times area, divided by the
+    /// mean area and multiplied by the map's scale. Fails with [`CardError::Draw`].
     pub fn read_levels(&self) -> Result<Vec<Texels>, CardError> {
         self.map.read_back(self.view.machine())
     }
 
-    /// Reads the finest level of the radiosity map alone. Fails with [`CardError::Draw`].
+    /// Reads only the finest level of the radiosity map. Fails with [`CardError::Draw`].
     pub fn read_map(&self) -> Result<Texels, CardError> {
         Ok(Texels::read_back(self.view.machine(), self.map.map)?)
     }
@@ -176,8 +176,8 @@ impl SubsurfaceCard {
         Ok(Texels::read_back(self.view.machine(), self.gather.scattered())?)
     }
 
-    /// Number of channels in the radiosity map at its largest value, where light may have been clamped. Fails with
-    /// [`CardError::Draw`].
+    /// Number of channels of the radiosity map's texels at the largest value, where light may have been clamped. Fails
+    /// with [`CardError::Draw`].
     pub fn saturated(&self) -> Result<usize, CardError> {
         let largest = self.options.map.largest();
         let map = self.read_map()?;
@@ -202,7 +202,7 @@ impl SubsurfaceCard {
         self.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// Moves the machine's recorded log to a pass.
+    /// Assigns the machine's recorded log to a pass.
     fn note(&mut self, pass: PassKind) {
         if let Some(log) = &mut self.log {
             log.extend(self.view.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));

@@ -1,5 +1,4 @@
-//! A model with its atlas in the form for the card: in units of its own size, so that the unit of length does not
-//! matter.
+//! A model with its atlas for the card, in units of the model's size, so that the unit of length does not matter.
 
 use glam::DVec3;
 
@@ -7,7 +6,7 @@ use crate::atlas::{Atlas, DrawnFace, FacePlace};
 use crate::card::Texels;
 use crate::geom::UnitFrame;
 
-/// A model with its atlas, in a frame of its own size.
+/// A model with its atlas, in a frame of the model's size.
 #[derive(Clone, Debug)]
 pub struct CardModel {
     side: u32,
@@ -17,16 +16,17 @@ pub struct CardModel {
     pub(super) faces: Vec<CardFace>,
 }
 
-/// A face in the atlas, for pass 1, and on the surface, for pass 3.
+/// A face: its rectangle in the atlas for pass 1, and its triangle on the surface for pass 3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CardFace {
-    /// Its corners a, b and c, and the middle m of b and c: corners of its rectangle.
+    /// The rectangle's corners: the face's corners a, b and c, and the middle m of b and c.
     pub(super) rectangle: [CardVertex<[f32; 2]>; 4],
-    /// Its corners with two places each: the smaller, by component, is that of a point between them.
+    /// The face's corners with two places each; the component-wise minimum of interpolated places is a point's place in
+    /// the atlas.
     pub(super) whole: [CardVertex<[f32; 4]>; 3],
-    /// Where reads stay on the face: half a texel within the rectangle.
+    /// Bounds of reads that stay on the face: half a texel inside the rectangle.
     pub(super) bounds: [f32; 4],
-    /// The area of its texels over their mean area.
+    /// The area of the face's texels divided by the mean texel area.
     pub(super) area: f32,
 }
 
@@ -39,7 +39,7 @@ pub(super) struct CardVertex<P> {
 }
 
 impl CardModel {
-    /// For a mesh's atlas.
+    /// Creates the model of a mesh's atlas.
     pub fn new(atlas: &Atlas) -> Self {
         let drawn: Vec<DrawnFace> = (0..atlas.places().len() as u32).map(|face| atlas.drawn(face)).collect();
         let corners = drawn.iter().flat_map(|face| face.triangles.iter().flatten().map(|vertex| vertex.position));
@@ -89,7 +89,7 @@ impl CardModel {
 }
 
 impl CardFace {
-    /// The two triangles in the atlas, a b m and a m c: places in [`Self::rectangle`].
+    /// The two triangles in the atlas, a b m and a m c, as indices into [`Self::rectangle`].
     pub(super) const TRIANGLES: [usize; 6] = [0, 1, 3, 0, 3, 2];
 }
 

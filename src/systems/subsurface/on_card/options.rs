@@ -4,7 +4,7 @@ use refsim::texture::TexelFormat;
 
 use crate::card::CardError;
 
-/// Floats of a texture or target.
+/// The float format of a texture or target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum FloatTexels {
@@ -36,14 +36,14 @@ impl FloatTexels {
 /// The format of the radiosity map.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum MapFormat {
-    /// 8 bits per channel, with levels that the card makes itself.
+    /// 8 bits per channel, with levels that the card generates.
     Unorm8 {
-        /// Factor of irradiance that brings it to 0 to 1; more is cut off.
+        /// Factor that scales irradiance to [0, 1]; larger values are clamped.
         scale: f64,
     },
-    /// Half floats: a rectangle, with levels by passes.
+    /// Half floats in a rectangle, with levels by passes.
     Fp16,
-    /// Single floats: a rectangle, with levels by passes.
+    /// Single floats in a rectangle, with levels by passes.
     #[default]
     Fp32,
 }
@@ -67,7 +67,7 @@ impl MapFormat {
         }
     }
 
-    /// Number of the map that represents 1.
+    /// The map value that represents 1.
     pub fn scale(self) -> f64 {
         match self {
             Self::Unorm8 { scale } => scale,
@@ -93,25 +93,25 @@ pub enum LightStage {
     Texels,
 }
 
-/// The variants of the three passes that hold from frame to frame.
+/// The options of the three passes, fixed for all frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SubsurfaceCardOptions {
     /// Where pass 1 computes light.
     pub light: LightStage,
-    /// The radiosity map.
+    /// Format of the radiosity map.
     pub map: MapFormat,
-    /// The textures of links.
+    /// Format of the textures of links.
     pub links: FloatTexels,
-    /// The scattered irradiance, which pass 2 writes.
+    /// Format of the scattered irradiance, which pass 2 writes.
     pub scattered: FloatTexels,
     /// True if pass 2 computes in half precision, except places in a rectangle.
     pub half: bool,
-    /// Number of link textures along an edge of one texture that holds them as tiles; `None` for separate textures.
+    /// Number of link textures that are tiles along an edge of one larger texture; `None` for separate textures.
     pub tiles: Option<u32>,
 }
 
 impl SubsurfaceCardOptions {
-    /// Textures of links along an edge of one on the card.
+    /// Textures of links along an edge of one texture on the card.
     pub(super) fn tiles_per_edge(&self) -> usize {
         self.tiles.unwrap_or(1) as usize
     }

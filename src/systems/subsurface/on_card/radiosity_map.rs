@@ -1,4 +1,4 @@
-//! Pass 1 (4.2.2): the light that enters each texel, times the texel's area over the mean area.
+//! Pass 1 (4.2.2): the light that enters each texel, times the texel's area divided by the mean area.
 
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DrawCall, Machine, TextureId, VertexSource};
@@ -28,7 +28,7 @@ pub(super) struct LightPass {
     stage: StageData,
     /// Targets of the passes before the last one.
     between: Option<PingPong>,
-    /// Irradiances of a table, one per texel.
+    /// Given irradiances, one per texel.
     table: Option<TextureId>,
 }
 
@@ -42,12 +42,12 @@ enum StageData {
 /// The corners of all faces' rectangles.
 #[derive(Debug)]
 struct RectangleVertices {
-    /// Positions, normals, and places in clip space with the area factor.
+    /// Positions, normals, and clip-space positions with the area factor.
     attributes: [Attribute; 3],
     indices: Vec<u32>,
 }
 
-/// Properties in which the passes of a frame differ.
+/// Data in which the passes of a frame differ.
 #[derive(Clone, Copy, Debug)]
 struct Part<'a> {
     lights: &'a [CardLight],
@@ -79,7 +79,7 @@ impl LightPass {
         Ok(Self { format, eta, mean_transmittance, side: model.side(), most, stage, between: None, table: None })
     }
 
-    /// Passes for so many lights beside skies.
+    /// Passes for this number of lights other than skies.
     pub(super) fn passes(&self, lights: usize) -> usize {
         lights.div_ceil(self.most).max(1)
     }
@@ -111,8 +111,8 @@ impl LightPass {
         Ok(())
     }
 
-    /// eta^2 - 1, eta^2, eta, and the smallest squared distance to a light. An eta of 1 is raised a little: along the
-    /// surface, the program would divide by 0.
+    /// eta^2 - 1, eta^2, eta, and the smallest squared distance to a light. An eta of 1 is slightly raised, because the
+    /// program would divide by 0 for light along the surface.
     fn refraction(&self) -> [f32; 4] {
         let square = self.eta * self.eta;
         [((square - 1.0) as f32).max(1e-12), square as f32, self.eta as f32, LEAST_SQUARE]
@@ -161,7 +161,7 @@ impl LightPass {
         self.over_map(machine, &program, &constants, &textures, part.target)
     }
 
-    /// Draws each texel of the map, or of the data written before it.
+    /// Draws over all texels of the map, or of the data written before the map.
     fn over_map(
         &self,
         machine: &mut Machine,
@@ -175,7 +175,7 @@ impl LightPass {
         Ok(())
     }
 
-    /// Fills the map from a table of irradiances (equation 8), one per texel.
+    /// Fills the map with given irradiances (equation 8), one per texel.
     pub(super) fn fill(
         &mut self,
         machine: &mut Machine,
@@ -210,7 +210,7 @@ impl LightPass {
     }
 }
 
-/// The most lights of one pass on a machine's device.
+/// The maximum number of lights of one pass on a machine's device.
 fn lights_per_pass(machine: &Machine, stage: LightStage) -> usize {
     let limits = &machine.profile().limits;
     let most = |kernel: LightKernel, [slots, constants]: [usize; 2]| kernel.most_lights(slots, constants).max(1);

@@ -5,7 +5,7 @@ use refsim::event::Event;
 use refsim::timing::{Bottleneck, Level, Model, Picoseconds, TimingError};
 use strum::Display;
 
-/// A pass of the paper, and what is made between the first two.
+/// A pass of the paper, or the levels between the first two passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum PassKind {
@@ -21,7 +21,7 @@ pub enum PassKind {
 }
 
 impl PassKind {
-    /// All, in the order of a frame.
+    /// All passes, in the order of a frame.
     pub const ALL: [Self; 4] = [Self::RadiosityMap, Self::Levels, Self::Gather, Self::View];
 }
 
@@ -34,15 +34,15 @@ pub struct PassEvent {
     pub event: Event,
 }
 
-/// The modelled time of a pass: draws, generated levels, clears and changes of state one after the other; uploads and
+/// The modelled time of a pass: draws, generated levels, clears and changes of state in sequence; uploads and
 /// read-backs are not counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassTime {
     /// Draws.
     pub draws: usize,
-    /// Its length.
+    /// The pass's time.
     pub time: Picoseconds,
-    /// The unit that the longest draw waits for; `None` without draws.
+    /// The bottleneck of the longest draw; `None` without draws.
     pub bottleneck: Option<Bottleneck>,
     /// Clocks of the texture units.
     pub textures: u64,
@@ -55,7 +55,7 @@ pub struct PassTime {
 }
 
 /// The times of a log's passes, in the order of [`PassKind::ALL`]. Fails with [`TimingError`] if the device's rates are
-/// not known.
+/// unknown.
 pub fn pass_times(profile: &Profile, log: &[PassEvent]) -> Result<[PassTime; 4], TimingError> {
     let model = Model::new(Level::Pipeline, profile)?;
     Ok(PassKind::ALL.map(|kind| {

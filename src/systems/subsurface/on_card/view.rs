@@ -20,7 +20,7 @@ const TABLE: u32 = 256;
 /// Options of the view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// The camera, exposure, and format: [`TexelFormat::Bgra8`] clamps to 0 to 1, floats keep all.
+    /// The camera, exposure, and format: [`TexelFormat::Bgra8`] clamps to [0, 1], float formats do not clamp.
     pub mesh: MeshView,
     /// The program.
     pub kernel: ViewKernel,
@@ -33,7 +33,7 @@ pub struct View {
 }
 
 impl View {
-    /// Scattered light alone, with the exact transmittance.
+    /// A view of scattered light alone, with exact transmittance.
     pub fn scattered(mesh: impl Into<MeshView>) -> Self {
         let kernel = ViewKernel { direct: DirectLight::None, ..ViewKernel::default() };
         Self { mesh: mesh.into(), kernel, diffuse: [0.0; 3], specular: [0.0; 3], shininess: 0.0 }
@@ -54,7 +54,7 @@ impl View {
 pub(super) struct ViewPass {
     eta: f64,
     display: MeshDisplay,
-    /// Normals, two places in the atlas, and bounds of reads.
+    /// Normals, pairs of places in the atlas, and bounds of reads.
     beside: [Attribute; 3],
     table: Option<TextureId>,
 }
@@ -110,7 +110,7 @@ impl ViewPass {
         Ok(texels)
     }
 
-    /// Transmittances of cosines 0 to 1, 16 bits each.
+    /// Transmittances for cosines 0 to 1, in 16 bits each.
     fn table(&mut self) -> Result<TextureId, CardError> {
         if let Some(table) = self.table {
             return Ok(table);
@@ -122,7 +122,7 @@ impl ViewPass {
     }
 }
 
-/// The lights that a program of direct light computes.
+/// The lights for which a program computes direct light.
 fn direct_lights<'a>(
     machine: &Machine,
     lights: &'a CardLights,
@@ -145,7 +145,6 @@ fn direct_lights<'a>(
     Ok(&lights.list)
 }
 
-/// Values from which the constants of a view are made.
 struct ViewConstants<'a> {
     eta: f64,
     view: &'a View,
@@ -154,7 +153,7 @@ struct ViewConstants<'a> {
 }
 
 impl ViewConstants<'_> {
-    /// Sky that is reflected: of a diffuse surface the radiance times reflectance.
+    /// Reflected sky: a diffuse surface reflects the sky's radiance times the reflectance.
     fn ambient(&self) -> [f32; 4] {
         let [r, g, b, _] = colored(self.lights.sky, |channel| self.view.diffuse[channel] * self.view.mesh.exposure);
         [r, g, b, 1.0]

@@ -1,4 +1,4 @@
-//! Pictures against f64 pixel by pixel, counts, and refusals.
+//! Pictures compared with f64 pixel by pixel, counts, and refusals.
 
 use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
@@ -22,7 +22,7 @@ fn device(name: &str) -> Profile {
     Profile::named(name).expect("a device")
 }
 
-/// Hills with synthetic transferred radiance, with as many terms as their reflectance has.
+/// Hills with synthetic transferred radiance, with the number of terms of their reflectance.
 struct FactoredHills {
     vertices: Vertices,
     reflectance: Reflectance,
@@ -58,7 +58,7 @@ impl FactoredHills {
             .unwrap_or_else(|e| panic!("{name}, {place:?}: {e}"))
     }
 
-    /// The largest difference of a picture from step 4 in f64, relative to the largest radiance, and the number of
+    /// The largest difference between a picture and step 4 in f64, relative to the largest radiance; and the number of
     /// pixels.
     fn error(&self, name: &str, place: ProductPlace, drawing: &Texels) -> (f64, usize) {
         let seen = seen_pixels(&device(name), self.vertices.geometry(), &camera()).expect("pixels");
@@ -83,12 +83,12 @@ impl FactoredHills {
     }
 }
 
-/// From the side, so that hills hide each other and views come near the horizon.
+/// The camera looks from the side, so that hills hide each other and views come near the horizon.
 fn camera() -> Camera {
     Camera::new([0.6, -2.2, 1.6], [0.0; 3], [0.0, 0.0, 1.0], 0.5, 44, 36).expect("a camera")
 }
 
-/// G in floats, filtered by the program, which leaves rounding errors only.
+/// Float maps of G, filtered by the program, which leaves only rounding errors.
 fn exact() -> ProductOptions {
     ProductOptions { map_format: TexelFormat::Rgba32f, filter: MapFilter::Program, ..ProductOptions::default() }
 }

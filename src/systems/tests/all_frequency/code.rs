@@ -7,7 +7,7 @@ use crossbar_systems::clustering::{AffineSubspace, Clustering};
 use super::sample;
 use crate::geom::random::CounterRng;
 
-/// Weight by weight the representative that it weighs.
+/// The representative of each weight.
 fn representative_of_weight(part: &CodedSegment) -> Vec<usize> {
     let firsts = firsts(part);
     let of_vertex = |&cluster: &u16| {
@@ -35,7 +35,8 @@ fn mean_weights(part: &CompressedSegment) -> Vec<f64> {
     clusters.flat_map(|(k, subspace)| (0..subspace.len()).map(move |vector| mean(k, vector))).collect()
 }
 
-/// Coded again unchanged, a segment changes only by the rounding of steps; in fewer bits a number moves by half a step.
+/// Coding a segment again with equal bits changes it only by the rounding of steps; with fewer bits, a number moves by
+/// at most half a step.
 #[test]
 fn numbers_stay_within_half_a_step() {
     for scale in [ScaleOf::Representative, ScaleOf::Segment] {
@@ -100,8 +101,8 @@ fn bound(part: &CompressedSegment, code: &CodedSegment, point: usize) -> f64 {
     terms.sum::<f64>() * (1.0 + 1e-9) + 1e-12
 }
 
-/// Representatives times the sizes of their weights are multiples of the step, within half of it or at the end of
-/// 16 bits; a coarser step leaves fewer numbers.
+/// Representatives times the sizes of their weights become multiples of the step, within half a step or clamped to 16
+/// bits; a coarser step leaves fewer numbers.
 #[test]
 fn an_absolute_step_is_that_of_numbers_with_weights_of_about_1() {
     let transfer = sample(3, 16);
@@ -175,7 +176,7 @@ fn other_bits_are_refused() {
     }
 }
 
-/// Weights of any size on one vector of one number: integers of so many bits times their step, ties to even.
+/// Weights of any size on one vector of one number are coded as integers of a few bits times their step, ties to even.
 #[test]
 fn numbers_come_back_within_half_a_step() {
     let coded = |weights: Vec<f64>, weight_bits: u8| {

@@ -53,7 +53,7 @@ fn a_diffuse_surface_has_one_term() {
         Reflectance::Diffuse.light(light, &mut f);
         0.6 * g[0] * f[0]
     };
-    // Texels at the horizon are means with 0 below it.
+    // Texels at the horizon are means with 0 below the horizon.
     for z in [0.4_f64, 0.6, 0.9] {
         let light = DVec3::new((1.0 - z * z).sqrt(), 0.0, z);
         let [tabled, expected] = [found.factors(1).product(DVec3::Z, light), exact(light)];
@@ -74,8 +74,8 @@ fn a_map_of_32_has_812_texels_in_its_disc() {
     assert!(mean.x.abs() < 1e-2 && mean.y.abs() < 1e-2 && (mean.z - 0.5).abs() < 1e-12, "{mean}");
 }
 
-/// As many terms as the rank leave no error, fewer terms the error of the singular values; all directions have the same
-/// angle.
+/// As many terms as the rank leave no error, fewer terms leave the error of the dropped singular values; all directions
+/// have equal solid angles.
 #[test]
 fn terms_of_equal_angles_are_those_of_their_singular_values() {
     let samples = HemisphereSamples::of_equal_angles(&Brdf::Lambert { albedo: 0.6 }, 3.0);

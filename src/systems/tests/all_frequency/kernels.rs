@@ -25,7 +25,7 @@ fn every_number_has_a_place_of_its_own() {
     }
 }
 
-/// "30 numbers and the 2 coordinates fill eight sets"; a view vector would be one number too many.
+/// "30 numbers and the 2 coordinates fill eight sets"; a view vector would need one number more.
 #[test]
 fn ten_terms_of_three_channels_fill_eight_sets() {
     let layout = |view| SetLayout { terms: 10, channels: 3, view };

@@ -33,7 +33,7 @@ fn each_form_has_its_factor() {
     close(with(Denominators::Printed1982), 4.0 * normalised);
     close(with(Denominators::Product), 4.0 * PI * VIEW.z * LIGHT.z * normalised);
     close(with(Denominators::Quarter), PI * VIEW.z * LIGHT.z * normalised);
-    // At normal incidence nothing is in shadow, and all forms of Fresnel's term agree.
+    // At normal incidence there is no shadowing, and all forms of Fresnel's term agree.
     let head_on = |fresnel, shadowing| Lobe { fresnel, shadowing, ..lobe }.value(DVec3::Z, DVec3::Z);
     for fresnel in [FresnelForm::Dielectric, FresnelForm::Schlick, FresnelForm::Constant] {
         for shadowing in [Shadowing::Model, Shadowing::None] {

@@ -11,7 +11,8 @@ mod tables;
 use crossbar_systems::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
 use crossbar_systems::transfer::synthetic::torus_signal;
 
-/// Some vertices of 40 in segments 1 and 4: m rows of n numbers, 3 clusters and 1 of up to 4 vectors.
+/// Transfer of some of 40 vertices in segments 1 and 4, with m rows of n numbers, in 3 clusters and 1 cluster of up to
+/// 4 vectors.
 fn sample(rows: usize, coefficients: usize) -> CompressedTransfer {
     let options = SegmentOptions { points_per_cluster: 10, vectors: 4, iterations: 4, ..SegmentOptions::default() };
     let segment = |segment: usize, vertices: Vec<u32>| {

@@ -24,11 +24,12 @@ fn radiance_is_that_of_plain_loops() {
         let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
         for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
             for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
-                // Rounding to 16 bits of representatives and weights: about 2^-15 of the largest number each.
+                // Rounding of representatives and weights to 16 bits has errors of about 2^-15 of the largest number
+                // each.
                 assert!((f64::from(*found) - expected).abs() < 2e-4 * most, "{vertex}: {found} for {expected}");
             }
         }
-        // Compared with the same code in f64, only rounding of f32 remains.
+        // Compared with the same coded transfer in f64, only f32 rounding is left.
         let expected = plain::transferred_of_code(&coded, &exact).expect("radiance");
         for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
             for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {

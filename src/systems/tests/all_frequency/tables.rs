@@ -87,7 +87,7 @@ fn maps_may_differ_in_size() {
     let table = table(4, 9, &[1.0, 2.0, 3.0]).expect("a table");
     assert_eq!([table.view().side(), table.light().side()], [2, 3]);
     assert_eq!(table.values().row(1)[5], 3.0);
-    // At the center of the light's map is texel 4, with value 2 for any view.
+    // Texel 4 is at the center of the light's map, with value 2 for any view.
     assert_eq!(table.interpolated(DVec3::Z, DVec3::Z), 2.0);
 }
 

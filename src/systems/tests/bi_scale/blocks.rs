@@ -1,4 +1,4 @@
-//! Blocks of a volume that nothing leaks from.
+//! Blocks of a volume do not leak into each other.
 
 use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid};
 use crossbar_systems::bi_scale::on_card::reference::patch_at;
@@ -9,7 +9,7 @@ use super::{FLOATS, device, texture};
 use crate::card::BILINEAR;
 use crate::geom::random::CounterRng;
 
-/// Texture coordinates of a place in a block, by the arithmetic of the program.
+/// Texture coordinates of a position in a block, computed as in the program.
 fn coordinates(grid: &BlockGrid, (light, view): (usize, usize), uv: [f32; 2]) -> [u32; 4] {
     let [width, height, layers] = grid.extents().map(|side| side as f64);
     let (size, border) = (grid.size as f64, grid.border() as f64);
@@ -25,14 +25,14 @@ fn coordinates(grid: &BlockGrid, (light, view): (usize, usize), uv: [f32; 2]) ->
     [axis(uv[0], origin[0], width), axis(uv[1], origin[1], height), layer, 0.0].map(f32::to_bits)
 }
 
-/// Numbers around those at which a read would leave its block.
+/// Numbers around the limits at which a read would leave its block.
 fn edges_of(size: usize) -> Vec<f32> {
     let step = 1.0 / size as f32;
     let ends = [0.0, 0.25 * step, 0.5 * step, step, 0.5, 1.0 - step, 1.0 - 0.5 * step, 1.0, -1e-9, -0.25, 7.5, 40.0];
     ends.into_iter().flat_map(|at: f32| [at.next_down(), at, at.next_up()]).collect()
 }
 
-/// Every texel that contributes to a read, named exactly, is one of its own block and layer.
+/// Every texel that contributes to a read, computed exactly, belongs to the read's block and layer.
 #[test]
 fn no_read_reaches_another_block_or_layer() {
     let rules = SampleRules::from(&device("gt200").rules);
@@ -71,7 +71,7 @@ fn value(image: &Image, rules: &SampleRules, at: [u32; 4]) -> [f64; 3] {
     [red, green, blue].map(|bits| f64::from(f32::from_bits(bits)))
 }
 
-/// Nothing is rounded here: the sampler can represent all weights, and samples have few bits.
+/// Results are exact here: the sampler can represent all weights, and samples have few bits.
 #[test]
 fn blocks_repeat_as_the_hosts_patch_does() {
     let (random, rules) = (CounterRng::new(9), SampleRules::from(&device("gt200").rules));

@@ -1,4 +1,4 @@
-//! Pictures against f64, counts, and refusals.
+//! Pictures compared with f64, counts, and refusals.
 
 use crossbar_systems::bi_scale::kernels::BlockEdges;
 use crossbar_systems::bi_scale::on_card::reference::pixel;
@@ -16,7 +16,7 @@ use crate::card::{MeshView, Texels, seen_pixels};
 use crate::geom::random::CounterRng;
 use crate::scene::Camera;
 
-/// Hills with a texture of a formula, and made-up local light.
+/// Hills with a texture given by a formula, and synthetic local light.
 struct Hills {
     vertices: Vertices,
     coordinates: Vec<[[f32; 2]; 3]>,
@@ -52,7 +52,7 @@ impl Hills {
         card.view_texels(&self.local, &view).unwrap_or_else(|e| panic!("{options:?}: {e}"))
     }
 
-    /// Root mean square and largest difference from equation 3 in f64, as shares of the largest pixel.
+    /// Root mean square and largest difference from equation 3 in f64, relative to the largest pixel.
     fn error(&self, profile: &Profile, edges: BlockEdges, drawing: &Texels) -> [f64; 2] {
         let seen = seen_pixels(profile, self.vertices.geometry(), &camera()).expect("pixels");
         let local: Vec<[f64; 3]> = self.local.iter().map(|rgb| rgb.map(f64::from)).collect();
@@ -72,12 +72,12 @@ impl Hills {
     }
 }
 
-/// From the side, so that hills hide each other and views come near the horizon, and below it.
+/// The camera looks from the side, so that hills hide each other and views come near and below the horizon.
 fn camera() -> Camera {
     Camera::new([0.6, -2.2, 1.6], [0.0; 3], [0.0, 0.0, 1.0], 0.5, 44, 36).expect("a camera")
 }
 
-/// A texture with one color throughout a patch, so that only view, light and their sums matter.
+/// A texture with a uniform color per patch, so that only view, light and their sums matter.
 fn flat(views: usize, lights: usize) -> BidirectionalTexture {
     let random = CounterRng::new(22);
     texture(4, views, lights, |at| [0, 1, 2].map(|channel| random.unit((at / 16) as u64, channel, 0) as f32))
@@ -102,7 +102,7 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
         let [_, error] = hills.error(&device(name), options.edges, &hills.draw(&device(name), options, FLOATS));
         assert!(error < 3e-6, "{name}, {views}, {lights}: {error}");
     }
-    // With texels that differ the sampler's weights show, whose bits are given.
+    // With different texels, the sampler's weights matter, whose number of bits is given.
     for bits in [8, 12] {
         let mut profile = device("ideal-fp32");
         profile.rules.filter_fraction_bits = bits;
@@ -115,8 +115,8 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
     }
 }
 
-/// Triangles show their own textures, of any sizes and views; only directions are drawn twice, and no pixel belongs to
-/// two textures. A texture that no triangle names takes nothing.
+/// Triangles show their own textures, of any sizes and views; a pixel belongs to one texture. A texture that no
+/// triangle uses costs nothing.
 #[test]
 fn triangles_show_their_own_textures() {
     let mut hills = Hills::new(flat(5, 4));
@@ -143,7 +143,7 @@ fn triangles_show_their_own_textures() {
 fn fewer_bits_show() {
     let hills = Hills::new(rough(8, 4, 4));
     let fine = floats(BlockEdges::Wrapped);
-    // The sampler's weights in more bits than the card's, so that they hide nothing.
+    // The sampler's weights have more bits than the card's, so that their rounding hides no other.
     let mut profile = device("gt200");
     profile.rules.filter_fraction_bits = 12;
     let rms = |options, format| hills.error(&profile, fine.edges, &hills.draw(&profile, options, format))[0];

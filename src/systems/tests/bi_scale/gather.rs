@@ -1,4 +1,4 @@
-//! Products on the card against the host bit by bit.
+//! Products on the card compared with the host bit by bit.
 
 use crossbar_systems::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crossbar_systems::bi_scale::matrix::{MatrixEntry, SparseMatrix};
@@ -10,7 +10,7 @@ use super::device;
 use crate::geom::random::CounterRng;
 use crate::io::CoordinateMatrix;
 
-/// Quarters in runs, so that there are biclusters of many rows; some rows and columns stay empty.
+/// A matrix of multiples of 1/4 in runs, so that biclusters have many rows; some rows and columns are empty.
 fn matrix(rows: usize, columns: usize, seed: u64) -> SparseMatrix {
     let random = CounterRng::new(seed);
     let mut matrix = SparseMatrix::new(columns, 2).expect("columns");
@@ -58,7 +58,7 @@ fn values_beyond_single_precision_are_refused() {
     );
 }
 
-/// Small programs and textures make many passes and sheets of the same sums.
+/// Small programs and textures divide the sums into many passes and textures.
 #[test]
 fn products_are_the_hosts_bit_by_bit() {
     for (rows, columns, seed) in [(300, 90, 1), (77, 200, 2), (1, 1, 3), (5, 40, 4)] {
@@ -85,7 +85,7 @@ fn products_are_the_hosts_bit_by_bit() {
     }
 }
 
-/// Light in fewer bits has an error of at most half a step of the largest number, for each unit of a row.
+/// Light in fewer bits has an error of at most half a step of the largest number per unit of a row.
 #[test]
 fn light_in_fewer_bits_is_off_by_its_steps() {
     let (matrix, light) = (matrix(200, 100, 6), light(100, 7));

@@ -56,7 +56,7 @@ fn every_program_runs_on_the_geforce_gtx_280() {
     }
 }
 
-/// As many texels of lists as 512 instructions hold, and no more.
+/// Programs have the maximum number of list texels within 512 instructions.
 #[test]
 fn lists_fill_a_program() {
     for is_weighted in [true, false] {

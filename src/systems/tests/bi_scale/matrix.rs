@@ -137,7 +137,7 @@ fn entries_are_ordered_as_their_numbers() {
     assert_eq!([0, 1, 2].map(entries), [vec![5, 2, 3], vec![1, 4], vec![5]]);
 }
 
-/// NaN and negative limits drop nothing; infinity is as good as any number above all residuals.
+/// NaN and negative limits drop no residuals; infinity drops all, like any number above all residuals.
 #[test]
 fn any_number_is_a_limit_of_what_is_dropped() {
     for (numbers, most) in [([1.0, 1.25, 1.0, 0.75, 2.0, 2.0], 10.0), ([0.1, 0.2, 0.1, 1e9, 0.1, 0.1], 1e10)] {

@@ -1,4 +1,4 @@
-//! Directions, matrices and biclusters, textures and pixels, and the card that multiplies and shows them.
+//! Directions, matrices and biclusters, textures and pixels, and products and pictures on a card.
 
 mod blocks;
 mod display;
@@ -22,7 +22,7 @@ fn directions(side: usize) -> LocalDirections {
     LocalDirections::new(side).expect("directions")
 }
 
-/// A texture by a formula of the number of a sample.
+/// A texture whose samples are a function of their index.
 fn texture(size: usize, views: usize, lights: usize, value: impl Fn(usize) -> [f32; 3]) -> BidirectionalTexture {
     let count = size * size * views * views * lights * lights;
     let samples = (0..count).map(value).collect();

@@ -1,4 +1,4 @@
-//! Patches of heights, textures of samples, and the samples around a place.
+//! Patches of heights, textures of samples, and the samples around a position.
 
 use approx::assert_abs_diff_eq;
 use crossbar_systems::bi_scale::shade::TexelSamples;
@@ -14,7 +14,7 @@ fn heights_stand_at_the_middles_of_texels_and_repeat() {
     assert_eq!([at(0.25, 0.25), at(0.75, 0.25), at(0.25, 0.75), at(0.75, 0.75)], [0.0, -0.5, -0.75, -1.0]);
     assert_eq!((at(-0.75, 2.25), field.depth()), (at(0.25, 0.25), 1.0));
     assert_eq!([at(0.5, 0.25), at(0.0, 0.25), at(0.5, 0.5)], [-0.25, -0.25, -0.5625]);
-    // Half an edge of the patch goes half an edge down: 45 degrees.
+    // The surface falls by half an edge over half an edge: 45 degrees.
     let normal = field.normal([0.5, 0.25]);
     assert_abs_diff_eq!(normal.x / normal.z, 1.0, epsilon = 1e-15);
     assert_eq!(HeightField::flat().normal([0.3, 0.9]), DVec3::Z);

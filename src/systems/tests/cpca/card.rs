@@ -1,4 +1,4 @@
-//! The card's result for each vertex against the host's sums, bit for bit, and limits.
+//! The card's results per vertex compared bit for bit with the host's sums, and limits.
 
 use std::sync::{Arc, Mutex};
 
@@ -65,7 +65,7 @@ fn draws(
     (card.superclusters().clone(), seen)
 }
 
-/// The power of two by which functions in maps of fractions are divided, and products multiplied.
+/// The power of two that divides functions in fixed-point maps, and multiplies products.
 fn map_scale(basis: &ExitBasis, side: usize) -> f64 {
     let (map, mut most, mut y) = (ParabolicMap::new(side), 0.0_f64, vec![0.0; basis.len()]);
     for texel in 0..side * side {
@@ -75,7 +75,7 @@ fn map_scale(basis: &ExitBasis, side: usize) -> f64 {
     (0..9).map(|power| f64::from(1 << power)).find(|scale| most <= *scale).expect("a scale")
 }
 
-/// Every vertex of every chunk: inside of its supercluster the host's sums, outside zeros.
+/// Every vertex of every chunk has the host's sums if it is inside the supercluster, else zeros.
 #[test]
 fn vertex_programs_give_the_hosts_sums() {
     for (basis, clusters, vectors) in
@@ -110,7 +110,7 @@ fn vertex_programs_give_the_hosts_sums() {
     }
 }
 
-/// Checks one pass over a chunk; the number of vertices inside. `positions` are those of all vertices.
+/// Checks one pass over a chunk; returns the number of vertices inside the supercluster. `positions` has all vertices.
 fn check_chunk(
     rules: &Rules,
     chunk: &SeenDraw,
@@ -161,7 +161,8 @@ fn device(name: &str) -> Profile {
     Profile::named(name).expect("a device")
 }
 
-/// Compressed transfer of hills: diffuse for light of 16 coefficients, or of a number of functions for 4.
+/// Compressed transfer of hills: diffuse for light of 16 coefficients, or glossy with a number of functions for light
+/// of 4.
 struct CompressedHills {
     vertices: Vertices,
     clustering: Clustering,
@@ -204,9 +205,9 @@ fn card<'a>(name: &str, transfer: CompressedTransfer<'a>, options: &PrtCardOptio
     PrtCard::new(device(name), ExecutorKind::Batch, transfer, options)
 }
 
-/// The exit radiance of every vertex as the card computes it: three channels per vertex, with one number per row of the
-/// transfer: alpha times the mean's product comes first, then weight times product is added vector by vector, with
-/// product and sum rounded one after the other, or together on devices with a fused multiply-add.
+/// The exit radiance of every vertex in the card's arithmetic: three channels per vertex, with one number per row of
+/// the transfer. Alpha times the mean's product is first; then weight times product is added vector by vector. Product
+/// and sum are rounded separately, or once on devices with a fused multiply-add.
 fn exit_coefficients(
     rules: &Rules,
     transfer: &CompressedTransfer<'_>,
@@ -227,7 +228,7 @@ fn exit_coefficients(
     of_point.map(of_vertex).collect()
 }
 
-/// 1 times the first number plus weight times number; up to `vectors` weights, those that are missing being 0.
+/// 1 times the first number, plus weight times number for `vectors` weights; missing weights are 0.
 fn sum(rules: &Rules, vectors: usize, weights: &[f32], mut numbers: impl Iterator<Item = f32>) -> f32 {
     let format = rules.vertex_format;
     let enter = |value: f32| ops::convert(&Format::FP32, format, value.to_bits()).bits;
@@ -244,7 +245,7 @@ fn sum(rules: &Rules, vectors: usize, weights: &[f32], mut numbers: impl Iterato
     f32::from_bits(ops::convert(&format, Format::FP32, sum).bits)
 }
 
-/// Each weight is as near as its format's step, of the range of its cluster; zero and ends of the range are exact.
+/// Each weight is within its format's step, relative to its cluster's range; zero and the ends of the range are exact.
 #[test]
 fn weights_are_as_near_as_their_format() {
     let hills = CompressedHills::new(glossy(16), 5, 6, CpcaMethod::Iterative);

@@ -1,4 +1,4 @@
-//! Vertex and pixel programs on the devices that have them.
+//! Vertex and pixel programs on the devices that support them.
 
 use crossbar_systems::cpca::kernels::{VertexKernel, VertexShading, programs};
 use refsim::device::Profile;

@@ -13,8 +13,8 @@ use glam::DVec3;
 use crate::geom::Mesh;
 use crate::sphere::{DirectionRule, harmonics};
 
-/// Light of one harmonic at a triangle, which hides nothing above itself: the sum over the rule of the harmonic by its
-/// recurrence.
+/// Light of one harmonic at a triangle, which does not occlude its own hemisphere: the reference equals the rule's sum
+/// over the harmonic by recurrence.
 #[test]
 fn harmonics_by_definition_are_those_by_recurrence() {
     let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.25, 0.5], [-0.5, 1.0, 0.25]], vec![[0, 1, 2]]).expect("a mesh");

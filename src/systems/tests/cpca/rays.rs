@@ -46,7 +46,7 @@ fn clutter(seed: u64) -> Mesh {
     Mesh::new(positions, faces.collect()).and_then(|mesh| mesh.with_normals(normals)).expect("a mesh")
 }
 
-/// Normals of the triangles on which a place lies, up to a few rounding errors of its coordinates.
+/// Normals of the triangles on which a point lies, up to a few rounding errors of its coordinates.
 fn planes(vertices: &Vertices, place: DVec3) -> Vec<DVec3> {
     let corners = vertices.triangles().iter();
     let corners = corners.map(|corners| corners.map(|corner| wide(vertices.positions()[corner as usize])));
@@ -61,7 +61,8 @@ fn planes(vertices: &Vertices, place: DVec3) -> Vec<DVec3> {
     corners.filter_map(on).collect()
 }
 
-/// Every direction's answer is that of a ray from the vertex's origin, or it runs behind all triangles there.
+/// Every direction's result equals that of a ray from the vertex's origin, or the direction points behind all triangles
+/// there.
 #[test]
 fn every_answer_is_that_of_tracing_every_ray() {
     let meshes = (0..30).map(clutter).chain([teapot(2).expect("a teapot"), stand_ins::head()]);
@@ -73,7 +74,7 @@ fn every_answer_is_that_of_tracing_every_ray() {
         let traced = TracedRays::trace(&vertices, rule, &mut caster, false).expect("traced");
         assert!(traced.counts().traced < traced.counts().rays, "mesh {number}: {:?}", traced.counts());
         let reach = ray_length(&vertices);
-        // Only some vertices of large meshes: a range of one vertex prepares the whole mesh again.
+        // Only some vertices of large meshes are tested, because a range of one vertex prepares the whole mesh again.
         for vertex in (0..vertices.len()).step_by(if number < 30 { 1 } else { 1 + vertices.len() / 16 }) {
             let frame = &vertices.frames()[vertex];
             caster.origins.clear();

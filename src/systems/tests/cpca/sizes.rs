@@ -1,4 +1,4 @@
-//! Numbers that follow from sizes: overdraw, registers, batches, work of the host.
+//! Numbers that follow from sizes: overdraw, registers, batches, host work.
 
 use crossbar_systems::cpca::coherence::{ConstantRegisters, overdraw};
 use crossbar_systems::cpca::on_card::model::TransferSize;
@@ -10,7 +10,7 @@ fn overdraw_counts_clusters_of_triangles() {
     assert_eq!(overdraw(&triangles, &of_point), 1 + 2 + 2 + 3 + 1);
 }
 
-/// Table 1, and 256 registers without the six constants for transform, eye and scale.
+/// Table 1, with 256 registers minus six constants for transform, eye and scale.
 #[test]
 fn registers_of_the_papers_models() {
     let fitting = |registers: ConstantRegisters, vectors| {
@@ -30,8 +30,8 @@ const fn size(vertices: usize, [rows, columns]: [usize; 2], clusters: usize, vec
     TransferSize { vertices, rows, columns, clusters, vectors }
 }
 
-/// The sizes of Table 1, with raw and stored numbers in millions, registers per cluster, and clusters per 256
-/// registers and per registers that remain beside transform, eye and constants.
+/// The sizes of Table 1, with raw and stored numbers in millions, registers per cluster, and clusters per 256 registers
+/// and per registers that transform, eye and constants leave.
 #[test]
 fn table_1_follows_from_its_sizes() {
     let rows = [

@@ -1,4 +1,4 @@
-//! Microfacets and the models made of them.
+//! Microfacets and microfacet models.
 
 use std::f64::consts::PI;
 
@@ -28,7 +28,7 @@ fn schlick(roughness: f64, isotropy: f64) -> Lobe {
     facets(FacetDistribution::Schlick { roughness, isotropy, tangent: TangentCosine::Projected })
 }
 
-/// Seen from where the light is, the half vector is the direction of both.
+/// Views along the light's direction h, so that the half vector is h.
 fn at(lobe: &Lobe, h: DVec3) -> f64 {
     lobe.value(h, h)
 }
@@ -51,7 +51,7 @@ fn lobes_are_wide_across_the_tangent() {
     for (h, expected) in [(along, 0.5), (across, 2.0), (DVec3::Z, 0.5)] {
         assert_abs_diff_eq!(azimuth(0.25, h), expected, epsilon = 1e-14);
     }
-    // His G(v) of view and light, v / (r - r v + v).
+    // Schlick's G(v) of view and light, v / (r - r v + v).
     let seen = |roughness, h| {
         let lobe = schlick(roughness, 1.0);
         at(&Lobe { shadowing: Shadowing::Model, ..lobe }, h) / at(&lobe, h)

@@ -47,13 +47,13 @@ fn beyond_an_edge_lies_the_next_face() {
         let weights = BasisWeights::of(BasisWidth::TwoTexels, row * 128 + column);
         weights.iter().map(|(texel, _)| texel).collect::<Vec<_>>()
     };
-    // +x has -z to its right, +y above; beyond its right border lies -z's left column.
+    // +x has -z on its right and +y above; beyond its right border is -z's left column.
     assert_eq!(around(31, 127), [7 * 32 + 31, 5 * 1024 + 7 * 32, 8 * 32 + 31, 5 * 1024 + 8 * 32]);
     assert_eq!(around(31, 0), [7 * 32, 4 * 1024 + 7 * 32 + 31, 8 * 32, 4 * 1024 + 8 * 32 + 31]);
-    // Above +x's row 0 lies +y's right column; +x's columns run along -z, +y's rows along +z.
+    // Above +x's row 0 is +y's right column; +x's columns run along -z, +y's rows along +z.
     let above = |column: usize| 2 * 1024 + (31 - column) * 32 + 31;
     assert_eq!(around(0, 3), [0, 1, above(0), above(1)]);
-    // At a corner of the cube there are three.
+    // At a corner of the cube there are three texels.
     assert_eq!(around(0, 0), [0, 4 * 1024 + 31, above(0)]);
 }
 
@@ -76,7 +76,7 @@ fn a_basis_function_vanishes_outside_its_support() {
         let HaarSupport { row, column, side } = haar.support(coefficient);
         for (at, value) in square.into_iter().enumerate() {
             let within = (row..row + side).contains(&(at / 8)) && (column..column + side).contains(&(at % 8));
-            // Plus or minus one over the side: a sum of squares of 1.
+            // Values are plus or minus 1 / side, so that the squares sum to 1.
             assert_eq!(value.abs(), if within { 1.0 / side as f64 } else { 0.0 }, "{coefficient} at {at}");
         }
     }

@@ -12,7 +12,7 @@ fn texel(direction: DVec3) -> usize {
 /// Texels turn with the cube; truncated light has texels below 0, which stay unchanged.
 #[test]
 fn texels_of_any_sign_turn_with_the_cube() {
-    // A quarter turn around z takes +x to +y: the middle of face +x comes to that of face +y.
+    // A quarter turn around z takes +x to +y: the middle of face +x moves to the middle of face +y.
     let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z);
     for sign in [1.0, -1.0] {
         let texels: Vec<[f64; 3]> = (0..LIGHT_TEXELS).map(|at| [sign * at as f64, 1.0, sign * 0.5]).collect();

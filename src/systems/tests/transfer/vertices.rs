@@ -84,7 +84,7 @@ fn bad_input_is_named() {
     assert_eq!(along.replaced_tangents, [0, 1, 2]);
 }
 
-/// From the corner of a room its three walls hide everything outside the octant between them.
+/// From the corner of a room, the three walls hide all directions outside the octant between them.
 #[test]
 fn corners_of_a_room_are_left_to_the_inside() {
     let mesh = Mesh::new(

@@ -1,6 +1,6 @@
-//! Factors of microfacet models: how many facets face a direction, and how many of them are seen.
+//! Factors of microfacet models: distribution of normals, and shadowing and masking.
 //!
-//! Distributions are pi times the usual ones: times the cosine they integrate to pi over the hemisphere.
+//! Distributions are pi times the usual ones: multiplied by the cosine, they integrate to pi over the hemisphere.
 
 use glam::DVec3;
 
@@ -14,8 +14,8 @@ pub(crate) fn beckmann(half_cosine: f64, roughness: f64) -> f64 {
     exp(-slope) / (roughness * roughness * square * square)
 }
 
-/// Shadowing by V-grooves (Torrance and Sparrow 1967): `least` is the smaller cosine of view and light, `cosine` that
-/// of the angle between view and half vector.
+/// Shadowing by V-grooves (Torrance and Sparrow 1967): `least` is the smaller cosine of view and light, `cosine` the
+/// cosine of the angle between view and half vector.
 pub(crate) fn groove(half_cosine: f64, least: f64, cosine: f64) -> f64 {
     (2.0 * half_cosine * least / cosine).min(1.0)
 }
@@ -27,24 +27,24 @@ pub(crate) fn schlick_zenith(half_cosine: f64, roughness: f64) -> f64 {
     roughness / (base * base)
 }
 
-/// Schlick's azimuth factor A(w) = sqrt(p / (p^2 - p^2 w^2 + w^2)). Its mean over all azimuths is 1 for p = 1, and less
-/// for others.
+/// Schlick's azimuth factor A(w) = sqrt(p / (p^2 - p^2 w^2 + w^2)). Its mean over all azimuths is 1 for p = 1, and
+/// smaller for other p.
 pub(crate) fn schlick_azimuth(w: f64, isotropy: f64) -> f64 {
     let square = isotropy * isotropy;
     (isotropy / (square - square * w * w + w * w)).sqrt()
 }
 
-/// Schlick's G(v) = v / (r - r v + v): how much of the facets that face a direction it sees.
+/// Schlick's G(v) = v / (r - r v + v), the visible fraction of the facets that face a direction.
 pub(crate) fn schlick_seen(cosine: f64, roughness: f64) -> f64 {
     cosine / (roughness - roughness * cosine + cosine)
 }
 
-/// The squared sine of the angle to the normal below which a half vector counts as the normal: rounding of two opposite
-/// directions leaves about 1e-32.
+/// The squared sine of the angle to the normal below which a half vector counts as the normal; rounding of two mirror
+/// directions gives about 1e-32.
 const NORMAL: f64 = 1e-24;
 
 /// Schlick's w: the cosine of the angle between the tangent x and the half vector's projection onto the surface; 1 for
-/// the normal itself, which has none.
+/// the normal, which has no projection.
 pub(crate) fn cosine_along_tangent(half: DVec3) -> f64 {
     let square = half.x * half.x + half.y * half.y;
     if square > NORMAL { half.x / square.sqrt() } else { 1.0 }

@@ -14,7 +14,7 @@ pub const BRDF_DEGREE: usize = 95;
 /// The basis of exit radiance, which determines the rows of a transfer matrix.
 #[derive(Clone, Debug)]
 pub enum ExitBasis {
-    /// The radiance itself, the same in all directions: one row. Diffuse transfer.
+    /// Radiance that is equal in all directions, for diffuse transfer: one row.
     Radiance,
     /// Spherical harmonics in the local frame.
     Harmonics(Hemisphere),
@@ -33,9 +33,8 @@ impl ExitBasis {
         Hemisphere::without(order, &[function_index(1, 0)]).map(Self::Harmonics)
     }
 
-    /// The basis with the given functions, l (l + 1) + m, increasing; function 0 alone represents radiance, as in
-    /// `.npz` files. Fails with [`InputError`] for no functions. Panics if a function is not of an order up to
-    /// [`MAX_ORDER`].
+    /// The basis with the given functions, l (l + 1) + m, increasing; only function 0 means radiance, as in `.npz`
+    /// files. Fails with [`InputError`] for no functions. Panics if a function belongs to an order above [`MAX_ORDER`].
     pub fn of_functions(functions: &[u16]) -> Result<Self, InputError> {
         if functions == [0] {
             return Ok(Self::Radiance);
@@ -67,7 +66,7 @@ impl ExitBasis {
         }
     }
 
-    /// The functions' values at a local direction. Panics if there is not one place per function.
+    /// The functions' values at a local direction. Panics if `into` does not have one element per function.
     pub fn values(&self, local: DVec3, into: &mut [f64]) {
         assert_eq!(into.len(), self.len(), "a place per function");
         match self {
@@ -81,12 +80,12 @@ impl ExitBasis {
     }
 }
 
-/// A basis with the functions for projecting onto it by integrals.
+/// A basis with the functions whose integrals project onto the basis.
 ///
-/// Least squares applies A^-1, with condition number 151,695 for order 5, and equation 1 does so twice. Integrals with
-/// the basis's own functions would lose its square to rounding. Integrals with orthonormal combinations of them, psi =
-/// W^T y with A^-1 = W W^T, lose only the square root each: a function's coefficients are W times its integrals with
-/// psi.
+/// Least squares applies A^-1, with condition number 151,695 for order 5, and equation 1 does so twice. With integrals
+/// of the basis functions, rounding errors would be amplified by the square of this number. With integrals of the
+/// orthonormal combinations psi = W^T y, where A^-1 = W W^T, each side amplifies only by its square root: a function's
+/// coefficients are W times its integrals with psi.
 pub(crate) struct Projector<'a> {
     basis: &'a ExitBasis,
     /// W^T, one row per combination; `None` for integrals with the basis functions themselves.
@@ -94,7 +93,8 @@ pub(crate) struct Projector<'a> {
 }
 
 impl<'a> Projector<'a> {
-    /// A projector onto least-squares coefficients in a basis (`inverse`), or onto integrals with its functions.
+    /// Creates a projector onto least-squares coefficients in a basis if `inverse`, else onto integrals with its
+    /// functions.
     pub(crate) fn new(basis: &'a ExitBasis, inverse: bool) -> Self {
         let combinations = match basis {
             ExitBasis::Harmonics(hemisphere) if inverse => {
@@ -123,7 +123,7 @@ impl<'a> Projector<'a> {
         values
     }
 
-    /// Converts integrals, in rows of one per function, to coefficients.
+    /// Converts rows of integrals, one integral per function, to coefficients.
     pub(crate) fn coefficients(&self, integrals: Vec<f64>) -> Vec<f64> {
         let Some(rows) = &self.combinations else { return integrals };
         let columns = rows.transposed();
@@ -132,8 +132,8 @@ impl<'a> Projector<'a> {
 }
 
 /// The matrix B of a BRDF, without either inverse: one row per function of the exit basis, one column per function of
-/// the incident order, integrated by a rule over the hemisphere for both directions. Fails with [`InputError`] never,
-/// since there are at most 100 functions. Panics if the order is not 1 to [`MAX_ORDER`].
+/// the incident order, integrated by a rule over the hemisphere for both directions. Never fails, because there are at
+/// most 100 functions. Panics if the order is not 1 to [`MAX_ORDER`].
 pub fn brdf_matrix(
     brdf: &Brdf,
     exit: &ExitBasis,
@@ -165,8 +165,8 @@ pub(crate) fn integrals(
     Ok(sums)
 }
 
-/// For each light direction s the integrals over views of the projector's functions times B(v, s) s_z: exit radiance
-/// per radiance and steradian that arrive from s. This is the inner integral of section 3.1's formula.
+/// For each light direction s, the integrals over views of the projector's functions times B(v, s) s_z: exit radiance
+/// per incident radiance and steradian. This is the inner integral of section 3.1's formula.
 pub(crate) fn exit_per_direction(
     brdf: &Brdf,
     exit: &Projector<'_>,

@@ -13,12 +13,12 @@ use crate::scene::Surface;
 /// A BRDF of one channel. All reflectances lie in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Brdf {
-    /// The same radiance in all directions.
+    /// Lambert: equal radiance in all directions.
     Lambert {
         /// Reflectance.
         albedo: f64,
     },
-    /// A diffuse part and a lobe around the mirror direction, as MTL files describe and [`Surface::Glossy`] defines it.
+    /// A diffuse part and a lobe around the mirror direction, as in MTL files and in [`Surface::Glossy`].
     Phong {
         /// Reflectance of the diffuse part.
         albedo: f64,
@@ -39,16 +39,16 @@ pub enum Brdf {
         normal_incidence: f64,
     },
     /// Schlick 1994, anisotropic, single layer: S(u) G(v) G(v') Z(t) A(w) / (4 pi v v'). Light that facets block from
-    /// each other is lost; his term (1 - G G') / pi, which would restore it, is left out. Sharp lobes reflect more than
-    /// arrives at grazing angles, where his G is too near 1: 1.27 for roughness 0.05 at z = 0.05.
+    /// each other is lost; his term (1 - G G') / pi, which would restore it, is omitted. At grazing angles, where his G
+    /// is too near 1, sharp lobes reflect more light than arrives: 1.27 for roughness 0.05 at z = 0.05.
     Schlick {
         /// Reflectance of the diffuse part.
         albedo: f64,
         /// Factor of the facets.
         specular: f64,
-        /// In (0, 1]: towards 0 a mirror, at 1 the same in all directions.
+        /// Roughness in (0, 1]: towards 0 a mirror, at 1 equal in all directions.
         roughness: f64,
-        /// In (0, 1]: towards 0 wide across the tangent, at 1 isotropic.
+        /// Isotropy in (0, 1]: towards 0 wide across the tangent, at 1 isotropic.
         isotropy: f64,
         /// Reflectance of the facets at normal incidence.
         normal_incidence: f64,
@@ -73,7 +73,7 @@ pub enum Brdf {
     },
 }
 
-/// Tolerance of a sum of reflectances above 1, because materials have single precision.
+/// Tolerance for a sum of reflectances above 1, because materials are in single precision.
 const SINGLE: f64 = 1e-6;
 
 fn one_way_error(found: &'static str) -> InputError {
@@ -206,12 +206,11 @@ impl Brdf {
     }
 }
 
-/// The number as text, in scientific notation if it is large.
+/// Formats a number, in scientific notation if it is large.
 fn shown(number: f64) -> String {
     if number.abs() < 1e16 { number.to_string() } else { format!("{number:e}") }
 }
 
-/// x^5.
 fn fifth_power(x: f64) -> f64 {
     let square = x * x;
     square * square * x

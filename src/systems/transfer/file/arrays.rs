@@ -20,7 +20,7 @@ struct Metadata {
     provenance: Option<String>,
 }
 
-/// Numbers of clusters, of the vectors of all, and of the weights of all points.
+/// Numbers of clusters, of vectors of all clusters, and of weights of all points.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 struct ClusterSizes {
     count: usize,
@@ -28,7 +28,7 @@ struct ClusterSizes {
     weights: usize,
 }
 
-/// Reads a file; of `mesh`, if one is given.
+/// Reads a file; if `mesh` is given, it must be the file's mesh.
 pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, InputError> {
     let file = parse_prt(&bytes_of(path)?, path)?;
     mesh.map_or(Ok(()), |expected| require_mesh(path, expected, file.mesh))?;
@@ -87,14 +87,14 @@ fn clustering(
     found.map_err(|reason| arrays.refuse("clusters", "those of a signal", reason.to_string()))
 }
 
-/// Writes a file completely or not at all. Fails with [`WriteError`]; with an
-/// [`InvalidInput`](std::io::ErrorKind::InvalidInput) if the parts contradict each other.
+/// Writes a file atomically. Fails with [`WriteError`], of kind [`InvalidInput`](std::io::ErrorKind::InvalidInput) if
+/// the parts contradict each other.
 pub fn save_prt(file: &PrtFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_prt(file, out))
 }
 
-/// Writes the bytes of a file. Errors: those of `out`; [`InvalidInput`](std::io::ErrorKind::InvalidInput), before
-/// anything is written, if the parts contradict each other.
+/// Writes the bytes of a file. Fails with errors of `out`, and with [`InvalidInput`](std::io::ErrorKind::InvalidInput),
+/// before anything is written, if the parts contradict each other.
 pub fn write_prt(file: &PrtFile, out: &mut dyn Write) -> std::io::Result<()> {
     if let Some(fault) = file.fault() {
         return Err(contradiction(fault));

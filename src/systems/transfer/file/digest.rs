@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::error::{InputError, input_error};
 use crate::transfer::{LocalFrame, Tangents, Vertices};
 
-/// Counts and checksums of the vertices at which transfer is computed. A mesh with other positions, normals, tangents
-/// or triangles, or with the same in another order, has another digest, except with probability 2^-32.
+/// Counts and checksums of the vertices at which transfer is computed. Meshes with different positions, normals,
+/// tangents or triangles, or a different order, have different digests except with probability 2^-32.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeshDigest {
     /// The source of the tangents.
@@ -56,8 +56,8 @@ impl fmt::Display for MeshDigest {
     }
 }
 
-/// Refuses a file of another mesh than `expected`, or of the same with other tangents; `path` is named in the message.
-/// Fails with [`InputError`] unless `found` is this mesh.
+/// Checks that a file's mesh `found` is `expected`, with the same tangents; the message names `path`. Fails with
+/// [`InputError`] for another mesh.
 pub fn require_mesh(path: &Path, expected: &MeshDigest, found: Option<MeshDigest>) -> Result<(), InputError> {
     if found.as_ref() == Some(expected) {
         return Ok(());

@@ -12,7 +12,7 @@ use crate::io::{NpzReader, NpzWriter, read_file};
 
 /// The version of all files.
 const VERSION: u32 = 1;
-/// The array of the metadata: JSON in UTF-8.
+/// Name of the array of metadata, JSON in UTF-8.
 const METADATA: &str = "metadata";
 
 /// The system that a file of transfer belongs to.
@@ -20,7 +20,7 @@ const METADATA: &str = "metadata";
 #[serde(rename_all = "kebab-case")]
 pub enum PrtKind {
     /// [`PrtFile`](super::PrtFile): real orthonormal harmonics, function l(l+1)+m, no Condon-Shortley sign (l = 1 is y,
-    /// z, x), light in the axes of the mesh, exit radiance in those of the vertex with its normal as z.
+    /// z, x), light in the mesh's axes, exit radiance in the vertex's local axes with the normal as z.
     #[strum(to_string = "low-frequency transfer")]
     LowFrequency,
     /// [`AllFrequencyFile`](crate::all_frequency::file::AllFrequencyFile).
@@ -32,7 +32,7 @@ pub enum PrtKind {
 }
 
 impl PrtKind {
-    /// The command that takes such files.
+    /// The command that reads such files.
     pub const fn command(self) -> &'static str {
         match self {
             Self::LowFrequency => "cpca",
@@ -42,7 +42,7 @@ impl PrtKind {
     }
 }
 
-/// The beginning of all metadata.
+/// The fields that all metadata begin with.
 #[derive(Serialize, Deserialize)]
 struct Head {
     kind: PrtKind,
@@ -62,7 +62,7 @@ pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, InputError> {
     read_file(path, ".npz file", MAX_BYTES)
 }
 
-/// The arrays of a file of a kind, and its metadata.
+/// The arrays and the metadata of a file of this kind.
 pub(crate) fn begin_reading<'a, T: DeserializeOwned>(
     bytes: &'a [u8],
     name: &'a Path,
@@ -84,7 +84,7 @@ pub(crate) fn begin_reading<'a, T: DeserializeOwned>(
     Ok((arrays, rest))
 }
 
-/// Begins a file of a kind with its metadata.
+/// Begins a file of this kind with its metadata.
 pub(crate) fn begin_writing<'a>(
     out: &'a mut dyn io::Write,
     kind: PrtKind,
@@ -96,7 +96,7 @@ pub(crate) fn begin_writing<'a>(
     Ok(arrays)
 }
 
-/// The error of contents that contradict each other, before anything is written.
+/// The error for inconsistent contents, before anything is written.
 pub(crate) fn contradiction((field, expected, found): (&str, String, String)) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, format!("{field}: expected {expected}, found {found}"))
 }

@@ -18,7 +18,7 @@ use crate::clustering::Signal;
 /// Largest size of a file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
 
-/// Longest line about how a file was made, in bytes.
+/// Maximum length of [`PrtFile::provenance`], in bytes.
 const MAX_PROVENANCE: usize = 4096;
 
 /// The contents of a file of low-frequency transfer.
@@ -32,7 +32,7 @@ pub struct PrtFile {
     pub transfer: Option<Signal>,
     /// The compressed numbers.
     pub clustering: Option<Clustering>,
-    /// Per cluster the supercluster that it is drawn in, if that was decided beforehand: numbered from 0 in the order
+    /// The supercluster in which each cluster is drawn, if precomputed; superclusters are numbered from 0 in the order
     /// of their lowest clusters.
     pub superclusters: Option<Vec<u32>>,
     /// Provenance of the numbers: one line of at most 4,096 bytes without control characters.
@@ -52,7 +52,7 @@ pub enum PrtMeaning {
     Transfer {
         /// 1 or 3 (red, green, blue).
         channels: u32,
-        /// Per row the index l(l+1)+m of the function of exit radiance, increasing; `[0]` for diffuse transfer.
+        /// For each row, the index l(l+1)+m of the function of exit radiance, increasing; `[0]` for diffuse transfer.
         exit_functions: Vec<u16>,
         /// The order n of the light: n^2 columns.
         light_order: u32,
@@ -73,7 +73,6 @@ impl PrtMeaning {
         }
     }
 
-    /// The shape of an array of so many points.
     fn shape(&self, points: usize) -> Vec<usize> {
         match self {
             Self::Numbers { dimension } => vec![points, *dimension as usize],
@@ -105,7 +104,7 @@ impl PrtMeaning {
     }
 }
 
-/// Cuts off so many values. Panics if there are fewer.
+/// Removes `count` values from the front. Panics if there are fewer.
 pub(crate) fn front<T: Clone>(values: &mut &[T], count: usize) -> Vec<T> {
     let (front, rest) = values.split_at(count);
     *values = rest;
@@ -116,13 +115,13 @@ pub(crate) fn front<T: Clone>(values: &mut &[T], count: usize) -> Vec<T> {
 const MAX_ORDER: u32 = 10;
 
 impl PrtFile {
-    /// Number of points, of the transfer or the clustering.
+    /// Number of points of the transfer, or else of the clustering.
     pub fn points(&self) -> usize {
         let transfer = self.transfer.as_ref().map(Signal::points);
         transfer.or(self.clustering.as_ref().map(Clustering::points)).unwrap_or(0)
     }
 
-    /// The first contradiction between the parts: the field, the expected and the found value.
+    /// The first inconsistency between the parts: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, String, String)> {
         if let Some((field, expected, found)) = self.meaning.fault() {
             return Some((field, expected.to_owned(), found));

@@ -7,8 +7,8 @@ use crate::transfer::haar::Haar;
 
 /// The vector L of a light: Haar coefficients of each segment's texels, for red, green and blue.
 ///
-/// Coefficient c of segment s has the number s n + c, n texels per segment. The basis is orthonormal over texels, not
-/// over the sphere: texels differ in solid angle. Solid angles are in the transfer.
+/// Coefficient c of segment s has the index s n + c, with n texels per segment. The basis is orthonormal over texels,
+/// not over the sphere, because texels differ in solid angle. The transfer includes solid angles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HaarLight {
     segmentation: Segmentation,
@@ -32,7 +32,7 @@ impl HaarLight {
         Self { segmentation, channels }
     }
 
-    /// The segments that the coefficients are of.
+    /// The segments of the coefficients.
     pub const fn segmentation(&self) -> Segmentation {
         self.segmentation
     }
@@ -42,7 +42,7 @@ impl HaarLight {
         &self.channels
     }
 
-    /// [`Self::coefficients`] in single precision, as rendering takes them.
+    /// [`Self::coefficients`] in single precision, for rendering.
     pub fn singles(&self) -> Vec<[f32; 3]> {
         self.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect()
     }
@@ -58,7 +58,7 @@ impl HaarLight {
         &self.channels[channel][segment * len..(segment + 1) * len]
     }
 
-    /// The radiances of the light with these coefficients, by texel number. Truncated ones may be negative.
+    /// The light's radiances by texel index; truncated light may be negative.
     pub fn radiances(&self) -> Vec<[f64; 3]> {
         let (mut haar, len) = (Haar::new(self.segmentation.side()), self.segmentation.len());
         let squares = self.channels.each_ref().map(|channel| {
@@ -73,18 +73,18 @@ impl HaarLight {
         (0..LIGHT_TEXELS).map(at).map(|at| squares.each_ref().map(|channel| channel[at])).collect()
     }
 
-    /// The coefficients of the same light in other segments, as in Figure 6 for a truncated light of six faces.
+    /// The coefficients of this light in other segments, as in Figure 6 for a truncated light of six faces.
     #[must_use]
     pub fn reprojected(&self, segmentation: Segmentation) -> Self {
         Self::of_radiances(&self.radiances(), segmentation)
     }
 
-    /// Coefficients that are not 0 in at least one channel.
+    /// Number of coefficients that are not 0 in at least one channel.
     pub fn nonzero(&self) -> usize {
         (0..LIGHT_TEXELS).filter(|&at| self.channels.iter().any(|channel| channel[at] != 0.0)).count()
     }
 
-    /// The sum of the squares of all coefficients: that of the texels' radiances.
+    /// The sum of the squares of all coefficients, which equals the sum over the texels' radiances.
     pub fn energy(&self) -> f64 {
         (0..LIGHT_TEXELS).map(|at| self.energy_at(at)).sum()
     }
@@ -95,7 +95,7 @@ impl HaarLight {
     }
 }
 
-/// The criterion by which coefficients are chosen: the three of \[NRH03\].
+/// The criterion by which coefficients are chosen, one of \[NRH03\]'s three.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum TruncationPriority<'a> {
     /// Magnitude.
@@ -103,7 +103,7 @@ pub enum TruncationPriority<'a> {
     Magnitude,
     /// Magnitude times the solid angle of the basis function's support.
     Area,
-    /// Magnitude times the average response of the transfer to the coefficient, over all vertices: a number per
+    /// Magnitude times the mean response of the transfer to the coefficient, over all vertices: one number per
     /// coefficient, in the light's segments.
     Transfer(&'a [f64]),
 }
@@ -111,22 +111,23 @@ pub enum TruncationPriority<'a> {
 /// A truncated light and the kept energy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightTruncation {
-    /// The light, coefficients that were dropped set to 0.
+    /// The light, with dropped coefficients set to 0.
     pub light: HaarLight,
-    /// Coefficients of the whole light that are not 0.
+    /// Number of non-zero coefficients of the whole light.
     pub nonzero: usize,
-    /// Number of coefficients that were kept; lower than requested if there are no more.
+    /// Number of kept coefficients; lower than requested if the light has fewer.
     pub kept: usize,
     /// The energy of the whole light.
     pub energy: f64,
-    /// The share of it that was kept, in [0, 1]; 1 of a black light.
+    /// The fraction of the energy that is kept, in [0, 1]; 1 for a black light.
     pub kept_energy: f64,
 }
 
 impl HaarLight {
     /// The light with at most `keep` coefficients. A coefficient is kept in all three channels or in none; its
-    /// magnitude is the root of the sum of their squares, so that L has one pattern of zeros. Among equal priorities
-    /// the lowest number is kept. Fails with [`InputError`] if there is not one mean response per coefficient.
+    /// magnitude is the root of the sum of the channels' squares, so that all channels have the same zeros. Among equal
+    /// priorities the lowest index is kept. Fails with [`InputError`] if there is not one mean response per
+    /// coefficient.
     pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, InputError> {
         let weights = match priority {
             TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],

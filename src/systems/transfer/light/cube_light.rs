@@ -26,16 +26,16 @@ pub enum Decimation {
     Plain,
 }
 
-/// Radiance from infinitely far: red, green and blue of each light texel, finite. Light that was truncated
-/// ([`Self::signed`]) has texels below 0, any other has none.
+/// Distant light: finite red, green and blue of each light texel. Only truncated light ([`Self::signed`]) may have
+/// texels below 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CubeLight {
     texels: Vec<[f64; 3]>,
 }
 
 impl CubeLight {
-    /// A light from radiances by texel number. Fails with [`InputError`] unless there are 6 x 32 x 32, all finite and
-    /// at least 0.
+    /// Creates a light from radiances by texel index. Fails with [`InputError`] unless there are 6 x 32 x 32, all
+    /// finite and at least 0.
     pub fn new(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if texels.len() != LIGHT_TEXELS {
             return Err(texels_error(texels.len()));
@@ -44,7 +44,7 @@ impl CubeLight {
         Ok(Self { texels })
     }
 
-    /// A light from radiances that may be negative, as those of truncated light are, which oscillate around 0. Fails
+    /// Creates a light from radiances that may be negative, as in truncated light, which oscillates around 0. Fails
     /// with [`InputError`] unless there are 6 x 32 x 32, all finite.
     pub fn signed(texels: Vec<[f64; 3]>) -> Result<Self, InputError> {
         if texels.len() != LIGHT_TEXELS {
@@ -54,14 +54,15 @@ impl CubeLight {
         Ok(Self { texels })
     }
 
-    /// A light with the same radiance from all directions. Fails with [`InputError`] if it is negative or not finite.
+    /// Creates a light with equal radiance from all directions. Fails with [`InputError`] if the radiance is negative
+    /// or not finite.
     pub fn constant(radiance: [f64; 3]) -> Result<Self, InputError> {
         Self::new(vec![radiance; LIGHT_TEXELS])
     }
 
-    /// A light from a function of unit directions, sampled in the 4 x 4 fine directions of each texel. The function's
-    /// direction v is rotated to `rotation` v. Fails with [`InputError`] if the matrix is not a rotation, or a radiance
-    /// is negative or not finite.
+    /// Creates a light from a function of unit directions, sampled in the 4 x 4 fine directions of each texel. The
+    /// function's direction v is rotated to `rotation` v. Fails with [`InputError`] if the matrix is not a rotation, or
+    /// a radiance is negative or not finite.
     pub fn sampled(
         radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
         rotation: &DMat3,
@@ -76,7 +77,7 @@ impl CubeLight {
         Self::decimated(&self.fine(rotation)?, decimation)
     }
 
-    /// The radiances in the fine directions of the light turned.
+    /// The rotated light's radiances in the fine directions.
     pub(super) fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
         let texel = |direction: DVec3| {
             let [face, column, row] = LIGHT_MAP.texel_of(direction);
@@ -85,7 +86,7 @@ impl CubeLight {
         fine_samples(|direction| self.texels[texel(direction)], rotation, f64::NEG_INFINITY)
     }
 
-    /// A light from a picture of the whole sphere, whose radiance is constant over each pixel.
+    /// Creates a light from a picture of the whole sphere, with constant radiance over each pixel.
     pub fn from_picture(
         picture: &EnvironmentPicture,
         rotation: &DMat3,
@@ -94,16 +95,16 @@ impl CubeLight {
         Self::sampled(|direction| picture.radiance(direction), rotation, decimation)
     }
 
-    /// A light from small sources, counted from 0 in errors. Each adds its radiance times the covered fraction of each
-    /// fine texel; the fractions are computed on a grid as fine as the source needs and scaled so that the source's
-    /// flux, 2 pi (1 - cos radius) times its radiance, is exact. Fails with [`InputError`] for a matrix that is not a
-    /// rotation, or a source without direction, radius or radiance.
+    /// Creates a light from small sources, counted from 0 in errors. Each adds its radiance times the covered fraction
+    /// of each fine texel. The fractions are computed on a grid fine enough for the source, and scaled so that the
+    /// source's flux, 2 pi (1 - cos radius) times its radiance, is exact. Fails with [`InputError`] for a matrix that
+    /// is not a rotation, or a source without direction, radius or radiance.
     pub fn from_disks(sources: &[DiskSource], rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         Self::decimated(&fine_disks(sources, rotation)?, decimation)
     }
 
-    /// The light of the CIE clear sky over z >= 0 with its sun, and of the ground below. Errors: as [`Self::sampled`],
-    /// and for a sun that is not above the horizon.
+    /// The light of the CIE clear sky over z >= 0 with its sun, and of the ground below. Fails as [`Self::sampled`]
+    /// does, and if the sun is not above the horizon.
     pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
         sky.relative(DVec3::Z).map_err(of_light)?;
         let without_sun = Self::sampled(|v| sky_radiance(sky, v), rotation, decimation)?;
@@ -117,7 +118,7 @@ impl CubeLight {
         Ok(Self::from_disks(&red_and_blue_disks(), rotation, decimation)?.plus(&surrounding))
     }
 
-    /// Samples in all fine directions to texels.
+    /// Averages samples in all fine directions to texels.
     fn decimated(fine: &[[f64; 3]], decimation: Decimation) -> Result<Self, InputError> {
         let solid_angles = FineDirections::get().solid_angles();
         let texel = |texel: usize| {
@@ -138,19 +139,19 @@ impl CubeLight {
         Self::signed((0..LIGHT_TEXELS).map(texel).collect())
     }
 
-    /// Both lights together.
+    /// The sum of both lights.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         let both = self.texels.iter().zip(&other.texels);
         Self { texels: both.map(|(a, b)| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).collect() }
     }
 
-    /// The radiances, by texel number.
+    /// The radiances by texel index.
     pub fn texels(&self) -> &[[f64; 3]] {
         &self.texels
     }
 
-    /// The integral of the radiance over all directions, radiance being constant over each texel.
+    /// The integral over all directions of the radiance, which is constant over each texel.
     pub fn flux(&self) -> [f64; 3] {
         let solid_angles = FineDirections::get().solid_angles();
         let mut sum = [0.0; 3];
@@ -162,7 +163,7 @@ impl CubeLight {
     }
 }
 
-/// A function of unit directions in all fine directions, at least `least`; direction v of the function shines from
+/// Samples a function of unit directions in all fine directions and checks it; the function's direction v is rotated to
 /// `rotation` v.
 pub(super) fn fine_samples(
     radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
@@ -173,7 +174,7 @@ pub(super) fn fine_samples(
     let back = rotation.transpose();
     let fine: Vec<[f64; 3]> =
         FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
-    // A sample that is none would hide in the mean of sixteen.
+    // An invalid sample might not be visible in the mean of sixteen.
     check(&fine, light_texel, least)?;
     Ok(fine)
 }
@@ -196,12 +197,10 @@ pub(super) fn sky_radiance(sky: &ClearSky, direction: DVec3) -> [f64; 3] {
     }
 }
 
-/// A clear sky's sun.
 pub(super) fn sun_disk(sky: &ClearSky) -> DiskSource {
     DiskSource { towards: sky.sun, radius: crate::sphere::SUN_RADIUS, radiance: sky.sun_radiance }
 }
 
-/// The disks of [`CubeLight::red_and_blue`].
 pub(super) fn red_and_blue_disks() -> [DiskSource; 2] {
     HarmonicLight::RED_AND_BLUE_DISKS.map(|(towards, radiance)| DiskSource {
         towards,
@@ -229,7 +228,7 @@ pub(super) fn texels_error(found: usize) -> InputError {
     input_error!("crossbar::prt::light" => "expected {LIGHT_TEXELS} texels, six faces of 32x32, found {found}")
 }
 
-/// A sky or a rotation that makes no light.
+/// Converts an error of a sky or a rotation.
 pub(super) fn of_light(error: InputError) -> InputError {
     error.coded("crossbar::prt::light")
 }

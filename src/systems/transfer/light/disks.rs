@@ -12,7 +12,7 @@ use crate::transfer::grid::{FINE_SIDE, FineDirections, face_row_column};
 /// A disk of constant radiance on the sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiskSource {
-    /// Towards its center, of any length above 0.
+    /// Direction to the disk's center, of any length above 0.
     pub towards: DVec3,
     /// Angular radius in radians, above 0 and up to pi.
     pub radius: f64,
@@ -22,9 +22,9 @@ pub struct DiskSource {
 
 /// The largest angle from a fine texel's center to its corner in radians: half a diagonal at the middle of a face.
 const TEXEL_RADIUS: f64 = 1.5 / FINE_SIDE as f64;
-/// Samples of the disk's radius.
+/// Number of samples along the disk's radius.
 const PER_RADIUS: f64 = 8.0;
-/// Samples along an edge of a fine texel, at most.
+/// Maximum number of samples along an edge of a fine texel.
 const MAX_SAMPLES: usize = 64;
 
 impl From<LightSourceRow> for DiskSource {
@@ -35,7 +35,7 @@ impl From<LightSourceRow> for DiskSource {
 }
 
 impl DiskSource {
-    /// The source with a direction of length 1.
+    /// Checks the source, and normalises its direction.
     pub(super) fn checked(&self, number: usize) -> Result<Self, InputError> {
         let towards = unit(self.towards).ok_or_else(|| {
             input_error!("crossbar::prt::light" =>
@@ -62,7 +62,7 @@ impl DiskSource {
 /// Adds a source to the mean radiances of the fine texels.
 pub(super) fn add_disk(source: &DiskSource, rotation: &DMat3, fine: &mut [[f64; 3]]) {
     let towards = *rotation * source.towards;
-    // A chord is as good as an angle to compare, and keeps its digits where it is small.
+    // Chords are compared instead of angles: they have the same order, and keep their digits if small.
     let chord = |angle: f64| 2.0 * sin_cos(angle.min(std::f64::consts::PI) / 2.0).0;
     let (edge, far) = (chord(source.radius), chord(source.radius + TEXEL_RADIUS));
     let near = if source.radius > TEXEL_RADIUS { chord(source.radius - TEXEL_RADIUS) } else { -1.0 };
@@ -80,7 +80,7 @@ pub(super) fn add_disk(source: &DiskSource, rotation: &DMat3, fine: &mut [[f64; 
         }
     }
     if covered.is_empty() {
-        // So small that it lies between all samples: all of it in the texel of its center.
+        // A disk that falls between all samples is put wholly into the texel of its center.
         let distance = |at: usize| directions.directions()[at].distance_squared(towards);
         let nearest = (0..fine.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
         covered.extend(nearest.map(|at| (at, 1.0)));
@@ -93,7 +93,7 @@ pub(super) fn add_disk(source: &DiskSource, rotation: &DMat3, fine: &mut [[f64; 
     }
 }
 
-/// The share of a fine texel, by solid angle, in which a condition holds: on a grid of samples.
+/// The fraction of a fine texel's solid angle in which a condition holds, on a grid of samples.
 fn covered_share(fine: usize, samples: usize, holds: impl Fn(DVec3) -> bool) -> f64 {
     let [face, row, column] = face_row_column(fine, FINE_SIDE);
     let axes = CUBE_FACES[face];

@@ -1,4 +1,4 @@
-//! Light that can be turned.
+//! Distant light that can be rotated.
 
 use glam::{DMat3, DVec3};
 
@@ -12,7 +12,7 @@ use crate::transfer::light::cube_light::of_light;
 /// Distant light, before it is sampled by the cube's texels.
 #[derive(Debug)]
 pub enum DistantLight {
-    /// The same radiance from all directions.
+    /// Equal radiance from all directions.
     Constant([f64; 3]),
     /// Disks in black surroundings.
     Disks(Vec<DiskSource>),
@@ -22,13 +22,13 @@ pub enum DistantLight {
     RedAndBlue,
     /// A picture of all directions.
     Picture(EnvironmentPicture),
-    /// Radiances of the cube's texels, as in [`CubeLight`]. Turned, a direction has the radiance of the texel that it
-    /// falls into.
+    /// Radiances of the cube's texels, as in [`CubeLight`]. After a rotation, a direction has the radiance of the texel
+    /// that contains it.
     Texels(CubeLight),
 }
 
 impl DistantLight {
-    /// The cube of it, turned by a rotation.
+    /// The cube of texels of the rotated light.
     pub fn cube(&self, rotation: &DMat3, decimation: Decimation) -> Result<CubeLight, InputError> {
         match self {
             Self::Constant(radiance) => CubeLight::constant(*radiance),
@@ -41,7 +41,7 @@ impl DistantLight {
         }
     }
 
-    /// The radiances in the fine directions, 4 x 4 per texel: what [`Self::cube`] takes the means of.
+    /// The radiances in the fine directions, 4 x 4 per texel, which [`Self::cube`] averages.
     pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
         match self {
             Self::Constant(radiance) => fine_samples(|_| *radiance, rotation, 0.0),

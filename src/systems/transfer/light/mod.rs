@@ -1,9 +1,9 @@
 //! Distant light as radiances of a cube map of 6 x 32 x 32 texels, and its Haar coefficients (section 6).
 //!
-//! - [`CubeLight`]: the texels; from any function of directions, turned, supersampled 4 x 4 and decimated;
-//! - [`DiskSource`]: small sources, whose energy no sample misses;
+//! - [`CubeLight`]: the texels, computed from any function of directions, rotated, supersampled 4 x 4 and decimated;
+//! - [`DiskSource`]: small sources, added with exact energy;
 //! - [`HaarLight`]: coefficients by segment;
-//! - [`TruncationPriority`]: which coefficients stay if only some may.
+//! - [`TruncationPriority`]: the order in which coefficients are kept.
 
 mod coefficients;
 mod cube_light;

@@ -1,4 +1,4 @@
-//! Census of the segments of the light that vertices see: the fraction omega of Table 1.
+//! Census of the light's segments that vertices see, for the fraction omega of Table 1.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,25 +9,25 @@ use crate::transfer::grid::{FineDirections, Segmentation};
 use crate::transfer::linear_basis::LinearBasis;
 
 /// Counts of the 24 segments of the light over all vertices: below the horizon, shadowed, or with transfer. Each
-/// segment of a vertex is in exactly one of the three numbers.
+/// segment of a vertex is counted in exactly one of the three.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SegmentCensus {
-    /// Vertices times 24.
+    /// Number of segments: vertices times 24.
     pub segments: u64,
-    /// All of the segment's fine directions lie below the horizon of the vertex's normal.
+    /// Segments whose fine directions all lie below the horizon of the vertex's normal.
     pub below_horizon: u64,
-    /// Some fine directions lie above, but all of these are shadowed.
+    /// Segments whose fine directions above the horizon are all shadowed.
     pub shadowed: u64,
-    /// The others: segments with transfer.
+    /// Segments with transfer: all others.
     pub nonempty: u64,
     /// The lowest number of segments below the horizon at a vertex.
     pub least_below: u32,
 }
 
 impl SegmentCensus {
-    /// The census of all vertices of some maps. A fine direction belongs to a segment if the hat function of one of its
-    /// texels is not 0 there: with a width of one texel, if it lies in the segment. Panics if the maps are of other
-    /// vertices.
+    /// Counts over all vertices of some maps. A fine direction belongs to a segment if a hat function of the segment's
+    /// texels is not 0 there; with a width of one texel, if the direction is in the segment. Panics if the maps belong
+    /// to other vertices.
     pub fn new(vertices: &Vertices, maps: &VisibilityMaps, hats: &LinearBasis) -> Self {
         let of_map = |map: usize| {
             let normal = vertices.frames()[maps.vertices()[map] as usize].normal();
@@ -52,13 +52,14 @@ impl SegmentCensus {
         self.nonempty as f64 / self.segments.max(1) as f64
     }
 
-    /// Segments below the horizon, per vertex.
+    /// Mean number of segments below the horizon per vertex.
     pub fn mean_below(&self) -> f64 {
         24.0 * self.below_horizon as f64 / self.segments.max(1) as f64
     }
 }
 
-/// The segments without a fine direction above the horizon of a unit normal, one bit each from the lowest up.
+/// The segments without a fine direction above the horizon of a unit normal, one bit per segment from the lowest bit
+/// up.
 pub fn segments_below_horizon(normal: DVec3, hats: &LinearBasis) -> u32 {
     let directions = FineDirections::get().directions();
     let is_above = |fine: usize| normal.dot(directions[fine]) > 0.0;

@@ -28,7 +28,6 @@ impl VisibilitySampling {
         FineDirections::of(1 << self.log2_samples)
     }
 
-    /// Number of 64-bit words per vertex.
     pub(super) fn words(self) -> usize {
         self.directions().directions().len() / 64
     }
@@ -67,7 +66,7 @@ pub struct VisibilityCounts {
     pub above: u64,
     /// Number of these directions behind all triangles on which the vertex lies.
     pub below_triangles: u64,
-    /// Directions in which a ray was cast; for all others the result is certain.
+    /// Directions in which a ray was cast; the result of all others is certain.
     pub traced: u64,
     /// Directions in which the vertex sees the light.
     pub visible: u64,
@@ -76,7 +75,7 @@ pub struct VisibilityCounts {
 }
 
 impl VisibilityCounts {
-    /// Adds the counts of other vertices, which follow.
+    /// Adds the counts of the vertices that follow.
     fn append(&mut self, next: Self) {
         self.above += next.above;
         self.below_triangles += next.below_triangles;
@@ -86,8 +85,8 @@ impl VisibilityCounts {
     }
 }
 
-/// The visibility q_p of some vertices: one bit per vertex and fine direction, 1 where it sees the light. Directions
-/// below the vertex's horizon are 0.
+/// The visibility q_p of some vertices: one bit per vertex and fine direction, 1 if the vertex sees the light.
+/// Directions below the vertex's horizon are 0.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct VisibilityMaps {
     sampling: VisibilitySampling,
@@ -104,8 +103,8 @@ impl VisibilityMaps {
         Self { sampling, vertices: vertices.to_vec(), words: vec![0; vertices.len() * sampling.words()], counts }
     }
 
-    /// The maps of vertices 0, 1, 2 and so on in the default sampling, from all words, map by map. Of the counts, only
-    /// the number of visible directions is known. `None` if the last map is incomplete.
+    /// Creates the maps of vertices 0, 1, 2, ... in the default sampling from all words, map by map. Of the counts,
+    /// only the number of visible directions is set. `None` if the last map is incomplete.
     pub fn from_words(words: Vec<u64>) -> Option<Self> {
         let sampling = VisibilitySampling::default();
         if !words.len().is_multiple_of(sampling.words()) {
@@ -122,8 +121,8 @@ impl VisibilityMaps {
         self.sampling
     }
 
-    /// These maps with vertex numbers reduced by `first`: converts the numbers of the second of two joined meshes to
-    /// its own. Panics if a vertex number is lower than `first`.
+    /// Reduces vertex indices by `first`, which converts the indices of the second of two joined meshes to its own.
+    /// Panics if a vertex index is lower than `first`.
     #[must_use]
     pub fn counted_from(mut self, first: u32) -> Self {
         let lower = |vertex: &mut u32| *vertex = vertex.checked_sub(first).expect("a vertex of the second mesh");
@@ -131,7 +130,7 @@ impl VisibilityMaps {
         self
     }
 
-    /// Appends the maps of other vertices in the same sampling. Panics if the sampling is another.
+    /// Appends the maps of other vertices in the same sampling. Panics if the samplings differ.
     pub fn append(&mut self, next: Self) {
         assert_eq!(self.sampling, next.sampling, "maps of one sampling");
         self.vertices.extend(next.vertices);
@@ -139,7 +138,7 @@ impl VisibilityMaps {
         self.counts.append(next.counts);
     }
 
-    /// True if these are maps of the vertices of a range, in order, and complete.
+    /// True if these are the maps of exactly the vertices of a range, in order.
     pub fn are_of(&self, range: &Range<usize>) -> bool {
         let vertices = self.vertices.iter().map(|&vertex| vertex as usize);
         self.sampling.log2_samples <= VisibilitySampling::default().log2_samples
@@ -152,7 +151,7 @@ impl VisibilityMaps {
         &self.words
     }
 
-    /// The vertices of the maps, by their number in the mesh.
+    /// The vertices of the maps, by index in the mesh.
     pub fn vertices(&self) -> &[u32] {
         &self.vertices
     }
@@ -185,7 +184,6 @@ impl VisibilityMaps {
         &mut self.words
     }
 
-    /// Counts the bits that are set.
     pub(super) fn count_visible(&mut self) {
         self.counts.visible = self.words.iter().map(|word| u64::from(word.count_ones())).sum();
     }

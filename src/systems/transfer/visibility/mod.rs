@@ -1,7 +1,7 @@
-//! Visibility maps: in which of 6 x 128 x 128 directions a vertex sees the light (section 4), a bit each.
+//! Visibility maps: one bit for each of 6 x 128 x 128 directions, set if a vertex sees the light (section 4).
 //!
 //! - [`VisibilityMaps::trace`]: by rays;
-//! - [`SegmentCensus`]: which of the 24 segments of the light a vertex sees at all.
+//! - [`SegmentCensus`]: which of the light's 24 segments vertices see.
 
 mod census;
 mod maps;

@@ -1,4 +1,4 @@
-//! Visibility by rays, cast where a vertex's directions are not decided beforehand.
+//! Visibility by rays, which are cast only in directions that are not decided beforehand.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ use crate::transfer::grid::{LIGHT_TEXELS, texel_center};
 use crate::transfer::{LocalFrame, Occluders, RayOrigin, SkyPart, Vertices, origins, ray_length};
 
 /// The largest sine of the angle from a light texel's center to one of its fine directions: 3/4 of half a diagonal at
-/// the middle of a face, 0.0332, rounded up.
+/// the middle of a face is 0.0332, which is rounded up.
 const TEXEL_SINE: f64 = 0.034;
 
 /// The fine directions of a vertex in which rays must be cast, and counts of the others.
@@ -24,7 +24,7 @@ pub(super) struct UndecidedDirections {
     pub(super) below_triangles: u64,
 }
 
-/// Sets the bits of directions that are certainly unblocked, and lists those that may be blocked.
+/// Sets the bits of directions that are certainly unblocked, and lists the directions that may be blocked.
 pub(super) fn look(
     (frame, origin): (&LocalFrame, &RayOrigin),
     occluders: &Occluders,
@@ -64,7 +64,7 @@ pub(super) fn look(
     asked
 }
 
-/// The fine directions above a vertex's horizons, in order, and the number of those below its triangles.
+/// The fine directions above a vertex's horizons, in order, and the number of directions below its triangles.
 pub(super) fn above(frame: &LocalFrame, origin: &RayOrigin, sampling: VisibilitySampling) -> (Vec<u32>, u64) {
     let sees_below = sampling.horizon == Horizon::Geometry;
     let is_above = |direction: &DVec3| sees_below || frame.normal().dot(*direction) > 0.0;
@@ -89,7 +89,7 @@ struct Rays<'a> {
 }
 
 impl Rays<'_> {
-    /// The rays of a vertex in some directions, without those that overflow single precision.
+    /// The rays of a vertex in some directions, except rays that overflow single precision.
     fn of(&self, vertex: u32, fine: &[u32]) -> (Vec<u32>, Vec<Ray>) {
         let ray = |fine: u32| {
             let direction = self.length * self.sampling.directions().directions()[fine as usize];
@@ -110,16 +110,15 @@ impl VisibilityMaps {
         Self::trace_sampled(vertices, of, VisibilitySampling::default(), caster, done)
     }
 
-    /// The maps of some vertices of a mesh, by any-hit rays in the fine directions. The caster must be one for the mesh
-    /// from which the vertices were made, and see both sides of triangles. A vertex's rays start off all triangles on
-    /// which it lies. `done` is called with the number of finished vertices and their total.
+    /// Computes the maps of some vertices of a mesh, by any-hit rays in the fine directions. The caster must trace the
+    /// mesh from which the vertices were made, and both sides of triangles. A vertex's rays start at an offset from all
+    /// triangles on which it lies. `done` is called with the number of finished vertices and their total.
     ///
-    /// The result is that of casting every ray above the horizons, on any number of threads; rays that certainly hit
-    /// nothing are not cast.
+    /// Rays that certainly hit nothing are not cast, which does not change the result; nor does the number of threads.
     ///
-    /// The maps take [`VISIBILITY_BYTES`](super::VISIBILITY_BYTES) per vertex; rays that wait to be cast at most 32
-    /// vertices times 98,304 directions times 30 bytes, 90 MB. Fails with [`InputError`] for a vertex that does not
-    /// exist; [`InputError`] if the caster fails.
+    /// The maps take [`VISIBILITY_BYTES`](super::VISIBILITY_BYTES) per vertex; rays that wait to be cast take at most
+    /// 32 vertices times 98,304 directions times 30 bytes, 90 MB. Fails with [`InputError`] if a vertex does not exist
+    /// or the caster fails.
     pub fn trace_sampled(
         vertices: &Vertices,
         of: &[u32],
@@ -164,7 +163,7 @@ impl VisibilityMaps {
         Ok(maps)
     }
 
-    /// As [`Self::trace_sampled`], with every ray cast: the reference of its tests.
+    /// Like [`Self::trace_sampled`], but casts every ray: the reference for its tests.
     pub fn trace_all(
         vertices: &Vertices,
         of: &[u32],
@@ -197,7 +196,7 @@ pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), InputError> {
     unknown.map_or(Ok(()), |&vertex| require(false, what, expected, f64::from(vertex)))
 }
 
-/// The vertices whose ray origin is not clear of all triangles on which they lie.
+/// The vertices whose ray origin is not clear of all triangles on which the vertex lies.
 fn unclear(origins: &[RayOrigin], of: &[u32]) -> Vec<u32> {
     of.iter().copied().filter(|&vertex| !origins[vertex as usize].is_clear).collect()
 }

@@ -22,7 +22,6 @@ pub const MIN_PPD: f64 = 1.0;
 /// Maximum pixels per degree.
 pub const MAX_PPD: f64 = 1000.0;
 
-/// Exponent of color differences.
 const COLOR_EXPONENT: f64 = 0.7;
 const FEATURE_EXPONENT: f64 = 0.5;
 /// Fraction of the largest color difference that is mapped to [`KNEE_ERROR`].
@@ -94,7 +93,7 @@ fn perceived(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
 /// Filters a plane by a sum of Gaussians, whose weights sum to 1.
 fn contrast_filtered(plane: &PixelPlane, gaussians: &[[f64; 2]], ppd: f64) -> Vec<f64> {
     use std::f64::consts::PI;
-    // Three standard deviations of the widest, for all channels.
+    // All channels use three standard deviations of the widest Gaussian.
     let radius = (3.0 * (BLUE_YELLOW[0][1] / (2.0 * PI * PI)).sqrt() * ppd).ceil() as u32;
     let mut total = 0.0;
     let mut parts = Vec::new();
