@@ -12,7 +12,7 @@ use super::rows::{Row, rows};
 /// quotient of small numbers is bright, has the largest difference on lavapipe: 2e-5. Noise multiplies a sine, of which
 /// a unit in the last place is 2^-24, by 43,758.
 fn tolerance(name: &str) -> f64 {
-    if name == "noise" { 43_758.547 * 2f64.powi(-24) } else { 1e-4 }
+    if name == "noise" { 43_758.547 / f64::from(1 << 24) } else { 1e-4 }
 }
 
 /// The type of a uniform of the text that is no structure, and its line.

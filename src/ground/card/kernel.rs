@@ -175,6 +175,7 @@ pub trait WrittenKernel {
         checked(profile, format!("`{}`", self.name()), &self.text())
     }
 
+    /// Name and text.
     fn listed(&self) -> (String, String) {
         (self.name(), self.text())
     }

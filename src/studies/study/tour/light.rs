@@ -44,12 +44,15 @@ pub(super) fn factors(
     Ok((FormFactors::with_visibility(patches, &mut open, how, &mut done)?, open.record()))
 }
 
-/// A room's radiosity by a card, its iterations, and their modelled time.
+/// Radiosity of each patch, iterations, and their modelled time.
+type Solved = (Vec<[f64; 3]>, u32, Option<Picoseconds>);
+
+/// A room's radiosity by a card.
 pub(super) fn radiosity(
     system: &System,
     profile: &Profile,
     executor: &Executor,
-) -> Result<(Vec<[f64; 3]>, u32, Option<Picoseconds>), StudyError> {
+) -> Result<Solved, StudyError> {
     let solver = CardSolver::new(profile.clone(), executor.clone(), system, Packing::Rgb, Storage::Fp32);
     let mut solver = solver.map_err(no_card)?;
     solver.record(true);

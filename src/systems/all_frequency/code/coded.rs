@@ -93,6 +93,7 @@ impl CodedTransfer {
         self.segments.iter().find_map(|part| part.fault(self))
     }
 
+    /// Bytes by part.
     pub fn size(&self) -> CodeSize {
         let mut size = CodeSize::default();
         let bytes = |count: usize, bits: u64| (count as u64 * bits).div_ceil(8);

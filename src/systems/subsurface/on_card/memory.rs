@@ -30,6 +30,7 @@ impl CardMemory {
         Self { parts: parts.into_iter().filter(|part| part.1 > 0).collect() }
     }
 
+    /// Bytes in all.
     pub fn bytes(&self) -> u64 {
         self.parts.iter().map(|part| part.1).sum()
     }
