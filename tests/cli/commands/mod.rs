@@ -72,7 +72,7 @@ pub(crate) fn copy_of_the_repository() -> tempfile::TempDir {
         }
     }
     let folder = tempfile::tempdir().expect("a folder for the test");
-    for part in ["fixtures/cases", "fixtures/models", "fixtures/rays", "docs/examples"] {
+    for part in ["fixtures/cases", "fixtures/fpbench", "fixtures/models", "fixtures/rays", "docs/examples"] {
         copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join(part), &folder.path().join(part));
     }
     folder

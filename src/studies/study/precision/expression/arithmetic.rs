@@ -10,7 +10,7 @@ use num_traits::ToPrimitive;
 use refsim::num::{Format, Unpacked, from_f64, from_parts, ops, to_f64, unpack};
 
 use super::graph::{Graph, Operation};
-use super::real::{Dyadic, End, Function, Interval, Real, apply};
+use super::real::{Dyadic, End, Function, Real, RealInterval, apply};
 use super::special::special;
 
 /// Bits that values over the reals are computed to, until they decide.
@@ -30,7 +30,7 @@ pub(super) enum Arithmetic {
 
 /// What a pattern means.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Number {
+pub(super) enum FormatNumber {
     Nan,
     Infinite,
     /// A number, without the sign of a zero.
@@ -54,24 +54,24 @@ impl Arithmetic {
         }
     }
 
-    pub(super) fn decode(self, bits: u64) -> Number {
+    pub(super) fn decode(self, bits: u64) -> FormatNumber {
         let finite = |negative, digits: u64, exponent: i64| {
             let digits = num_bigint::BigInt::from(digits);
-            Number::Finite(Dyadic::new(if negative { -digits } else { digits }, exponent))
+            FormatNumber::Finite(Dyadic::new(if negative { -digits } else { digits }, exponent))
         };
         match self {
             Self::Double => {
                 let (negative, field, fraction) = (bits >> 63 != 0, (bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));
                 match (field, fraction) {
-                    (0x7ff, 0) => Number::Infinite,
-                    (0x7ff, _) => Number::Nan,
+                    (0x7ff, 0) => FormatNumber::Infinite,
+                    (0x7ff, _) => FormatNumber::Nan,
                     (0, _) => finite(negative, fraction, -1074),
                     _ => finite(negative, fraction | 1 << 52, field.cast_signed() - 1075),
                 }
             }
             Self::Number(format) => match unpack(&format, bits as u32) {
-                Unpacked::Nan { .. } => Number::Nan,
-                Unpacked::Inf { .. } => Number::Infinite,
+                Unpacked::Nan { .. } => FormatNumber::Nan,
+                Unpacked::Inf { .. } => FormatNumber::Infinite,
                 Unpacked::Finite { sign, sig, exp, .. } => finite(sign, sig, exp.into()),
             },
         }
@@ -154,7 +154,7 @@ impl Arithmetic {
 
     /// Bits of error: `log2(1 + n)`, with `n` the numbers from one value to the other; all bits if a result is NaN.
     pub(super) fn error_bits(self, computed: u64, exact: u64) -> f64 {
-        if self.decode(computed) == Number::Nan {
+        if self.decode(computed) == FormatNumber::Nan {
             return self.width().into();
         }
         let distance = self.ordinal(computed).abs_diff(self.ordinal(exact));
@@ -162,7 +162,7 @@ impl Arithmetic {
     }
 
     /// The rounded value of an interval, if all of it rounds to the same number.
-    pub(super) fn decided(self, range: &Interval) -> Option<u64> {
+    pub(super) fn decided(self, range: &RealInterval) -> Option<u64> {
         let [low, high] = [&range.low, &range.high].map(|end| self.encode(end));
         (self.ordinal(low) == self.ordinal(high)).then_some(high)
     }
@@ -170,7 +170,7 @@ impl Arithmetic {
     /// The value over the reals of a pattern that is a number.
     pub(super) fn real(self, bits: u64) -> Real {
         match self.decode(bits) {
-            Number::Finite(x) => Real::Range(Interval::point(x)),
+            FormatNumber::Finite(x) => Real::Range(RealInterval::point(x)),
             _ => Real::Undefined,
         }
     }
@@ -227,7 +227,7 @@ impl Arithmetic {
     }
 
     fn order(self, x: u64, y: u64) -> Option<Ordering> {
-        let is_nan = |bits| self.decode(bits) == Number::Nan;
+        let is_nan = |bits| self.decode(bits) == FormatNumber::Nan;
         (!is_nan(x) && !is_nan(y)).then(|| self.ordinal(x).cmp(&self.ordinal(y)))
     }
 
@@ -235,7 +235,7 @@ impl Arithmetic {
         if let Some(bits) = self.native(function, operands) {
             return bits;
         }
-        let is_regular = |bits: &u64| matches!(self.decode(*bits), Number::Finite(x) if !x.is_zero());
+        let is_regular = |bits: &u64| matches!(self.decode(*bits), FormatNumber::Finite(x) if !x.is_zero());
         let special = || {
             let values: Vec<f64> = operands.iter().map(|&bits| self.value(bits)).collect();
             self.rounded(special(function, &values))

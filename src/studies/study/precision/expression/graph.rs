@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use num_bigint::BigInt;
 
-use super::real::{Constant, Function, Interval, Real, apply};
+use super::real::{Constant, Function, Real, RealInterval, apply};
 use crate::report::SourceText;
 
 /// A comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Comparison {
+pub(super) enum NumberComparison {
     Less,
     LessEqual,
     Greater,
@@ -20,7 +20,7 @@ pub(super) enum Comparison {
     NotEqual,
 }
 
-impl Comparison {
+impl NumberComparison {
     pub(super) fn named(name: &str) -> Option<Self> {
         Some(match name {
             "<" => Self::Less,
@@ -56,7 +56,7 @@ pub(super) enum Operation {
     Constant(Constant),
     Apply(Function, Vec<usize>),
     Truth(bool),
-    Compare(Comparison, [usize; 2]),
+    Compare(NumberComparison, [usize; 2]),
     /// All of them, or any of them.
     Connect {
         all: bool,
@@ -125,7 +125,7 @@ fn real(operation: &Operation, inputs: &[Real], values: &[Real], bits: u64) -> R
     let of = |operands: &[usize]| operands.iter().map(|&operand| values[operand].clone()).collect::<Vec<_>>();
     match operation {
         Operation::Variable(variable) => inputs[*variable].clone(),
-        Operation::Number(n, d) => Real::Range(Interval::ratio(n, d, bits)),
+        Operation::Number(n, d) => Real::Range(RealInterval::ratio(n, d, bits)),
         Operation::Constant(constant) => Real::Range(constant.value(bits)),
         Operation::Apply(function, operands) => apply(*function, &of(operands), bits),
         Operation::Truth(truth) => Real::Truth(*truth),
@@ -147,15 +147,15 @@ fn real(operation: &Operation, inputs: &[Real], values: &[Real], bits: u64) -> R
 }
 
 /// A comparison of intervals, if it is the same for all of their numbers.
-fn compare(comparison: Comparison, x: &Interval, y: &Interval) -> Option<bool> {
+fn compare(comparison: NumberComparison, x: &RealInterval, y: &RealInterval) -> Option<bool> {
     if let Some(order) = x.order(y) {
         return Some(comparison.holds(Some(order)));
     }
     match comparison {
-        Comparison::LessEqual if x.high <= y.low => Some(true),
-        Comparison::Greater if x.high <= y.low => Some(false),
-        Comparison::GreaterEqual if x.low >= y.high => Some(true),
-        Comparison::Less if x.low >= y.high => Some(false),
+        NumberComparison::LessEqual if x.high <= y.low => Some(true),
+        NumberComparison::Greater if x.high <= y.low => Some(false),
+        NumberComparison::GreaterEqual if x.low >= y.high => Some(true),
+        NumberComparison::Less if x.low >= y.high => Some(false),
         _ => None,
     }
 }

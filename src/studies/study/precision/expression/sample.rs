@@ -1,7 +1,7 @@
 //! Sampled inputs, and the exact results there.
 
 use super::arithmetic::{Arithmetic, PRECISIONS};
-use super::graph::{Comparison, Expression, Graph, Operation};
+use super::graph::{Expression, Graph, NumberComparison, Operation};
 use super::real::Real;
 use crate::geom::random::CounterRng;
 
@@ -141,10 +141,10 @@ fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) 
             _ => continue,
         };
         let (upper, lower) = match comparison {
-            Comparison::Less | Comparison::LessEqual => (true, false),
-            Comparison::Greater | Comparison::GreaterEqual => (false, true),
-            Comparison::Equal => (true, true),
-            Comparison::NotEqual => continue,
+            NumberComparison::Less | NumberComparison::LessEqual => (true, false),
+            NumberComparison::Greater | NumberComparison::GreaterEqual => (false, true),
+            NumberComparison::Equal => (true, true),
+            NumberComparison::NotEqual => continue,
         };
         for (variable, bound, is_upper, is_lower) in [(left, right, upper, lower), (right, left, lower, upper)] {
             if let (Operation::Variable(index), Real::Range(range)) =

@@ -10,7 +10,7 @@ use super::dyadic::{Dyadic, End};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Real {
     /// The value lies between the ends.
-    Range(Interval),
+    Range(RealInterval),
     /// There is no real value: a division by zero, a root or a logarithm of a negative number.
     Undefined,
     /// These bits do not tell.
@@ -21,12 +21,12 @@ pub(crate) enum Real {
 
 /// A closed interval of reals.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Interval {
+pub(crate) struct RealInterval {
     pub(crate) low: End,
     pub(crate) high: End,
 }
 
-impl Interval {
+impl RealInterval {
     pub(crate) fn point(x: Dyadic) -> Self {
         Self { low: End::At(x.clone()), high: End::At(x) }
     }

@@ -13,5 +13,5 @@ mod power;
 mod series;
 
 pub(super) use dyadic::{Dyadic, End};
-pub(super) use interval::{Interval, Real};
+pub(super) use interval::{Real, RealInterval};
 pub(super) use operations::{Constant, Function, apply};

@@ -2,7 +2,7 @@
 
 use super::dyadic::Dyadic;
 use super::functions as made;
-use super::interval::{Interval, Real};
+use super::interval::{Real, RealInterval};
 use super::{power, series};
 
 macro_rules! functions {
@@ -54,12 +54,12 @@ constants! {
 
 impl Constant {
     /// The constant, to about `bits` bits.
-    pub(crate) fn value(self, bits: u64) -> Interval {
-        let [one, ten] = [1, 10].map(Interval::integer);
+    pub(crate) fn value(self, bits: u64) -> RealInterval {
+        let [one, ten] = [1, 10].map(RealInterval::integer);
         let pi = || series::pi(bits);
-        let log = |x: &Interval| made::log(x, bits);
+        let log = |x: &RealInterval| made::log(x, bits);
         // No divisor is zero.
-        let over = |x: &Interval, y: Interval| x.over(&y, bits).unwrap_or_else(|| x.clone());
+        let over = |x: &RealInterval, y: RealInterval| x.over(&y, bits).unwrap_or_else(|| x.clone());
         match self {
             Self::E => made::exp(&one, bits),
             Self::Log2E => over(&one, series::ln_2(bits)),
@@ -72,8 +72,8 @@ impl Constant {
             Self::OverPi => over(&one, pi()),
             Self::TwoOverPi => over(&one, pi().scaled(-1)),
             Self::TwoOverRootPi => over(&one, pi().root(2, bits).scaled(-1)),
-            Self::Sqrt2 => Interval::integer(2).root(2, bits),
-            Self::SqrtHalf => Interval::integer(2).scaled(-2).root(2, bits),
+            Self::Sqrt2 => RealInterval::integer(2).root(2, bits),
+            Self::SqrtHalf => RealInterval::integer(2).scaled(-2).root(2, bits),
         }
     }
 }
@@ -83,7 +83,7 @@ pub(crate) fn apply(function: Function, operands: &[Real], bits: u64) -> Real {
     if operands.contains(&Real::Undefined) {
         return Real::Undefined;
     }
-    let ranges: Option<Vec<&Interval>> =
+    let ranges: Option<Vec<&RealInterval>> =
         operands.iter().map(|x| if let Real::Range(range) = x { Some(range) } else { None }).collect();
     let Some(ranges) = ranges else { return Real::Unknown };
     match ranges[..] {
@@ -94,11 +94,13 @@ pub(crate) fn apply(function: Function, operands: &[Real], bits: u64) -> Real {
     }
 }
 
-fn unary(function: Function, x: &Interval, bits: u64) -> Real {
+fn unary(function: Function, x: &RealInterval, bits: u64) -> Real {
     use Function as F;
-    let one = Interval::integer(1);
+    let one = RealInterval::integer(1);
     let defined = match function {
-        F::Sqrt => x.order(&Interval::integer(0)).map(|order| order.is_ge()).or((!x.low.is_negative()).then_some(true)),
+        F::Sqrt => {
+            x.order(&RealInterval::integer(0)).map(|order| order.is_ge()).or((!x.low.is_negative()).then_some(true))
+        }
         F::Log | F::Log2 | F::Log10 => positive(x),
         F::Log1P => positive(&x.plus(&one, bits)),
         F::Asin | F::Acos => not_above(&x.abs(), &one),
@@ -121,7 +123,7 @@ fn unary(function: Function, x: &Interval, bits: u64) -> Real {
         F::ExpM1 => Some(made::exp(x, bits).minus(&one, bits)),
         F::Log => Some(made::log(x, bits)),
         F::Log2 => power::log2(x, bits),
-        F::Log10 => made::log(x, bits).over(&made::log(&Interval::integer(10), bits), bits),
+        F::Log10 => made::log(x, bits).over(&made::log(&RealInterval::integer(10), bits), bits),
         F::Log1P => Some(made::log(&x.plus(&one, bits), bits)),
         F::Sin => Some(made::circular(true, x, bits)),
         F::Cos => Some(made::circular(false, x, bits)),
@@ -142,7 +144,7 @@ fn unary(function: Function, x: &Interval, bits: u64) -> Real {
 }
 
 /// Whether all of an interval, or none of it, is above zero.
-fn positive(x: &Interval) -> Option<bool> {
+fn positive(x: &RealInterval) -> Option<bool> {
     match x {
         _ if x.is_positive() => Some(true),
         _ if x.is_negative() || x.high.is_zero() => Some(false),
@@ -151,11 +153,11 @@ fn positive(x: &Interval) -> Option<bool> {
 }
 
 /// Whether all of an interval, or none of it, is at most another.
-fn not_above(x: &Interval, y: &Interval) -> Option<bool> {
+fn not_above(x: &RealInterval, y: &RealInterval) -> Option<bool> {
     if x.high <= y.low { Some(true) } else { (x.low > y.high).then_some(false) }
 }
 
-fn binary(function: Function, x: &Interval, y: &Interval, bits: u64) -> Real {
+fn binary(function: Function, x: &RealInterval, y: &RealInterval, bits: u64) -> Real {
     use Function as F;
     let range = match function {
         F::Add => Some(x.plus(y, bits)),
@@ -166,8 +168,8 @@ fn binary(function: Function, x: &Interval, y: &Interval, bits: u64) -> Real {
         F::Pow => return power::pow(x, y, bits),
         F::Hypot => Some(x.squared(bits).plus(&y.squared(bits), bits).root(2, bits)),
         F::Atan2 => return made::atan2(x, y, bits),
-        F::Min => Some(Interval { low: (&x.low).min(&y.low).clone(), high: (&x.high).min(&y.high).clone() }),
-        F::Max => Some(Interval { low: (&x.low).max(&y.low).clone(), high: (&x.high).max(&y.high).clone() }),
+        F::Min => Some(RealInterval { low: (&x.low).min(&y.low).clone(), high: (&x.high).min(&y.high).clone() }),
+        F::Max => Some(RealInterval { low: (&x.low).max(&y.low).clone(), high: (&x.high).max(&y.high).clone() }),
         _ => None,
     };
     range.map_or(Real::Unknown, Real::Range)

@@ -3,7 +3,7 @@
 use num_traits::One;
 
 use super::dyadic::Dyadic;
-use super::interval::{Interval, Real};
+use super::interval::{Real, RealInterval};
 use super::{functions, series};
 
 /// Largest integer exponent of powers by multiplication, and of powers of two.
@@ -12,37 +12,37 @@ const MAX_WHOLE: u64 = 1 << 12;
 const MAX_ROOTS: u32 = 12;
 
 /// `2^x`
-pub(super) fn exp2(x: &Interval, bits: u64) -> Interval {
+pub(super) fn exp2(x: &RealInterval, bits: u64) -> RealInterval {
     match small_integer(x) {
-        Some(whole) => Interval::point(Dyadic::new(1, 0)).scaled(whole),
+        Some(whole) => RealInterval::point(Dyadic::new(1, 0)).scaled(whole),
         None => functions::exp(&x.times(&series::ln_2(bits), bits), bits),
     }
 }
 
 /// `log2 x` of what is above zero.
-pub(super) fn log2(x: &Interval, bits: u64) -> Option<Interval> {
+pub(super) fn log2(x: &RealInterval, bits: u64) -> Option<RealInterval> {
     if let Some(x) = x.as_point()
         && let zeros = x.digits.trailing_zeros().unwrap_or_default()
         && (&x.digits >> zeros).is_one()
     {
-        return Some(Interval::integer(x.exponent + zeros.cast_signed()));
+        return Some(RealInterval::integer(x.exponent + zeros.cast_signed()));
     }
     functions::log(x, bits).over(&series::ln_2(bits), bits)
 }
 
 /// `x^y`
-pub(super) fn pow(x: &Interval, y: &Interval, bits: u64) -> Real {
-    let zero = Interval::integer(0);
-    let is_zero = |x: &Interval| x.as_point().is_some_and(Dyadic::is_zero);
+pub(super) fn pow(x: &RealInterval, y: &RealInterval, bits: u64) -> Real {
+    let zero = RealInterval::integer(0);
+    let is_zero = |x: &RealInterval| x.as_point().is_some_and(Dyadic::is_zero);
     if is_zero(y) {
-        return Real::Range(Interval::integer(1));
+        return Real::Range(RealInterval::integer(1));
     }
     if let Some(whole) = small_integer(y).filter(|whole| whole.unsigned_abs() <= MAX_WHOLE) {
         let product = whole_power(x, whole.unsigned_abs(), bits);
         return match (whole < 0, is_zero(&product)) {
             (false, _) => Real::Range(product),
             (true, true) => Real::Undefined,
-            (true, false) => Interval::integer(1).over(&product, bits).map_or(Real::Unknown, Real::Range),
+            (true, false) => RealInterval::integer(1).over(&product, bits).map_or(Real::Unknown, Real::Range),
         };
     }
     if is_zero(x) {
@@ -52,7 +52,7 @@ pub(super) fn pow(x: &Interval, y: &Interval, bits: u64) -> Real {
             None => Real::Unknown,
         };
     }
-    let by_logarithm = |x: &Interval| functions::exp(&y.times(&functions::log(x, bits), bits), bits);
+    let by_logarithm = |x: &RealInterval| functions::exp(&y.times(&functions::log(x, bits), bits), bits);
     if x.is_positive() {
         return Real::Range(rational_power(x, y, bits).unwrap_or_else(|| by_logarithm(x)));
     }
@@ -67,8 +67,8 @@ pub(super) fn pow(x: &Interval, y: &Interval, bits: u64) -> Real {
 }
 
 /// `x^n` by squaring.
-fn whole_power(x: &Interval, n: u64, bits: u64) -> Interval {
-    let (mut power, mut rest, mut square) = (Interval::integer(1), n, x.clone());
+fn whole_power(x: &RealInterval, n: u64, bits: u64) -> RealInterval {
+    let (mut power, mut rest, mut square) = (RealInterval::integer(1), n, x.clone());
     // Even powers are those of the magnitude.
     if n.is_multiple_of(2) {
         square = square.abs();
@@ -86,21 +86,21 @@ fn whole_power(x: &Interval, n: u64, bits: u64) -> Interval {
 }
 
 /// `x^(n/2^k)` of two numbers, if it is rational: `k` exact roots, then a power.
-fn rational_power(x: &Interval, y: &Interval, bits: u64) -> Option<Interval> {
+fn rational_power(x: &RealInterval, y: &RealInterval, bits: u64) -> Option<RealInterval> {
     let (mut base, exponent) = (x.as_point()?.clone(), y.as_point()?);
     let zeros = exponent.digits.trailing_zeros().unwrap_or_default().cast_signed();
     let roots = u32::try_from(-(exponent.exponent + zeros)).ok().filter(|roots| *roots <= MAX_ROOTS)?;
-    let whole = small_integer(&Interval::point(exponent.scaled(roots.into())))?;
+    let whole = small_integer(&RealInterval::point(exponent.scaled(roots.into())))?;
     for _ in 0..roots {
         let (root, is_exact) = base.root(2, base.digits.bits() + 4, false);
         base = is_exact.then_some(root)?;
     }
-    let power = whole_power(&Interval::point(base), Some(whole.unsigned_abs()).filter(|n| *n <= MAX_WHOLE)?, bits);
-    if whole < 0 { Interval::integer(1).over(&power, bits) } else { Some(power) }
+    let power = whole_power(&RealInterval::point(base), Some(whole.unsigned_abs()).filter(|n| *n <= MAX_WHOLE)?, bits);
+    if whole < 0 { RealInterval::integer(1).over(&power, bits) } else { Some(power) }
 }
 
 /// An integer that is a point, small enough to count with.
-fn small_integer(x: &Interval) -> Option<i64> {
+fn small_integer(x: &RealInterval) -> Option<i64> {
     let x = x.as_point()?;
     i64::try_from(Some(x).filter(|x| x.top() < 60)?.whole()?).ok()
 }

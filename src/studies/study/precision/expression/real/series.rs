@@ -12,7 +12,7 @@ use num_integer::Integer as _;
 use num_traits::{One, Zero};
 
 use super::dyadic::{Dyadic, End, LIMIT, shifted};
-use super::interval::Interval;
+use super::interval::RealInterval;
 
 /// Places beyond those of the result.
 const GUARD: i64 = 40;
@@ -57,38 +57,38 @@ fn known(is_pi: bool, wanted: i64) -> BigInt {
 }
 
 /// pi, to about `bits` bits.
-pub(super) fn pi(bits: u64) -> Interval {
+pub(super) fn pi(bits: u64) -> RealInterval {
     let places = bits.cast_signed();
-    Interval::around(&known(true, places), 2, -places)
+    RealInterval::around(&known(true, places), 2, -places)
 }
 
 /// ln 2, to about `bits` bits.
-pub(super) fn ln_2(bits: u64) -> Interval {
+pub(super) fn ln_2(bits: u64) -> RealInterval {
     let places = bits.cast_signed();
-    Interval::around(&known(false, places), 2, -places)
+    RealInterval::around(&known(false, places), 2, -places)
 }
 
-fn enclosed(sum: &BigInt, places: i64) -> Interval {
-    Interval::around(sum, 1 << ERROR, -places)
+fn enclosed(sum: &BigInt, places: i64) -> RealInterval {
+    RealInterval::around(sum, 1 << ERROR, -places)
 }
 
 /// From `1 + low` to `1 + high`, where both are `digits * 2^exponent`.
-fn near_one(low: i32, high: i32, exponent: i64, bits: u64) -> Interval {
+fn near_one(low: i32, high: i32, exponent: i64, bits: u64) -> RealInterval {
     let at = |x: i32, up| End::At(Dyadic::new(1, 0).plus(&Dyadic::new(x, exponent), bits, up));
-    Interval { low: at(low, false), high: at(high, true) }
+    RealInterval { low: at(low, false), high: at(high, true) }
 }
 
 /// `e^x`.
-pub(super) fn exp(x: &Dyadic, bits: u64) -> Interval {
+pub(super) fn exp(x: &Dyadic, bits: u64) -> RealInterval {
     let top = x.top();
     if x.is_zero() {
-        return Interval::integer(1);
+        return RealInterval::integer(1);
     }
     if top > 58 {
         let far = Dyadic::new(1, if x.is_negative() { -LIMIT } else { LIMIT });
         return match x.is_negative() {
-            true => Interval { low: End::At(Dyadic::new(0, 0)), high: End::At(far) },
-            false => Interval { low: End::At(far), high: End::Above },
+            true => RealInterval { low: End::At(Dyadic::new(0, 0)), high: End::At(far) },
+            false => RealInterval { low: End::At(far), high: End::Above },
         };
     }
     if top < -bits.cast_signed() - 2 {
@@ -110,7 +110,7 @@ pub(super) fn exp(x: &Dyadic, bits: u64) -> Interval {
 }
 
 /// `ln x` for `x` above zero.
-pub(super) fn log(x: &Dyadic, bits: u64) -> Interval {
+pub(super) fn log(x: &Dyadic, bits: u64) -> RealInterval {
     // x = m 2^whole, with m between the roots of 1/2 and 2.
     let length = x.digits.bits().cast_signed();
     let is_small = (&x.digits * &x.digits).bits().cast_signed() < 2 * length;
@@ -119,7 +119,7 @@ pub(super) fn log(x: &Dyadic, bits: u64) -> Interval {
     let one = BigInt::one() << unit.unsigned_abs();
     let less = &x.digits - &one;
     if less.is_zero() && whole == 0 {
-        return Interval::integer(0);
+        return RealInterval::integer(0);
     }
     let near = if whole == 0 { unit - less.bits().cast_signed() } else { 0 };
     let places = bits.cast_signed() + GUARD + near;
@@ -137,10 +137,10 @@ pub(super) fn log(x: &Dyadic, bits: u64) -> Interval {
 }
 
 /// `atan x`.
-pub(super) fn atan(x: &Dyadic, bits: u64) -> Interval {
+pub(super) fn atan(x: &Dyadic, bits: u64) -> RealInterval {
     let (top, precision) = (x.top(), bits.cast_signed());
     if x.is_zero() {
-        return Interval::integer(0);
+        return RealInterval::integer(0);
     }
     if 2 * top < -precision - 4 {
         return below(x, bits);
@@ -174,19 +174,19 @@ pub(super) fn atan(x: &Dyadic, bits: u64) -> Interval {
 }
 
 /// A function between `x (1 - x^2)` and `x`, for a small x.
-fn below(x: &Dyadic, bits: u64) -> Interval {
+fn below(x: &Dyadic, bits: u64) -> RealInterval {
     let less = near_one(-1, 0, 2 * x.top(), bits + 4);
-    Interval::point(x.clone()).times(&less, bits)
+    RealInterval::point(x.clone()).times(&less, bits)
 }
 
 /// `sin x` or `cos x`.
-pub(super) fn circular(sine: bool, x: &Dyadic, bits: u64) -> Interval {
+pub(super) fn circular(sine: bool, x: &Dyadic, bits: u64) -> RealInterval {
     let (top, precision) = (x.top(), bits.cast_signed());
     if x.is_zero() {
-        return Interval::integer(i32::from(!sine));
+        return RealInterval::integer(i32::from(!sine));
     }
     if top > MAX_ANGLE {
-        return Interval { low: End::At(Dyadic::new(-1, 0)), high: End::At(Dyadic::new(1, 0)) };
+        return RealInterval { low: End::At(Dyadic::new(-1, 0)), high: End::At(Dyadic::new(1, 0)) };
     }
     if 2 * top < -precision - 4 {
         return if sine { below(x, bits) } else { near_one(-1, 0, 2 * top, bits) };

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::text::{MAX_DEPTH, Tree};
 use super::{ExpressionError, numbers};
 use crate::report::SourceText;
-use crate::study::precision::expression::graph::{Comparison, Expression, Graph, Node, Operation};
+use crate::study::precision::expression::graph::{Expression, Graph, Node, NumberComparison, Operation};
 use crate::study::precision::expression::real::{Constant, Function};
 
 /// Largest number of operations.
@@ -45,16 +45,16 @@ pub(super) fn core(tree: &Tree, source: &Arc<SourceText>) -> Result<Expression, 
                 name = value.atom().map(|name| name.trim_start_matches('"').to_owned());
             }
             [Tree::Atom(key, _), value] if key == ":pre" => {
-                preconditions.push(Translator::graph(source, &variables, value, true)?);
+                preconditions.push(GraphBuilder::graph(source, &variables, value, true)?);
             }
             [Tree::Atom(key, _), value] if key == ":spec" => {
-                spec = Some(Translator::graph(source, &variables, value, false)?);
+                spec = Some(GraphBuilder::graph(source, &variables, value, false)?);
             }
             [Tree::Atom(key, _), _] if key.starts_with(':') => {}
             _ => return Err(fail("expected `:NAME VALUE`", pair[0].place())),
         }
     }
-    let body = Translator::graph(source, &variables, body, false)?;
+    let body = GraphBuilder::graph(source, &variables, body, false)?;
     let name = name.unwrap_or_else(|| format!("line {}", source.line_of(tree.place().start) + 1));
     Ok(Expression { source: Arc::clone(source), name, variables, body, spec, preconditions })
 }
@@ -66,7 +66,7 @@ pub(in crate::study::precision::expression) fn formula(
     let tree = super::infix::parse(source)?;
     let mut variables = Vec::new();
     free_names(&tree, &mut variables);
-    let body = Translator::graph(source, &variables, &tree, false)?;
+    let body = GraphBuilder::graph(source, &variables, &tree, false)?;
     let name = source.text().trim().to_owned();
     Ok(Expression { source: Arc::clone(source), name, variables, body, spec: None, preconditions: Vec::new() })
 }
@@ -100,7 +100,7 @@ pub(in crate::study::precision::expression) fn bounds(
     }
     let source = Arc::new(SourceText::new("--range", ranges.join(" ")));
     let all = Tree::List(nodes, 0..0);
-    (!ranges.is_empty()).then(|| Translator::graph(&source, variables, &all, true)).transpose()
+    (!ranges.is_empty()).then(|| GraphBuilder::graph(&source, variables, &all, true)).transpose()
 }
 
 /// Adds the names of a formula that are neither numbers nor constants.
@@ -117,7 +117,7 @@ fn free_names(tree: &Tree, names: &mut Vec<String>) {
     }
 }
 
-struct Translator<'a> {
+struct GraphBuilder<'a> {
     source: &'a Arc<SourceText>,
     nodes: Vec<Node>,
     /// Names in scope; later ones hide earlier ones.
@@ -125,7 +125,7 @@ struct Translator<'a> {
     depth: usize,
 }
 
-impl<'a> Translator<'a> {
+impl<'a> GraphBuilder<'a> {
     fn graph(
         source: &'a Arc<SourceText>,
         variables: &[String],
@@ -219,7 +219,7 @@ impl<'a> Translator<'a> {
                     None => self.fail("expected `(digits m e b)`, three integers", place),
                 }
             }
-            (_, [first, ..]) if let Some(comparison) = Comparison::named(head) => {
+            (_, [first, ..]) if let Some(comparison) = NumberComparison::named(head) => {
                 self.comparison(comparison, first, operands, place)
             }
             ("+" | "-" | "*" | "/", [first, second, rest @ ..]) if !rest.is_empty() => {
@@ -278,7 +278,7 @@ impl<'a> Translator<'a> {
     /// Of several operands each neighboring pair is compared; with `!=` every pair.
     fn comparison(
         &mut self,
-        comparison: Comparison,
+        comparison: NumberComparison,
         first: &Tree,
         operands: &[Tree],
         place: Range<usize>,
@@ -287,7 +287,7 @@ impl<'a> Translator<'a> {
             return self.fail("expected two numbers or more to compare", first.place());
         }
         let numbers = self.all_typed(operands, false)?;
-        let distance = if comparison == Comparison::NotEqual { numbers.len() } else { 2 };
+        let distance = if comparison == NumberComparison::NotEqual { numbers.len() } else { 2 };
         let mut pairs = Vec::new();
         for (index, &left) in numbers.iter().enumerate() {
             for &right in numbers.iter().take(index + distance).skip(index + 1) {
