@@ -71,24 +71,29 @@ impl ShownTrace<'_> {
     }
 
     fn steps(&self, fragment: &FragmentTrace) -> Table {
-        let headings = ["step", "line", "text", "register", "value", "bits", "flags"];
-        let all = if self.0.knows_flags { 7 } else { 6 };
-        let mut table = Table::new("Steps", &headings[..all]);
+        // An expression of WGSL is longer than an instruction.
+        let is_wgsl = self.0.setup.pixel_text.is_wgsl();
+        let places = if is_wgsl { "step line,_expression" } else { "instruction line text" };
+        let flags = if self.0.knows_flags { "flags" } else { "" };
+        let mut table = Table::of("Steps", &format!("{places} register value bits {flags}"));
         for step in &fragment.shading.steps {
             let setup = self.0.setup;
             let Some(line) = setup.pixel_text.instruction(&setup.pixel, step.instruction) else { continue };
-            let flags = flag_names(step.flags).join(", ");
-            let mut first: Vec<Cell> = vec![step.instruction.into(), line.line.into(), line.text.into()];
+            let place: Vec<Cell> = match is_wgsl {
+                true => vec![step.instruction.into(), format!("{}: {}", line.line, line.text).into()],
+                false => vec![step.instruction.into(), line.line.into(), line.text.into()],
+            };
+            let blank = vec![Cell::Empty; place.len()];
+            let flags: Cell = flag_names(step.flags).join(", ").into();
             let rows = self.0.written(step);
             if rows.is_empty() {
-                table.push(first.into_iter().chain([Cell::Empty, Cell::Empty, Cell::Empty, flags.into()]).take(all));
+                table.push(place.into_iter().chain([Cell::Empty, Cell::Empty, Cell::Empty, flags]));
                 continue;
             }
             for (i, row) in rows.into_iter().enumerate() {
-                let flags = if i == 0 { Cell::from(flags.as_str()) } else { Cell::Empty };
-                let place = if i == 0 { std::mem::take(&mut first) } else { vec![Cell::Empty; 3] };
+                let (place, flags) = if i == 0 { (&place, flags.clone()) } else { (&blank, Cell::Empty) };
                 let written = [row.name.into(), row.number.decimal().into(), row.number.hex().into(), flags];
-                table.push(place.into_iter().chain(written).take(all));
+                table.push(place.iter().cloned().chain(written));
             }
         }
         table

@@ -177,6 +177,9 @@ impl<'a> Translator<'a> {
         };
         let Some(span) = span.map(|span| with_arguments(self.text, span)) else { return };
         let key = [span.start, span.end];
+        if self.operations.contains_key(&key) {
+            return;
+        }
         let types = operands.iter().map(|operand| {
             // Of a scalar beside a vector the text has the scalar.
             let whole = match &expressions[*operand] {
@@ -191,7 +194,7 @@ impl<'a> Translator<'a> {
         let types: Vec<&TypeInner> = types.collect();
         let result = name(self.type_of(frame, handle));
         let on_f32 = types.iter().any(|inner| name(inner).is_some()) || (types.is_empty() && result.is_some());
-        if !on_f32 || types.iter().any(|inner| is_half(scalar(inner))) || self.operations.contains_key(&key) {
+        if !on_f32 || types.iter().any(|inner| is_half(scalar(inner))) {
             return;
         }
         let names: Vec<Option<String>> = types.iter().map(|inner| name(inner)).collect();
