@@ -35,11 +35,11 @@ macro_rules! card {
 macro_rules! caster {
     ($engine:literal) => {
         concat!(
-            " --caster=engine@0 --caster-device=r200 --caster-format=fp16 --octree=1,3@",
+            " --caster=engine@0 --caster-device=r200 --caster-format=fp16 --octree=1,1@",
             $engine,
-            " --pass-triangles=1,99@",
+            " --pass-triangles=9,99@",
             $engine,
-            " --pass-rays=2@",
+            " --pass-rays=9999@",
             $engine,
             " --readback=free@",
             $engine
@@ -92,7 +92,7 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --device r200 --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
-            "intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --caster-device r300 \
+            "intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --caster-device r300 --pass-rays 2 \
              --out OUT",
         ],
         options: concat!(
@@ -172,7 +172,7 @@ pub(super) const TABLE: &[Tried] = &[
             "subsurface odd.obj --mm-per-unit 10 --sigma-s 1 --sigma-a 0.1 --atlas 8 --links 4 --size 8x8 --out OUT",
             "subsurface square.obj --mm-per-unit 10 --material marble --atlas 8 --links 4 --light disk:1,0,2:20 --size 8x8 \
              --out OUT",
-            "subsurface docs/examples/step.obj --mm-per-unit 10 --material marble --atlas 8 --links 4 --light disk:1,0,2:20 \
+            "subsurface docs/examples/step.obj --mm-per-unit 10 --material marble --atlas 16 --links 4 --light disk:1,0,2:20 \
              --size 8x8 --caster engine --caster-device r300 --out OUT",
         ],
         options: concat!(
@@ -258,7 +258,7 @@ pub(super) const TABLE: &[Tried] = &[
         bases: &[
             "all-frequency precompute docs/examples/room.obj --out OUT.npz",
             "all-frequency precompute odd.obj --out OUT.npz",
-            "all-frequency precompute docs/examples/step.obj --caster engine --caster-device r300 --out OUT.npz",
+            "all-frequency precompute roof.obj --caster engine --caster-device r300 --octree 1,4 --pass-triangles 1,3 --out OUT.npz",
         ],
         options: concat!(
             "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y --strict@1",
