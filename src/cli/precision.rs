@@ -18,7 +18,7 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar precision --expr 'sqrt(x*x + y*y)' --range x=-1..1 --range y=1e-3..1
       bits of error of an expression in every format, the smallest that suffices, and the operation to blame
-  crossbar precision --fpcore fixtures/fpbench/hamming.fpcore --samples 100 --out out/hamming
+  crossbar precision --fpcore fixtures/fpbench/suite.fpcore --samples 100 --out out/suite      # exit code 1
       all expressions of a file in FPCore
   crossbar precision docs/examples/highlight.toml
       the fewest bits, of floats and of fixed point, that draw every code to within one; which squaring decides
