@@ -2,8 +2,8 @@
 
 use refsim::machine::Executor;
 
-use super::scene::TourScene;
-use super::{BUNNY, light};
+use super::light;
+use super::scene::{BUNNY, TourScene};
 use crate::card::{MeshView, seen_pixels};
 use crate::cpca::on_card::PrtCardOptions;
 use crate::geom::Mesh;

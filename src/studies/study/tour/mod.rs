@@ -19,7 +19,6 @@ use crate::radiosity::{Patches, Subdivision, System};
 use crate::report::{Findings, NamedPicture, Provenance};
 use crate::study::caster::CasterChoice;
 use crate::study::configuration::Configuration;
-use crate::study::glossy_model::GlossyTransfer;
 use crate::study::marble_model::MarbleModel;
 use crate::study::prt::{light_picture, linear_picture, of_texels};
 use crate::study::subsurface::environment;
@@ -27,12 +26,11 @@ use crate::study::{ProgressFn, Study, StudyError, radiosity};
 use crate::subsurface::distant_irradiance;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::FloatTexels;
-use crate::transfer::brdf::Brdf;
 use crate::transfer::light::CubeLight;
 use crate::transfer::{Tangents, Vertices};
 use clock::Clock;
 use formats::FormatSubject;
-use scene::{TourScene, middle};
+use scene::{BUNNY, TourScene, middle};
 
 /// Patches of the room, at most.
 const PATCHES: usize = 800;
@@ -43,16 +41,6 @@ const LEAST_PATCHES: usize = 200;
 const RADEON: &str = "r300";
 const GEFORCE: &str = "nv35";
 
-/// The bunny's transfer.
-const BUNNY: GlossyTransfer = GlossyTransfer {
-    // A sharper lobe shows that five orders of harmonics ring about a lamp so small.
-    brdf: Brdf::Phong { albedo: 0.5, specular: 0.3, exponent: 6.0 },
-    order: 5,
-    exit_order: 5,
-    clusters: 32,
-    vectors: 6,
-    iterations: 5,
-};
 /// Texels along a side of the statue's atlas, with 16 links each, and millimeters per unit of the room.
 const SIDE: u32 = 128;
 const MM_PER_UNIT: f64 = 40.0;

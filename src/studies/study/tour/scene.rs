@@ -9,7 +9,19 @@ use crate::options::Size;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::scene::{Camera, Material, Scene};
+use crate::study::glossy_model::GlossyTransfer;
+use crate::transfer::brdf::Brdf;
 
+/// The bunny's transfer.
+pub(super) const BUNNY: GlossyTransfer = GlossyTransfer {
+    // A sharper lobe shows that five orders of harmonics ring about a lamp so small.
+    brdf: Brdf::Phong { albedo: 0.5, specular: 0.3, exponent: 6.0 },
+    order: 5,
+    exit_order: 5,
+    clusters: 32,
+    vectors: 6,
+    iterations: 5,
+};
 /// How much smaller than its model a coarse body in the room is, so that the model hides it.
 const WITHIN: f64 = 0.86;
 
