@@ -62,7 +62,7 @@ const CROSSBAR: Law = (
         ("tracer", "error geom"),
         ("scene", "error elementary geom linalg"),
         ("io", "error names picture geom scene linalg"),
-        ("card", "geom scene"),
+        ("card", "tracer geom scene"),
         ("atlas", "error elementary geom"),
         ("report", "error elementary picture"),
         ("options", "geom io"),
@@ -79,7 +79,7 @@ const CROSSBAR: Law = (
         ("all_frequency", "error clustering transfer card elementary picture sphere geom scene linalg io"),
         ("bi_scale", "error clustering transfer card tracer elementary picture sphere geom scene linalg io"),
         ("ray_engine", "error card tracer geom scene linalg io"),
-        ("renderer", "error tracer elementary fresnel picture geom scene linalg"),
+        ("renderer", "error card tracer elementary fresnel picture geom scene linalg"),
         (
             "study",
             "error names ray_engine radiosity subsurface clustering transfer cpca all_frequency bi_scale sphere atlas renderer \
@@ -115,7 +115,7 @@ const BATCH: Law = (
 
 /// Rooms of the root package that may use the emulator; the shared ground knows nothing of cards.
 const SPEAKS_REFSIM: &str = "card tracer case compare shader radiosity subsurface clustering transfer cpca all_frequency bi_scale \
-     ray_engine study cli";
+     ray_engine study cli renderer";
 
 /// The uses that a law forbids, one line each. A file outside the table's rooms is a violation; if the rooms share
 /// files (`below` is not empty), it may name no room.
