@@ -12,10 +12,12 @@ use crate::renderer::{RenderedPicture, Settings, whitted};
 use crate::report::{Cell, Table};
 use crate::scene::built;
 use crate::tracer::HostTracer;
+use crate::tracer::offset::SINGLE;
 
-/// Card of the map and of eye rays, and those of the engine. The paper's card cuts off low bits.
+/// Card of the map and of eye rays.
 const DRAWS: &str = "r200";
-const ENGINES: [&str; 2] = ["r300", "ideal-fp32"];
+/// Cards of the engine, with the unit roundoff of their formats. The fixed point of the first card leaks.
+const ENGINES: [(&str, f64); 2] = [("r300", 1.0 / 131_072.0), ("ideal-fp32", SINGLE)];
 /// Size of the pictures.
 const SIZE: [u32; 2] = [160, 120];
 /// Difference that an 8-bit display shows.
@@ -56,11 +58,12 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     };
     push("rays, host".to_owned(), &traced, [Cell::from(0_u64), Cell::from("")]);
     push(format!("environment map, {DRAWS}"), &mapped, [Cell::from(0_u64), Cell::from("")]);
-    for device in ENGINES {
+    for (device, rounding) in ENGINES {
         let parameters = EngineParameters { sides: Sides::Both, ..EngineParameters::default() };
         let engine = RayEngine::new(scene.mesh(), Profile::named(device)?, ExecutorKind::Batch, parameters);
         let mut engine = engine.on(device)?;
         let mut eyes = RasterizedEyes::new(&profile, scene.mesh(), camera, &mut engine).on(DRAWS)?;
+        let settings = Settings { rounding, ..settings.clone() };
         let hybrid = whitted::render(&scene, &camera, &settings, &mut eyes, &mut |_| {}).on(device)?;
         let drawn = Cell::from(eyes.drawn);
         let share = Cell::decimals(100.0 * engine.counts().share_on_card(), 1);
