@@ -77,6 +77,7 @@ const COMMANDS: &[&str] = &[
     "subsurface nowhere.obj --mm-per-unit 1 --material marble",
     "timeline nowhere.toml",
     "page nowhere",
+    "tour nowhere",
     "units nowhere",
 ];
 
