@@ -79,7 +79,7 @@ const CROSSBAR: Law = (
         ("all_frequency", "error clustering transfer card elementary picture sphere geom scene linalg io"),
         ("bi_scale", "error clustering transfer card tracer elementary picture sphere geom scene linalg io"),
         ("ray_engine", "error card tracer geom scene linalg io"),
-        ("renderer", "error card tracer elementary fresnel picture geom scene linalg"),
+        ("renderer", "error card tracer elementary fresnel picture sphere geom scene linalg"),
         (
             "study",
             "error names ray_engine radiosity subsurface clustering transfer cpca all_frequency bi_scale sphere atlas renderer \
