@@ -67,8 +67,8 @@ fn water(parts: &mut Parts) {
 /// A dome that shines inwards, a radiance per ring: it ends below the water, and the water beyond it.
 fn sky(parts: &mut Parts) {
     let mut below = [1.0, -0.05];
-    for (height, radiance) in SKY {
-        let ring = parts.material(lamp("sky", radiance));
+    for (ring, (height, radiance)) in SKY.into_iter().enumerate() {
+        let ring = parts.material(lamp(&format!("sky-{ring}"), radiance));
         let above = [(1.0 - height * height).max(0.0).sqrt(), height];
         parts.lathe(Placement::ROOM, &[above, below].map(|[r, z]| [HALF * r, HALF * z]), 24, ring);
         below = above;
