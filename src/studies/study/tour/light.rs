@@ -48,11 +48,7 @@ pub(super) fn factors(
 type Solved = (Vec<[f64; 3]>, u32, Option<Picoseconds>);
 
 /// A room's radiosity by a card.
-pub(super) fn radiosity(
-    system: &System,
-    profile: &Profile,
-    executor: &Executor,
-) -> Result<Solved, StudyError> {
+pub(super) fn radiosity(system: &System, profile: &Profile, executor: &Executor) -> Result<Solved, StudyError> {
     let solver = CardSolver::new(profile.clone(), executor.clone(), system, Packing::Rgb, Storage::Fp32);
     let mut solver = solver.map_err(no_card)?;
     solver.record(true);
