@@ -1,7 +1,9 @@
 //! Modules that the three systems of precomputed radiance transfer share: clustered PCA (system 4, [`cpca`]),
 //! all-frequency transfer (system 5, [`all_frequency`]) and bi-scale transfer (system 6, [`bi_scale`]).
 //!
-//! [`cpca`]: crate::cpca [`all_frequency`]: crate::all_frequency [`bi_scale`]: crate::bi_scale
+//! [`cpca`]: crate::cpca
+//! [`all_frequency`]: crate::all_frequency
+//! [`bi_scale`]: crate::bi_scale
 //!
 //! - [`Vertices`]: unique positions, normals and tangents of a mesh, with a [`LocalFrame`] each;
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
