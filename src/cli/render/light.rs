@@ -24,6 +24,7 @@ use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
+use crate::tracer::offset::SINGLE;
 
 /// The random seed where none is given.
 const SEED: u64 = 1;
@@ -81,9 +82,6 @@ fn rays(picture: &RenderedPicture) -> Table {
     }
     table
 }
-
-/// Half a step of single precision, the host's.
-const SINGLE: f64 = 1.0 / 16_777_216.0;
 
 /// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are
 /// single precision.

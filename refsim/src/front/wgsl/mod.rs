@@ -4,6 +4,7 @@ mod builder;
 mod builtins;
 mod expressions;
 mod finish;
+mod operators;
 mod statements;
 mod translator;
 mod values;

@@ -4,7 +4,7 @@ use refsim::machine::Executor;
 
 use super::light;
 use super::scene::{BUNNY, TourScene};
-use crate::card::{MeshView, seen_pixels};
+use crate::card::{MeshView, SeenPixel, seen_pixels};
 use crate::cpca::on_card::PrtCardOptions;
 use crate::geom::Mesh;
 use crate::picture::metrics::{ErrorSums, value_error};
@@ -68,6 +68,9 @@ impl FormatSubject<'_> {
         let error = |found: &[[f64; 3]]| SolutionError::between(found, &reference, host.emittance());
         let vertices = Vertices::new(&scene.bunny, Tangents::Any)?;
         let by_host = BUNNY.precompute((&scene.bunny, &vertices), &CasterChoice::Host, progress)?.0;
+        let ideal = Configuration::format(FORMATS[0])?.profile;
+        let shows = |mesh: &Mesh| seen_pixels(&ideal, (mesh.positions(), mesh.triangles()), &view.camera);
+        let masks = [shows(&scene.bunny)?, shows(&scene.statue)?];
         let maps = PrtCardOptions { map_format: TexelFormat::Rgba32f, ..PrtCardOptions::default() };
         let (mut rows, mut first) = (Vec::new(), None);
         for format in FORMATS {
@@ -82,32 +85,27 @@ impl FormatSubject<'_> {
             let marble = statue.0.draw(|card| card.irradiate(statue.1), on, view, FloatTexels::Fp32);
             let drawn = [bunny.0.draw(bunny.1, on, &view, &maps).ok(), marble.ok().map(|drawn| drawn.0)];
             let first = &*first.get_or_insert_with(|| drawn.clone());
-            let off = |at: usize, mesh: &Mesh| -> Result<Option<f64>, StudyError> {
-                let Some((found, expected)) = drawn[at].as_ref().zip(first[at].as_ref()) else { return Ok(None) };
-                self.off(mesh, found, expected).map(Some)
-            };
+            let off = |at: usize| Some(error_255ths(&masks[at], drawn[at].as_ref()?, first[at].as_ref()?));
             rows.push(FormatRow {
                 format,
                 differing,
                 by_rays: error(&direct(&system(factors)?)?),
                 by_sums: light::radiosity(&host, on.0, executor).ok().map(|(found, ..)| error(&found)),
                 transfer: computed.off(&by_host).1,
-                pictures: [off(0, &scene.bunny)?, off(1, &scene.statue)?],
+                pictures: [0, 1].map(off),
             });
         }
         Ok(rows)
     }
+}
 
-    /// Root mean square error of the pixels that show a model, in 255ths.
-    fn off(&self, mesh: &Mesh, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Result<f64, StudyError> {
-        let ideal = Configuration::format(FORMATS[0])?.profile;
-        let seen = seen_pixels(&ideal, (mesh.positions(), mesh.triangles()), &self.view.camera)?;
-        let mut sums = ErrorSums::default();
-        for ((found, expected), _) in found.iter().zip(expected).zip(&seen).filter(|(_, seen)| seen.is_some()) {
-            found.iter().zip(expected).for_each(|(&a, &b)| sums.add(255.0 * value_error(a, b), 1.0));
-        }
-        Ok(sums.rms())
+/// Root mean square error of the pixels that show a model, in 255ths.
+fn error_255ths(shown: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> f64 {
+    let mut sums = ErrorSums::default();
+    for ((found, expected), _) in found.iter().zip(expected).zip(shown).filter(|(_, seen)| seen.is_some()) {
+        found.iter().zip(expected).for_each(|(&a, &b)| sums.add(255.0 * value_error(a, b), 1.0));
     }
+    sums.rms()
 }
 
 /// Adds a sentence on the shortest format that runs everywhere.
