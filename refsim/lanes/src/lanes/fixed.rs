@@ -34,7 +34,7 @@ pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     beside: Beside,
 }
 
-/// Divides by `2^count`, rounding: one body for both widths.
+/// Divides by `2^count` and rounds; the same body for both widths.
 macro_rules! round_shift {
     ($name:ident, $t:ty, $sign:literal) => {
         #[inline(always)]

@@ -95,10 +95,10 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// Twice the number of units is exact for doubles of up to 44 bits. For a longer result (a quotient, rounded to odd
-    /// or to nearest) the error is less than one part in `2^51`; a result that near to an integer is taken for one. In
-    /// 255ths, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In other units that is
-    /// proved for channels of up to 8 bits; channels of 16 bits come nearer with a probability of about one in a
-    /// billion.
+    /// or to nearest) the error is less than one part in `2^51`; a result that close to an integer is treated as that
+    /// integer. In 255ths, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In other
+    /// units that is proved for channels of up to 8 bits; sums of 16-bit channels come closer with a probability of
+    /// about one in a billion.
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
         const NEAR: f64 = 1.0 / (1u64 << 50) as f64;

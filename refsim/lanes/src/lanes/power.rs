@@ -2,8 +2,8 @@
 //!
 //! Both are irrational unless obviously exact (an integer exponent, a power of two), so the true value is never on a
 //! rounding boundary. The evaluations below are accurate to 2^-95. Operands have at most 32 bits, so the probability
-//! that any result is nearer than 2^-75 to a boundary is about one in a million. The tests in full form compare every
-//! operand of every format of 16 bits.
+//! that any result is nearer than 2^-75 to a boundary is about one in a million. With `CROSSBAR_FULL=1`, tests compare
+//! every operand of every 16-bit format.
 
 use super::layout::pow2;
 

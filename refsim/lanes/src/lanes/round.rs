@@ -9,7 +9,7 @@ pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
     match rounding {
         Rounding::NearestEven => EVEN,
         Rounding::NearestAway => AWAY,
-        // Devices refuse the other (`Format::for_registers`).
+        // Devices reject stochastic rounding (`Format::for_registers`).
         Rounding::TowardZero | Rounding::Stochastic(_) => ZERO,
         Rounding::Down => DOWN,
         Rounding::Up => UP,

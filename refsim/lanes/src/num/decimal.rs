@@ -12,7 +12,7 @@ use super::unpack::{Unpacked, invalid, nan_result, unpack};
 /// of any format has fewer than 200 digits.
 const DIGITS: usize = 800;
 /// Larger decimal exponents overflow or underflow in every format (`2^128` has 39 digits, `2^-149` starts at the 45th
-/// place).
+/// digit after the point).
 const FAR: i64 = 400;
 
 /// Text that is not a decimal number.

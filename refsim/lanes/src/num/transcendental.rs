@@ -175,7 +175,7 @@ fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
     (first == last).then_some(first)
 }
 
-/// Rounds by enclosures with more and more places.
+/// Rounds by enclosures of increasing precision.
 fn decide_long(env: &Env, enclosure: impl Fn(u32) -> Enclosure<BigInt>) -> Outcome {
     let mut best = Outcome::exact(0);
     for places in PLACES {

@@ -42,7 +42,7 @@ pub enum LaneCode {
 }
 
 impl LaneCode {
-    /// The code that copies numbers of one format to the wide row, to be rounded to another format.
+    /// The code that copies numbers of one format to the wide row, from which they are rounded to another format.
     pub fn widen(from: &Format, to: &Format) -> Self {
         if drops_small_halves(from, to) { Self::WidenToHalf } else { Self::Widen }
     }

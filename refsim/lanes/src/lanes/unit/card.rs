@@ -21,7 +21,7 @@ pub(crate) trait CardFunctions {
     /// Table entry for RSQ of `x`.
     fn rsq_entry(&self, x: u32) -> Self::Entry;
     fn rsq(&self, x: u32, entry: Self::Entry) -> u32;
-    /// Any other operation; `None` if the unit does not have it.
+    /// Any other operation; `None` if the unit lacks it.
     fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
 }
 
@@ -84,7 +84,7 @@ impl<U: CardUnit> CardLane<U> {
         if x.is_nan() { NAN } else { x.to_bits() }
     }
 
-    /// Computes an operation on words; comparisons return masks. `None` for operations that lanes do not have.
+    /// Computes an operation on words; comparisons return masks. `None` for operations that lanes do not implement.
     pub(crate) fn word(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
         let unit = &self.unit;
         Some(match operation {

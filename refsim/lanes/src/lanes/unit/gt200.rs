@@ -90,7 +90,7 @@ impl CardUnit for Gt200 {
         self.rounded(self.product(a, b))
     }
 
-    /// The first product, then MAD for the others.
+    /// Rounds the first product, then adds each further product with MAD.
     fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
         (1..N).fold(self.mul(a[0], b[0]), |sum, k| self.mad(a[k], b[k], sum))
     }

@@ -18,7 +18,7 @@ impl<const RCP: usize, const C: usize> Tables<RCP, C> {
     }
 }
 
-/// First approximations of the vertex units.
+/// First approximations of the reciprocal and the reciprocal root in the vertex units.
 pub(super) static NV: LazyLock<Tables<64, 1>> = LazyLock::new(|| Tables::new(&NV_RCP, &NV_RSQ));
 /// Coefficients of GT200.
 pub(super) static GT200: LazyLock<Tables<128, 3>> = LazyLock::new(|| Tables::new(&GT200_RCP, &GT200_RSQRT));

@@ -62,7 +62,7 @@ impl Element {
     pub const BF8: Self = element("bf8", 5, 2, Encoding::UnsignedZero);
     /// Scales that are powers of two.
     pub const UE8M0: Self = Self { name: "ue8m0", format: Some(Format::E8M0), ignored_bits: 0 };
-    /// Scales of NVFP4: E4M3 whose sign is ignored.
+    /// Scales of NVFP4: E4M3 with the sign ignored.
     pub const UE4M3: Self = Self { name: "ue4m3", ..Self::E4M3 };
 
     /// Bits of the exponent field and of the fraction.
@@ -86,12 +86,12 @@ impl Element {
         self.width().div_ceil(4) as usize
     }
 
-    /// The number of a pattern.
+    /// Decodes a pattern to a double.
     pub fn number(self, word: u64) -> f64 {
         self.format.map_or(f64::from_bits(word), |format| to_f64(&format, (word >> self.ignored_bits) as u32))
     }
 
-    /// The pattern of a number, rounded to nearest even; `None` for NaN if the type has no NaN.
+    /// Encodes a double as a pattern, rounded to nearest even; `None` for NaN if the type has no NaN.
     pub fn code(self, number: f64) -> Option<u64> {
         let Some(format) = self.format else { return Some(number.to_bits()) };
         let fits = !number.is_nan() || format.canonical_nan().is_some();
@@ -171,11 +171,11 @@ pub struct ResultFormat {
 }
 
 impl ResultFormat {
-    /// Single precision, cut. `2^128` and more is infinity.
+    /// Single precision, truncated. Magnitudes of `2^128` and more become infinity.
     pub const CUT32: Self = Self { name: "fp32, cut", format: cut(23), ..Self::NEAREST16.with(Element::FP32) };
-    /// Single precision, cut to 13 bits of fraction; the low ten bits of the word are zero.
+    /// Single precision, truncated to 13 bits of fraction; the low ten bits of the word are zero.
     pub const CUT22: Self = Self { name: "e8m13, cut", format: cut(13), ..Self::CUT32 };
-    /// Half precision, to nearest even. 65520 and more is infinity.
+    /// Half precision, to nearest even. Magnitudes of 65520 and more become infinity.
     pub const NEAREST16: Self =
         Self { name: "fp16, to nearest", element: Element::FP16, format: Format::FP16, is_nvidia: true };
     /// Single precision, to nearest even. A result that rounds to zero keeps its sign.

@@ -29,7 +29,8 @@ pub use table::UNITS;
 /// Rule by which the addends of a block are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// NVIDIA's adder: addends are aligned to the largest exponent, which is at least `least`, cut, and added exactly.
+    /// NVIDIA's adder: addends are aligned to the largest exponent, which is at least `least`, truncated, and added
+    /// exactly.
     Aligned {
         /// Least exponent that addends are aligned to.
         least: i32,
@@ -46,7 +47,7 @@ pub enum Rule {
     Exact,
     /// Single precision, 2 or 4 products in pairs, subnormal numbers flushed (CDNA2).
     Pairs,
-    /// Aligned products, then floors (CDNA3).
+    /// Aligned products; their sum and `c` are rounded down (CDNA3).
     Floored {
         /// Products of even and of odd index are summed separately.
         halves: bool,

@@ -30,7 +30,7 @@ pub(in crate::num) fn evaluate(format: &Format, operation: UnitOperation, operan
     bits.map(|bits| outcome(bits, operands))
 }
 
-/// Operations that all units share.
+/// Operations that all units compute alike.
 fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u32> {
     use UnitOperation::{Abs, Neg, SetEqual, SetLess, SetLessEqual, SetNotEqual};
     let holds: fn(Ordering) -> bool = match operation {
@@ -45,7 +45,7 @@ fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u
     Some(match (order(unit, a, b), unit) {
         (Some(order), _) => ONE * u32::from(holds(order)),
         (None, Unit::Nv3x) => NAN,
-        // IEEE 754: unequal, and no other relation.
+        // IEEE 754: unordered words are unequal, and every other relation is false.
         (None, _) => ONE * u32::from(operation == SetNotEqual),
     })
 }

@@ -66,7 +66,7 @@ pub fn rsq(unit: Unit, x: u32) -> u32 {
         _ => {}
     }
     let (odd, f) = (word.field % 2 != 0, word.significand().cast_signed());
-    // Numbers from 1 to 2, and from 2 to 4.
+    // Significands in [1, 2), and in [2, 4).
     let (field, index, g) = if odd {
         (126 - (word.field - 127) / 2, word.bits(17, 6), f)
     } else {
