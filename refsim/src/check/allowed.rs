@@ -164,8 +164,8 @@ impl Limit {
 
     /// The effective limit for programs of `version` on the device; `None`: no limit.
     ///
-    /// The smaller of the device's and the version's limit. The limits that `ps_2_x` leaves to the device (slots,
-    /// temporaries, nesting) are the device's.
+    /// This is the smaller of the device's and the version's limit. The limits that `ps_2_x` leaves to the device
+    /// (slots, temporaries, nesting) are the device's.
     pub(super) fn allowed(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let stage = version.stage();
         if version.is_fragment_program() {

@@ -86,7 +86,7 @@ impl<'a> Context<'a> {
         limit.allowed(self.profile, self.version)
     }
 
-    /// Returns `true` if limits that only the version has (ports, tokens) apply; they don't on ideal devices.
+    /// Returns `true` if limits that only the version states (ports, tokens) apply; they don't apply on ideal devices.
     pub(super) fn version_limits(&self) -> bool {
         self.profile.limits.version_limits
     }

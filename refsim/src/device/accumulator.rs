@@ -4,8 +4,8 @@ use super::rules::Rules;
 use crate::num::{Format, FormatKind, Overflow, Rounding};
 
 impl Rules {
-    /// The accumulator of dot products in a pixel format; `None` if they are summed in that format, also because the
-    /// accumulator cannot sum its products ([`accumulates`]).
+    /// The accumulator of dot products in a pixel format; `None` if they are summed in that format itself, because
+    /// there is no accumulator or because it cannot sum the products ([`accumulates`]).
     pub(crate) fn accumulator_of(&self, operands: Format) -> Option<Format> {
         self.accumulator.filter(|accumulator| accumulates(*accumulator, operands))
     }
@@ -16,7 +16,7 @@ impl Rules {
 pub(crate) const PRODUCTS: Format = Format::FP32.with_rounding(Rounding::Odd);
 
 /// Returns `true` if executors can sum products in an accumulator: it holds all numbers of the operands, or it is at
-/// least two bits narrower than [`PRODUCTS`], which holds them.
+/// least two bits narrower than [`PRODUCTS`], which holds the operands.
 pub(super) fn accumulates(accumulator: Format, operands: Format) -> bool {
     accumulator.holds(operands) || is_narrow(accumulator) && PRODUCTS.holds(operands)
 }
@@ -34,6 +34,6 @@ fn is_narrow(format: Format) -> bool {
     }
 }
 
-/// The possible accumulators, for an error message.
+/// Description of the possible accumulators, for an error message.
 pub(super) const ACCUMULATORS: &str = "an accumulator that holds all numbers of the registers, or one of at most 21 \
      mantissa bits without :nvovf and :rdn, or of at most 22 bits of fixed point without :wrap";

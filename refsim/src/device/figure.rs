@@ -142,8 +142,8 @@ impl RawFigure {
     /// The counts, if the figure states any.
     ///
     /// # Errors
-    /// If the counts are incomplete, if another hypothesis predicts as much as the value, or if the hypotheses of a
-    /// switch are not its values.
+    /// If the counts are incomplete, if another hypothesis predicts as many measurements as the figure's value, or if
+    /// the hypotheses of a switch are not its values.
     fn counts(&self) -> Result<Option<MeasuredCounts>, &'static str> {
         if self.of.is_none() && self.all.is_none() && self.right.is_empty() {
             return Ok(None);

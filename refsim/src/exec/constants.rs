@@ -151,8 +151,8 @@ fn snorm8(format: Format, bits: u32, k: u32) -> u32 {
     num::from_ratio(format, bits >> 31 == 1 && k != 0, u128::from(k), 255).bits
 }
 
-/// `(2k - 255) / 255`, rounded into `format`, where k is the integer part of the exact `127.5 (c + 1)` and c the
-/// clamped number. NaN is stored like 0.
+/// `(2k - 255) / 255`, rounded into `format`, where k is the integer part of the exact `127.5 (c + 1)` and c is the
+/// number clamped to [-1, 1]. NaN is stored like 0.
 fn unorm8_expanded(format: Format, bits: u32) -> u32 {
     let magnitude = if magnitude(bits) > 0x7f80_0000 { 0 } else { magnitude(bits).min(FP32_ONE) };
     let (significand, exponent) = match magnitude >> 23 {

@@ -136,7 +136,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Notes that the text from `start` on binds the object of a name.
+    /// Records that the program binds the object of a name; the binding's text begins at `start`.
     pub(super) fn bind(&mut self, name: &Name, start: u32) {
         let resource = match name {
             Name::Register(register) => ProgramResource::Register(*register),

@@ -31,7 +31,7 @@ impl Translator<'_> {
         self.fragment_writes(instruction, value, effects);
     }
 
-    /// Loads an operand in the format of its file: swizzled, absolute, negated.
+    /// Loads an operand in the format of its file, then applies swizzle, absolute value and negation.
     fn loaded(&mut self, source: &Source, negate: u8) -> NodeVector {
         let k = of_file(source.register.file);
         std::array::from_fn(|i| {

@@ -81,7 +81,7 @@ pub const DRAW_WORDS: usize = field("");
 /// Index in `draw` of the word that is 1 in a dispatch that resumes the previous one.
 pub const RESUMES: usize = field("D_RESUMES");
 
-/// Loop iterations for testing whether a triangle covers anything.
+/// Loop iterations for testing whether a triangle covers any pixel.
 const LOOK_COST: u32 = 12;
 
 /// Offset of a field; the total size for an unknown name.

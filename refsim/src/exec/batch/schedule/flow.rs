@@ -21,7 +21,7 @@ pub(crate) struct PlannedInstruction {
     pub(crate) opcode: Opcode,
     /// Computation of its results.
     pub(crate) block: StepBlock,
-    /// Destination slots of the block's roots; conditions have one root and no destination.
+    /// Destination slots of the block's roots; a condition has one root and no destination.
     pub(crate) to: Vec<Slot>,
     /// Sampler read by a texture instruction.
     pub(crate) sampler: Option<usize>,

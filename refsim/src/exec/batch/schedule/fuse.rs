@@ -132,7 +132,7 @@ impl<'g> Fusion<'g> {
         }
     }
 
-    /// Fuses an operand into the operation.
+    /// Fuses the operation with the operation of one of its operands, if possible.
     fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
         // Products that are fused must have the same rule for zeros.
@@ -190,7 +190,7 @@ impl<'g> Fusion<'g> {
     }
 }
 
-/// Appends a product to a sum; `None` if there are too many.
+/// Appends a product to a sum; `None` if the sum would have too many products.
 fn sum(products: &Fused, last: &[NodeId]) -> Option<Fused> {
     let all = [products.operands(), last].concat();
     let code = LaneCode::Sum((all.len() / 2) as u8);

@@ -13,7 +13,7 @@ use crate::texture::{ChannelClass, ComponentSource, TargetRounding, TexelFormat}
 /// Maximum channel width: products with the square of the range fit in 64-bit integers.
 const WIDEST: u8 = 16;
 
-/// A stored channel that is written.
+/// Position of a channel that is written: word and shift in the texel, and color component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ChannelPlace {
     pub(crate) word: usize,
@@ -26,7 +26,7 @@ pub(crate) struct ChannelPlace {
 pub(crate) struct Blender {
     state: BlendState,
     values: BlendValues,
-    /// Sources of the components of a stored texel.
+    /// Sources of the four components of a stored texel.
     components: [StoredComponent; 4],
 }
 

@@ -36,8 +36,8 @@ pub(crate) struct TileFrame {
 }
 
 impl TileFrame {
-    /// The tile around a region: square if it fits, else flat, else a line. If both square and flat fit, their lanes
-    /// are identical.
+    /// The tile around a region: square if it fits, else flat, else a line. If both square and flat fit, lanes have the
+    /// same positions in both.
     pub(crate) fn around(region: Region) -> Self {
         let (shape, height) = match () {
             () if (region.x & 15) + region.width <= 16 => (TileShape::Square, 16),
@@ -126,7 +126,7 @@ fn cover_lanes<const SHAPE: u8>(edges: &[[i64; 3]; 3], columns: (u32, u32), rows
     }
 }
 
-/// Lanes of quads with a covered lane.
+/// Finds the lanes of all quads that contain a covered lane.
 pub(crate) fn quads(covered: &LaneRow, out: &mut LaneRow) {
     for (i, lane) in out.iter_mut().enumerate() {
         let (row, column) = (i & !16, i & !1);
@@ -236,7 +236,7 @@ impl TileWeights {
     }
 }
 
-/// Copies the lanes in `mask`.
+/// Copies the lanes in `mask` from `from` to `to`.
 #[inline(always)]
 pub(crate) fn lay_over(to: &mut LaneRow, from: &LaneRow, mask: &LaneRow) {
     for i in 0..LANES {

@@ -11,7 +11,7 @@ use crate::event::PrimitiveCounts;
 use crate::num::Format;
 use crate::raster::{ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, shape};
 
-/// Number of triangles whose shapes a worker sets up at a time.
+/// Number of triangles whose shapes a worker sets up at once.
 const CHUNK: usize = 1024;
 /// Number of recent triangles whose positions are compared with a new one's.
 const RECENT: usize = 4;
@@ -33,7 +33,7 @@ enum ShapeOutcome {
     /// An index into the chunk's shapes.
     Shape(usize),
     Dropped,
-    /// Clipped: the remaining triangles depend on its components.
+    /// Clipped: the resulting triangles depend on the components.
     Cut,
 }
 
@@ -42,7 +42,7 @@ impl Instances<'_> {
         self.triangles[triangle].map(|vertex| vertex * self.count + instance)
     }
 
-    /// For each instance, `true` if the previous instance has the same positions.
+    /// For each instance, `true` if it has the same positions as the previous instance.
     fn repeats(&self) -> Vec<bool> {
         let mut repeats = vec![true; self.count];
         if let Some(first) = repeats.first_mut() {
@@ -182,7 +182,8 @@ impl Surfaces {
             }
             Some(constant)
         };
-        // Per row, 1 for each triangle over which the component is constant; empty if it is constant over all.
+        // For each row, 1 for each triangle over which the component is constant; empty if it is constant over all
+        // triangles.
         let flags: Vec<Option<Vec<u8>>> = if total <= CHUNK {
             self.rows.iter_mut().map(work).collect()
         } else {

@@ -45,7 +45,7 @@ pub(super) struct Assembler<'g> {
 /// Slots of the values of one block.
 pub(super) struct Places {
     at: BTreeMap<NodeId, u16>,
-    /// Number of remaining reads per value.
+    /// Number of remaining reads of each value.
     left: BTreeMap<NodeId, u32>,
     free: Vec<u16>,
     next: usize,
