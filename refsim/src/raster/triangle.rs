@@ -39,7 +39,7 @@ pub struct TriangleSetup {
     pub area_bits: u32,
     /// Pixels that may be covered: the bounding box within viewport and scissor; never empty.
     pub bounds: Region,
-    /// `true` if the vertices are clockwise as seen with +y up.
+    /// `true` if the vertices are in clockwise order, seen with +y up.
     pub clockwise: bool,
     /// Depth, in FP32 with any iterator format.
     pub depth: Plane,
@@ -59,7 +59,7 @@ pub struct TriangleSetup {
     pub iterator_format: Format,
 }
 
-/// Reason why a triangle, or a part of it after clipping, is not drawn.
+/// Reason for which a triangle, or a part of it after clipping, is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Dropped {
     /// A position is NaN or infinite, or overflowed.
@@ -79,7 +79,7 @@ pub enum Dropped {
 pub struct SetupReport {
     /// Set-ups appended: 0, 1, or up to 8 if it was clipped.
     pub emitted: u32,
-    /// Reason why nothing was appended, if nothing was.
+    /// The reason, if nothing was appended.
     pub dropped: Option<Dropped>,
 }
 
