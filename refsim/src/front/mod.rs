@@ -15,7 +15,8 @@ use crate::isa::Program;
 /// Translates the fragment entry point of a WGSL module into an `!!FP1.0` program whose spans refer to the WGSL text.
 /// Uniforms become the program's parameters, `u.color` for example; texture `n` of the text, from 0, becomes image unit
 /// `n`.
-/// \n # Errors
+///
+/// # Errors
 /// If the text is not WGSL, or uses a construct without translation; the error has the position. Always without the
 /// feature `wgsl`.
 pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
@@ -23,7 +24,8 @@ pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
 }
 
 /// The operations on f32 that the fragment entry point executes, in the order of their spans.
-/// \n # Errors
+///
+/// # Errors
 /// As [`translate_wgsl`].
 pub fn wgsl_operations(text: &str) -> Result<Vec<WgslOperation>, Refusal> {
     Ok(translated(text)?.1)

@@ -156,7 +156,8 @@ pub struct Parameter {
 }
 
 /// A resource of an `!!ARBfp1.0` program, which counts against a limit if it is declared or bound.
-/// \n Source: GL_ARB_fragment_program, section 3.11.3.6.
+///
+/// Source: GL_ARB_fragment_program, section 3.11.3.6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ProgramResource {
     /// A temporary, an attribute, `program.local[#]` or `program.env[#]`.

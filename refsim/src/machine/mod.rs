@@ -135,7 +135,8 @@ impl Machine {
     }
 
     /// Executes a draw call.
-    /// \n # Errors
+    ///
+    /// # Errors
     /// If the call is invalid for the machine or the device; nothing is drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;

@@ -50,7 +50,8 @@ impl Machine {
     }
 
     /// [`Machine::read_back_async`] for a depth buffer.
-    /// \n # Errors
+    ///
+    /// # Errors
     /// If the handle is invalid.
     pub fn read_depth_async(&self, id: DepthId) -> Result<(FenceId, &DepthSurface), MachineError> {
         let surface = self.memory.current_depth(id)?;

@@ -50,7 +50,8 @@ impl Machine {
     }
 
     /// [`Machine::trace`] for several pixels, which processes the vertices only once.
-    /// \n # Errors
+    ///
+    /// # Errors
     /// As [`Machine::trace`].
     pub fn trace_pixels(
         &self,

@@ -1,5 +1,6 @@
 //! Cost of host work: the number of operations of each kind times the kind's weight, and all times one scale.
-//! \n The weights are relative guesses. The scale is calibrated once, on a published figure
+//!
+//! The weights are relative guesses. The scale is calibrated once, on a published figure
 //! ([`CPU_ONLY_RAYS_PER_SECOND`]) and the operation counts of the same run. So the total host time of that run is right
 //! by construction, but its distribution over operations is not.
 

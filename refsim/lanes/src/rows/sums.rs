@@ -32,7 +32,7 @@ impl RowSum {
     }
 }
 
-/// Adds rows of numbers of a float format with the arithmetic `lane`.
+/// Computes sums of rows of numbers of a float format, in the arithmetic `lane`.
 pub fn add_rows(
     format: Format,
     lane: &AnyLane,

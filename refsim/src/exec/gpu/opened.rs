@@ -150,7 +150,8 @@ impl Gpu {
     }
 
     /// Returns a pipeline of a kernel with at least these parts, if possible one that is already compiled.
-    /// \n # Errors
+    ///
+    /// # Errors
     /// As [`Self::pipeline`].
     pub fn kernel(&self, kernel: &Kernel, parts: &Parts) -> Result<Pipeline, GpuError> {
         let mut known = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);

@@ -237,7 +237,7 @@ impl Translator<'_> {
         self.loaded(source, 0).map(|x| self.make.convert(from, Arith::Single, x))
     }
 
-    /// Mask of a condition for a component.
+    /// Mask of the lanes in which a component's condition holds.
     fn passes(&mut self, condition: &Condition, component: usize) -> NodeId {
         let code = self.codes[usize::from(condition.swizzle.0[component] & 3)];
         let all = self.make.graph.constant(TRUE);

@@ -63,7 +63,8 @@ struct PackedRegister {
 
 /// Assigns temporaries to virtual registers. The components of one register stay together; several registers can share
 /// a temporary.
-/// \n # Errors
+///
+/// # Errors
 /// If the temporaries do not suffice.
 pub(super) fn numbered(instructions: &mut [Instruction]) -> Result<(), Refusal> {
     let (mut widths, mut last): (BTreeMap<u16, u32>, BTreeMap<u16, usize>) = (BTreeMap::new(), BTreeMap::new());

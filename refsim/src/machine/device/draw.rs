@@ -49,7 +49,8 @@ impl Machine {
     }
 
     /// Executes a validated call on the given GPU, or on the best adapter of the host.
-    /// \n If fragments may exceed the step budget, the host keeps copies of the targets. The GPU only reports that some
+    ///
+    /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU only reports that some
     /// fragment exceeded the budget; the batch executor then finds that fragment.
     pub(in crate::machine) fn draw_on_gpu(
         &mut self,

@@ -138,7 +138,7 @@ pub(super) fn floored(products: &[Value], c: Value, halves: bool) -> u64 {
     let top = products_top.map_or(c_exponent, |t| t.max(c_exponent));
     let floor = |value: i128, by: i32| value >> by.clamp(0, 127);
     let together: i128 = sums.iter().map(|sum| floor(sum.sum, products_top.unwrap_or(0) - sum.top)).sum();
-    // From here on, in units of 2^(top - 32).
+    // From here on, sums are in units of 2^(top - 32).
     let finer = SUM_KEPT - KEPT.cast_signed();
     let u = floor(together << finer, top - products_top.unwrap_or(top));
     let is_left_out = c.magnitude == 0 || halves && c_exponent < top - 25;
