@@ -306,7 +306,7 @@ impl<'a> Parser<'a> {
         token.error(ErrorKind::RelativeAddress, expected, "write `c[a0.x + 3]`, `c3[a0.x]` or `c[aL + 3]`")
     }
 
-    /// `[a0.x + 3]` etc.: a sum of numbers and at most one address register.
+    /// Parses an address such as `[a0.x + 3]`: a sum of numbers and at most one address register.
     fn address(&mut self, register: &mut Register) -> Parsed<()> {
         self.next();
         loop {

@@ -114,7 +114,7 @@ impl Limit {
             (Self::LoopDepth | Self::CallDepth, Ps2A | Ps2B) => 4,
             (Self::LoopDepth | Self::CallDepth, Vs2_0) => 1,
             (Self::StaticFlowCount, Vs2_0) => 16,
-            // GL_ARB_fragment_program, section 3.11.3.6, and GL_NV_fragment_program: minima.
+            // Minimum limits of GL_ARB_fragment_program (section 3.11.3.6) and of GL_NV_fragment_program.
             (Self::Temporaries, ArbFp1_0) => 16,
             (Self::BoundParameters, ArbFp1_0) => 24,
             (Self::Attributes, ArbFp1_0) => 10,

@@ -31,7 +31,7 @@ pub(super) struct Context<'a> {
     pub(super) version: Version,
     pub(super) violations: Vec<Violation>,
     pub(super) warnings: Vec<Warning>,
-    /// `true` for instruction `i` if the version has it and its operands are present; later passes rely on it.
+    /// `true` for instruction `i` if the version has it and its operands are present; later passes rely on that.
     pub(super) sound: Vec<bool>,
     /// For each instruction, the index of the instruction that ends or continues its block, loop or subroutine.
     pub(super) jump: Vec<Option<usize>>,

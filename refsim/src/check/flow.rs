@@ -24,7 +24,7 @@ impl OpenBlock {
     }
 }
 
-/// A call, for the rules on subroutines.
+/// A call instruction, recorded for the rules on subroutines.
 struct Call {
     at: usize,
     label: u16,

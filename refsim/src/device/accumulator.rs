@@ -24,8 +24,8 @@ pub(super) fn accumulates(accumulator: Format, operands: Format) -> bool {
 /// Returns `true` if rounding a number of [`PRODUCTS`] into a format equals rounding the exact product.
 fn is_narrow(format: Format) -> bool {
     match format.kind {
-        // `:nvovf` distinguishes products of 2^128 and more from the largest number; `:rdn` makes an exact sum of 0
-        // negative.
+        // Not narrow: `:nvovf` distinguishes products of 2^128 and more from the largest number, and `:rdn` makes an
+        // exact sum of 0 negative.
         FormatKind::Float { man_bits, .. } => {
             man_bits <= 21 && format.overflow != Overflow::Nv30 && format.rounding != Rounding::Down
         }

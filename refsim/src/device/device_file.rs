@@ -25,7 +25,7 @@ struct DeviceFile {
     storage: StorageTable,
     #[serde(default)]
     switches: BTreeMap<String, String>,
-    /// By digest in hexadecimal, then by index in decimal.
+    /// Formats of instructions, by the program's digest in hexadecimal, then by the instruction's index in decimal.
     #[serde(default)]
     programs: BTreeMap<String, BTreeMap<String, Format>>,
 }

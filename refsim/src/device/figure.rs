@@ -97,7 +97,7 @@ pub struct MeasuredCounts {
 }
 
 impl fmt::Display for MeasuredCounts {
-    /// `NV2A: cut 52, nearest 24 of 52`
+    /// Displays the counts as `NV2A: cut 52, nearest 24 of 52`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let right: Vec<String> = self.right.iter().map(|(hypothesis, right)| format!("{hypothesis} {right}")).collect();
         write!(f, "{}: {} of {}", self.of, right.join(", "), self.all)

@@ -46,7 +46,7 @@ pub enum Event {
         /// Size in bytes.
         bytes: u64,
     },
-    /// The next draw uses a different state from the last.
+    /// The next draw uses a state that differs from the previous draw's.
     StateChange {
         /// Number of state groups that differ. The groups are: each program, each program's constants, each sampler,
         /// targets, depth buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling,
@@ -196,7 +196,7 @@ pub struct DrawRecord {
 }
 
 impl DrawRecord {
-    /// Resources that the draw reads: textures, and targets and depth buffer if read.
+    /// Resources that the draw reads: textures, and the targets and the depth buffer if they are read.
     pub fn reads(&self) -> Vec<ResourceId> {
         let mut out: Vec<_> = self.samplers.iter().map(|s| s.texture).collect();
         out.extend(self.targets.iter().filter(|t| t.read).map(|t| t.target));
@@ -204,7 +204,7 @@ impl DrawRecord {
         out
     }
 
-    /// Resources that the draw writes: targets, and the depth buffer if written.
+    /// Resources that the draw writes: targets, and the depth buffer if it is written.
     pub fn writes(&self) -> Vec<ResourceId> {
         let mut out: Vec<_> = self.targets.iter().filter(|t| t.written).map(|t| t.target).collect();
         out.extend(self.depth.iter().filter(|d| d.test && d.write).map(|d| d.buffer));

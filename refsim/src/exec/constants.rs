@@ -159,8 +159,8 @@ fn unorm8_expanded(format: Format, bits: u32) -> u32 {
         0 => (magnitude, 1),
         field => ((magnitude & 0x007f_ffff) | 0x0080_0000, field),
     };
-    // The magnitude is significand / 2^down, with down at least 23. For down above 64 it does not move 127.5 past an
-    // integer.
+    // The magnitude is significand / 2^down, with down at least 23. If down is above 64, the magnitude is too small to
+    // move 127.5 past an integer.
     let down = 150 - exponent;
     let term = if down > 64 { 0 } else { 255 * i128::from(significand) };
     let down = down.min(64);

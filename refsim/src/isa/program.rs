@@ -169,7 +169,7 @@ pub enum ProgramResource {
 }
 
 impl ProgramResource {
-    /// The constant vector, in which both zeros are the same number.
+    /// Creates a constant vector. -0 becomes +0, because both count as the same number.
     pub fn constant(vector: [u32; 4]) -> Self {
         Self::Constant(vector.map(|bits| if bits == 1 << 31 { 0 } else { bits }))
     }

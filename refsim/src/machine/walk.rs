@@ -100,9 +100,9 @@ pub(super) fn draw(
 enum TileShapes {
     /// [`TILE`] columns and rows.
     Square,
-    /// Also two rows with this number of pixels, for regions of one row of quads.
+    /// Also tiles of two rows with the same number of pixels, for regions that are one quad high.
     Flat,
-    /// Also one row with this number of pixels, for regions of one row.
+    /// Also tiles of one row with the same number of pixels, for regions of one row.
     Any,
 }
 

@@ -77,7 +77,7 @@ pub enum Dropped {
 /// Result of setting up a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SetupReport {
-    /// Set-ups appended: 0, 1, or up to 8 if it was clipped.
+    /// Number of set-ups appended: 0, 1, or up to 8 if the triangle was clipped.
     pub emitted: u32,
     /// The reason, if nothing was appended.
     pub dropped: Option<Dropped>,

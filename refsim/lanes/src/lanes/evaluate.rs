@@ -1,4 +1,4 @@
-//! One operation on many operands, through the same lanes that programs run in.
+//! Evaluates one operation on many operands, with the lane arithmetic in which programs run.
 
 use super::any::{AnyLane, Arithmetic, with_any_lane};
 use super::lane::{Lane, apply, is_finite};

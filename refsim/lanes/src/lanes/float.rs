@@ -273,8 +273,8 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if PATH == HOST && R == EVEN {
             return a.sqrt();
         }
-        // As for a quotient: a root that is not m differs from m by 2^-51 of itself or more, since a - m m is a
-        // multiple of the unit of m m.
+        // As for a quotient, m being such a number: a root that is not m differs from it by 2^-51 of itself or more,
+        // since a - m m is a multiple of the unit of m m.
         self.round_f64(f64::from(a).sqrt())
     }
 
@@ -338,7 +338,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn frc(&self, a: f32) -> f32 {
-        // Not through `floor`: short formats can't hold the floor of their most negative number.
+        // `Lane::floor` is not used: short formats can't hold the floor of their most negative number.
         let a = f64::from(a);
         let b = -a.floor();
         self.round_f64(self.cancel(a, b, odd::add_odd(a, b)))

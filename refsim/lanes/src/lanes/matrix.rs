@@ -37,7 +37,7 @@ impl MatrixRows {
         self.codes.len() / self.length.max(1)
     }
 
-    /// `depth` numbers of a row from index `start` on, with their scales. `start` is a multiple of [`Self::share`].
+    /// `depth` numbers of a row from index `start` on, with their scales. `start` is a multiple of `share`.
     pub fn row(&self, row: usize, start: usize, depth: usize) -> Operand<'_> {
         let codes = &self.codes[row * self.length + start..][..depth];
         let first = row * self.length.div_ceil(self.share) + start / self.share;
@@ -232,7 +232,7 @@ fn block(adder: &Adder, a: &[Unpacked], b: &[Lanes], words: &mut [u64; WIDTH]) {
     }
 }
 
-/// The sum of up to sixteen products, cut below `top`.
+/// The sum of up to sixteen products, each truncated to the adder's bits below `top`.
 #[inline(always)]
 fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32; WIDTH] {
     let up = (adder.bits - adder.product_fraction).max(0).cast_unsigned();

@@ -50,7 +50,7 @@ macro_rules! rounder {
             const SIGN: $bits = 1 << (<$bits>::BITS - 1);
             const EXPONENT: $bits = Self::SIGN - (1 << $mantissa);
 
-            /// Creates the rounder of a format with these bits.
+            /// Creates the rounder of a format with these field widths.
             pub(crate) fn new(format: &Format, man_bits: u8) -> Self {
                 let m = <$bits>::from(man_bits);
                 let (emin, emax) = format.exponents();
@@ -209,7 +209,7 @@ pub(crate) struct ShortRounder {
 }
 
 impl ShortRounder {
-    /// Creates the rounder of a format with these bits.
+    /// Creates the rounder of a format with these field widths.
     pub(crate) fn new(exp_bits: u8, man_bits: u8) -> Self {
         const BIAS: u32 = 127;
         let (m, emax) = (u32::from(man_bits), (1 << (exp_bits - 1)) - 1);

@@ -223,7 +223,7 @@ fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static s
     Ok((sign, digits, point))
 }
 
-/// The two neighbours with `length` digits, the nearer first.
+/// The two neighbours with `length` digits, nearer one first.
 fn candidates(digits: &[u8], point: i64, length: usize) -> [(Vec<u8>, i64); 2] {
     let below = digits[..length].to_vec();
     let mut above = below.clone();

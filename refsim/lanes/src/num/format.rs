@@ -43,7 +43,7 @@ pub enum FormatKind {
     Normalized {
         /// Integer bits without the sign.
         int_bits: u8,
-        /// Bits of the codes from 0 to 1, 2 to 8.
+        /// Bits of the codes that represent 0 to 1: 2 to 8.
         frac_bits: u8,
     },
     /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits. [`Encoding::Scale`]

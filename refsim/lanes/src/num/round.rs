@@ -304,7 +304,7 @@ pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> 
 /// `num / den`, neither of them zero, rounded once.
 pub(crate) fn round_big(env: &Env, negative: bool, num: &BigUint, den: &BigUint) -> Outcome {
     let num = num * env.format.denominator();
-    // 66 quotient bits at least, down to 2^-40 at least.
+    // Computes at least 66 bits of the quotient, and at least all bits down to 2^-40.
     let left = (den.bits() + 66).saturating_sub(num.bits()).max(40);
     let scaled = num << left;
     let quotient = &scaled / den;

@@ -35,7 +35,7 @@ pub enum Rounding {
     Odd,
     /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits
     /// of the discarded fraction and this word, is at least `2^32`. A fraction of 1/4 is rounded up for 1/4 of all
-    /// words. Each operation has a word ([`super::random_word`]), which all its roundings use. Devices refuse it
+    /// words. Each operation has a word ([`super::random_word`]), which all its roundings use. Devices reject it
     /// ([`super::Format::for_registers`]).
     Stochastic(u32),
 }

@@ -13,7 +13,7 @@ pub enum LaneCode {
     Plain(NumberOperation),
     /// An operation whose last operand is this integer.
     Immediate(NumberOperation, i8),
-    /// Right minus left neighbour, or (if `true`) lower minus upper, for both lanes.
+    /// Right minus left neighbour, or (if `true`) lower minus upper; both lanes get the difference.
     Neighbors(bool),
     /// Copies `a` to the wide row.
     Widen,

@@ -57,7 +57,7 @@ impl<'a> Parser<'a> {
         self.cursor.expect(";", "a statement ends with `;`")
     }
 
-    /// `DEFINE name = constant` or `DECLARE name [= constant]`.
+    /// Parses the rest of `DEFINE name = constant` or `DECLARE name [= constant]`.
     fn definition(&mut self, fixed: bool) -> Parsed<()> {
         let name = self.cursor.next();
         if name.kind != TokenKind::Word || self.names.contains_key(name.text) || reserved(name.text) {

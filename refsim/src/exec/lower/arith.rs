@@ -28,7 +28,7 @@ impl<'a> GraphBuilder<'a> {
         Self { graph: Graph::new(formats.all(), !pixel), formats, rules, legacy_zero, is_pixel: pixel }
     }
 
-    /// A constant given as a bit pattern of a format.
+    /// Creates a constant from a bit pattern of a format.
     pub(crate) fn pattern(&mut self, k: Arith, bits: u32) -> NodeId {
         let raw = self.formats.decode(k, bits);
         self.graph.constant(raw)

@@ -228,7 +228,7 @@ impl Parts {
         out
     }
 
-    /// Reduces a line; `None` if it begins an arm or block to be removed.
+    /// Returns a line, reduced to the labels that are kept; `None` if it begins an arm or block to be removed.
     fn heading(&self, line: &str, all: &Self) -> Option<String> {
         let trimmed = line.trim_start();
         if let Some(feature) = trimmed.strip_prefix("if (").and_then(|rest| rest.strip_suffix(") {")) {

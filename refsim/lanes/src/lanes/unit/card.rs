@@ -26,7 +26,7 @@ pub(crate) trait CardFunctions {
 }
 
 /// Operations that differ between units. The `quick_` versions are vectorized: they also return the range of magnitudes
-/// met, which shows whether the result may be wrong. `FUSED` is `true` if the host has fused multiply-add.
+/// encountered, which shows whether the result may be wrong. `FUSED` is `true` if the host has fused multiply-add.
 pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// True if comparisons return NaN for unordered words.
     const SETS_NAN: bool;

@@ -1,5 +1,5 @@
 //! The unit of GT200: host sums and products where these are exact or rounded once. The `quick_` versions are
-//! vectorized and return the range of magnitudes met, which shows whether their results may be wrong.
+//! vectorized and return the range of magnitudes encountered, which shows whether their results may be wrong.
 
 use super::card::CardUnit;
 use super::tables::{GT200, Tables};

@@ -40,7 +40,7 @@ impl CardFunctions for Nv {
     fn rsq(&self, x: u32, [a]: [f64; 1]) -> u32 {
         let sign = if self.modern { x & SIGN } else { 0 };
         let (e, m) = (field(x), x & MANTISSA);
-        // The reciprocal of the root of half the number in [1, 4).
+        // Computes the reciprocal root of half the significand, which is in [1, 4).
         let even = 1 - (e & 1);
         let g = f64::from((significand(x) << even).cast_signed());
         let a = halved((3.0 * pow2(37) - a * a * g) * a, 32);

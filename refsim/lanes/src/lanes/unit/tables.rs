@@ -4,7 +4,8 @@ use std::sync::LazyLock;
 
 use crate::num::unit::tables::{GT200_RCP, GT200_RSQRT, NV_RCP, NV_RSQ};
 
-/// Tables of reciprocals and of reciprocal roots, by the upper bits of the mantissa: `C` numbers each.
+/// Tables of reciprocals and of reciprocal roots, indexed by the upper bits of the mantissa, with `C` numbers per
+/// entry.
 #[derive(Debug)]
 pub(crate) struct Tables<const RCP: usize, const C: usize> {
     pub(super) rcp: [[f64; C]; RCP],

@@ -46,7 +46,7 @@ impl Element {
     pub const FP16: Self = element("fp16", 5, 10, Encoding::Ieee);
     /// The upper half of binary32.
     pub const BF16: Self = element("bf16", 8, 7, Encoding::Ieee);
-    /// OCP E4M3: no infinity, NaN 7f and ff.
+    /// OCP E4M3: no infinity; the patterns 7f and ff are NaN.
     pub const E4M3: Self = element("e4m3", 4, 3, Encoding::Finite);
     /// OCP E5M2: IEEE.
     pub const E5M2: Self = element("e5m2", 5, 2, Encoding::Ieee);
@@ -56,9 +56,9 @@ impl Element {
     pub const E2M3: Self = element("e2m3", 2, 3, Encoding::Finite);
     /// OCP E2M1: numbers only.
     pub const E2M1: Self = element("e2m1", 2, 1, Encoding::Finite);
-    /// AMD's fp8: bias 8, one NaN, 80.
+    /// AMD's fp8: bias 8; the pattern 80 is the only NaN.
     pub const FP8: Self = element("fp8", 4, 3, Encoding::UnsignedZero);
-    /// AMD's bf8: bias 16, one NaN, 80.
+    /// AMD's bf8: bias 16; the pattern 80 is the only NaN.
     pub const BF8: Self = element("bf8", 5, 2, Encoding::UnsignedZero);
     /// Scales that are powers of two.
     pub const UE8M0: Self = Self { name: "ue8m0", format: Some(Format::E8M0), ignored_bits: 0 };

@@ -93,7 +93,7 @@ pub struct Operand<'a> {
     pub element: Element,
     /// Their patterns.
     pub codes: &'a [u64],
-    /// Patterns of the scales, one for each of [`MatrixUnit::scaling`]'s numbers; empty without scales.
+    /// Patterns of the scales, one per group of numbers ([`MatrixUnit::scaling`]); empty if there are no scales.
     pub scales: &'a [u8],
 }
 

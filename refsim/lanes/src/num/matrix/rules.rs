@@ -46,7 +46,7 @@ pub(super) fn groups(products: &[Value], scales: &[[Value; 2]], c: Value, bits: 
     sum(groups.chain(c.addend()), bits, GROUPS_LEAST, result)
 }
 
-/// The addend of a group; none if all its products, or a scale, are zero.
+/// The addend of a group; `None` if all its products, or a scale, are zero.
 fn group(products: &[Value], [sa, sb]: [Value; 2]) -> Option<Addend> {
     let scale = sa.times(sb).addend()?;
     let products: Vec<Addend> = products.iter().filter_map(|product| product.addend()).collect();

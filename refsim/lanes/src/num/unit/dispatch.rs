@@ -50,7 +50,8 @@ fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u
     })
 }
 
-/// The order of two words by a unit, `None` if unordered; ideal formats compare words as sign and magnitude.
+/// Compares two words in the order of a unit; `None` if they are unordered. Ideal formats compare words as sign and
+/// magnitude.
 pub(in crate::num) fn order(unit: Unit, a: u32, b: u32) -> Option<Ordering> {
     match unit {
         Unit::Gt200 | Unit::Gt200ZeroWins => gt200::compare(a, b),

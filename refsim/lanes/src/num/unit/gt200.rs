@@ -160,7 +160,7 @@ pub fn dot(unit: Unit, rounding: Rounding, terms: &[(u32, u32)]) -> u32 {
     rest.iter().fold(mul(unit, rounding, a, b), |sum, &(a, b)| mad(unit, a, b, sum))
 }
 
-/// `x 2^k`, exact except for the overflow and underflow of a product.
+/// `x 2^k`, exact, except that it overflows and underflows like a product.
 pub fn scale(rounding: Rounding, x: u32, k: i32) -> u32 {
     let word = Word::of(x);
     match word.field {

@@ -140,7 +140,7 @@ fn add_square(derivative: &LaneRow, scale: f32, begins: bool, sum: &mut [f32; LA
 }
 
 /// Adds the square of the difference between the lanes of a quad whose indices differ in `bit`; `begins` as in
-/// [`add_square`].
+/// `add_square`.
 #[inline(always)]
 fn add_difference(coordinate: &LaneRow, bit: usize, scale: f32, begins: bool, sum: &mut [f32; LANES]) {
     for i in 0..LANES {

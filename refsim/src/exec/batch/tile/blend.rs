@@ -75,7 +75,8 @@ impl Blender {
         Some(Self { state: *state, values, components })
     }
 
-    /// Blends a raw colour over a texel; returns each word's bits of `channels`, zero elsewhere.
+    /// Blends a raw colour over a texel; returns the words of the texel, in which all bits outside the written channels
+    /// are zero.
     pub(crate) fn blend(
         &self,
         color: &[u32; 4],

@@ -80,7 +80,7 @@ impl PackedLanes {
     }
 }
 
-/// A component of the window position, single precision.
+/// Computes a component of the window position in single precision.
 fn position(setup: &TriangleSetup, fragment: &PackedFragment, axis: usize) -> u32 {
     let half = setup.half_pixels() as f32 * 0.5;
     match axis {

@@ -143,7 +143,7 @@ pub(crate) struct TileWeights {
     simd: SimdLevel,
     linear: [[f32; LANES]; 2],
     perspective: [[f32; LANES]; 2],
-    /// Inputs of the weights: edges 1 and 2, area, reciprocals of w.
+    /// Inputs from which the weights were computed: edges 1 and 2, area, reciprocals of w.
     made_from: Option<Origin>,
 }
 
@@ -201,7 +201,7 @@ impl TileWeights {
         }
     }
 
-    /// A component of the window position in every lane, single precision.
+    /// Computes a component of the window position in every lane, in single precision.
     pub(crate) fn position(&self, setup: &TriangleSetup, axis: usize, frame: TileFrame, out: &mut LaneRow) {
         let half = setup.half_pixels() as f32 * 0.5;
         match axis {
@@ -221,7 +221,7 @@ impl TileWeights {
         }
     }
 
-    /// A varying component in every lane, single precision; `format` is the format of the plane.
+    /// Computes a varying component in every lane, in single precision; `format` is the format of the plane.
     pub(crate) fn plane(&self, plane: &Plane, format: Format, single: &AnyLane, out: &mut LaneRow) {
         if format == Format::FP32 {
             return self.simd.run(

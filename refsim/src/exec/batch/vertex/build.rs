@@ -265,7 +265,7 @@ fn shapes(
     (outcomes, shapes)
 }
 
-/// Outcome of a triangle that a clip plane cuts, independent of its components.
+/// Outcome of a triangle that a clip plane cuts; it does not depend on the triangle's components.
 fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRules) -> ShapeOutcome {
     let [a, b, c] = positions.map(|position| Vertex { position, ..Vertex::default() });
     if setup([&a, &b, &c], state, rules, &mut Vec::new()).emitted == 0 {
@@ -275,7 +275,7 @@ fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRul
     }
 }
 
-/// Planes of one component in single precision, and 1 where it is constant.
+/// Computes the planes of one component in single precision, and a flag that is 1 where the component is constant.
 #[inline(always)]
 fn single_planes([v0, v1, v2]: [&[u32]; 3], (base, d1, d2): (&mut [u32], &mut [u32], &mut [u32]), constant: &mut [u8]) {
     let count = v0.len();

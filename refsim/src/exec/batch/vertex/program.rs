@@ -216,7 +216,7 @@ impl BatchVertices {
                 slots.row_mut(slot)[..count].fill(register.map_or(0, |c| c[usize::from(constant % 4)]));
                 continue;
             }
-            // Inputs are single precision, so their bits are raw values.
+            // Inputs are in single precision, so their bits are raw values.
             let row = &mut slots.row_mut(slot)[..count];
             attributes(usize::from(component / 4), usize::from(component % 4), first, row);
         }
