@@ -79,8 +79,8 @@ pub struct MatrixUnit {
     pub scaling: Option<(usize, Element)>,
     /// Type and rounding of d.
     pub result: ResultFormat,
-    /// Confidence in the rule: measured (agrees with results of GPUs), two models or one model (agrees with published
-    /// models).
+    /// Evidence for the rule: `measured` (it agrees with results of GPUs), `two models` or `one model` (it agrees with
+    /// published models).
     pub evidence: &'static str,
     /// The sources: measured results, chips, and models that agree.
     pub source: &'static str,
