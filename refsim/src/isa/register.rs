@@ -126,7 +126,7 @@ pub enum Relative {
 pub struct Register {
     /// The file.
     pub file: RegisterFile,
-    /// The number in the file; 0 for unnumbered registers.
+    /// The register's number in its file; 0 for unnumbered registers.
     pub index: u16,
     /// Relative addressing: the value added to the number at run time.
     pub relative: Option<Relative>,

@@ -6,7 +6,7 @@ use crate::output::{DepthFormat, OutputError};
 use crate::raster::RasterError;
 use crate::texture::{TexelFormat, TextureError};
 
-/// The place of an error in a draw: a program's invocation for one pixel or vertex.
+/// The pixel or vertex at which a program failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the fields are what the variants name")]
 pub enum ProgramPlace {

@@ -69,7 +69,7 @@ pub(crate) enum BatchStep {
 /// A scheduled block.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepBlock {
-    /// Uniform slots, filled before the first run and never overwritten.
+    /// Slots of uniform values, filled before the first run and never overwritten.
     pub(crate) constants: Vec<(Slot, u32)>,
     /// Slots that the caller fills before each run: `(input component, slot)`.
     pub(crate) inputs: Vec<(u16, Slot)>,

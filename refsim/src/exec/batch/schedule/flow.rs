@@ -38,7 +38,7 @@ pub(crate) struct FlowPlan {
     pub(crate) flow: FlowMap,
     /// The step budget, if the program may exceed it.
     pub(crate) budget: Option<u32>,
-    /// Uniform slots, filled before the first run.
+    /// Slots of uniform values, filled before the first run.
     pub(crate) constants: Vec<(Slot, u32)>,
     inputs: Vec<(u16, Slot)>,
     pub(crate) registers: BTreeMap<RegisterComponent, Slot>,
