@@ -49,7 +49,7 @@
 //!
 //! let events = card.draw(&call)?;
 //! assert_eq!(events.fragments.passed, 16);
-//! // A8R8G8B8: a quarter doubled is 128/255, a half 1, three quarters saturate.
+//! // A8R8G8B8: 1/4 doubled is 128/255, 1/2 doubled is 1, and 3/4 saturates.
 //! assert_eq!(card.read_back(target)?.pixel(2, 1), Some([128.0 / 255.0, 1.0, 1.0, 1.0]));
 //! # Ok(())
 //! # }

@@ -14,8 +14,8 @@ pub enum ChannelClass {
     /// Two's complement `k / (2^(n-1) - 1)`; [`crate::device::SignedTexelMinimum`] determines the value of the
     /// smallest `k`.
     Snorm,
-    /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` for k < 0, so that -15 is not -1.0 (as in all
-    /// sixteen probes of Wine's test on real cards; docs/numbers.md).
+    /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` for k < 0, so -15 is not -1.0. All sixteen
+    /// probes of Wine's test agree on real cards (docs/numbers.md).
     SplitSnorm,
     /// A floating-point pattern of the given format.
     Float(Format),
@@ -130,8 +130,8 @@ use ChannelClass::{Float, Snorm, SplitSnorm, Unorm};
 
 macro_rules! texel_formats {
     ($($(#[$doc:meta])* $variant:ident $name:literal $d3d:literal $bytes:literal $count:literal $channels:expr, $components:expr;)*) => {
-        /// The texel formats of textures and render targets. Texels are little-endian; channel lists in the names go
-        /// from the lowest bits up.
+        /// The texel formats of textures and render targets. Texels are little-endian; channel names are listed from
+        /// the lowest bits up.
         #[non_exhaustive]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum TexelFormat { $($(#[$doc])* $variant,)* }

@@ -55,7 +55,7 @@ impl<'a> Cursor<'a> {
         Err(self.unexpected(&format!("`{mark}`"), help))
     }
 
-    /// Error: the next token is not the expected one.
+    /// Creates the error for a next token that is not the expected one.
     pub(super) fn unexpected(&self, expected: &str, help: &str) -> SyntaxError {
         let token = self.peek();
         token.error(ErrorKind::UnexpectedToken, expected, help)

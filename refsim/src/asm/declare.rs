@@ -6,7 +6,7 @@ use super::parser::Parser;
 use super::{number, word};
 use crate::isa::{ConstantDef, ConstantValue, Declaration, Register, RegisterFile, Span, Usage};
 
-/// Suffix of a usage, and its index if it has one. Used for parsing and printing.
+/// The suffix of a usage, and the usage's index if it has one. Used for parsing and printing.
 pub(super) fn usage_suffix(usage: Usage) -> (&'static str, Option<u8>) {
     match usage {
         Usage::Plain => ("", None),
@@ -173,7 +173,8 @@ impl<'a> Parser<'a> {
         ))
     }
 
-    /// Parses the values of a definition, integers as their bits; also returns `true` if all were well formed.
+    /// Parses the values of a definition; integers are returned as their bits. Also returns `true` if all are well
+    /// formed.
     fn values(&mut self, file: RegisterFile) -> (Vec<u32>, bool) {
         let mut values = Vec::new();
         let mut good = true;

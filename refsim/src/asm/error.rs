@@ -14,7 +14,7 @@ pub enum ErrorKind {
     /// The text has more statements than [`super::MAX_STATEMENTS`].
     #[error("too many statements")]
     TooManyStatements,
-    /// The list of errors was cut at [`super::MAX_ERRORS`].
+    /// The list of errors was truncated at [`super::MAX_ERRORS`].
     #[error("too many errors")]
     TooManyErrors,
     /// A `/*` without `*/`.
@@ -26,7 +26,7 @@ pub enum ErrorKind {
     /// The version token is unknown.
     #[error("unknown shader version")]
     UnknownVersion,
-    /// A version token after the first.
+    /// A second version token.
     #[error("second shader version")]
     RepeatedVersion,
     /// A token that cannot start or continue a statement.
@@ -80,10 +80,10 @@ pub enum ErrorKind {
     /// A malformed relative address in brackets.
     #[error("malformed relative address")]
     RelativeAddress,
-    /// A malformed predicate in front of an instruction.
+    /// A malformed predicate before an instruction.
     #[error("malformed predicate")]
     Predicate,
-    /// `+` or a predicate in front of a statement that allows none.
+    /// `+` or a predicate before a statement that allows none.
     #[error("misplaced prefix")]
     MisplacedPrefix,
     /// A value that is not a number, integer or boolean.

@@ -18,7 +18,7 @@ enum SourceSuffix {
     Dw,
 }
 
-/// A source modifier in front of the register.
+/// A source modifier before the register.
 #[derive(Clone, Copy)]
 enum SourcePrefix {
     Negate,
@@ -265,7 +265,8 @@ impl<'a> Parser<'a> {
         Ok(NamedRegister { register: register.0, modifiers, selector })
     }
 
-    /// Parses the register that starts with `token`, which has been consumed; also returns `true` if brackets followed.
+    /// Parses the register that starts with `token`, which has been consumed; also returns `true` if an address in
+    /// brackets follows it.
     fn register(&mut self, token: Token<'a>) -> Parsed<(Register, bool)> {
         let name = word::base(token.text);
         let span = Span::new(token.span.start, token.span.start + name.len() as u32);
@@ -305,7 +306,7 @@ impl<'a> Parser<'a> {
         token.error(ErrorKind::RelativeAddress, expected, "write `c[a0.x + 3]`, `c3[a0.x]` or `c[aL + 3]`")
     }
 
-    /// `[a0.x + 3]` etc.: a sum of numbers and at most one address register.
+    /// Parses an address such as `[a0.x + 3]`: a sum of numbers and at most one address register.
     fn address(&mut self, register: &mut Register) -> Parsed<()> {
         self.next();
         loop {

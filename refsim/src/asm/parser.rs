@@ -220,7 +220,7 @@ impl<'a> Parser<'a> {
         let mnemonic = match word::mnemonic(&token) {
             Ok(mnemonic) => mnemonic,
             Err(error) => {
-                // The operands of a known instruction are parsed anyway, for their own errors.
+                // The operands of a known instruction are parsed anyway, to report their errors too.
                 let known = error.kind != ErrorKind::UnknownOpcode;
                 self.record(error);
                 if known && let Some(row) = word::row(token.text) {

@@ -13,12 +13,12 @@ pub(super) struct Mnemonic {
     pub(super) partial_precision: bool,
 }
 
-/// Rows of the opcode table for a mnemonic (two for `if` and `break`).
+/// Rows of the opcode table with this mnemonic (two for `if` and `break`).
 fn rows(base: &str) -> impl Iterator<Item = &'static OpInfo> {
     Opcode::ALL.iter().map(|opcode| opcode.info()).filter(move |info| info.mnemonic.eq_ignore_ascii_case(base))
 }
 
-/// The first row for a word, ignoring its suffixes.
+/// The first row of the opcode table for a word, ignoring the word's suffixes.
 pub(super) fn row(word: &str) -> Option<&'static OpInfo> {
     rows(base(word)).next()
 }

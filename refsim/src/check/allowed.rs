@@ -114,7 +114,7 @@ impl Limit {
             (Self::LoopDepth | Self::CallDepth, Ps2A | Ps2B) => 4,
             (Self::LoopDepth | Self::CallDepth, Vs2_0) => 1,
             (Self::StaticFlowCount, Vs2_0) => 16,
-            // GL_ARB_fragment_program, section 3.11.3.6, and GL_NV_fragment_program: minima.
+            // Minimum limits of GL_ARB_fragment_program (section 3.11.3.6) and of GL_NV_fragment_program.
             (Self::Temporaries, ArbFp1_0) => 16,
             (Self::BoundParameters, ArbFp1_0) => 24,
             (Self::Attributes, ArbFp1_0) => 10,
@@ -164,8 +164,8 @@ impl Limit {
 
     /// The effective limit for programs of `version` on the device; `None`: no limit.
     ///
-    /// The smaller of the device's and the version's limit. The limits that `ps_2_x` leaves to the device (slots,
-    /// temporaries, nesting) are the device's.
+    /// This is the smaller of the device's and the version's limit. The limits that `ps_2_x` leaves to the device
+    /// (slots, temporaries, nesting) are the device's.
     pub(super) fn allowed(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let stage = version.stage();
         if version.is_fragment_program() {

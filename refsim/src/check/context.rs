@@ -31,7 +31,7 @@ pub(super) struct Context<'a> {
     pub(super) version: Version,
     pub(super) violations: Vec<Violation>,
     pub(super) warnings: Vec<Warning>,
-    /// `true` for instruction `i` if the version has it and its operands are present; later passes rely on it.
+    /// `true` for instruction `i` if the version has it and its operands are present; later passes rely on that.
     pub(super) sound: Vec<bool>,
     /// For each instruction, the index of the instruction that ends or continues its block, loop or subroutine.
     pub(super) jump: Vec<Option<usize>>,
@@ -86,7 +86,7 @@ impl<'a> Context<'a> {
         limit.allowed(self.profile, self.version)
     }
 
-    /// Returns `true` if limits that only the version has (ports, tokens) apply; they don't on ideal devices.
+    /// Returns `true` if limits that only the version states (ports, tokens) apply; they don't apply on ideal devices.
     pub(super) fn version_limits(&self) -> bool {
         self.profile.limits.version_limits
     }

@@ -202,7 +202,7 @@ fn need(
     context.breach(rule, span, message).label("read here").help(help);
 }
 
-/// V12 and V48: registers that must be written at the end.
+/// V12 and V48: registers that must be written by the end of the program.
 fn results(context: &mut Context<'_>, written: &Written) {
     let (rule, file, name) = match context.version {
         v if v.is_ps_1_x() => (RuleId::UnwrittenResult, RegisterFile::Temp, "r0"),

@@ -17,7 +17,7 @@ pub struct Facts {
     /// Jump target of each instruction: from `if` to its `else` or `endif`, from `else` to `endif`, from `rep` and
     /// `loop` to their end and back, from `break` to the end of its loop, from `call` to its `label`.
     pub jump: Vec<Option<usize>>,
-    /// Index of the first `label`, which ends the main program; the number of instructions if there is none.
+    /// Index of the first `label`, where the main program ends; the number of instructions if there is no label.
     pub main_end: usize,
     /// `true` if the program has flow control.
     pub has_flow: bool,

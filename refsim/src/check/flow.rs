@@ -10,7 +10,7 @@ use crate::isa::{Instruction, Modifier, Opcode, OpcodeClass, RegisterFile, Relat
 struct OpenBlock {
     opcode: Opcode,
     start: usize,
-    /// Instruction whose jump target is still unknown: the opening instruction, or `else`.
+    /// Instruction whose jump target is not yet known: the block's opening instruction, or `else`.
     patch: usize,
     breaks: Vec<usize>,
     /// `true` if a computed value decides which fragments execute the block.
@@ -24,7 +24,7 @@ impl OpenBlock {
     }
 }
 
-/// A call, for the rules on subroutines.
+/// A call instruction, recorded for the rules on subroutines.
 struct Call {
     at: usize,
     label: u16,
@@ -232,7 +232,7 @@ fn label(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: 
     walk.ended = false;
 }
 
-/// Reports blocks still open at the end of a section, and a subroutine without its end.
+/// Reports blocks that are still open at the end of a section, and a subroutine without `ret`.
 fn close(context: &mut Context<'_>, walk: &mut Walk) {
     for block in walk.blocks.drain(..) {
         let span = context.program.instructions[block.start].span;
@@ -261,7 +261,7 @@ fn inside(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction:
     }
 }
 
-/// V54 for calls, V53 for their depth, V56 for gradients in called subroutines.
+/// V54: labels of calls. V53: depth of calls. V56: gradients in called subroutines.
 fn subroutines(context: &mut Context<'_>, walk: &Walk) {
     let program = context.program;
     let span = |at: usize| program.instructions[at].span;

@@ -102,7 +102,7 @@ fn depth(context: &mut Context<'_>) {
     }
 }
 
-/// V27; its mask is checked with the operands, its co-issue with the pairs.
+/// V27, except the write mask (checked with the operands) and co-issue (checked with the pairs).
 fn bump(context: &mut Context<'_>) {
     let mut found = 0;
     for (index, instruction) in context.instructions() {
@@ -185,7 +185,7 @@ fn stages(context: &mut Context<'_>) {
             continue;
         };
         let stage = u32::from(destination.register.index);
-        // Numbers beyond the temporaries are reported as registers already.
+        // Numbers beyond the temporaries have already been reported as registers.
         let is_register = context.count(RegisterFile::Temp).is_some_and(|c| stage < c.value());
         if stage >= allowed.value && is_register {
             let message = format!("`texld` samples stage {stage}, {} has {} stages", allowed.owner, allowed.value);

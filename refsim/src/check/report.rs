@@ -55,7 +55,7 @@ impl Violation {
         self
     }
 
-    /// Sets the limit and the program's value.
+    /// Sets the limit and the value found in the program.
     pub(super) fn figure(&mut self, limit: u32, found: u32) -> &mut Self {
         (self.limit, self.found) = (Some(limit), Some(found));
         self

@@ -1,4 +1,4 @@
-//! Tables of the rules and warnings: name, code and sentence of each.
+//! Tables of the rules and warnings: the name, code and sentence of each.
 
 use strum::VariantArray;
 

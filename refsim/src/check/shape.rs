@@ -52,7 +52,7 @@ fn constants(context: &mut Context<'_>) {
             context.breach(RuleId::MisplacedDefinition, def.span, format!("`{register}` is defined twice"));
         }
         if let (ConstantValue::Float(values), true) = (def.value, context.version.is_ps_1_x()) {
-            // True for magnitudes above 1, infinity and NaN.
+            // True for magnitudes above 1, for infinity and for NaN.
             if values.iter().any(|v| v & 0x7fff_ffff > 0x3f80_0000) {
                 context.warnings.push(Warning {
                     id: WarningId::ClampedConstant,

@@ -36,7 +36,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     }
 }
 
-/// Records a warning once per program, at the first place.
+/// Records a warning once per program, at its first occurrence.
 fn warn(context: &mut Context<'_>, (id, span): (WarningId, Span), message: &str, help: &'static str) {
     if context.warnings.iter().all(|warning| warning.id != id) {
         context.warnings.push(Warning { id, span, message: message.to_owned(), help });

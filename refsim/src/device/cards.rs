@@ -15,8 +15,8 @@ pub(super) const CARDS: [(&str, &str); 8] = [
 pub(super) const VARIANTS: [(&str, &str); 2] =
     [("fx5800", include_str!("profiles/fx5800.toml")), ("fx5900", include_str!("profiles/fx5900.toml"))];
 
-/// Finds a card by its name or by words of its title, and returns its name and file. A match of all words of a title
-/// takes precedence over a part.
+/// Finds a card by its name or by words of its title, and returns its name and file. A match of a whole title takes
+/// precedence over a match of some of its words.
 pub(super) fn card_named(name: &str) -> Option<(&'static str, &'static str)> {
     let plain = |text: &str| text.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
     let wanted = plain(name);
@@ -24,7 +24,7 @@ pub(super) fn card_named(name: &str) -> Option<(&'static str, &'static str)> {
     if let Some(card) = all().find(|(card, _)| *card == wanted) {
         return Some(card);
     }
-    // The words of a title without the chip in parentheses: maker, then the card.
+    // The words of a title, without the chip in parentheses: the maker, then the card.
     let title = |text: &'static str| text.lines().find_map(|line| line.strip_prefix("title = \"")?.split(" (").next());
     let words = |text| title(text).unwrap_or_default().split(' ').map(plain).collect::<Vec<_>>();
     let whole = all().find(|(_, text)| (0..2).any(|maker| words(text)[maker..].concat() == wanted));

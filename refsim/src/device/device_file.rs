@@ -25,12 +25,12 @@ struct DeviceFile {
     storage: StorageTable,
     #[serde(default)]
     switches: BTreeMap<String, String>,
-    /// By digest in hexadecimal, then by index in decimal.
+    /// Formats of instructions, by the program's digest in hexadecimal, then by the instruction's index in decimal.
     #[serde(default)]
     programs: BTreeMap<String, BTreeMap<String, Format>>,
 }
 
-/// Formats of storages by their names.
+/// Formats of storages, by the storages' names.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct StorageTable {
@@ -127,7 +127,7 @@ impl Profile {
         for switch in &switched {
             same = same.and_then(|mut p| p.set_switch(&switch.name, &switch.current).ok().map(|()| p));
         }
-        // If the switches do not determine the registers, the format does.
+        // If the switches alone do not reproduce the registers' rules, the file also states the register format.
         let of_file = (self.rules.storage, self.rules.accumulator);
         if same.is_none_or(|same| Rules { storage: of_file.0, accumulator: of_file.1, ..same.rules } != self.rules) {
             let _ = writeln!(text, "format = \"{}\"", self.rules.format);

@@ -97,7 +97,7 @@ pub struct MeasuredCounts {
 }
 
 impl fmt::Display for MeasuredCounts {
-    /// `NV2A: cut 52, nearest 24 of 52`
+    /// Displays the counts as `NV2A: cut 52, nearest 24 of 52`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let right: Vec<String> = self.right.iter().map(|(hypothesis, right)| format!("{hypothesis} {right}")).collect();
         write!(f, "{}: {} of {}", self.of, right.join(", "), self.all)
@@ -142,8 +142,8 @@ impl RawFigure {
     /// The counts, if the figure states any.
     ///
     /// # Errors
-    /// If the counts are incomplete, if another hypothesis predicts as much as the value, or if the hypotheses of a
-    /// switch are not its values.
+    /// If the counts are incomplete, if another hypothesis predicts as many measurements as the figure's value, or if
+    /// the hypotheses of a switch are not its values.
     fn counts(&self) -> Result<Option<MeasuredCounts>, &'static str> {
         if self.of.is_none() && self.all.is_none() && self.right.is_empty() {
             return Ok(None);

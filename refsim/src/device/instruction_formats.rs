@@ -49,7 +49,8 @@ impl InstructionFormats {
             && self.insert(program.digest(), formats)
     }
 
-    /// Replaces the formats of the program with this digest. Returns `false`, without effect, if they are too many.
+    /// Replaces the formats of the program with this digest. Returns `false`, without effect, if there are too many of
+    /// them.
     pub(super) fn insert(&mut self, digest: u64, formats: BTreeMap<usize, Format>) -> bool {
         let mut different: Vec<Format> = Vec::new();
         for &format in formats.values() {
@@ -72,8 +73,9 @@ impl InstructionFormats {
         self.0.iter().map(|(digest, formats)| (*digest, formats))
     }
 
-    /// Formats that have no effect in these programs: for other programs, the digest; for instructions that a program
-    /// lacks, or that cannot have a format, the digest and the index.
+    /// Formats that have no effect in these programs. A format for another program is listed by the program's digest; a
+    /// format for an instruction that a program lacks, or that cannot have a format, by the digest and the
+    /// instruction's index.
     pub fn unused(&self, programs: &[&Program]) -> Vec<(u64, Option<usize>)> {
         let mut found = Vec::new();
         for (digest, formats) in self.iter() {

@@ -105,7 +105,7 @@ figures! {
         max_volume_size,
         /// Maximum width and height of a render target, in pixels.
         max_target_size,
-        /// Minimum magnitude that a pixel register can hold (`PixelShader1xMaxValue`).
+        /// Magnitude up to which pixel registers are guaranteed to hold numbers (`PixelShader1xMaxValue`).
         register_magnitude,
     }
     extra {

@@ -21,8 +21,8 @@ pub struct SumRules {
 }
 
 impl SumRules {
-    /// Rules of vertices and addresses, and of a format without a device: the format rounds every product and every
-    /// sum.
+    /// The rules for vertices and addresses, and for a format without a device: every product and every sum is rounded
+    /// into the format.
     pub const fn plain(format: Format) -> Self {
         let (add, mad, dot) = (AddMode::Rounded, MadMode::TwoRoundings, DotOrder::Sequential);
         Self { products: format, add, mad, dot, zero_wins: false }
@@ -67,8 +67,8 @@ impl SumRules {
         }
     }
 
-    /// The dot product of terms, summed in the accumulator's format, whose rules these are. A card's unit has its own
-    /// rule.
+    /// The dot product of terms, summed in the accumulator's format; `self` holds the rules of that format. A card's
+    /// unit has its own rule.
     pub fn dot(&self, env: impl Into<Env>, accumulator: Format, terms: &[(u32, u32)]) -> Outcome {
         let env = env.into();
         let format = env.format;
@@ -89,9 +89,9 @@ impl SumRules {
 }
 
 impl Rules {
-    /// The rules of products and sums in a format of pixel arithmetic. Fixed point has neither exponents nor
-    /// significands: its sums are rounded, and so are products that the rules truncate. Units of cards ignore the
-    /// rules.
+    /// The rules of products and sums for a format of pixel arithmetic. Fixed point has neither exponents nor
+    /// significands: its sums are rounded, and so are the products that the rules would truncate. Units of cards ignore
+    /// the rules.
     pub fn sums_in(&self, format: Format) -> SumRules {
         if format.unit.is_card() {
             return SumRules::plain(format);

@@ -18,8 +18,8 @@ use crate::texel::{DepthFormat, TexelFormat};
 
 const IDEAL: &str = include_str!("profiles/ideal.toml");
 
-/// Names of the rules that [`Profile::set_switch`] set after the format: rules of the format, and rules that need
-/// floats. Ignored by equality.
+/// Names of the rules that [`Profile::set_switch`] has set since the format was last replaced: rules of the format, and
+/// rules that need floats. Ignored by equality.
 #[derive(Clone, Debug, Default, Eq)]
 pub(super) struct StatedRules(pub(super) BTreeSet<String>);
 
@@ -223,7 +223,7 @@ impl Profile {
         Ok(())
     }
 
-    /// Updates the switches that depend on the format: their current value, and the values that they offer.
+    /// Updates the switches that depend on the format: their current values, and the values that they offer.
     fn refresh_format_switches(&mut self) {
         self.stated.0.clear();
         self.offer_values();

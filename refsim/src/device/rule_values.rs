@@ -97,7 +97,7 @@ named_choice! {
         TwoRoundings = "two-roundings",
         /// The exact sum is rounded once.
         Fused = "fused",
-        /// The product is cut to the significand, with any exponent; the exact sum is rounded once
+        /// The product is truncated to the significand, with any exponent; the exact sum is rounded once
         /// ([`ops::product_cut_mad`]).
         ProductCut = "product-cut",
     }

@@ -50,7 +50,7 @@ macro_rules! rules {
 }
 
 rules! {
-    /// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal
+    /// Arithmetic rules of a device. Executors read no other part of a profile, so devices with equal rules give equal
     /// bits.
     ///
     /// Every field is a figure or a switch of the profile, under `rules.*` (docs/devices.md, "The switches"). Rules are

@@ -21,9 +21,9 @@ pub struct FragmentCounts {
     pub depth_failed: u64,
     /// Fragments that reached the targets.
     pub passed: u64,
-    /// Texture reads by sampler: one per texture instruction executed by a covered fragment, with any filter, and with
-    /// or without a bound texture. Fragments killed earlier in the program still read; lanes masked off by flow control
-    /// do not.
+    /// Texture reads by sampler: one per texture instruction executed by a covered fragment, whatever the filter, even
+    /// if no texture is bound. Fragments killed earlier in the program still read; lanes masked off by flow control do
+    /// not.
     pub fetches: [u64; SAMPLERS],
 }
 

@@ -21,7 +21,7 @@ macro_rules! operations {
                 }
             }
 
-            /// Relative cost; a guess of the host model.
+            /// Relative cost of the operation; a guess of the host model.
             pub(crate) const fn weight(self) -> u64 {
                 match self {
                     $(Self::$variant => $weight,)*
@@ -45,7 +45,7 @@ operations! {
     RayTriangleTest = "ray-triangle-test", 50, "two cross and four dot products, a division; no source was found";
     /// Visit of a ray tree node by a ray on its way to its bucket.
     RayTreeNode = "ray-tree-node", 10, "a comparison of one of five coordinates, a miss in the cache now and then; no source was found";
-    /// Insertion of a ray into a bucket, or its transfer to another.
+    /// Insertion of a ray into a bucket, or its transfer to another bucket.
     BucketInsert = "bucket-insert", 25, "six numbers and an index copied; no source was found";
     /// Generation of a ray, by the camera or at a hit.
     RayGenerated = "ray-generated", 40, "a direction and its length; no source was found";

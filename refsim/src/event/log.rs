@@ -35,7 +35,7 @@ pub struct HostWork {
     pub operations: u64,
 }
 
-/// A call of the host, or work that it does itself.
+/// A call of the host, or work that the host does itself.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
@@ -46,10 +46,11 @@ pub enum Event {
         /// Size in bytes.
         bytes: u64,
     },
-    /// The next draw uses a different state from the last.
+    /// The next draw uses a state that differs from the previous draw's.
     StateChange {
-        /// Number of state groups that differ: each program, each program's constants, each sampler, targets, depth
-        /// buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
+        /// Number of state groups that differ. The groups are: each program, each program's constants, each sampler,
+        /// targets, depth buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling,
+        /// bump state.
         changes: u32,
         /// Number of float constants (of four numbers) that differ in either program; these are sent to the card.
         constants: u32,
@@ -82,7 +83,7 @@ pub enum Event {
     Host(HostWork),
 }
 
-/// A texture bound in a draw.
+/// A texture that is bound in a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplerRecord {
     /// The sampler (ps_1_x: the stage).
@@ -171,16 +172,16 @@ impl MipmapRecord {
 pub struct DrawRecord {
     /// Event counts.
     pub counts: DrawEvents,
-    /// Vertices processed by the card, with a post-transform cache of half the profile's size, the profile's size, and
-    /// twice that: an indexed vertex is processed again if it has left the cache. Equal to the number of vertices
-    /// without indices, or if the profile states no cache.
+    /// Vertices processed by the card, with post-transform caches of half the profile's size, the profile's size, and
+    /// twice the profile's size. An indexed vertex is processed again if it has left the cache. Equal to the number of
+    /// vertices if there are no indices, or if the profile states no cache.
     pub vertices_run: [u64; 3],
     /// Number of 2x2 quads that ran the pixel program, per triangle that covers at least one of their pixels. Cards
     /// shade whole quads, so lanes outside the triangle cost as much as those inside.
     pub quads: u64,
     /// The pixel program.
     pub pixel: Arc<ProgramWork>,
-    /// The vertex program; `None` if vertices came transformed.
+    /// The vertex program; `None` if the vertices were already transformed.
     pub vertex: Option<Arc<ProgramWork>>,
     /// The bound textures, in ascending order of the sampler.
     pub samplers: Vec<SamplerRecord>,
@@ -195,7 +196,7 @@ pub struct DrawRecord {
 }
 
 impl DrawRecord {
-    /// Resources that the draw reads: textures, and targets and depth buffer if read.
+    /// Resources that the draw reads: textures, and the targets and the depth buffer if they are read.
     pub fn reads(&self) -> Vec<ResourceId> {
         let mut out: Vec<_> = self.samplers.iter().map(|s| s.texture).collect();
         out.extend(self.targets.iter().filter(|t| t.read).map(|t| t.target));
@@ -203,7 +204,7 @@ impl DrawRecord {
         out
     }
 
-    /// Resources that the draw writes: targets, and the depth buffer if written.
+    /// Resources that the draw writes: targets, and the depth buffer if it is written.
     pub fn writes(&self) -> Vec<ResourceId> {
         let mut out: Vec<_> = self.targets.iter().filter(|t| t.written).map(|t| t.target).collect();
         out.extend(self.depth.iter().filter(|d| d.test && d.write).map(|d| d.buffer));

@@ -58,8 +58,8 @@ pub struct ProgramWork {
     pub version: Version,
     /// Its phases, in order.
     pub phases: Vec<PhaseWork>,
-    /// Maximum number of temporaries live at once, counted in halves: 2 for full precision, 1 for temporaries written
-    /// by `_pp` instructions only; in `!!FP1.0` 2 for `R#` and 1 for `H#`.
+    /// Maximum number of simultaneously live temporaries, in halves. A temporary counts 2, or 1 if only `_pp`
+    /// instructions write it; in `!!FP1.0`, `R#` counts 2 and `H#` counts 1.
     pub live_halves: u32,
     /// Number of flow control instructions, each counted once.
     pub flow: u32,
@@ -165,7 +165,8 @@ fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
         Some(sampler) if program.version.reads_coordinates() => Some(sampler.register.index),
         _ => instruction.destination.map(|d| d.register.index),
     };
-    // From ps_1_4 on the source gives the coordinates; before, a read is dependent if it uses another stage's result.
+    // From ps_1_4 on, the source gives the coordinates. In earlier versions a read is dependent if it uses another
+    // stage's result.
     let dependent = match instruction.sources.first() {
         None => false,
         Some(_) if program.version.is_ps_1_1_to_1_3() => true,
@@ -282,7 +283,7 @@ fn live_halves(program: &Program) -> u32 {
             full[slot] |= !destination.partial_precision && !destination.register.file.is_half();
         }
     }
-    // Components live after the last instruction: ps_1_x leaves its result in r0.
+    // Components that are live after the last instruction: ps_1_x leaves its result in r0.
     let mut live = [0_u8; TEMPORARIES];
     if program.version.is_ps_1_x() && program.version.stage() == Stage::Pixel {
         live[0] = 0b1111;
@@ -309,7 +310,7 @@ fn live_halves(program: &Program) -> u32 {
                 OpcodeClass::Texture => Mask::ALL,
                 _ => instruction.opcode.lanes_read(index, written),
             };
-            // 4 and 5 are constants of `SWZ`.
+            // Selectors 4 and 5 are the constants of `SWZ`.
             let chosen = lanes.components().map(|lane| source.swizzle.0[lane]).filter(|&c| c < 4);
             live[slot] |= chosen.fold(0, |mask, c| mask | 1 << c);
         }

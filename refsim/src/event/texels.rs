@@ -1,4 +1,4 @@
-//! Texel reads in order, and the interface for observing them.
+//! Texel reads in the card's order, and the interface for observing them.
 
 use std::fmt;
 

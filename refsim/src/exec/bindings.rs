@@ -17,7 +17,7 @@ pub struct SamplerBinding<'a> {
 }
 
 impl SamplerBinding<'_> {
-    /// Returns `true` if a read can depend on the level of detail; otherwise executors need not compute it.
+    /// Returns `true` if a read can depend on the level of detail; otherwise executors don't compute it.
     pub fn needs_detail(&self) -> bool {
         let levels = self.state.mip != MipFilter::None && self.image.levels().len() > 1;
         levels || self.state.min != self.state.mag

@@ -29,7 +29,7 @@ pub struct Overrun {
     pub instruction: usize,
 }
 
-/// Returns the budget if the program may exceed it; `None` if every path is shorter, so that steps need not be counted.
+/// Returns the budget if the program may exceed it; `None` if every path is shorter and steps need not be counted.
 pub(crate) fn enforced(program: &Program, flow: &FlowMap, constants: &ResolvedConstants, budget: u32) -> Option<u32> {
     (most_steps(program, flow, constants) > u64::from(budget)).then_some(budget)
 }
@@ -54,7 +54,7 @@ fn is_partner(program: &Program, at: usize) -> bool {
 /// without flow control. Takes one pass over the text.
 pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &ResolvedConstants) -> u64 {
     let code = &program.instructions;
-    // Calls lead forward, so processing labels backward finds every callee first.
+    // Calls lead forward, so processing the labels backward visits every callee before its callers.
     let mut starts: Vec<usize> = (0..code.len()).filter(|&at| code[at].opcode == Opcode::Label).collect();
     let mut after = vec![0u64; code.len()];
     let mut end = code.len();
@@ -67,9 +67,9 @@ pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &Resolved
 
 struct Open {
     before: u64,
-    /// Number of iterations, for loops.
+    /// Number of iterations; 1 for blocks that are not loops.
     passes: u64,
-    /// Steps of the `if` branch, once `else` was passed.
+    /// Steps of the `if` branch, set at `else`.
     taken: u64,
 }
 

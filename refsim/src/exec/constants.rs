@@ -151,16 +151,16 @@ fn snorm8(format: Format, bits: u32, k: u32) -> u32 {
     num::from_ratio(format, bits >> 31 == 1 && k != 0, u128::from(k), 255).bits
 }
 
-/// `(2k - 255) / 255`, rounded into `format`, where k is the integer part of the exact `127.5 (c + 1)` and c the
-/// clamped number. NaN is stored like 0.
+/// `(2k - 255) / 255`, rounded into `format`, where k is the integer part of the exact `127.5 (c + 1)` and c is the
+/// number clamped to [-1, 1]. NaN is stored like 0.
 fn unorm8_expanded(format: Format, bits: u32) -> u32 {
     let magnitude = if magnitude(bits) > 0x7f80_0000 { 0 } else { magnitude(bits).min(FP32_ONE) };
     let (significand, exponent) = match magnitude >> 23 {
         0 => (magnitude, 1),
         field => ((magnitude & 0x007f_ffff) | 0x0080_0000, field),
     };
-    // The magnitude is significand / 2^down, with down at least 23. For down above 64 it does not move 127.5 past an
-    // integer.
+    // The magnitude is significand / 2^down, with down at least 23. If down is above 64, the magnitude is too small to
+    // move 127.5 past an integer.
     let down = 150 - exponent;
     let term = if down > 64 { 0 } else { 255 * i128::from(significand) };
     let down = down.min(64);

@@ -7,7 +7,7 @@ use crate::isa::{Opcode, Program};
 /// Jump target of each instruction of a program.
 ///
 /// Blocks are matched by nesting. Checked programs always match; an unmatched jump would lead to the end of the
-/// program, so executors need no error path.
+/// program, so executors need no error handling.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FlowMap {
     targets: Vec<usize>,
@@ -22,7 +22,7 @@ impl FlowMap {
         let end = code.len();
         let mut targets = vec![end; end];
         let mut open: Vec<usize> = Vec::new();
-        // Of equal labels, the first is used.
+        // If several labels are equal, the first one is used.
         let labels = code.iter().enumerate().rev().filter(|(_, i)| i.opcode == Opcode::Label);
         let labels: BTreeMap<_, _> = labels.map(|(at, i)| (i.sources.first().map(|s| s.register.index), at)).collect();
         for (at, instruction) in code.iter().enumerate() {

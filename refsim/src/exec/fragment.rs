@@ -14,11 +14,11 @@ use crate::texture::TexelFormat;
 /// device's rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FragmentFormats {
-    /// `R#`, `o[COLR]`, `o[DEPR]`, and interpolated values.
+    /// Format of `R#`, `o[COLR]`, `o[DEPR]`, and interpolated values.
     pub full: Format,
     /// `H#`, `o[COLH]`.
     pub half: Format,
-    /// Operations with X; no register has this format.
+    /// Format of operations with suffix X; no register has this format.
     pub fixed: Format,
 }
 

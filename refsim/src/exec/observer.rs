@@ -41,7 +41,7 @@ pub trait Observer {
     /// Called when a lane has executed an instruction.
     fn executed(&mut self, step: &Step);
 
-    /// Called when a covered lane reads a bound texture, in order of instructions, then lanes.
+    /// Called when a covered lane reads a bound texture: in program order, then in lane order.
     fn reads(&mut self, _: &TextureRead) {}
 }
 

@@ -1,8 +1,8 @@
 //! Per-pixel execution traces.
 //!
-//! Traces are made independently of draws, at no cost for drawing: the machine finds the triangles that cover the
-//! pixel, and the scalar executor or a GPU shades each into the pixel's targets. The batch executor has no tracer: its
-//! values equal the scalar executor's.
+//! Traces are recorded separately from draws, so drawing costs nothing extra: the machine finds the triangles that
+//! cover the pixel, and the scalar executor or a GPU shades each into the pixel's targets. The batch executor has no
+//! tracer: its values equal the scalar executor's.
 
 use super::{FragmentResult, Step};
 use crate::isa::{Instruction, Mask, OpcodeClass, Program, Register, RegisterFile};
@@ -40,7 +40,7 @@ pub(crate) fn written_mask(instruction: &Instruction, components: impl Iterator<
     }
 }
 
-/// Converts a step to the form in [`Shading`].
+/// Converts a step to the form that [`Shading`] stores.
 pub(crate) fn as_written(mut step: Step, program: &Program) -> Step {
     let destination = program.instructions.get(step.instruction).and_then(|i| i.destination);
     if destination.is_some_and(|d| d.register.file == RegisterFile::DepthOut) {

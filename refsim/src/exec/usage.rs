@@ -46,7 +46,7 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
     if position { mask.with_position() } else { mask }
 }
 
-/// Input registers that a pixel program reads in the register format.
+/// Input registers whose values a pixel program reads in the register format.
 pub(crate) fn registers_delivered(program: &Program) -> Vec<Register> {
     let reads = inputs_read(program);
     let colors = (0u16..2).map(|n| (RegisterFile::Input, n, COLOR_COMPONENT + 4 * usize::from(n)));

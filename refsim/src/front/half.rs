@@ -1,20 +1,20 @@
-//! Operations of a text in WGSL, and the text with some of them in f16.
+//! Rewrites operations of a WGSL text from f32 to f16.
 
 use std::cmp::Reverse;
 
 use crate::isa::Span;
 
-/// An operation of a shader on f32 that can be one on f16: its operands are converted, and its result back.
+/// An operation on f32 that can be rewritten in f16: its operands are converted to f16, and its result back to f32.
 #[derive(Clone, Debug)]
 pub struct WgslOperation {
-    /// Its place in the text.
+    /// Span of the operation in the text.
     pub span: Span,
     casts: Vec<Cast>,
-    /// The operator of a compound assignment, which goes.
+    /// Byte offset of the operator of a compound assignment, which the rewriting removes.
     removed: Option<usize>,
 }
 
-/// `vec3h(` or the like in front of a part of the text, and a bracket behind it.
+/// A conversion such as `vec3h(`, to be inserted before a part of the text, with a closing bracket after the part.
 #[derive(Clone, Debug)]
 struct Cast {
     start: usize,
@@ -22,25 +22,25 @@ struct Cast {
     open: String,
 }
 
-/// How the text of an operation looks.
+/// Syntax of an operation in the text.
 #[derive(Clone, Copy)]
 pub(super) enum OperationForm {
-    /// A function of all operands.
+    /// A function call; every operand is an argument.
     Call,
-    /// A function that is there in f32 alone: its operands are rounded, and its result.
+    /// A function that exists only for f32: its operands and its result are rounded to f16.
     CallOfF32,
-    /// An operator between two operands, or one that also assigns.
+    /// An operator between two operands, or the operator of a compound assignment.
     Operator(&'static str),
 }
 
-/// A word or mark of a text.
+/// A word or punctuation mark of a text.
 #[derive(Clone, Copy)]
 struct Token {
     start: usize,
     end: usize,
-    /// Number of brackets around it.
+    /// Nesting depth in brackets.
     depth: usize,
-    /// `true` if an operand ends before it.
+    /// `true` if an operand ends just before the token.
     follows: bool,
 }
 
@@ -50,7 +50,7 @@ fn half(name: &str) -> String {
     columns.map_or_else(|| "f16".to_owned(), |columns| format!("{columns}h"))
 }
 
-/// Length of the word at the start of a text, with the types in `<>` behind it.
+/// Length of the word at the start of a text, including type arguments in `<>` that follow it.
 fn word(text: &str) -> usize {
     let is_number = !text.starts_with(|c: char| c.is_alphabetic() || c == '_');
     let is_hexadecimal = text.starts_with("0x") || text.starts_with("0X");
@@ -74,7 +74,7 @@ fn word(text: &str) -> usize {
     closes.map_or(end, |at| end + at + 1)
 }
 
-/// Words and marks of a text without its comments.
+/// The words and marks of a text, without its comments.
 fn tokens(text: &str) -> Vec<Token> {
     const PAIRS: [&str; 15] =
         ["<<", "<=", ">>", ">=", "==", "!=", "&&", "||", "+=", "-=", "*=", "/=", "%=", "->", "::"];
@@ -104,8 +104,9 @@ fn tokens(text: &str) -> Vec<Token> {
 }
 
 impl WgslOperation {
-    /// The operation at a place, with the names of its operands' types, in the order of the text, and of its result's;
-    /// `None` for those that are not numbers. `None` if the text looks otherwise.
+    /// The operation at a span of the text. `operands` are the names of the operands' types in the order of the text,
+    /// and `result` is the name of the result's type; a name is `None` if the type does not consist of f32. Returns
+    /// `None` if the text has another form.
     pub(super) fn new(
         text: &str,
         span: Span,
@@ -162,7 +163,7 @@ impl WgslOperation {
             {
                 part = inside;
             }
-            // A number beside a vector is one component.
+            // A literal next to a vector is a single component.
             let is_number =
                 part.len() == 1 && own[part[0].start..].starts_with(|c: char| c.is_ascii_digit() || c == '.');
             let name = if is_number { "f32" } else { name };
@@ -175,16 +176,16 @@ impl WgslOperation {
         complete.then_some(Self { span, casts, removed })
     }
 
-    /// The text with these operations in f16.
+    /// The text with these operations rewritten in f16.
     pub fn in_half<'o>(text: &str, operations: impl IntoIterator<Item = &'o Self>) -> String {
         let mut operations: Vec<&Self> = operations.into_iter().collect();
-        // Those around others first, so that casts of one part are in order.
+        // Enclosing operations come first, so that casts of the same part are in order.
         operations.sort_by_key(|operation| Reverse(operation.span.end - operation.span.start));
         let mut casts: Vec<&Cast> = operations.iter().flat_map(|operation| &operation.casts).collect();
         casts.sort_by_key(|cast| (cast.start, Reverse(cast.end)));
         let mut kept: Vec<&Cast> = Vec::new();
         for cast in casts {
-            // There and back again: a result in f16 is an operand in f16.
+            // Omits a conversion to f32 that is directly converted back: an f16 result can be an f16 operand.
             let is_back = |last: &&&Cast| {
                 let name = cast.open.strip_suffix('(').filter(|name| !name.contains('('));
                 (last.start, last.end) == (cast.start, cast.end)

@@ -1,5 +1,5 @@
-//! Front ends: programs in languages of today, translated for ideal devices. docs/wgsl.md says what each construct of
-//! WGSL becomes.
+//! Front ends: translate programs in today's languages for ideal devices. docs/wgsl.md describes the translation of
+//! each WGSL construct.
 
 #[cfg_attr(not(feature = "wgsl"), expect(dead_code, reason = "operations are found by the translation"))]
 mod half;
@@ -12,16 +12,18 @@ pub use refusal::Refusal;
 
 use crate::isa::Program;
 
-/// Translates the fragment entry point of a WGSL module into an `!!FP1.0` program whose places are those of the text.
-/// Uniforms become its parameters, `u.color` for example; texture `n` of the text, from 0, becomes image unit `n`.
+/// Translates the fragment entry point of a WGSL module into an `!!FP1.0` program whose spans refer to the WGSL text.
+/// Uniforms become the program's parameters, `u.color` for example; texture `n` of the text, from 0, becomes image unit
+/// `n`.
 ///
 /// # Errors
-/// If the text is not WGSL or uses a construct without translation, with the place; always without the feature `wgsl`.
+/// If the text is not WGSL, or uses a construct without translation; the error has the position. Always without the
+/// feature `wgsl`.
 pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
     Ok(translated(text)?.0)
 }
 
-/// The operations on f32 that the fragment entry point executes, by their places in the text.
+/// The operations on f32 that the fragment entry point executes, in the order of their spans.
 ///
 /// # Errors
 /// As [`translate_wgsl`].

@@ -1,10 +1,10 @@
-//! The one error of front ends.
+//! The error type of all front ends.
 
 use std::borrow::Cow;
 
 use crate::isa::Span;
 
-/// A text that cannot be translated: reason, place, advice.
+/// Error: the text cannot be translated. Holds the reason, the position and advice.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Refusal {
@@ -29,7 +29,7 @@ impl Refusal {
         &self.help
     }
 
-    /// The place in the text; `None` if the reason is not at one.
+    /// Span of the cause in the text; `None` if the cause has no position.
     pub fn place(&self) -> Option<Span> {
         self.place
     }

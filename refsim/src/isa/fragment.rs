@@ -75,7 +75,7 @@ impl ConditionTest {
     }
 }
 
-/// `(GT.x)` after a destination, or the operand of `KIL`.
+/// A condition: `(GT.x)` after a destination, or the operand of `KIL`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Condition {
     /// The test that must hold.
@@ -147,7 +147,7 @@ pub struct Spelling {
     pub result: bool,
 }
 
-/// The instruction tables of the two extensions, with their columns: R and H; X; C and `_SAT`.
+/// The instruction tables of the two extensions. The columns state the allowed suffixes: R and H; X; C and `_SAT`.
 macro_rules! spellings {
     ($($opcode:ident $name:literal $floats:literal $fixed:literal $result:literal)*) => {
         &[$(Spelling {

@@ -31,7 +31,7 @@ pub enum DestinationRule {
     Read,
 }
 
-/// Kind of values that an operation writes to a register.
+/// Kind of the values that an operation writes to a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ResultKind {
     /// Nothing: flow control, kills, depth, and matrix rows for a later texture read.
@@ -65,13 +65,13 @@ impl SlotCost {
 pub struct OpInfo {
     /// The operation.
     pub opcode: Opcode,
-    /// Its spelling, without modifiers and comparison suffix.
+    /// The mnemonic, without modifiers and comparison suffix.
     pub mnemonic: &'static str,
     /// Its class.
     pub class: OpcodeClass,
-    /// The role of its first operand.
+    /// Role of the first operand.
     pub destination: DestinationRule,
-    /// The kind of its results.
+    /// Kind of the results.
     pub result: ResultKind,
     /// `true` if the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
     pub comparison: bool,

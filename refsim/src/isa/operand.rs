@@ -47,8 +47,8 @@ impl Mask {
     }
 }
 
-/// A source modifier, Direct3D's before those that only OpenGL has. Arithmetic meaning, with `x` the value after the
-/// swizzle; each step rounds once into the register format, and negation comes last.
+/// A source modifier; Direct3D's modifiers come before those that only OpenGL has. In the formulas, `x` is the value
+/// after the swizzle; each step rounds once into the register format, and negation comes last.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, VariantArray)]
 pub enum Modifier {
@@ -111,7 +111,7 @@ pub struct Destination {
     pub shift: i8,
     /// `_sat`: the result is clamped to [0, 1], after the shift.
     pub saturate: bool,
-    /// `_pp`: partial precision is enough.
+    /// `_pp`: partial precision suffices.
     pub partial_precision: bool,
     /// `_centroid`: on declarations only; kept for printing.
     pub centroid: bool,
@@ -126,7 +126,7 @@ impl Destination {
     }
 }
 
-/// `(p0.x)` or `(!p0)` in front of an instruction.
+/// `(p0.x)` or `(!p0)` before an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Predicate {
     /// `true` if the predicate is inverted.

@@ -27,7 +27,7 @@ pub struct ConstantDef {
     pub register: Register,
     /// Its value.
     pub value: ConstantValue,
-    /// Number of instructions before it; 0 for a well-placed `def`.
+    /// Number of instructions before the definition; 0 if the `def` is where it belongs.
     pub position: usize,
     /// Location in the program text.
     pub span: Span,
@@ -102,16 +102,16 @@ pub struct Instruction {
     pub destination: Option<Destination>,
     /// The operands, in the order of the text.
     pub sources: Vec<Source>,
-    /// `+`: issued together with the instruction before.
+    /// `+`: issued together with the previous instruction.
     pub coissue: bool,
     /// `(p0)` in front.
     pub predicate: Option<Predicate>,
     /// Parts that only OpenGL fragment programs have; default in Direct3D's versions.
     pub fragment: FragmentPart,
-    /// Number format of its own, in place of the registers' and of `_pp` or a precision suffix: operands are converted
-    /// to it, the operation is done in it, and the result is converted to the format of its register. The result of a
-    /// texture instruction is rounded to it. Text has none: devices assign formats
-    /// ([`crate::device::InstructionFormats`]).
+    /// The instruction's own number format, in place of the registers' format and of `_pp` or a precision suffix.
+    /// Operands are converted to it, the operation is done in it, and the result is converted to the format of its
+    /// register; a texture instruction's result is rounded to it. The text of a program has none: devices assign
+    /// formats ([`crate::device::InstructionFormats`]).
     pub format: Option<Format>,
     /// The whole instruction in the program text.
     pub span: Span,
@@ -132,15 +132,15 @@ pub struct Program {
     pub instructions: Vec<Instruction>,
     /// Host-set constants without a register number, in the order in which the text names them.
     pub parameters: Vec<Parameter>,
-    /// Resources that an `!!ARBfp1.0` program declares or binds, used or not, each with its first place in the text.
+    /// Resources that an `!!ARBfp1.0` program declares or binds, used or not, each with the span where it first occurs.
     pub resources: BTreeMap<ProgramResource, Span>,
-    /// The OpenGL fog option that is applied at the end of the program, if any.
+    /// The OpenGL fog option that is applied at the end of the program.
     pub fog: Option<FogOption>,
     /// The text that it was assembled from.
     pub text: ProgramText,
 }
 
-/// A host-set constant of an OpenGL program: identified by name, or bound to a piece of pipeline state.
+/// A host-set constant of an OpenGL program: identified by name, or bound to an item of pipeline state.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Parameter {
     /// Its name.
@@ -149,13 +149,13 @@ pub struct Parameter {
     pub register: Register,
     /// Source of its value.
     pub source: ParameterSource,
-    /// Number of components of its value, 1 to 4. The others are not read.
+    /// Number of components of the parameter's value, 1 to 4. Other components are not read.
     pub width: usize,
     /// Location in the program text.
     pub span: Span,
 }
 
-/// A resource of an `!!ARBfp1.0` program, which counts against a limit where it is declared or bound.
+/// A resource of an `!!ARBfp1.0` program, which counts against a limit if it is declared or bound.
 ///
 /// Source: GL_ARB_fragment_program, section 3.11.3.6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -164,12 +164,12 @@ pub enum ProgramResource {
     Register(Register),
     /// A constant vector, IEEE single bit patterns; zeros are positive.
     Constant([u32; 4]),
-    /// A piece of pipeline state.
+    /// An item of pipeline state.
     State(StateBinding),
 }
 
 impl ProgramResource {
-    /// The constant vector, in which both zeros are the same number.
+    /// Creates a constant vector. -0 becomes +0, because both count as the same number.
     pub fn constant(vector: [u32; 4]) -> Self {
         Self::Constant(vector.map(|bits| if bits == 1 << 31 { 0 } else { bits }))
     }
@@ -197,11 +197,11 @@ pub enum ParameterSource {
 }
 
 impl Program {
-    /// Identifies the program by its instructions: 64 bits (FNV-1a) of the version and of the text of each instruction,
-    /// without comments, layout, declarations and constants.
+    /// Identifies the program by its instructions: a 64-bit hash (FNV-1a) of the version and of the text of each
+    /// instruction, without comments, layout, declarations and constants.
     pub fn digest(&self) -> u64 {
         let lines = self.instructions.iter().enumerate().map(|(index, instruction)| {
-            // Programs that tests build have no text.
+            // Programs that are built by tests have no text.
             let Instruction { opcode, comparison, destination, sources, .. } = instruction;
             self.instruction_text(index).unwrap_or_else(|| format!("{:?}", (opcode, comparison, destination, sources)))
         });
@@ -241,8 +241,8 @@ impl Instruction {
         }
     }
 
-    /// The precision in which an arithmetic instruction of an OpenGL program computes: the suffix's, or else the
-    /// destination's. Operands `f[TEX#]` and `f[FOGC]` force full precision.
+    /// The precision in which an arithmetic instruction of an OpenGL program computes: the precision of the suffix, or
+    /// else of the destination. Operands `f[TEX#]` and `f[FOGC]` force full precision.
     pub fn precision(&self) -> Precision {
         let interpolated = |file| matches!(file, RegisterFile::Texture | RegisterFile::FogIn);
         if self.sources.iter().any(|s| interpolated(s.register.file)) {

@@ -3,7 +3,7 @@
 use super::{Mask, Opcode, Version};
 
 impl Opcode {
-    /// Returns `true` if the operation reads one component per operand and replicates its result.
+    /// Returns `true` if the operation reads one component per operand and replicates the result to all components.
     pub const fn is_scalar(self) -> bool {
         matches!(self, Self::Rcp | Self::Rsq | Self::Exp | Self::Log | Self::Expp | Self::Logp | Self::Pow)
             || matches!(self, Self::Cos | Self::Sin | Self::Scs)

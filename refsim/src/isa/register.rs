@@ -4,8 +4,8 @@ use std::fmt;
 
 use strum::VariantArray;
 
-/// A register file; Direct3D's files come first, then files of OpenGL only. Each variant's comment starts with the
-/// spelling in programs.
+/// A register file. Direct3D's files come first, then the files that only OpenGL has. Each variant's comment starts
+/// with the spelling in programs.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray)]
 pub enum RegisterFile {
@@ -45,7 +45,7 @@ pub enum RegisterFile {
     DiffuseOut,
     /// `oT#`: texture coordinates of a vertex.
     TexCoordOut,
-    /// `H#`: half precision temporaries of an OpenGL fragment program, whose `R#` are [`Self::Temp`].
+    /// `H#`: half precision temporaries of an OpenGL fragment program, in which `R#` are [`Self::Temp`].
     Half,
     /// `f[FOGC]`: the fog coordinate in x, then 0, 0, 0; `fragment.fogcoord`: 0, 0, 1.
     FogIn,
@@ -126,7 +126,7 @@ pub enum Relative {
 pub struct Register {
     /// The file.
     pub file: RegisterFile,
-    /// The number in the file (0 for unnumbered registers).
+    /// The register's number in its file; 0 for unnumbered registers.
     pub index: u16,
     /// Relative addressing: the value added to the number at run time.
     pub relative: Option<Relative>,

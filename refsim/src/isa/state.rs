@@ -64,7 +64,7 @@ pub enum MatrixForm {
     InvTrans,
 }
 
-/// A four-component piece of state. Displayed as programs write it.
+/// A four-component item of state. Displayed as programs write it.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum StateBinding {
@@ -82,11 +82,11 @@ pub enum StateBinding {
     LightAttenuation(u8),
     /// `state.light[#].spot.direction`: the direction, and the cosine of the cutoff angle
     SpotDirection(u8),
-    /// `state.light[#].half`: the half vector of a light at infinity, seen from infinity; 1
+    /// `state.light[#].half`: the half vector for a light and a viewer at infinity; w is 1
     LightHalf(u8),
     /// `state.lightmodel.ambient`
     LightModelAmbient,
-    /// `state.lightmodel.scenecolor`: emission plus ambient term; alpha is the diffuse material's
+    /// `state.lightmodel.scenecolor`: emission plus ambient term; alpha is the alpha of the diffuse material
     SceneColor(MaterialFace),
     /// `state.lightprod[#].diffuse`: color of the light times color of the material; alpha is the material's
     LightProduct(u8, MaterialFace, LightingColor),
@@ -169,7 +169,7 @@ impl FogMode {
         self.into()
     }
 
-    /// The mode of this option.
+    /// The fog mode with this option name.
     pub fn from_name(text: &str) -> Option<Self> {
         text.parse().ok()
     }

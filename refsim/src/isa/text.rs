@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::Span;
 
-/// Longest part of a line that is quoted, in characters.
+/// Maximum length of a quoted part of a line, in characters.
 const MAX_QUOTED: usize = 100;
-/// Largest number of problems that are quoted in one message.
+/// Maximum number of problems quoted in one message.
 const MAX_PROBLEMS: usize = 20;
 
 /// The source text of a program; empty if the program was not assembled from text.
@@ -16,7 +16,7 @@ const MAX_PROBLEMS: usize = 20;
 #[derive(Clone, Default)]
 pub struct ProgramText(Arc<str>);
 
-/// A message about a place in a program text.
+/// A message about a position in a program text.
 pub(crate) struct PlacedMessage {
     pub(crate) span: Span,
     pub(crate) message: String,
@@ -44,7 +44,7 @@ impl ProgramText {
         Some((line, before[start..].trim_start_matches('\u{feff}').chars().count() + 1))
     }
 
-    /// Writes messages, each with its place, the line with the place marked, and the help. Messages beyond
+    /// Writes messages, each with its position, the quoted line with the position marked, and the help. Messages beyond
     /// [`MAX_PROBLEMS`] are only counted.
     pub(crate) fn write_messages(
         &self,
@@ -75,7 +75,7 @@ impl ProgramText {
         let line = text[start..].lines().next().unwrap_or_default().trim_start_matches('\u{feff}');
         let plain = |c: char| if c.is_control() { ' ' } else { c };
         let quoted: String = line.chars().take(MAX_QUOTED).map(plain).collect();
-        // A statement may go on in the next lines.
+        // A statement may continue on the next lines; only its first line is marked.
         let covered = text.get(span.start as usize..span.end as usize).and_then(|part| part.lines().next());
         let marks = covered.unwrap_or_default().chars().count().max(1);
         if quoted.trim().is_empty() || column > MAX_QUOTED {

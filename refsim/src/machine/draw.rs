@@ -32,7 +32,7 @@ pub struct AttributeStream<'a> {
 
 /// Input of a vertex program: `instance_count` instances of `vertex_count` vertices.
 ///
-/// The Ray Engine draws in this way: the corners of a full-screen quad are in per-vertex streams, N primitives in
+/// The Ray Engine draws in this way: the corners of a full-screen quad are in per-vertex streams, and N primitives in
 /// per-instance streams. One call draws N quads in order, like N calls.
 #[derive(Clone, Debug)]
 pub struct VertexStreams<'a> {
@@ -88,11 +88,11 @@ pub struct DrawCall<'a> {
     pub bump: [BumpStage; BUMP_STAGES],
     /// Texture projection of the stages (ps_1_1 to 1_3).
     pub projections: [Projection; BUMP_STAGES],
-    /// Provoking vertex for flat shading; `None`: the colours `v#` are interpolated.
+    /// Provoking vertex for flat shading. If `None`, the colours `v#` are interpolated.
     pub flat: Option<Provoking>,
-    /// The viewport; `None`: the whole target, depth range 0 to 1.
+    /// The viewport. If `None`, it is the whole target, with depth range 0 to 1.
     pub viewport: Option<Viewport>,
-    /// Scissor rectangle; `None`: the whole target.
+    /// Scissor rectangle. If `None`, it is the whole target.
     pub scissor: Option<Region>,
     /// Pixel centre convention.
     pub center: PixelCenter,

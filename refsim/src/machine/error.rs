@@ -6,7 +6,7 @@ use crate::output::{DepthFormat, OutputError};
 use crate::raster::RasterError;
 use crate::texture::{TexelFormat, TextureError};
 
-/// An invocation of a program.
+/// The pixel or vertex at which a program failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the fields are what the variants name")]
 pub enum ProgramPlace {
@@ -25,7 +25,7 @@ impl std::fmt::Display for ProgramPlace {
     }
 }
 
-/// Error of a machine. The machine is unchanged unless the variant states otherwise.
+/// Error of a machine. It leaves the machine unchanged, unless the variant states otherwise.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -67,7 +67,7 @@ pub enum MachineError {
     /// Depth state without a depth buffer.
     #[error("the draw tests or writes depth but has no depth buffer; bind one or turn both off")]
     NoDepthBuffer,
-    /// A texture is read and written by one draw.
+    /// A texture is both read and written by one draw.
     #[error(
         "sampler {sampler} reads the texture that is target {target} of the same draw; draw into another texture and swap"
     )]
@@ -119,10 +119,10 @@ pub enum MachineError {
     /// An attribute register that does not exist.
     #[error("expected an attribute register v0 to v15, found v{register}")]
     NoSuchAttribute { register: usize },
-    /// Two streams feed one register.
+    /// Two streams for the same register.
     #[error("two streams feed v{register}; leave one out")]
     StreamTwice { register: usize },
-    /// An index beyond the vertices.
+    /// An index is not less than the number of vertices.
     #[error("index {position} is {found}, the draw has {limit} vertices")]
     Index { position: usize, found: u32, limit: usize },
     /// A pixel outside the targets.

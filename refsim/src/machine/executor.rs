@@ -7,8 +7,8 @@ use crate::exec::batch::BatchExecutor;
 use crate::exec::gpu::Gpu;
 use std::sync::Arc;
 
-/// An executor, with its GPU if needed, that creates machines. These machines share its cache of decoded programs and
-/// textures.
+/// Creates machines with one executor, and with its GPU if needed. These machines share its cache of decoded programs
+/// and textures.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub enum Executor {
@@ -25,7 +25,7 @@ pub enum Executor {
         /// The GPU.
         gpu: Arc<Gpu>,
     },
-    /// An executor with a watcher of every draw of its machines.
+    /// An executor whose machines report every draw to a watcher.
     Watched {
         /// The executor.
         executor: Box<Executor>,
@@ -45,7 +45,8 @@ impl Executor {
         }
     }
 
-    /// Returns this executor with a watcher of every draw of the machines that it will create.
+    /// Returns this executor with a watcher, which is called for every draw of the machines that it creates from now
+    /// on.
     #[must_use]
     pub fn watched(&self, watcher: Arc<dyn DrawWatcher>) -> Self {
         Self::Watched { executor: Box::new(self.clone()), watcher }

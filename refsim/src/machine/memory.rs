@@ -9,13 +9,13 @@ use crate::texture::{Image, TexelFormat};
 pub(super) struct Memory {
     pub(super) textures: Vec<Option<Image>>,
     pub(super) depths: Vec<Option<DepthSurface>>,
-    /// Copies on a GPU of the host.
+    /// Copies of the resources on a GPU of the host.
     #[cfg(feature = "wgpu")]
     pub(super) card: Option<super::device::Card>,
 }
 
 impl Memory {
-    /// The host's copy of a texture, which may be outdated; see [`Self::current`].
+    /// The host's copy of a texture, which may be outdated ([`Self::current`] is not).
     pub(super) fn texture(&self, id: TextureId) -> Result<&Image, MachineError> {
         let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
         self.textures.get(id.0).and_then(Option::as_ref).ok_or(missing)
@@ -50,7 +50,7 @@ impl Memory {
         self.textures.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
-    /// The host's copy of a depth buffer, which may be outdated; see [`Self::current_depth`].
+    /// The host's copy of a depth buffer, which may be outdated ([`Self::current_depth`] is not).
     pub(super) fn depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
         let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
         self.depths.get(id.0).and_then(Option::as_ref).ok_or(missing)
@@ -89,7 +89,7 @@ impl Memory {
         Ok(())
     }
 
-    /// Discards draws of the GPU into targets since [`Self::download_newer`].
+    /// Discards what the GPU has drawn into targets since [`Self::download_newer`].
     #[cfg(feature = "wgpu")]
     pub(super) fn discard_gpu_contents(
         &mut self,

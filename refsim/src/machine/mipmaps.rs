@@ -10,7 +10,7 @@ impl Machine {
     /// the other levels, and samplers and [`Machine::read_back`] see all. `levels` includes level 0; its maximum is
     /// [`Image::most_levels`].
     ///
-    /// As [`Machine::create_target`], and if the device does not support mip levels of the format or `levels` is too
+    /// As [`Machine::create_target`]; also if the device does not support mip levels of the format, or `levels` is too
     /// large.
     pub fn create_target_with_levels(
         &mut self,
@@ -23,10 +23,10 @@ impl Machine {
     }
 
     /// Fills levels 1 and up of a texture or target from its level 0, as `glGenerateMipmap` does. (OpenGL's
-    /// `GENERATE_MIPMAP` does so whenever level 0 changes; here it is a command.) Every executor gives the bits of
+    /// `GENERATE_MIPMAP` does so whenever level 0 changes; here the caller does.) Every executor gives the bits of
     /// [`Image::generate_mipmaps`]. Returns the texels read and written.
     ///
-    /// If the handle is dead, the texture has one level although it could have more, or the device cannot filter
+    /// If the handle is invalid, the texture has one level although it could have more, or the device cannot filter
     /// textures of the format.
     pub fn generate_mipmaps(&mut self, id: TextureId) -> Result<MipmapRecord, MachineError> {
         let rules = MipmapRules::from(&self.profile.rules);
@@ -39,7 +39,7 @@ impl Machine {
     }
 }
 
-/// The record of a generation, or the error that prevents it.
+/// The record of generating mip levels, or the error that prevents it.
 fn record(profile: &Profile, id: TextureId, image: &Image) -> Result<MipmapRecord, MachineError> {
     let (format, kind, device) = (image.format(), image.kind(), || profile.name.clone());
     if kind == TextureKind::Rectangle {

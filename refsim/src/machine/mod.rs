@@ -53,8 +53,8 @@ use recorder::Recorder;
 use tiles::{executor, tile_draw};
 use validate::Plan;
 
-/// Called before and after each draw of a machine ([`Executor::watched`]): for observing draws of code that creates its
-/// machines itself. Watchers cannot change the machine, so values and counts are the same as without a watcher.
+/// Called before and after each draw of a machine ([`Executor::watched`]): for observing draws in code that creates its
+/// own machines. Watchers cannot change the machine, so values and counts are the same as without a watcher.
 pub trait DrawWatcher: Debug + Send + Sync {
     /// Called before a valid draw. The targets hold the results of earlier draws, so [`Machine::trace`] can follow
     /// pixels through this draw.
@@ -69,7 +69,7 @@ pub trait DrawWatcher: Debug + Send + Sync {
     /// Called after a draw; [`Machine::read_back`] returns its targets.
     ///
     /// # Errors
-    /// An error is returned as the error of the draw, which has been drawn.
+    /// The draw returns this error, although it has been drawn.
     fn after(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
         let _ = (machine, call);
         Ok(())
@@ -137,7 +137,7 @@ impl Machine {
     /// Executes a draw call.
     ///
     /// # Errors
-    /// If the call is invalid for the machine or the device; then nothing is drawn.
+    /// If the call is invalid for the machine or the device; nothing is drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         self.watch(|watcher, machine| watcher.before(machine, call))?;
@@ -170,7 +170,7 @@ impl Machine {
         self.draw_on_host(self.executor, call, plan)
     }
 
-    /// Executes a checked call on an executor of the host.
+    /// Executes a validated call on an executor of the host.
     fn draw_on_host(
         &mut self,
         executor_kind: ExecutorKind,

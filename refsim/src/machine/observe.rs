@@ -55,7 +55,7 @@ impl Machine {
         self.recorder.observer = observer;
     }
 
-    /// Executes a checked call with an observer.
+    /// Executes a validated call with an observer.
     pub(super) fn shade_observed(
         &mut self,
         call: &DrawCall<'_>,
@@ -85,7 +85,7 @@ impl Machine {
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let region = plan.raster.scissor;
         let empty = region.width == 0 || region.height == 0;
-        // The whole region is one tile here, because the hardware finishes a primitive before the next.
+        // The whole region is one tile here, because the hardware finishes a primitive before it starts the next.
         let mut target = if empty { None } else { Some(load(memory, call, region)?) };
         for round in plan.rounds() {
             let batch = stage.run(round.start, round.len(), plan)?;

@@ -35,11 +35,11 @@ impl Machine {
         std::mem::take(&mut log.events)
     }
 
-    /// Reads a texture or target back asynchronously: in the log the host continues, and the fence is passed when the
-    /// last byte has arrived. Returns the image of [`Machine::read_back`].
+    /// Reads a texture or target back asynchronously: in the log the host continues, and the returned fence is passed
+    /// when the last byte has arrived. Returns the image of [`Machine::read_back`].
     ///
     /// # Errors
-    /// If the handle is dead.
+    /// If the handle is invalid.
     pub fn read_back_async(&self, id: TextureId) -> Result<(FenceId, &Image), MachineError> {
         let image = self.memory.current(id)?;
         let fence = self.next_fence();
@@ -49,10 +49,10 @@ impl Machine {
         Ok((fence, image))
     }
 
-    /// [`Machine::read_back_async`] of a depth buffer.
+    /// [`Machine::read_back_async`] for a depth buffer.
     ///
     /// # Errors
-    /// If the handle is dead.
+    /// If the handle is invalid.
     pub fn read_depth_async(&self, id: DepthId) -> Result<(FenceId, &DepthSurface), MachineError> {
         let surface = self.memory.current_depth(id)?;
         let fence = self.next_fence();
@@ -67,7 +67,7 @@ impl Machine {
         self.recorder.push(|| Event::FinishFence(fence));
     }
 
-    /// Returns a new fence number; the same number every time if recording is off.
+    /// Returns a new fence number; if recording is off, the same number every time.
     fn next_fence(&self) -> FenceId {
         let number = self.recorder.with(|log| {
             log.fences = log.fences.wrapping_add(1);
@@ -194,7 +194,7 @@ impl Machine {
     }
 }
 
-/// Number of vertices processed with vertex caches of half, one and two times `entries`.
+/// Number of vertices that the vertex program processes, with vertex caches of half, one and two times `entries`.
 fn vertices_run(call: &DrawCall<'_>, counts: &DrawEvents, entries: Option<u64>) -> [u64; 3] {
     let (Some(indices), Some(entries)) = (call.indices, entries) else { return [counts.vertices; 3] };
     let vertices = match &call.vertices {

@@ -6,11 +6,11 @@ use crate::event::{Event, TexelObserver};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The log, and the state of the last draw for detecting changes.
+/// The log, and the state of the last draw, which is kept to detect changes.
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
     pub(super) on: bool,
-    /// In a mutex, because read-backs log through a shared reference.
+    /// In a mutex, because read-backs write to the log through a shared reference.
     pub(super) log: Mutex<Log>,
     /// Observer of texel reads, if set.
     pub(super) observer: Option<Box<dyn TexelObserver>>,

@@ -83,7 +83,7 @@ impl Machine {
     /// Replaces the contents of a texture or target by an image of the same format and extents.
     ///
     /// # Errors
-    /// If the handle is dead or the image does not fit.
+    /// If the handle is invalid, or the image has another format or other extents.
     pub fn update_texture(&mut self, id: TextureId, image: &Image) -> Result<(), MachineError> {
         let device = self.profile.name.clone();
         let held = self.memory.texture(id)?;
@@ -105,7 +105,7 @@ impl Machine {
     /// Other mip levels keep their contents.
     ///
     /// # Errors
-    /// If the handle is dead.
+    /// If the handle is invalid.
     pub fn clear_target(&mut self, id: TextureId, color: [u32; 4]) -> Result<(), MachineError> {
         let rounding = self.profile.rules.target_rounding;
         let image = self.memory.texture_mut(id)?;
@@ -118,7 +118,7 @@ impl Machine {
     /// Fills a depth buffer with a depth, given as a single-precision pattern and clamped to [0, 1].
     ///
     /// # Errors
-    /// If the handle is dead.
+    /// If the handle is invalid.
     pub fn clear_depth(&mut self, id: DepthId, depth: u32) -> Result<(), MachineError> {
         let rounding: TargetRounding = self.profile.rules.depth_rounding;
         let surface = self.memory.depth_mut(id)?;
@@ -154,7 +154,7 @@ impl Machine {
     /// Reads a texture or target back. [`Image::bytes`] returns its texels, [`Image::texel`] their values.
     ///
     /// # Errors
-    /// If the handle is dead.
+    /// If the handle is invalid.
     pub fn read_back(&self, id: TextureId) -> Result<&Image, MachineError> {
         let image = self.memory.current(id)?;
         self.note_read_back(id.into(), image.bytes().len() as u64);
@@ -164,7 +164,7 @@ impl Machine {
     /// Reads a depth buffer back.
     ///
     /// # Errors
-    /// If the handle is dead.
+    /// If the handle is invalid.
     pub fn read_depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
         let surface = self.memory.current_depth(id)?;
         self.note_read_back(id.into(), surface.bytes());

@@ -1,4 +1,4 @@
-//! State changes between draws: number of state groups that differ from the previous draw.
+//! State changes between draws: the number of state groups that differ from the previous draw.
 
 use super::{BoundTexture, DepthId, DrawCall, StepRate, TextureId, VertexSource};
 use crate::event::SAMPLERS;
@@ -145,7 +145,7 @@ fn differing_state(kept: &Constants, call: &DrawCall<'_>) -> u32 {
     state.filter(|p| kept.parameter(p) != call.pixel_constants.parameter(p)).count() as u32
 }
 
-/// Replaces a group if it differs; returns 1 if it did, else 0. Avoids copying equal groups.
+/// Replaces a group if it differs; returns 1 if it differed, else 0. Equal groups are not copied.
 fn replace<T: Clone + PartialEq>(kept: &mut T, new: &T) -> u32 {
     let differs = kept != new;
     if differs {

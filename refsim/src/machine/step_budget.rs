@@ -1,11 +1,11 @@
-//! Relation of a call's pixel program to the step budget of the device.
+//! Compares the pixel program of a call with the step budget of the device.
 
 use super::{DrawCall, Machine};
 use crate::exec::budget::enforced;
 use crate::exec::{FlowMap, ResolvedConstants, program};
 use crate::isa::Stage;
 
-/// Relation of a pixel program to its step budget.
+/// Classes of pixel programs by the step budget.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepBudget {
     /// Every fragment exceeds the budget: the program has no flow control and is too long. The scalar executor counts
@@ -18,7 +18,7 @@ pub(super) enum StepBudget {
 }
 
 impl Machine {
-    /// Classifies the pixel program of a call by its step budget.
+    /// Classifies the pixel program of a call by whether it can exceed the step budget.
     pub(super) fn step_budget(&self, call: &DrawCall<'_>) -> StepBudget {
         let (checked, source) = (call.pixel_program, program(call.pixel_program));
         let constants = ResolvedConstants::pixel(source, &self.profile.rules, call.pixel_constants);

@@ -27,7 +27,8 @@ pub(super) fn executor<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: 
     }
 }
 
-/// The executor's view of a draw. Dead handles read as unbound, but the plan has rejected them before.
+/// The parameters of a draw as the tile executor receives them. An invalid handle would read as unbound, but the plan
+/// has rejected it before.
 pub(super) fn tile_draw<'a>(profile: &'a Profile, memory: &'a Memory, call: &DrawCall<'a>) -> TileDraw<'a> {
     let bind = |bound: BoundTexture| {
         let image = memory.current(bound.texture).ok()?;

@@ -41,7 +41,7 @@ pub struct FragmentTrace {
 
 impl Machine {
     /// Traces one pixel through a draw without modifying memory. Returns the fragments of all triangles that cover the
-    /// pixel, in order of submission; each starts with the targets as the previous fragment left them.
+    /// pixel, in order of submission; each starts with the target contents that the previous fragment left.
     ///
     /// # Errors
     /// As [`Machine::draw`], and [`MachineError::NoSuchPixel`].
@@ -49,7 +49,7 @@ impl Machine {
         Ok(self.trace_pixels(call, &[pixel])?.into_iter().flatten().collect())
     }
 
-    /// [`Machine::trace`] for several pixels at once; vertices are processed only once.
+    /// [`Machine::trace`] for several pixels, which processes the vertices only once.
     ///
     /// # Errors
     /// As [`Machine::trace`].
@@ -67,7 +67,7 @@ impl Machine {
                 overrun |= self.trace_on_gpu(call, &plan, some)?;
             }
             if overrun {
-                // The scalar executor determines the fragment.
+                // The scalar executor then finds the fragment that exceeded the step budget.
                 traced = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
                 self.trace_on_host(call, &plan, &mut traced)?;
                 return Err(self.disagreement());
@@ -102,10 +102,10 @@ impl Machine {
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
     }
 
-    /// Width and height of a call's targets, or of its depth buffer if it has no colour targets; 0 without either.
+    /// Width and height of a call's targets, or of its depth buffer if it has no colour targets; 0 if there is neither.
     ///
     /// # Errors
-    /// If a handle is dead.
+    /// If a handle is invalid.
     pub fn target_size(&self, call: &DrawCall<'_>) -> Result<[u32; 2], MachineError> {
         match (call.targets.first(), call.depth_buffer) {
             (Some(&id), _) => self.memory.texture(id).map(|image| [image.width(), image.height()]),
@@ -136,7 +136,7 @@ impl Machine {
         })
     }
 
-    /// Runs vertex stage and set-up of a call in the same rounds as a draw.
+    /// Runs the vertex stage and the triangle set-up of a call, in the same rounds as a draw.
     pub(super) fn rounds(
         &self,
         call: &DrawCall<'_>,
@@ -155,7 +155,7 @@ impl Machine {
         Ok(())
     }
 
-    /// The executor of vertex programs; GPU machines use the batch executor.
+    /// The executor that runs vertex programs; GPU machines use the batch executor.
     fn vertex_executor(&self) -> (ExecutorKind, &BatchExecutor) {
         match self.executor {
             #[cfg(feature = "wgpu")]

@@ -1,4 +1,4 @@
-//! Traces as the contents of buffers, for hosts of WebGPU that run the trace kernel themselves, such as a browser.
+//! Traces as buffer contents, for WebGPU hosts that run the trace kernel themselves, such as a browser.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::exec::wgsl::texture;
 use crate::raster::TriangleSetup;
 use crate::texture::Image;
 
-/// Approximate limit of loop iterations per invocation, which some software adapters need.
+/// Approximate limit of loop iterations per invocation; some software adapters need such a limit.
 const PASSES: u32 = 16_000;
 
 /// A trace of pixels, as the contents of the trace kernel's buffers by binding. A dispatch with one workgroup per pixel
@@ -30,9 +30,9 @@ pub struct TraceBuffers {
     pub tiles: Vec<u32>,
     /// Binding 3, samplers.
     pub samplers: Vec<u32>,
-    /// Binding 4, without the records.
+    /// Binding 4, without the records, which follow.
     pub video: Vec<u32>,
-    /// Words per record; the records follow in binding 4.
+    /// Words per record. Binding 4 needs space for the records after `video`.
     pub record_words: usize,
     /// Binding 5, the program.
     pub code: Vec<u32>,

@@ -23,7 +23,7 @@ const FLOW_STEPS: usize = 256;
 /// Maximum number of input registers recorded before the steps.
 const INPUTS: usize = 12;
 
-/// The kernels' buffer of textures, targets and records.
+/// The buffer in which the kernels keep textures, targets and records.
 pub(super) trait VideoMemory {
     /// Allocates words; returns the first word's index.
     fn allocate(&mut self, words: usize) -> Result<usize, MachineError>;
@@ -143,7 +143,7 @@ impl TraceLayout {
         Ok((Self { words, colors, depth, records, room }, encoded))
     }
 
-    /// Words of the pixels' targets, each with its first word in video memory.
+    /// Contents of the pixels' targets, as words; each entry starts with its first word's index in video memory.
     pub(super) fn contents(&self, states: &[PixelState]) -> Vec<(usize, Vec<u32>)> {
         let mut all = Vec::new();
         for (i, (base, image)) in self.colors.iter().enumerate() {
@@ -160,7 +160,7 @@ impl TraceLayout {
     }
 }
 
-/// A pixel to be traced: its place, its column in the copies of the targets, and its triangles.
+/// A pixel to be traced: its position, its column in the copies of the targets, and its triangles.
 pub(super) struct PixelJob<'t> {
     pub(super) pixel: (u32, u32),
     pub(super) column: usize,

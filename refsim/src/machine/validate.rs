@@ -33,8 +33,8 @@ impl Plan {
         (0..count).step_by(step).map(move |first| first..count.min(first + step))
     }
 
-    /// Corners of triangle `i` of an instance whose vertices start at `base`, for set-up. In flat shading all have the
-    /// colours of the provoking vertex.
+    /// Corners of triangle `i` of an instance whose vertices start at `base`, for set-up. With flat shading, all three
+    /// have the colours of the provoking vertex.
     pub(super) fn corners(&self, vertices: &[Vertex], base: usize, i: usize) -> Option<[Vertex; 3]> {
         let [a, b, c] = self.triangles[i].map(|v| vertices.get(base + v).copied());
         let mut corners = [a?, b?, c?];
@@ -71,7 +71,7 @@ pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> R
     }
     let triangles = triangles(call, vertex_count)?;
     let provoking = call.flat.map(|convention| {
-        // The provoking corner is a position in the index list.
+        // The provoking corner is a position in the index list, so its vertex is looked up there.
         let through = |corner: usize| call.indices.map_or(corner, |indices| indices[corner] as usize);
         (0..triangles.len()).map(|i| through(provoking(call.primitive, i, convention))).collect()
     });
@@ -85,7 +85,7 @@ fn check_stage(program: &Program, expected: Stage) -> Result<(), MachineError> {
     Err(MachineError::WrongStage { expected, found: program.version })
 }
 
-/// Checks targets: live, of supported formats, 2-D and of equal size, all different, and not too many.
+/// Checks that targets are live, 2-D, of supported formats and equal size, all different, and not too many.
 fn check_targets(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Region, MachineError> {
     let found = call.targets.len();
     let limit = profile.limits.render_targets.map_or(MAX_TARGETS, |n| n as usize).min(MAX_TARGETS);
@@ -115,7 +115,8 @@ fn check_targets(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Res
     Ok(TargetTile::check(&images, depth)?)
 }
 
-/// Checks a sampler: live texture, supported format and filter, not a target of the draw.
+/// Checks that a sampler's texture is live, has a format and filter that the device supports, and is not a target of
+/// the draw.
 fn check_sampler(
     profile: &Profile,
     memory: &Memory,
@@ -147,7 +148,7 @@ fn raster_state(call: &DrawCall<'_>, target: Region) -> RasterState {
     }
 }
 
-/// Checks streams: existing registers, one stream each, sufficient length.
+/// Checks that streams are for existing registers, at most one per register, and long enough.
 fn check_streams(call: &DrawCall<'_>) -> Result<(), MachineError> {
     let VertexSource::Program { streams, .. } = &call.vertices else {
         return Ok(());

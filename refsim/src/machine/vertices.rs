@@ -29,7 +29,7 @@ pub(super) enum VertexStage<'a> {
     Batch(VertexShader<'a>, Box<BatchVertices>),
 }
 
-/// A vertex program, its input and its step budget.
+/// A vertex program, with its input and its step budget.
 #[derive(Clone, Copy)]
 pub(super) struct VertexShader<'a> {
     program: &'a CheckedProgram,
@@ -99,7 +99,8 @@ impl<'a> VertexStage<'a> {
             }
             Self::Batch(..) => {
                 let rows = self.rows(first, count, plan, ComponentMask::ALL)?;
-                // Transposes from all instances of a vertex to all vertices of an instance.
+                // Transposes from the order of `rows` (all instances of a vertex together) to all vertices of an
+                // instance together.
                 let at = |i: usize| (i % plan.vertex_count) * count + i / plan.vertex_count;
                 let vertices = (0..count * plan.vertex_count).map(|i| rows.vertex(at(i))).collect();
                 Batch { vertices, slots: rows.executed }
@@ -137,7 +138,7 @@ impl<'a> VertexStage<'a> {
             }
             Self::Program(..) => {
                 let batch = self.run(first, count, plan)?;
-                // Transposes from all vertices of an instance to all instances of a vertex.
+                // Transposes from all vertices of an instance together to all instances of a vertex together.
                 let at = |i: usize| (i % count) * plan.vertex_count + i / count;
                 let vertices: Vec<Vertex> = (0..batch.vertices.len()).map(|i| batch.vertices[at(i)]).collect();
                 VertexRows { executed: batch.slots, ..VertexRows::from_vertices(&vertices, needed) }
@@ -171,8 +172,8 @@ fn attributes(streams: &VertexStreams<'_>, instance: usize, vertex: usize) -> [[
     out
 }
 
-/// Fills a row with one attribute component of consecutive vertices, starting at index `at` of an order in which all
-/// instances of a vertex are adjacent. Instances are `first` to `first + count`.
+/// Fills a row with one attribute component of consecutive vertices, starting at index `at`. All instances of a vertex
+/// are adjacent. Instances are `first` to `first + count`.
 fn fill_attribute(
     streams: &VertexStreams<'_>,
     (register, component): (usize, usize),

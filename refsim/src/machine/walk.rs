@@ -22,7 +22,7 @@ pub(super) struct DrawResult {
     pub(super) events: DrawEvents,
 }
 
-/// A tile and its counters; loaded when the first triangle touches it.
+/// A tile with its counters. Its contents are loaded when the first triangle touches it.
 struct TileWork {
     region: Region,
     tile: Option<TargetTile>,
@@ -66,7 +66,7 @@ pub(super) fn draw(
             Tiles::Batch(tiles) => {
                 events.vertices += (count * plan.vertex_count) as u64;
                 let (surfaces, primitives, executed) = if plan.provoking.is_some() {
-                    // Flat-shaded triangles have their own corners, so vertices can't be shared.
+                    // Flat-shaded triangles have their own corners, so triangles can't share vertices.
                     let batch = stage.run(first, count, plan)?;
                     let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
                     (Surfaces::from_setups(&setups, needed), primitives, batch.slots)
@@ -100,9 +100,9 @@ pub(super) fn draw(
 enum TileShapes {
     /// [`TILE`] columns and rows.
     Square,
-    /// Also two rows with this number of pixels, for regions of one row of quads.
+    /// Also tiles of two rows with the same number of pixels, for regions that are one quad high.
     Flat,
-    /// Also one row with this number of pixels, for regions of one row.
+    /// Also tiles of one row with the same number of pixels, for regions of one row.
     Any,
 }
 

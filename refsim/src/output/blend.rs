@@ -128,8 +128,8 @@ pub fn blend_texel(
     })
 }
 
-/// Rounds the source to the target's channels; components that the target does not store count as unsigned, with the
-/// width of the widest channel.
+/// Rounds the source to the target's channels; a component that the target does not store is rounded as an unsigned
+/// channel with the width of the widest channel.
 fn quantised_source(format: TexelFormat, from: Format, source: [u32; 4], rounding: TargetRounding) -> [Ratio; 4] {
     let record = format.record();
     let bits = record.stored().iter().map(|c| c.bits).max().unwrap_or(8);

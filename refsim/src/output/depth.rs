@@ -14,8 +14,8 @@ use crate::texture::value::{self, Exact};
 impl DepthFormat {
     /// Encodes a depth given in number format `from`: clamped to [0, 1], rounded once. NaN gives 0.
     ///
-    /// Patterns of a format are in the order of their depths. `rounding` applies to the fixed-point formats; the float
-    /// formats round to nearest, ties to even.
+    /// Patterns of a format are ordered like the depths that they encode. `rounding` applies to the fixed-point
+    /// formats; the float formats round to nearest, ties to even.
     pub fn quantise(self, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
         let (significand, exponent, denominator) = match value::exact(from, bits) {
             Exact::Nan | Exact::Infinite { negative: true } | Exact::Finite { negative: true, .. } => (0, 0, 1),
@@ -102,8 +102,8 @@ fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_
     (base + kept as u32).min(one)
 }
 
-/// Comparison of a new value with the stored value (or the alpha reference). As a number, it is the set of orders that
-/// pass: bit 0 less, 1 equal, 2 greater.
+/// Comparison of a new value with the stored value (or the alpha reference). Its number is the set of orders that pass:
+/// bit 0 less, 1 equal, 2 greater.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum CompareFunction {
@@ -151,7 +151,7 @@ impl CompareFunction {
 /// The state of the depth test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct DepthState {
-    /// Comparison of the fragment's depth with the stored depth; `None` disables test and write.
+    /// Comparison of the fragment's depth with the stored depth; `None` disables both the test and writes.
     pub test: Option<CompareFunction>,
     /// `true` if passing fragments write their depth.
     pub write: bool,

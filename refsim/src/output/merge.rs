@@ -98,7 +98,7 @@ pub enum FragmentFate {
 }
 
 impl AlphaTest {
-    /// Returns `true` if an alpha in the register format passes. NaN is unordered.
+    /// Returns `true` if an alpha in the register format passes. NaN passes only `NotEqual` and `Always`.
     pub fn passes(&self, alpha: u32, format: Format) -> bool {
         use std::cmp::Ordering::{Equal, Greater, Less};
         let reference = num::ops::convert(&Format::FP32, format, self.reference).bits;

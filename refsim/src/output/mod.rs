@@ -1,7 +1,7 @@
 //! The output stage: kill, alpha test, depth test, blending, write masks, targets.
 //!
-//! Steps per fragment, in order: (kill by the program) -> alpha test -> depth clamped and quantised, then tested ->
-//! depth written -> each colour quantised, blended, masked, written. See docs/numbers.md, "Targets and depth".
+//! Steps per fragment, in order: kill by the program; alpha test; depth clamped, quantised and tested; depth written;
+//! each colour quantised, blended, masked and written. See docs/numbers.md, "Targets and depth".
 
 mod blend;
 mod depth;

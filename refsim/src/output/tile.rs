@@ -61,7 +61,7 @@ impl TargetTile {
     /// Copies a rectangle from the targets.
     ///
     /// # Errors
-    /// As [`TargetTile::check`]; the rectangle is clipped to the targets.
+    /// As [`TargetTile::check`]. A rectangle beyond the targets is clipped, which is not an error.
     pub fn load(colors: &[Option<&Image>], depth: Option<&DepthSurface>, region: Region) -> Result<Self, OutputError> {
         let region = region.intersect(Self::check(colors, depth)?);
         let mut tile = Self { region, colors: [const { None }; MAX_TARGETS], depth: None };

@@ -2,7 +2,7 @@
 
 use super::{Primitive, Provoking, RasterError};
 
-/// Index of the provoking vertex of triangle `i` of [`assemble`].
+/// Index of the provoking vertex for triangle `i` of [`assemble`].
 pub fn provoking(primitive: Primitive, i: usize, convention: Provoking) -> usize {
     let (first, last) = match primitive {
         Primitive::TriangleStrip => (i, i + 2),

@@ -109,9 +109,9 @@ pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
                 polygon.push(*corner);
             }
             match (is_outside(d), is_outside(d_next)) {
-                // From here the polygon's edge lies on the plane.
+                // The clipped polygon's next edge lies on the plane.
                 (false, true) => polygon.push(crossing(corner, d, next, d_next, false)),
-                // From here the edge is the previous one.
+                // The clipped polygon's next edge continues the edge that enters.
                 (true, false) => polygon.push(crossing(next, d_next, corner, d, corner.begins_edge)),
                 _ => {}
             }
@@ -120,7 +120,7 @@ pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
     polygon
 }
 
-/// Intersection of the edge from an inside to an outside vertex with the plane.
+/// Intersection of a plane with the edge from an inside to an outside vertex.
 fn crossing(inside: &ClipVertex, d_inside: u32, outside: &ClipVertex, d_outside: u32, begins_edge: bool) -> ClipVertex {
     let t = value::div(d_inside, value::sub(d_inside, d_outside));
     let between = |a: u32, b: u32| if a == b { a } else { value::add(a, value::mul(t, value::sub(b, a))) };

@@ -23,8 +23,8 @@ impl PixelQuad {
 }
 
 impl TriangleSetup {
-    /// Returns `true` if the fill rule assigns the pixel to this triangle: its centre is inside, or on a top or left
-    /// edge.
+    /// Returns `true` if the fill rule assigns the pixel to this triangle: the pixel's centre is inside, or on a top or
+    /// left edge.
     pub fn coverage(&self, x: u32, y: u32) -> bool {
         self.edges.iter().all(|e| e.at(x, y) >= e.bias)
     }

@@ -117,7 +117,7 @@ impl TriangleSetup {
     }
 }
 
-/// A non-constant component at FP32 weights, in an iterator format other than FP32. Returns FP32 bits.
+/// Interpolates a non-constant component with FP32 weights, in an iterator format other than FP32. Returns FP32 bits.
 pub(crate) fn interpolated(plane: &Plane, weights: [u32; 2], format: Format) -> u32 {
     let converted = weights.map(|w| num::ops::convert(&Format::FP32, format, w).bits);
     num::ops::convert(&format, Format::FP32, along(plane, converted, format)).bits

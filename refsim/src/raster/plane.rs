@@ -21,12 +21,12 @@ pub(super) fn plane(values: [u32; 3], format: Format) -> Plane {
     Plane { base: a0, d1: num::ops::sub(format, a1, a0).bits, d2: num::ops::sub(format, a2, a0).bits }
 }
 
-/// The plane of a component from its FP32 values at the vertices, and `true` if it is constant.
+/// The plane through the FP32 values of a component at the vertices, and `true` if the component is constant.
 pub(crate) fn component_plane(values: [u32; 3], format: Format) -> (Plane, bool) {
     let into = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&Format::FP32, format, bits).bits };
     let back = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&format, Format::FP32, bits).bits };
     if values[0] == values[1] && values[1] == values[2] {
-        // Zero is zero in every format; most unused components are zero.
+        // Zero needs no conversion: it is zero in every format, and most unused components are zero.
         let base = if values[0] == 0 { 0 } else { back(into(values[0])) };
         return (Plane { base, d1: 0, d2: 0 }, true);
     }

@@ -122,6 +122,6 @@ pub struct RasterState {
     pub clip_space: ClipSpace,
     /// Culling.
     pub cull: Cull,
-    /// The only pixels drawn: the target's region, or a scissor rectangle within it.
+    /// The only pixels that are drawn: the target's region, or a scissor rectangle within it.
     pub scissor: Region,
 }

@@ -39,7 +39,7 @@ pub struct TriangleSetup {
     pub area_bits: u32,
     /// Pixels that may be covered: the bounding box within viewport and scissor; never empty.
     pub bounds: Region,
-    /// `true` if the vertices are clockwise as seen with +y up.
+    /// `true` if the vertices are in clockwise order, seen with +y up.
     pub clockwise: bool,
     /// Depth, in FP32 with any iterator format.
     pub depth: Plane,
@@ -59,7 +59,7 @@ pub struct TriangleSetup {
     pub iterator_format: Format,
 }
 
-/// Reason why a triangle, or a part of it after clipping, is not drawn.
+/// Reason for which a triangle, or a part of it after clipping, is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Dropped {
     /// A position is NaN or infinite, or overflowed.
@@ -77,9 +77,9 @@ pub enum Dropped {
 /// Result of setting up a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SetupReport {
-    /// Set-ups appended: 0, 1, or up to 8 if it was clipped.
+    /// Number of set-ups appended: 0, 1, or up to 8 if the triangle was clipped.
     pub emitted: u32,
-    /// Reason why nothing was appended, if nothing was.
+    /// The reason, if nothing was appended.
     pub dropped: Option<Dropped>,
 }
 

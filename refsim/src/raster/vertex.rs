@@ -36,7 +36,7 @@ impl Default for Vertex {
 }
 
 impl Vertex {
-    /// Clamps the colours to [0, 1] by the order of their patterns: +NaN gives 1, and -NaN 0.
+    /// Clamps the colours to [0, 1] by the order of their bit patterns, so +NaN gives 1 and -NaN gives 0.
     pub(crate) fn clamp_colors(&mut self) {
         self.colors.as_flattened_mut().iter_mut().for_each(|color| *color = clamped_color(*color));
     }

@@ -55,8 +55,8 @@ pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, rules: &Ras
     Some(Corner { x: snap(window_x), y: snap(window_y), depth, reciprocal_w })
 }
 
-/// The column or row toward which [`SubpixelRounding::Cut`] rounds, as an FP32 pattern with its sign set: the first
-/// pixel's corner, where the hardware's window begins. Patterns of smaller numbers are larger.
+/// The column or row toward which [`SubpixelRounding::Cut`] rounds, as an FP32 pattern with its sign set: the corner of
+/// the first pixel, where the hardware's window begins. Among such patterns, a smaller number has a larger pattern.
 pub(crate) fn cut_origin(center: PixelCenter) -> u32 {
     match center {
         PixelCenter::Direct3d => SIGN | value::HALF,

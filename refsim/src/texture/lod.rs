@@ -67,7 +67,7 @@ fn cube_texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     [change(s, s1), change(t, t1), value::ZERO]
 }
 
-/// Axes of `moved`, with signs, on the face that `direction` selects.
+/// Axes of `moved` on the face that `direction` selects, with the face's signs.
 fn on_same_face(direction: [u32; 3], moved: [u32; 3]) -> (u32, u32, u32) {
     use super::CubeFace::{NegativeX, NegativeY, NegativeZ, PositiveX, PositiveY, PositiveZ};
     let flip = |c: u32| c ^ 0x8000_0000;

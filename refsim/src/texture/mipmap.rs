@@ -25,8 +25,8 @@ impl From<&Rules> for MipmapRules {
     }
 }
 
-/// Range of texels along an axis that are averaged into texel `i` of the next level: 2i and 2i + 1, or i if the axis
-/// does not shrink. The last texel of an odd extent is dropped.
+/// Range of the texels along an axis that are averaged into texel `i` of the next level: 2i and 2i + 1, or i if the
+/// axis does not shrink. The last texel of an odd extent is dropped.
 pub(crate) fn texels_under(extent: u32, next: u32, i: u32) -> Range<u32> {
     if extent == next { i..i + 1 } else { 2 * i..2 * i + 2 }
 }

@@ -33,7 +33,8 @@ pub struct ImagePixel {
 
 impl Image {
     /// Red, green, blue and alpha of the pixel in column `x` of row `y`, level 0, slice 0; components that the format
-    /// does not store have their defaults. The least code of a signed channel is below -1. `None` outside the image.
+    /// does not store have their defaults. The smallest code of a signed channel gives a value below -1. `None` outside
+    /// the image.
     ///
     /// ```
     /// use refsim::texture::{Image, TexelFormat};

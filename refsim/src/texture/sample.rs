@@ -23,7 +23,7 @@ pub enum Filter {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MipFilter {
-    /// Only the finest level that may be read.
+    /// Only the finest level that may be read is used.
     #[default]
     None,
     /// The nearest level.
@@ -47,8 +47,8 @@ pub struct SamplerState {
     pub address_v: AddressMode,
     /// Addressing along the third axis.
     pub address_w: AddressMode,
-    /// Border colour, FP32 bits. The device's [`super::BorderStorage`] converts it to a texel of the image's format, or
-    /// to bytes (nearest).
+    /// Border colour, FP32 bits. Depending on the device's [`super::BorderStorage`], it is converted to a texel of the
+    /// image's format or rounded to four bytes.
     pub border: [u32; 4],
     /// Bias added to the level of detail, FP32 bits.
     pub lod_bias: u32,
@@ -109,8 +109,8 @@ pub fn fetch_nearest(image: &Image, state: &SamplerState, rules: &SampleRules, c
     SamplePlace::new(image, state, coordinates).nearest_value(rules, 0)
 }
 
-/// Calls `each` with level, slice, row and column of every texel to which [`sample`] gives a weight above 0, in a fixed
-/// order; skips the border.
+/// Calls `each` with the level, slice, row and column of every texel to which [`sample`] gives a weight above 0, in a
+/// fixed order. The border is skipped.
 pub fn touched(
     image: &Image,
     state: &SamplerState,
@@ -273,7 +273,7 @@ impl<'a> SamplePlace<'a> {
         }
         let byte = |component| if let SampledComponent::Byte { byte, .. } = component { byte } else { 0 };
         let bytes = self.interpolate(rules, pick, |texel| texel.map(byte), lerp_bytes);
-        // The same components are bytes in every texel and in the border.
+        // If a component is a byte in the border, it is a byte in every texel too.
         let border = self.border(rules);
         [0, 1, 2, 3].map(|i: usize| match border[i] {
             SampledComponent::Byte { signed, .. } => {

@@ -70,7 +70,7 @@ impl From<&Rules> for SampleRules {
 pub(crate) enum SampledSource {
     /// A stored channel.
     Stored(Channel),
-    /// Not stored: the byte 0 or 255 for every texel.
+    /// Not stored: a constant byte, 0 or 255.
     Missing(u8),
 }
 
@@ -98,7 +98,8 @@ pub(crate) enum SampledComponent {
 }
 
 impl SampledComponent {
-    /// The exact value for a register. The smallest code of a signed byte is clamped here, after a filter on bytes.
+    /// The exact value for a register. The smallest code of a signed byte is clamped here, so a filter on bytes sees it
+    /// unclamped.
     pub(crate) fn value(self, rules: &SampleRules) -> ChannelValue {
         let (byte, signed) = match self {
             Self::Value(value) => return value,
@@ -165,7 +166,7 @@ impl SampleRules {
     }
 }
 
-/// Repeats the lowest `width` bits, 1 to 8, until they fill a byte; the first bits come from the highest.
+/// Repeats the lowest `width` bits, 1 to 8, until they fill a byte; the byte's upper bits come first.
 fn repeated(bits: u32, width: u8) -> u8 {
     let top = (bits << (8 - width)) as u8;
     (0..8).step_by(usize::from(width)).fold(0, |byte, filled| byte | top >> filled)

@@ -62,7 +62,7 @@ fn mask(bits: u8) -> u32 {
     if bits >= 32 { u32::MAX } else { (1 << bits) - 1 }
 }
 
-/// Denominator of a channel's values: `2^n - 1`, `2^(n-1) - 1`, or 240 for the split form.
+/// Denominator of a channel's values: `2^n - 1`, `2^(n-1) - 1`, or 240 for `SplitSnorm`.
 pub(crate) fn denominator(channel: Channel) -> u32 {
     match channel.class {
         ChannelClass::Unorm => mask(channel.bits),

@@ -157,7 +157,7 @@ pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, denominator: u32
     if shift > 100 {
         return 0;
     }
-    // Counts halves of a step, so that the last bit determines the rounding.
+    // Counts halves of a step; the last bit decides the rounding.
     let halves = if denominator == 1 {
         (product << (1 + exponent.clamp(0, 40))) >> shift
     } else {

@@ -19,7 +19,7 @@ pub struct TextureCache {
     line_bytes: u64,
     ways: usize,
     sets: u64,
-    /// Line numbers plus one, 0 for an empty way; set by set, and within a set the most recently used first.
+    /// Line numbers plus one, or 0 for an empty way. Stored set by set; within a set, most recently used first.
     lines: Vec<u64>,
 }
 
@@ -47,7 +47,7 @@ impl TextureCache {
         let Some(ways) = self.lines.get_mut(set..set + self.ways) else { return false };
         let mark = number + 1;
         let found = ways.iter().position(|&way| way == mark);
-        // A hit moves to the front; a miss evicts the last way.
+        // On a hit, the line moves to the front; on a miss, the last way is evicted.
         let last = found.unwrap_or(ways.len() - 1);
         ways[..=last].rotate_right(1);
         ways[0] = mark;
@@ -94,7 +94,7 @@ impl TextureCaches {
         let line = figure("texture_cache_line_bytes")?;
         let ways = figure("texture_cache_ways")?;
         let whole = TextureCache::new(bytes, line, ways)?;
-        // A cache with a single set is halved by halving its number of ways.
+        // If the cache has a single set, half the size means half the ways.
         let half =
             TextureCache::new(bytes / 2, line, ways).or_else(|_| TextureCache::new(bytes / 2, line, ways / 2))?;
         let double = TextureCache::new(bytes.saturating_mul(2), line, ways)?;

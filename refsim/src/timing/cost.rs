@@ -5,12 +5,12 @@ use super::{Clocks, Picoseconds};
 /// Busy time of each unit for one draw alone, and the duration of the draw with all units in parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct DrawCost {
-    /// Command processor, vertex units and triangle set-up; precedes the first fragment and then overlaps with the
-    /// rest.
+    /// Command processor, vertex units and triangle set-up. This work precedes the first fragment, then overlaps with
+    /// the rest of the draw.
     pub front_end: Picoseconds,
     /// Pixel pipelines: the maximum of arithmetic, texture issue and raster back end.
     pub shader: Picoseconds,
-    /// Memory: texture cache misses, depth, colour and vertices, at the peak rate times its efficiency.
+    /// Memory traffic: texture cache misses, depth, colour and vertices, at the peak rate times its efficiency.
     pub memory: Picoseconds,
     /// Duration from the first clock of the first unit to the last clock of the last unit: the maximum of front end,
     /// shader and memory, plus the time to fill and drain the pipeline.

@@ -8,7 +8,7 @@ pub enum TimingError {
     /// The device does not state a figure that the model needs.
     #[error("`{device}` has no figure `{figure}`, so it has no timing; use one of the cards that have it: {have}")]
     Missing { device: String, figure: &'static str, have: String },
-    /// No scalable figure has this name.
+    /// The device has no scalable figure with this name.
     #[error("`{key}` is no guess of `{device}`; its guesses are: {known}")]
     NoGuess { device: String, key: String, known: String },
     /// The scale factor is zero or infinite.

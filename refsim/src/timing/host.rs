@@ -1,8 +1,8 @@
-//! Cost of host work: counted operations times a weight per kind, times one scale.
+//! Cost of host work: the number of operations of each kind times the kind's weight, and all times one scale.
 //!
-//! The weights are relative guesses. The scale is calibrated once, on a published figure ([`CPU_ONLY_RAYS_PER_SECOND`])
-//! and the operation counts of the same run. So the total host time of that run is right by construction, but its
-//! distribution over operations is not.
+//! The weights are relative guesses. The scale is calibrated once, on a published figure
+//! ([`CPU_ONLY_RAYS_PER_SECOND`]) and the operation counts of the same run. So the total host time of that run is right
+//! by construction, but its distribution over operations is not.
 
 use std::ops::AddAssign;
 
@@ -145,7 +145,8 @@ impl HostModel {
         if units == 0 || rays == 0 || rays_per_second == 0 {
             return Err(HostError { weight: units, rays, rays_per_second });
         }
-        // All units take rays / rate seconds. The numerator is up to 2^104, the denominator up to 2^64 times the units.
+        // The total weight takes `rays / rate` seconds. The numerator is up to 2^104, the denominator up to 2^64 times
+        // the weight.
         let (picoseconds, units) = (u128::from(rays) * 1_000_000_000_000, units.saturating_mul(rays_per_second.into()));
         let common = gcd(picoseconds, units);
         Ok(Self { weights, picoseconds: picoseconds / common, units: units / common })

@@ -14,7 +14,8 @@ pub enum Level {
     Pipeline,
 }
 
-/// Figures that a recorded log depends on: traffic was observed with their values, so they cannot be scaled afterwards.
+/// Figures with whose values a log's traffic was observed; a recorded log depends on them, so they cannot be scaled
+/// afterwards.
 const SPENT: [&str; 5] = [
     "rates.texture_cache_line_bytes",
     "rates.texture_cache_ways",
@@ -102,8 +103,8 @@ impl Model {
         }
     }
 
-    /// Cost of generating mip levels: each level is a draw over that level. [`Level::Rates`] counts the texels written
-    /// as fragments.
+    /// Cost of generating mip levels: each level is timed as a draw over that level. [`Level::Rates`] counts the texels
+    /// written as fragments.
     pub fn mipmaps(&self, record: &MipmapRecord) -> DrawCost {
         match self.level {
             Level::Rates => self.fill(record.texels_written()),
@@ -139,7 +140,7 @@ impl Model {
         rate(self.bus.readback_bytes_per_s).time_of(bytes) + self.latency(self.bus.readback_latency_ns)
     }
 
-    /// Duration of a state change on the card; command processor and transfer of constants overlap.
+    /// Duration of a state change on the card. The command processor's work and the transfer of constants overlap.
     pub fn state_change(&self, changes: u32, constants: u32) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,

@@ -34,12 +34,13 @@ pub struct Options<'a> {
     pub read_back: Option<ReadBackMode>,
     /// Gives every resource two copies: uploads and clears overwrite the copy that was not used last.
     pub double_buffered: bool,
-    /// Cost of host work; without a model, host work costs nothing and is counted in [`Replay::uncosted`].
+    /// Cost of host work. If `None`, host work costs nothing and is counted in [`Replay::uncosted`].
     pub host: Option<&'a HostModel>,
 }
 
 impl Options<'_> {
-    /// Options for a model: [`Level::Rates`], like equation 11 of the Ray Engine paper, has no host cost of commands.
+    /// Options for a level of the model. [`Level::Rates`] has no host cost of commands, like equation 11 of the Ray
+    /// Engine paper.
     pub fn of(level: Level) -> Self {
         let queue = QueueFigures::default();
         let queue = if level == Level::Rates { queue.without_overhead() } else { queue };
@@ -78,7 +79,7 @@ impl Costs for Model {
 #[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
 #[diagnostic(code(timing::replay_fence), help("wait for a fence after the read-back that sets it"))]
 pub struct ReplayError {
-    /// The event that names the fence.
+    /// Index of the event that names the fence.
     pub event: usize,
     /// The fence.
     pub fence: FenceId,
@@ -137,7 +138,7 @@ pub fn replay(log: &[Event], costs: &impl Costs, options: &Options<'_>) -> Resul
 struct Player<'a> {
     queue: Queue,
     options: &'a Options<'a>,
-    /// Resources whose second copy is in use.
+    /// Resources whose second copy is the current one.
     seconds: BTreeSet<ResourceId>,
     fences: BTreeMap<FenceId, Fence>,
     found: Replay,
@@ -166,7 +167,8 @@ impl Player<'_> {
                 let label = format!("read back {}", name(*resource));
                 let passed = self.queue.read_back(copy, costs.read_back(*bytes), mode, label);
                 if let Some(id) = fence {
-                    // An option made the read-back synchronous, so the log's fence is passed with it and costs nothing.
+                    // The read-back was synchronous because of an option, so its fence is passed together with it and
+                    // costs nothing.
                     let passed = passed.unwrap_or_else(|| self.queue.fence_for_free());
                     self.fences.insert(*id, passed);
                 }
@@ -204,12 +206,12 @@ impl Player<'_> {
         self.fences.get(&fence).copied().ok_or(ReplayError { event, fence })
     }
 
-    /// The copy of a resource in use.
+    /// The current copy of a resource.
     fn current(&self, resource: ResourceId) -> ResourceCopy {
         ResourceCopy { resource, second: self.seconds.contains(&resource) }
     }
 
-    /// The copy of a resource to overwrite; if double-buffered, the copy not used last.
+    /// The copy of a resource that is overwritten next; if double-buffered, the copy that was not used last.
     fn overwritten(&mut self, resource: ResourceId) -> ResourceCopy {
         if self.options.double_buffered && !self.seconds.remove(&resource) {
             self.seconds.insert(resource);

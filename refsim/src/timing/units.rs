@@ -21,7 +21,7 @@ impl Hertz {
     /// 1 per second.
     pub const ONE: Self = Self(1);
 
-    /// Creates a rate; `None` for 0.
+    /// Creates a rate; returns `None` for 0.
     pub const fn new(per_second: u64) -> Option<Self> {
         if per_second == 0 { None } else { Some(Self(per_second)) }
     }

@@ -1,4 +1,4 @@
-//! One operation on many operands, through the same lanes that programs run in.
+//! Evaluates one operation on many operands, with the lane arithmetic in which programs run.
 
 use super::any::{AnyLane, Arithmetic, with_any_lane};
 use super::lane::{Lane, apply, is_finite};
@@ -21,7 +21,7 @@ pub fn evaluate(format: Format, operation: NumberOperation, [a, b, c]: [&[u32]; 
     })
 }
 
-/// [`evaluate`] for the unit of a card, on words.
+/// [`evaluate`] in the arithmetic of a card's unit, on words.
 fn words<U: CardUnit>(lane: &CardLane<U>, operation: NumberOperation, [a, b, c]: [&[u32]; 3]) -> Option<Vec<u32>> {
     use NumberOperation::{Equal, Less, LessEqual};
     let compares = matches!(operation, Less | LessEqual | Equal);

@@ -34,7 +34,7 @@ pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     beside: Beside,
 }
 
-/// Divides by `2^count`, rounding: one body for both widths.
+/// Divides by `2^count` and rounds; the same body for both widths.
 macro_rules! round_shift {
     ($name:ident, $t:ty, $sign:literal) => {
         #[inline(always)]
@@ -47,7 +47,7 @@ macro_rules! round_shift {
 }
 
 impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
-    /// The arithmetic of a fixed-point format with these bits.
+    /// Creates the arithmetic of a fixed-point format with these field widths.
     pub(crate) fn new(format: &Format, int_bits: u8, frac_bits: u8) -> Self {
         let bits = u32::from(int_bits) + u32::from(frac_bits);
         let high = ((1i64 << bits) - 1) as i32;
@@ -186,7 +186,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
 
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
-        // In units; scaling by a power of two, the nearest integer and the rest are exact.
+        // `x` in units. Scaling by a power of two, rounding to an integer and subtracting that integer are exact.
         let units = x * (1u64 << self.frac) as f64;
         let value = self.whole.magnitude(units);
         let near = value.round_ties_even();
@@ -295,7 +295,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         if a <= 0 {
             return 0;
         }
-        // sqrt(a 2^F) units, with 16 guard bits.
+        // In units, the root is sqrt(a 2^F); it is computed with 16 guard bits.
         let square = (a as u128) << (self.frac + 32);
         let root = square.isqrt();
         self.finish(false, root, 16, root * root != square)
@@ -319,7 +319,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         if a <= 0 {
             return if a == 0 { self.high } else { 0 };
         }
-        // sqrt(2^3F / a) units; the guard bits take the rest of 127 bits, at least 16.
+        // In units, the result is sqrt(2^3F / a). The guard bits fill the rest of 127 bits: there are at least 16.
         let guard = (126 - 3 * self.frac) / 2;
         let (dividend, divisor) = (1u128 << (3 * self.frac + 2 * guard), a as u128);
         let square = dividend / divisor;

@@ -50,7 +50,7 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     guarded: bool,
 }
 
-/// The path that fits a format with these bits.
+/// Selects the path for a format with these field widths.
 pub(crate) fn path(format: &Format, exp_bits: u8, man_bits: u8) -> u8 {
     let common = format.encoding == Encoding::Ieee && !matches!(format.rounding, Rounding::Up | Rounding::Odd);
     match (exp_bits, man_bits) {
@@ -113,20 +113,20 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         }
     }
 
-    /// The result, or the pattern of NaN.
+    /// Stores the result; NaN becomes the format's NaN value.
     #[inline(always)]
     fn number(&self, x: f32) -> f32 {
         if x.is_nan() { self.nan } else { x }
     }
 
-    /// The value of a pole, with a sign.
+    /// The result at a pole, with a sign.
     #[inline(always)]
     fn pole(&self, sign: u32) -> f32 {
         f32::from_bits(self.pole.to_bits() | sign)
     }
 
-    /// The zero that exact cancellation leaves: `-0` when rounding down, `+0` otherwise; the zero of both operands
-    /// if they are zeros of one sign.
+    /// The zero that exact cancellation leaves: `-0` when rounding down, `+0` otherwise; if both operands are zeros
+    /// with the same sign, that zero.
     #[inline(always)]
     fn cancel(&self, a: f64, b: f64, sum: f64) -> f64 {
         let plus = (a == 0.0) & (b == 0.0) & !a.is_sign_negative() & !b.is_sign_negative();
@@ -224,7 +224,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
             }
             return sum;
         }
-        // Stays in doubles on the way.
+        // Intermediate results remain doubles.
         let product = |k: usize| self.double.round(EVEN, f64::from(a[k]) * f64::from(b[k]));
         let mut sum = product(0);
         for k in 1..N {
@@ -273,8 +273,8 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if PATH == HOST && R == EVEN {
             return a.sqrt();
         }
-        // As for a quotient: a root that is not m differs from m by 2^-51 of itself or more, since a - m m is a
-        // multiple of the unit of m m.
+        // As for a quotient, m being such a number: a root that is not m differs from it by 2^-51 of itself or more,
+        // since a - m m is a multiple of the unit of m m.
         self.round_f64(f64::from(a).sqrt())
     }
 
@@ -338,7 +338,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn frc(&self, a: f32) -> f32 {
-        // Not through `floor`: short formats can't hold the floor of their most negative number.
+        // `Lane::floor` is not used: short formats can't hold the floor of their most negative number.
         let a = f64::from(a);
         let b = -a.floor();
         self.round_f64(self.cancel(a, b, odd::add_odd(a, b)))

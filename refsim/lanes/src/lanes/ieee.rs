@@ -26,7 +26,7 @@ pub(crate) use super::float::{DOUBLE, HOST, SINGLE};
 /// has more exponents.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct IeeeLane<const PATH: u8> {
-    /// General, slower arithmetic for conversions and rare cases.
+    /// General, slower arithmetic, for conversions and rare cases.
     general: FloatLane<DOUBLE, EVEN>,
     /// Host bits of the smallest normal number; as integers they compare faster than as floats.
     lowest: (u32, u64),

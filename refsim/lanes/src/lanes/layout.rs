@@ -14,7 +14,7 @@ pub(crate) struct FloatLayout {
     man_bits: u32,
     exp_bits: u32,
     bias: i32,
-    /// `true` if the largest exponent field has infinity and NaN.
+    /// `true` if the largest exponent field encodes infinity and NaN.
     ieee: bool,
     /// For other encodings: the bits that identify NaN, their value in NaN, and the pattern with which NaN is written.
     nan_mask: u32,

@@ -21,13 +21,13 @@ const ZERO: i16 = -1 << 13;
 pub struct MatrixRows {
     /// Type of the numbers.
     pub element: Element,
-    /// Numbers of a row, at least 1.
+    /// Count of numbers per row, at least 1.
     pub length: usize,
     /// Patterns, row after row.
     pub codes: Vec<u64>,
-    /// Patterns of the scales, row after row; empty without scales.
+    /// Patterns of the scales, row by row; empty if there are no scales.
     pub scales: Vec<u8>,
-    /// Numbers of a row that share a scale, at least 1.
+    /// Count of consecutive numbers that share a scale, at least 1.
     pub share: usize,
 }
 
@@ -37,8 +37,7 @@ impl MatrixRows {
         self.codes.len() / self.length.max(1)
     }
 
-    /// The first `depth` numbers of a row behind `start`, with their scales. `start` is a multiple of the numbers that
-    /// share a scale.
+    /// `depth` numbers of a row from index `start` on, with their scales. `start` is a multiple of `share`.
     pub fn row(&self, row: usize, start: usize, depth: usize) -> Operand<'_> {
         let codes = &self.codes[row * self.length + start..][..depth];
         let first = row * self.length.div_ceil(self.share) + start / self.share;
@@ -47,7 +46,7 @@ impl MatrixRows {
     }
 }
 
-/// A fast adder, and the fields of its results' words.
+/// A fast adder, and the layout of its result words.
 #[derive(Clone, Copy)]
 struct Adder {
     block: usize,
@@ -55,7 +54,7 @@ struct Adder {
     /// Least exponent that addends are aligned to.
     least: i32,
     product_fraction: i32,
-    /// Fraction bits of a word, and the number of them that results have.
+    /// Fraction bits of a word, and how many of them a result keeps.
     fraction: i32,
     kept: i32,
     least_result: i32,
@@ -66,7 +65,7 @@ struct Adder {
 
 /// A number unpacked: signed magnitude, of 11 bits at most, and exponent.
 type Unpacked = (i16, i16);
-/// Sixteen numbers of one k: magnitudes, then exponents.
+/// Sixteen numbers with the same k: magnitudes, then exponents.
 type Lanes = [[i16; WIDTH]; 2];
 
 /// Columns of B, unpacked once: sixteen of them side by side.
@@ -78,7 +77,7 @@ pub struct MatrixColumns<'a> {
     tables: Vec<(Element, Vec<Option<Unpacked>>)>,
     /// Numbers by group of columns, then k.
     numbers: Vec<Lanes>,
-    /// By group: `true` if one of its numbers is NaN or infinite: [`crate::num::matrix`] computes these.
+    /// Per group of columns: `true` if a number is NaN or infinite; [`crate::num::matrix`] computes such a group.
     special: Vec<bool>,
 }
 
@@ -94,7 +93,7 @@ fn unpack(element: Element, code: u64) -> Option<Unpacked> {
 }
 
 impl<'a> MatrixColumns<'a> {
-    /// Unpacks columns for a unit that takes their type.
+    /// Unpacks columns for a unit that accepts their type.
     pub fn new(unit: MatrixUnit, columns: &'a MatrixRows) -> Self {
         let depth = columns.length;
         let groups = columns.count().div_ceil(WIDTH);
@@ -120,7 +119,7 @@ impl<'a> MatrixColumns<'a> {
         made
     }
 
-    /// The numbers of a row, their scales in the exponents; `None` if one is NaN or infinite.
+    /// The numbers of a row, multiplied by their scales; `None` if one is NaN or infinite.
     fn unpacked(&self, row: Operand<'_>) -> Option<Vec<Unpacked>> {
         let table = self.tables.iter().find(|(element, _)| *element == row.element);
         let numbers: Option<Vec<Unpacked>> = match table {
@@ -158,8 +157,8 @@ impl<'a> MatrixColumns<'a> {
         })
     }
 
-    /// Computes rows of D for rows of A, as words of [`MatrixUnit::dot`], over `depth` products behind `start`, a
-    /// multiple of the block. `c` holds a pattern for each element of these rows of D.
+    /// Computes rows of D for rows of A, as words of [`MatrixUnit::dot`], over `depth` products from index `start` on,
+    /// a multiple of the block size. `c` holds a pattern for each element of these rows of D.
     pub fn multiply(&self, a: &MatrixRows, rows: Range<usize>, start: usize, depth: usize, c: &[u64]) -> Vec<u64> {
         let count = self.columns.count();
         let mut sums = c.to_vec();
@@ -233,7 +232,7 @@ fn block(adder: &Adder, a: &[Unpacked], b: &[Lanes], words: &mut [u64; WIDTH]) {
     }
 }
 
-/// The sum of up to sixteen products, cut below `top`.
+/// The sum of up to sixteen products, each truncated to the adder's bits below `top`.
 #[inline(always)]
 fn chunk(adder: &Adder, a: &[Unpacked], b: &[Lanes], top: &[i32; WIDTH]) -> [i32; WIDTH] {
     let up = (adder.bits - adder.product_fraction).max(0).cast_unsigned();
@@ -271,7 +270,7 @@ impl Adder {
         }
         let field = size >> self.fraction;
         let significand = size & ((1 << self.fraction) - 1) | u64::from(field != 0) << self.fraction;
-        // 35 bits more than the fraction: the largest `bits` is less.
+        // The magnitude has 35 more bits than the fraction; every unit's `bits` is less than 35.
         let cut = (top - self.exponent(c) + 35 - self.bits + self.fraction).clamp(0, 63);
         let kept = ((significand << 35) >> cut).cast_signed();
         let sum = total + if c >> self.sign == 0 { kept } else { -kept };

@@ -31,7 +31,7 @@ pub(crate) struct NormalizedLane<const WRAP: bool> {
 const FUSED_WIDTH: u32 = 13;
 
 impl<const WRAP: bool> NormalizedLane<WRAP> {
-    /// The arithmetic of a normalized format with these bits.
+    /// Creates the arithmetic of a normalized format with these field widths.
     pub(crate) fn new(format: &Format, int_bits: u8, frac_bits: u8) -> Self {
         let rounding = rounding_index(format.rounding);
         let denominator = f64::from(format.denominator());
@@ -95,10 +95,10 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// Twice the number of units is exact for doubles of up to 44 bits. For a longer result (a quotient, rounded to odd
-    /// or to nearest) the error is less than one part in `2^51`; a result that near to an integer is taken for one. In
-    /// 255ths, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In other units that is
-    /// proved for channels of up to 8 bits; channels of 16 bits come nearer with a probability of about one in a
-    /// billion.
+    /// or to nearest) the error is less than one part in `2^51`; a result that close to an integer is treated as that
+    /// integer. In 255ths, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In other
+    /// units that is proved for channels of up to 8 bits; sums of 16-bit channels come closer with a probability of
+    /// about one in a billion.
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
         const NEAR: f64 = 1.0 / (1u64 << 50) as f64;
@@ -162,7 +162,7 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
         if a <= 0 {
             return 0;
         }
-        // sqrt(a D) units, with 16 guard bits.
+        // In units, the root is sqrt(a D); it is computed with 16 guard bits.
         let square = u128::from((a * self.one).unsigned_abs()) << 32;
         let root = square.isqrt();
         self.codes.finish(false, root, 16, root * root != square)
@@ -178,7 +178,7 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
         if a <= 0 {
             return if a == 0 { self.codes.by_zero(1) } else { 0 };
         }
-        // sqrt(D^3 / a) units, with 40 guard bits.
+        // In units, the result is sqrt(D^3 / a); it is computed with 40 guard bits.
         let (dividend, divisor) = (u128::from(self.one.unsigned_abs()).pow(3) << 80, u128::from(a.unsigned_abs()));
         let root = (dividend / divisor).isqrt();
         self.codes.finish(false, root, 40, root * root * divisor != dividend)

@@ -9,11 +9,12 @@
 
 pub(crate) const SIGN: u64 = 1 << 63;
 
-/// Rounds `s + e` to odd, where `s` is a double and `e` an exact remainder of less than one unit in the last place
-/// of `s`, measured towards `e`'s side. Infinite and NaN `s` pass: their remainder is NaN or compares as zero.
+/// Rounds `s + e` to odd, where `s` is a double and `e` an exact remainder smaller than the distance from `s` to the
+/// next double on the side of `e`. An infinite or NaN `s` is returned unchanged: its remainder is NaN or compares as
+/// zero.
 #[inline(always)]
 pub(crate) fn odd(s: f64, e: f64) -> f64 {
-    // Truncate, then set the last bit. Products of this size don't vanish.
+    // Truncates, then sets the last bit. The product of `e` and `s` does not underflow to zero here.
     let cut = s.to_bits().wrapping_sub(u64::from(e * s < 0.0));
     f64::from_bits(cut | u64::from(e.abs() > 0.0))
 }

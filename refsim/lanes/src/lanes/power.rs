@@ -2,8 +2,8 @@
 //!
 //! Both are irrational unless obviously exact (an integer exponent, a power of two), so the true value is never on a
 //! rounding boundary. The evaluations below are accurate to 2^-95. Operands have at most 32 bits, so the probability
-//! that any result is nearer than 2^-75 to a boundary is about one in a million. The tests in full form compare every
-//! operand of every format of 16 bits.
+//! that any result is nearer than 2^-75 to a boundary is about one in a million. With `CROSSBAR_FULL=1`, tests compare
+//! every operand of every 16-bit format.
 
 use super::layout::pow2;
 
@@ -22,7 +22,7 @@ fn mul_high(a: u128, b: u128) -> u128 {
 }
 
 /// `2^x` rounded to odd; `x` has at most 32 significant bits. Infinities and NaN as in IEEE 754. For `|x|` above 900
-/// the result is some double far outside the range of every format, on the right side.
+/// the result is some double that overflows or underflows in every format, as the exact value does.
 pub(crate) fn exp2(x: f64) -> f64 {
     const ONE: u64 = 1023 << 52;
     if x.is_nan() || x == f64::INFINITY {
@@ -66,7 +66,7 @@ pub(crate) fn exp2(x: f64) -> f64 {
 
 const TINY: f64 = 1.0 / 1_099_511_627_776.0;
 
-/// `log2 x` rounded to odd, for `x > 0` of at most 32 significant bits; NaN and infinity pass.
+/// `log2 x` rounded to odd, for `x > 0` of at most 32 significant bits; NaN and infinity are returned unchanged.
 pub(crate) fn log2(x: f64) -> f64 {
     if x.is_nan() || x == f64::INFINITY {
         return x;

@@ -1,5 +1,5 @@
-//! Interprets slots as numbers of the host: floats as they are, integers in units of their format. It depends on the
-//! kind of format, not on its rules.
+//! Interprets slots as numbers of the host: floats unchanged, integers in units of their format. The interpretation
+//! depends on the kind of format, not on its rules.
 
 use super::row::{LANES, LaneRow};
 use super::simd::SimdLevel;
@@ -11,9 +11,9 @@ pub enum Reading {
     Float,
     /// Bits of a single of the host, whose subnormal numbers count as zeros: the word of a card's unit.
     Word,
-    /// An integer of `1 / units`.
+    /// An integer, in units of `1 / units`.
     Integer {
-        /// The code of 1, or the largest code below.
+        /// The code of 1, or the largest code if the format cannot represent 1.
         one: i32,
         /// Units per 1.
         units: f64,
@@ -112,7 +112,7 @@ fn each<R>(reading: Reading, row: &LaneRow, out: &mut [R; LANES], f: impl Fn(Rea
     }
 }
 
-/// The word, with a zero for a subnormal number.
+/// The word; a subnormal number becomes a zero of its sign.
 #[inline(always)]
 fn normal(raw: u32) -> u32 {
     if raw & 0x7f80_0000 == 0 { raw & 1 << 31 } else { raw }

@@ -9,7 +9,7 @@ pub(crate) fn rounding_index(rounding: Rounding) -> u8 {
     match rounding {
         Rounding::NearestEven => EVEN,
         Rounding::NearestAway => AWAY,
-        // Devices refuse the other (`Format::for_registers`).
+        // Devices reject stochastic rounding (`Format::for_registers`).
         Rounding::TowardZero | Rounding::Stochastic(_) => ZERO,
         Rounding::Down => DOWN,
         Rounding::Up => UP,
@@ -50,7 +50,7 @@ macro_rules! rounder {
             const SIGN: $bits = 1 << (<$bits>::BITS - 1);
             const EXPONENT: $bits = Self::SIGN - (1 << $mantissa);
 
-            /// Creates the rounder of a format with these bits.
+            /// Creates the rounder of a format with these field widths.
             pub(crate) fn new(format: &Format, man_bits: u8) -> Self {
                 let m = <$bits>::from(man_bits);
                 let (emin, emax) = format.exponents();
@@ -209,7 +209,7 @@ pub(crate) struct ShortRounder {
 }
 
 impl ShortRounder {
-    /// Creates the rounder of a format with these bits.
+    /// Creates the rounder of a format with these field widths.
     pub(crate) fn new(exp_bits: u8, man_bits: u8) -> Self {
         const BIAS: u32 = 127;
         let (m, emax) = (u32::from(man_bits), (1 << (exp_bits - 1)) - 1);

@@ -65,7 +65,7 @@ pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
     if R == DOWN {
         return one_lower(p, error(a, b, p).to_bits().cast_signed() <= INFINITE);
     }
-    // For magnitudes: `a` with the sign of the product times `b` is positive.
+    // Computes with magnitudes: `a`, multiplied by the sign of the product, times `b` is positive.
     let a = f32::from_bits(a.to_bits() ^ p.to_bits() & SIGN);
     let too_large = error(a, b, p.abs()).to_bits().cast_signed() <= INFINITE;
     f32::from_bits(p.to_bits().wrapping_sub(too_large.into()))

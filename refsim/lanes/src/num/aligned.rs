@@ -1,4 +1,5 @@
-//! The adder of graphics cards and matrix units: addends are aligned to the largest exponent, cut, and added exactly.
+//! The adder of graphics cards and matrix units: addends are aligned to the largest exponent, truncated, and added
+//! exactly.
 
 /// An addend `(-1)^negative * magnitude * 2^(exponent - fraction)`. The exponent is the one that the hardware sees: an
 /// operand's exponent, or the sum of two for a product. Nothing is normalized: the magnitude may be below or above

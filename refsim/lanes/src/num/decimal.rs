@@ -12,7 +12,7 @@ use super::unpack::{Unpacked, invalid, nan_result, unpack};
 /// of any format has fewer than 200 digits.
 const DIGITS: usize = 800;
 /// Larger decimal exponents overflow or underflow in every format (`2^128` has 39 digits, `2^-149` starts at the 45th
-/// place).
+/// digit after the point).
 const FAR: i64 = 400;
 
 /// Text that is not a decimal number.
@@ -223,7 +223,7 @@ fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static s
     Ok((sign, digits, point))
 }
 
-/// The two neighbours with `length` digits, the nearer first.
+/// The two neighbours with `length` digits, nearer one first.
 fn candidates(digits: &[u8], point: i64, length: usize) -> [(Vec<u8>, i64); 2] {
     let below = digits[..length].to_vec();
     let mut above = below.clone();

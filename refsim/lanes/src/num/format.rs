@@ -43,7 +43,7 @@ pub enum FormatKind {
     Normalized {
         /// Integer bits without the sign.
         int_bits: u8,
-        /// Bits of the codes from 0 to 1, 2 to 8.
+        /// Bits of the codes that represent 0 to 1: 2 to 8.
         frac_bits: u8,
     },
     /// Sign, biased exponent, stored mantissa as IEEE 754 lays them out: `eXmY`, `1 + X + Y` bits. [`Encoding::Scale`]
@@ -103,8 +103,8 @@ impl Format {
         if total >= 1 && total <= 31 { Some(Format::fixed_unchecked(int_bits, frac_bits)) } else { None }
     }
 
-    /// A format of normalized integers with the default rules of fixed point, or `None` if `frac_bits` is not within 2
-    /// to 8 or `int_bits + frac_bits` is above 15.
+    /// A format of normalized integers with the default rules of fixed point, or `None` unless `frac_bits` is 2 to 8
+    /// and `int_bits + frac_bits` at most 15.
     pub const fn normalized(int_bits: u8, frac_bits: u8) -> Option<Format> {
         if frac_bits >= 2 && frac_bits <= 8 && int_bits as u32 + frac_bits as u32 <= 15 {
             let mut format = Format::fixed_unchecked(int_bits, frac_bits);
@@ -115,7 +115,8 @@ impl Format {
         }
     }
 
-    /// A float format with the default rules, or `None` outside exponent 2 to 8 and mantissa 1 to 23 bits.
+    /// A float format with the default rules, or `None` unless there are 2 to 8 exponent bits and 1 to 23 mantissa
+    /// bits.
     pub const fn float(exp_bits: u8, man_bits: u8) -> Option<Format> {
         if exp_bits >= 2 && exp_bits <= 8 && man_bits >= 1 && man_bits <= 23 {
             Some(Format::float_unchecked(exp_bits, man_bits))

@@ -17,7 +17,7 @@
 //! | `:sat` `:wrap` | overflow in fixed point and normalized integers: saturate (default), wrap |
 //! | `:inf` `:sat` `:nvovf` | overflow in floats: IEEE (default), saturate, `NV_fragment_program` |
 //! | `:keep` `:ftz` | floats: subnormals kept (default), flushed to zero |
-//! | `:ieee` `:nv` | floats: special values as Direct3D 9 (default) or `NV_fragment_program` has them |
+//! | `:ieee` `:nv` | floats: special values as in Direct3D 9 (default) or `NV_fragment_program` |
 //!
 //! Values are bit patterns in the low bits of a `u32`. An operation of [`ops`] takes a format and patterns and returns
 //! an [`Outcome`]: a pattern, and the exceptions as [`Flags`]. Its result is **the exact real result, rounded once**:

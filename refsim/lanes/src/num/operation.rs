@@ -10,7 +10,7 @@ use super::{ops, unit};
 
 macro_rules! operations {
     ($($(#[doc = $doc:literal])* $variant:ident($($operand:ident),+) $(= $definition:expr)? $(=> $unit:expr)?;)*) => {
-        /// An operation on numbers of one format, on the words that packing instructions make, or on masks.
+        /// An operation on numbers of one format, on the words that packing instructions write, or on masks.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u32)]
         pub enum NumberOperation { $($(#[doc = $doc])* $variant,)* }
@@ -171,7 +171,7 @@ impl NumberOperation {
             || self as u32 >= Self::JoinPattern as u32 && self as u32 <= Self::SplitSignedByte as u32
     }
 
-    /// Returns `true` if only units of cards have the operation.
+    /// Returns `true` if only units of cards have this operation.
     pub const fn is_of_units(self) -> bool {
         self as u32 >= Self::ExpFloor as u32
     }

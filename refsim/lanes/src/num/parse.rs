@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::format::{Format, FormatKind};
 use super::rules::{Denormals, Encoding, Overflow, Rounding, Specials, Unit};
 
-/// Aliases of layouts, and the only layout that matches no pattern.
+/// Aliases of layouts, and `e8m0`, whose name does not follow the pattern of the other layouts.
 const ALIASES: [(&str, Format); 7] = [
     ("ps14", Format::S3_12),
     ("fx12", Format::FX12),
@@ -103,7 +103,7 @@ pub enum FormatError {
         /// The rule that is set twice.
         rule: &'static str,
     },
-    /// A card's unit, with a format in which it does not compute.
+    /// A card's unit, combined with a format in which it does not compute.
     #[error(
         "number format `{text}`: expected `e8m23:{found}`, with :rtz at most (GT200), found another layout or more rules"
     )]

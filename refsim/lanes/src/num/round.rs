@@ -56,7 +56,7 @@ pub(crate) fn round_quotient(env: &Env, sign: bool, sig: u64, exp: i32, den: u64
     round(env, sign, dividend / den, exp - left.cast_signed(), dividend % den != 0)
 }
 
-/// [`from_parts`] of `sig * 2^exp` over the format's denominator.
+/// [`from_parts`] of `sig * 2^exp`, divided by the format's denominator.
 pub(crate) fn in_units(env: &Env, sign: bool, sig: u128, exp: i32, sticky: bool) -> Outcome {
     if sig >> 64 == 0 {
         return round(env, sign, sig as u64, exp, sticky);
@@ -194,7 +194,7 @@ fn round_scale(format: &Format, sign: bool, sig: u64, top: i32, sticky: bool) ->
     Outcome::new((exponent - least).unsigned_abs(), if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// The result of a float overflow; `huge` if the exact magnitude is `2^(emax+1)` or more.
+/// The result of a float overflow; `huge` is `true` if the exact magnitude is `2^(emax+1)` or more.
 fn overflow_float(format: &Format, sign: bool, huge: bool) -> Outcome {
     let infinite = match format.overflow {
         Overflow::Saturate => false,
@@ -249,7 +249,7 @@ fn round_fixed(
     Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// The pattern for an infinity: infinity if the format has it, else NaN, else the end of the range.
+/// The pattern for an infinite result: infinity if the format has it, else NaN, else the end of the range.
 fn unbounded(format: &Format, sign: bool) -> u32 {
     format.infinity(sign).or(format.canonical_nan()).unwrap_or(format.extreme(sign))
 }
@@ -304,7 +304,7 @@ pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> 
 /// `num / den`, neither of them zero, rounded once.
 pub(crate) fn round_big(env: &Env, negative: bool, num: &BigUint, den: &BigUint) -> Outcome {
     let num = num * env.format.denominator();
-    // 66 quotient bits at least, down to 2^-40 at least.
+    // Computes at least 66 bits of the quotient, and at least all bits down to 2^-40.
     let left = (den.bits() + 66).saturating_sub(num.bits()).max(40);
     let scaled = num << left;
     let quotient = &scaled / den;

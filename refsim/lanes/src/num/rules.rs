@@ -3,11 +3,11 @@
 /// Encoding of infinities, NaN and zeros in a float.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Encoding {
-    /// IEEE 754: the largest exponent field has infinity and NaN, the bias is `2^(X-1) - 1`. Fixed point also has this
-    /// value.
+    /// IEEE 754: the largest exponent field encodes infinity and NaN, and the bias is `2^(X-1) - 1`. Fixed point also
+    /// has this value.
     Ieee,
-    /// `eXmYfn`, "finite": the largest field has numbers like any other, and there is no infinity. The pattern of all
-    /// ones is NaN, of either sign; in formats of at most 6 bits it is a number too, and there is no NaN.
+    /// `eXmYfn`, "finite": the largest field encodes numbers like any other, and there is no infinity. The pattern of
+    /// all ones is NaN, of either sign; in formats of at most 6 bits it is a number too, and there is no NaN.
     Finite,
     /// `eXmYfnuz`, "finite, unsigned zero": numbers in the largest field, and no infinity. The pattern of -0 is the
     /// only NaN. The bias is larger by one, `2^(X-1)`.
@@ -35,7 +35,7 @@ pub enum Rounding {
     Odd,
     /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits
     /// of the discarded fraction and this word, is at least `2^32`. A fraction of 1/4 is rounded up for 1/4 of all
-    /// words. Each operation has a word ([`super::random_word`]), which all its roundings use. Devices refuse it
+    /// words. Each operation has a word ([`super::random_word`]), which all its roundings use. Devices reject it
     /// ([`super::Format::for_registers`]).
     Stochastic(u32),
 }
@@ -92,8 +92,8 @@ pub enum Denormals {
 /// Conventions for NaN, infinity and domain errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Specials {
-    /// Direct3D 9 on IEEE 754 values (`:ieee`): `min` is `a < b ? a : b` and `max` is `a >= b ? a : b`, so a NaN
-    /// in either place gives `b`; `rsq`, `log2` and `pow` take the magnitude of their operand.
+    /// Direct3D 9 on IEEE 754 values (`:ieee`): `min` is `a < b ? a : b` and `max` is `a >= b ? a : b`, so a NaN as
+    /// either operand gives `b`; `rsq`, `log2` and `pow` take the magnitude of their operand.
     Ieee,
     /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN, and take -0 for less than +0; `rsq(-0)` is -inf;
     /// `rsq` and `log2` of a negative number are NaN.

@@ -5,7 +5,7 @@ use super::flags::Outcome;
 use super::round::{in_units, round_quotient, zero};
 use super::rules::Rounding;
 
-/// `(-1)^sign * sig * 2^exp` over a denominator that the terms of a sum share, exact; `sig` below `2^64`.
+/// `(-1)^sign * sig * 2^exp` over a denominator that all terms of a sum share, exact; `sig` is below `2^64`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Term {
     pub(crate) sign: bool,

@@ -23,8 +23,8 @@ use super::unit;
 use super::unit::UnitOperation;
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// Numbers of places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24
-/// bits, so the larger numbers are never reached in practice.
+/// Precisions, in places, that are tried after the quick enclosure. Operands have at most 150 fraction bits and results
+/// at most 24 bits, so the higher precisions are never reached in practice.
 const PLACES: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
 
 /// `2^x`, correctly rounded. `2^-inf` is +0. In a wrapping format an overflowing result saturates.
@@ -175,7 +175,7 @@ fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
     (first == last).then_some(first)
 }
 
-/// Rounds by enclosures with more and more places.
+/// Rounds by enclosures of increasing precision.
 fn decide_long(env: &Env, enclosure: impl Fn(u32) -> Enclosure<BigInt>) -> Outcome {
     let mut best = Outcome::exact(0);
     for places in PLACES {

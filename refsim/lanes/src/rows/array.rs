@@ -10,7 +10,7 @@ use crate::num::{self, Format, NumberOperation};
 /// multiple of the range in which fixed point wraps.
 const FAR: f64 = f64::from_bits((1023 + 200) << 52);
 
-/// Slot of the result; the operands have the slots before it.
+/// Slot of the result; the operands are in the slots before it.
 const RESULT: u16 = 3;
 
 /// An operation of a number format on arrays, 256 elements at a time: the arithmetic of the batch executor, equal to
@@ -113,7 +113,8 @@ impl ArrayOperation {
             let raw = |x| lane.decode(num::from_f64(format, x).bits);
             return fill(self.slots.row_mut(to), some, start, raw);
         }
-        // One NaN, whose bits the lanes can increment, and numbers whose binades the lanes can scale.
+        // NaN gets a single pattern, whose bits the lanes can increment; numbers are limited to binades that the lanes
+        // can scale.
         let near = |x: f64| match x {
             _ if x.is_nan() => f64::NAN,
             _ if x.is_finite() && x.abs() > FAR => FAR.copysign(x),
@@ -123,8 +124,8 @@ impl ArrayOperation {
         self.run(LaneCode::Narrow, to, to);
     }
 
-    /// Runs the operation block by block: `load` fills the row of an operand from a start index, `store` takes the row
-    /// of the result.
+    /// Runs the operation block by block: `load` fills the row of an operand from a start index, `store` receives the
+    /// row of the result.
     fn blocks<T: Copy>(
         &mut self,
         operands: [&[T]; 3],

@@ -13,7 +13,7 @@ pub enum LaneCode {
     Plain(NumberOperation),
     /// An operation whose last operand is this integer.
     Immediate(NumberOperation, i8),
-    /// Right minus left neighbour, or (if `true`) lower minus upper, for both lanes.
+    /// Right minus left neighbour, or (if `true`) lower minus upper; both lanes get the difference.
     Neighbors(bool),
     /// Copies `a` to the wide row.
     Widen,
@@ -42,7 +42,7 @@ pub enum LaneCode {
 }
 
 impl LaneCode {
-    /// The code that copies numbers of one format to the wide row, to be rounded to another format.
+    /// The code that copies numbers of one format to the wide row, from which they are rounded to another format.
     pub fn widen(from: &Format, to: &Format) -> Self {
         if drops_small_halves(from, to) { Self::WidenToHalf } else { Self::Widen }
     }

@@ -1,4 +1,4 @@
-//! Comparisons and operations on bits: the same in all formats, or in all formats of a kind.
+//! Comparisons and operations on bits: identical in all formats, or in all formats of a kind.
 
 use super::code::LaneCode;
 use crate::lanes::{LANES, LaneRow, RegisterNumber, SimdLevel, TRUE};

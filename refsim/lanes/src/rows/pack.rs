@@ -25,8 +25,8 @@ pub(super) fn join_patterns(words: &LaneRow, shift: i8, patterns: &mut LaneRow) 
     }
 }
 
-/// The numbers to be rounded: the part of each lane's word, rounded to odd, or each number's nearest integer. `None`
-/// for other operations.
+/// The numbers to be rounded: the extracted part of each lane's word, rounded to odd, or each number's nearest integer.
+/// `None` for other operations.
 pub(super) fn parts(reading: Reading, code: LaneCode, row: &LaneRow) -> Option<Box<[f64; LANES]>> {
     let (operation, shift) = match code {
         LaneCode::Immediate(operation, shift) => (operation, shift),

@@ -38,7 +38,7 @@ pub struct Slots {
     pub(super) values: Vec<u32>,
     /// `false` for slots of which only the uniform value is read.
     as_rows: Vec<bool>,
-    /// Doubles between two conversion steps.
+    /// Doubles passed from one conversion step to the next.
     pub(super) wide: Box<[f64; LANES]>,
 }
 
@@ -69,7 +69,7 @@ impl Slots {
         &mut self.rows[usize::from(slot)]
     }
 
-    /// The doubles between two conversion steps.
+    /// The doubles passed from one conversion step to the next.
     pub fn wide_mut(&mut self) -> &mut [f64; LANES] {
         &mut self.wide
     }

@@ -32,7 +32,7 @@ impl RowSum {
     }
 }
 
-/// Adds rows of numbers of a float format with the arithmetic `lane`.
+/// Computes sums of rows of numbers of a float format, in the arithmetic `lane`.
 pub fn add_rows(
     format: Format,
     lane: &AnyLane,
@@ -78,7 +78,7 @@ fn aligned<const N: usize>(numbers: [f64; N], bits: u8, down: bool) -> f64 {
         (signs, all) = (signs | number.to_bits(), all & number.to_bits());
     }
     let (top, bits) = (largest.to_bits() & FIELD, u64::from(bits) << 52);
-    // Powers of two, by their fields: one scales the last kept bit to 1, the other undoes that.
+    // Powers of two, from exponent fields: `up` scales the last kept bit to 1, `unit` undoes that.
     let (up, unit) = ((2046u64 << 52).wrapping_sub(top).wrapping_add(bits), top.wrapping_sub(bits));
     let mut sum = 0.0;
     for number in numbers {

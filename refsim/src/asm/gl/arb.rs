@@ -123,7 +123,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// `ATTRIB name = fragment.color`, `OUTPUT name = result.color`
+    /// Parses the rest of `ATTRIB name = fragment.color` or `OUTPUT name = result.color`.
     fn bound(&mut self, what: fn(&mut Self) -> Parsed<Register>) -> Parsed<()> {
         let name = self.new_name()?;
         self.cursor.expect("=", "write `=` and what the name means")?;
@@ -136,7 +136,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Notes that the text from `start` on binds the object of a name.
+    /// Records that the program binds the object of a name; the binding's text begins at `start`.
     pub(super) fn bind(&mut self, name: &Name, start: u32) {
         let resource = match name {
             Name::Register(register) => ProgramResource::Register(*register),
@@ -192,7 +192,7 @@ impl<'a> Parser<'a> {
         self.cursor.expect(",", "operands are separated by commas")
     }
 
-    /// `R0, x, -y, 0, 1`: the operand of `SWZ`: a register without swizzle, and a selector per component.
+    /// Parses the operand of `SWZ`, `R0, x, -y, 0, 1`: a register without swizzle, and a selector per component.
     fn extended(&mut self, fragment: &mut FragmentPart) -> Parsed<Source> {
         let start = self.cursor.peek().span.start;
         let register = self.register()?;
@@ -243,7 +243,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// `texture[3]`, or `texture` for the first image unit.
+    /// Parses an image unit: `texture[3]`, or `texture` for the first unit.
     fn unit(&mut self) -> Parsed<Source> {
         let token = self.cursor.next();
         if token.text != "texture" {

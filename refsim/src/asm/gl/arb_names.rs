@@ -7,7 +7,7 @@ use crate::asm::lexer::{Token, TokenKind};
 use crate::isa::{FIRST_ENVIRONMENT, Register, RegisterFile, Version};
 
 impl<'a> Parser<'a> {
-    /// `PARAM a = {1, 2};`, `PARAM b[2] = { program.local[0..1] };`
+    /// Parses the rest of `PARAM a = {1, 2};` or `PARAM b[2] = { program.local[0..1] };`.
     pub(super) fn parameter(&mut self) -> Parsed<()> {
         let name = self.new_name()?;
         if !self.cursor.accept_mark("[") {

@@ -23,7 +23,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Parses the state of array elements: a single item, some rows of a matrix, or all four rows.
+    /// Parses the state of array elements: a single item, several rows of a matrix, or all four rows.
     pub(super) fn state_items(&mut self, many: bool) -> Parsed<Vec<StateBinding>> {
         self.cursor.next();
         let group = self.part()?;
@@ -70,7 +70,7 @@ impl<'a> Parser<'a> {
         if token.text == word { Ok(()) } else { Err(expected(token, word)) }
     }
 
-    /// Parses an index in brackets, below `count`.
+    /// Parses an index in brackets; the index must be below `count`.
     fn number(&mut self, count: u16) -> Parsed<u8> {
         self.cursor.expect("[", HELP)?;
         let number = operand::index(&mut self.cursor, count - 1)?;

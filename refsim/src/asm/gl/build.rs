@@ -9,7 +9,7 @@ use crate::isa::{
     Program, ProgramResource, ProgramText, Register, RegisterFile, Span, StateBinding, Version,
 };
 
-/// Maximum numbers of literals and of parameters. The last two parameters are reserved for a fog option.
+/// Maximum numbers of literals and of parameters. The last two parameters are reserved for fog options.
 const MAX_LITERALS: usize = 4096;
 const MAX_NAMED: usize = (FIRST_LITERAL - FIRST_NAMED) as usize - 2;
 
@@ -30,7 +30,7 @@ impl Build {
         self.resources.entry(resource).or_insert(span);
     }
 
-    /// Register of a literal; equal literals share one.
+    /// Register of a literal; equal literals share one register.
     pub(super) fn literal(&mut self, value: [u32; 4], span: Span) -> Parsed<Register> {
         let count = self.constants.len();
         if let Some(&index) = self.literals.get(&value) {
@@ -57,7 +57,7 @@ impl Build {
         self.set_by_host(name.text.to_owned(), ParameterSource::Named(default), name.span)
     }
 
-    /// Register of a piece of OpenGL state; equal ones share one.
+    /// Register of an item of OpenGL state; equal items share one register.
     pub(super) fn state(&mut self, binding: StateBinding, span: Span) -> Parsed<Register> {
         let source = ParameterSource::State(binding);
         match self.parameters.iter().find(|p| p.source == source) {

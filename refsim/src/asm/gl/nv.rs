@@ -57,7 +57,7 @@ impl<'a> Parser<'a> {
         self.cursor.expect(";", "a statement ends with `;`")
     }
 
-    /// `DEFINE name = constant` or `DECLARE name [= constant]`.
+    /// Parses the rest of `DEFINE name = constant` or `DECLARE name [= constant]`.
     fn definition(&mut self, fixed: bool) -> Parsed<()> {
         let name = self.cursor.next();
         if name.kind != TokenKind::Word || self.names.contains_key(name.text) || reserved(name.text) {
@@ -96,7 +96,8 @@ impl<'a> Parser<'a> {
             destination = Some(place);
             fragment.condition = condition;
             let texture = info.class == OpcodeClass::Texture;
-            // The image unit is the second operand here but follows coordinates and derivatives in the text.
+            // In the opcode table the image unit is the second operand; in the text it follows the coordinates and
+            // derivatives.
             let count = usize::from(info.source_count(Version::Fp1_0).unwrap_or(1)) - usize::from(texture);
             for _ in 0..count {
                 self.cursor.expect(",", "operands are separated by commas")?;

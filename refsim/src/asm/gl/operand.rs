@@ -178,7 +178,7 @@ pub(super) fn mnemonic(token: Token<'_>, suffixes: bool) -> Parsed<Mnemonic> {
         let updates = suffixes && rest == "C";
         (updates || rest.is_empty()).then_some(Mnemonic { spelling, precision, updates, saturate })
     };
-    // `EX2R` is `EX2`; the longest matching name wins. `KIL` has no result to saturate.
+    // `EX2R` is `EX2` with a suffix; the longest matching name wins. `KIL` has no result to saturate.
     let best = Spelling::ALL.iter().filter_map(split).max_by_key(|m| m.spelling.name.len());
     let best = best.filter(|m| !(m.saturate && m.spelling.opcode == Opcode::Kil));
     best.ok_or_else(|| {

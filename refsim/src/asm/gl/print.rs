@@ -20,8 +20,8 @@ macro_rules! put {
     };
 }
 
-/// Prints a program in canonical form: names of host-set constants first, other constants where they are used, one
-/// statement per line, shortest decimals.
+/// Prints a program in canonical form: names of host-set constants first, other constants written out where they are
+/// used, one statement per line, shortest decimals.
 ///
 /// If [`super::assemble`] produced the program, it parses the result back to an equal program.
 pub(in super::super) fn print(program: &Program) -> String {
@@ -45,7 +45,8 @@ pub(in super::super) fn print(program: &Program) -> String {
     out
 }
 
-/// Writes the declarations of a program: temporaries `R0` to the highest, and bindings that no instruction uses.
+/// Writes the declarations of a program: temporaries from `R0` to the highest one, and bindings that no instruction
+/// uses.
 fn declarations(program: &Program, out: &mut String) {
     let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
     let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);

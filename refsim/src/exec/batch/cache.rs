@@ -10,7 +10,7 @@ const MAX_KEPT: usize = 16;
 /// A cache of the most recently used values, by key.
 #[derive(Debug)]
 pub(crate) struct Cache<K, V> {
-    /// Entries in order of use, the latest last.
+    /// Entries in order of use, most recent last.
     entries: Mutex<Vec<(K, Arc<V>)>>,
 }
 

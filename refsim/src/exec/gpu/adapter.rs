@@ -84,7 +84,7 @@ pub(super) fn pick(asked: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
     all.into_iter().nth(chosen).ok_or(GpuError::NoAdapter)
 }
 
-/// Index of the adapter that [`Gpu::open`](super::Gpu::open) would choose among known adapters.
+/// Index of the adapter that [`Gpu::open`](super::Gpu::open) would choose among these adapters.
 #[doc(hidden)] // Public for its test: no host has these adapters.
 pub fn choose(known: &[Adapter], asked: Option<&str>) -> Result<usize, GpuError> {
     let rank = |kind| match kind {

@@ -13,7 +13,7 @@ pub const BINDINGS: [Access; 8] = {
 /// Initial size of `video`, in words.
 const FIRST_WORDS: usize = 1 << 16;
 
-/// A buffer that is reallocated when it must grow.
+/// A buffer that is reallocated to grow.
 #[derive(Debug)]
 struct GrowableBuffer {
     buffer: Buffer,
@@ -24,7 +24,7 @@ impl GrowableBuffer {
         Ok(Self { buffer: gpu.buffer(words)? })
     }
 
-    /// Ensures a size of at least `words`; the contents are undefined.
+    /// Reallocates the buffer unless it has at least `words` words; the contents are then undefined.
     fn reserve(&mut self, gpu: &Gpu, words: usize) -> Result<&Buffer, GpuError> {
         if self.buffer.words() < words {
             self.buffer = gpu.buffer(words.next_power_of_two().min(gpu.most_words().max(words)))?;

@@ -54,8 +54,8 @@ pub struct Kernel {
 }
 
 /// Compilation policy of a kernel: the first `MAX_EXACT` texts have exactly the parts of the draw, texts up to
-/// `MAX_GROWING` have all parts used so far, and the next text has all parts. Otherwise every random program would need
-/// its own text.
+/// `MAX_GROWING` have all parts used so far, and the next text has all parts. Without this policy, every random program
+/// would need its own text.
 const MAX_EXACT: usize = 6;
 const MAX_GROWING: usize = 9;
 
@@ -149,7 +149,7 @@ impl Gpu {
         Ok(pipeline)
     }
 
-    /// Returns a pipeline of a kernel with at least these parts; reuses a compiled pipeline if possible.
+    /// Returns a pipeline of a kernel with at least these parts, if possible one that is already compiled.
     ///
     /// # Errors
     /// As [`Self::pipeline`].

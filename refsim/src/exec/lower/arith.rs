@@ -28,7 +28,7 @@ impl<'a> GraphBuilder<'a> {
         Self { graph: Graph::new(formats.all(), !pixel), formats, rules, legacy_zero, is_pixel: pixel }
     }
 
-    /// A constant given as a bit pattern of a format.
+    /// Creates a constant from a bit pattern of a format.
     pub(crate) fn pattern(&mut self, k: Arith, bits: u32) -> NodeId {
         let raw = self.formats.decode(k, bits);
         self.graph.constant(raw)
@@ -53,7 +53,7 @@ impl<'a> GraphBuilder<'a> {
         self.graph.node(NodeKind::Compute(k, code, [a, b, c]))
     }
 
-    /// Simplifies a mask of constants, or of redundant masks; `None` if it cannot be simplified.
+    /// Simplifies an operation on masks that are constant or redundant; `None` if it cannot be simplified.
     fn known_mask(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> Option<NodeId> {
         let constant = |n: NodeId| match self.graph.kind(n) {
             NodeKind::Constant(raw) => Some(raw),
@@ -255,7 +255,7 @@ impl<'a> GraphBuilder<'a> {
         }
     }
 
-    /// Sums neighbours in pairs, then the sums likewise.
+    /// Sums neighbours in pairs, then the sums in pairs, and so on.
     fn tree(&mut self, k: Arith, mut level: Vec<NodeId>) -> NodeId {
         while level.len() > 1 {
             let pair = |p: &[NodeId]| if p.len() == 2 { self.binary(k, Op::Add, p[0], p[1]) } else { p[0] };
@@ -332,7 +332,7 @@ impl<'a> GraphBuilder<'a> {
         self.select(above, clamped, otherwise)
     }
 
-    /// `condition ? a : b` of a mask.
+    /// `condition ? a : b`, where `condition` is a mask.
     pub(crate) fn select(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
         self.compute(Arith::Single, Op::Select, condition, a, b)
     }

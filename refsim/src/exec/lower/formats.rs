@@ -22,7 +22,7 @@ impl Formats {
         let stored = rules.storage.iter().map(|(_, format)| format);
         let mut formats =
             Self::new(program, rules.format, rules.partial, stored.chain(rules.accumulator).chain(products));
-        // Each of these formats rounds products in another format.
+        // The format in which each of these formats rounds products.
         let rounded: Vec<Format> = formats.0.iter().map(|&format| rules.sums_in(format).products).collect();
         for format in rounded {
             formats.include(format);
@@ -34,7 +34,7 @@ impl Formats {
         Self::new(program, rules.vertex_format, None, [])
     }
 
-    /// Formats with registers in `main`, `_pp` arithmetic in `partial`, and the formats of storages and sums.
+    /// Creates the formats: registers in `main`, `_pp` arithmetic in `partial`, and the formats of storages and sums.
     fn new(program: &Program, main: Format, partial: Option<Format>, stored: impl IntoIterator<Item = Format>) -> Self {
         let FragmentFormats { half, fixed, .. } = FragmentFormats::of_registers(main, partial);
         let named: [Format; NAMED_FORMATS] =

@@ -31,7 +31,7 @@ impl Translator<'_> {
         self.fragment_writes(instruction, value, effects);
     }
 
-    /// Loads an operand in the format of its file: swizzled, absolute, negated.
+    /// Loads an operand in the format of its file, then applies swizzle, absolute value and negation.
     fn loaded(&mut self, source: &Source, negate: u8) -> NodeVector {
         let k = of_file(source.register.file);
         std::array::from_fn(|i| {
@@ -237,7 +237,7 @@ impl Translator<'_> {
         self.loaded(source, 0).map(|x| self.make.convert(from, Arith::Single, x))
     }
 
-    /// Mask of a condition for a component.
+    /// Mask of the lanes in which a component's condition holds.
     fn passes(&mut self, condition: &Condition, component: usize) -> NodeId {
         let code = self.codes[usize::from(condition.swizzle.0[component] & 3)];
         let all = self.make.graph.constant(TRUE);

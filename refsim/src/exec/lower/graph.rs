@@ -60,7 +60,7 @@ impl Arith {
     }
 }
 
-/// Number of formats that every program has.
+/// Number of formats that exist in every program.
 pub(crate) const NAMED_FORMATS: usize = 6;
 
 /// Source of a read's level of detail.
@@ -236,8 +236,8 @@ impl Graph {
             let same = match *kind {
                 NodeKind::Constant(_) => true,
                 NodeKind::Input(component) => input(component),
-                // Uniform values are computed where adjacent lanes hold other triangles. (The difference of equal lanes
-                // is a zero, whose sign depends on the format.)
+                // Uniform values are computed in batches whose adjacent lanes hold other triangles. (The difference of
+                // equal lanes is a zero, whose sign depends on the format.)
                 NodeKind::Difference(..) => false,
                 NodeKind::Held(_) | NodeKind::Relative(..) => false,
                 _ if across(kind) => false,

@@ -7,7 +7,7 @@ use crate::isa::{Opcode, Version};
 use crate::num::{self, NumberOperation as Op, Unit};
 
 impl GraphBuilder<'_> {
-    /// The result of an arithmetic operation of a language; missing operands are zeros.
+    /// The result of an arithmetic instruction in a version's language; missing operands are zeros.
     pub(crate) fn operation(
         &mut self,
         k: Arith,

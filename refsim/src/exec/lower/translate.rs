@@ -49,7 +49,7 @@ pub(crate) struct Translator<'a> {
     pub(crate) registers: BTreeMap<RegisterComponent, NodeId>,
     /// The slot of `aL` in a program with flow control.
     pub(crate) loop_counter: Option<Slot>,
-    /// Dot products stored by `texm3x2pad` and `texm3x3pad`, and their number.
+    /// Dot products stored by `texm3x2pad` and `texm3x3pad`, and how many are stored.
     pub(crate) padded: [NodeId; 2],
     pub(crate) pads: usize,
     /// Condition codes of an OpenGL program.

@@ -68,7 +68,7 @@ impl Translator<'_> {
         }
     }
 
-    /// The operand of `texld` and `texcrd` in ps_1_4: divided by `_dz` and `_dw`, or 1 if the divisor is zero.
+    /// The operand of `texld` and `texcrd` in ps_1_4: divided by `_dz` and `_dw`, or set to 1 if the divisor is zero.
     fn selected(&mut self, source: &Source) -> NodeVector {
         let plain = Source { modifier: Modifier::None, ..*source };
         let [x, y, z, w] = self.address_of(&plain);

@@ -85,7 +85,7 @@ impl<'r> Alu<'r> {
         outcome.bits
     }
 
-    /// The number 1 (the largest number in formats without 1).
+    /// The number 1, or the largest number in formats that cannot represent 1.
     pub(crate) fn one(&self) -> u32 {
         self.format.one()
     }

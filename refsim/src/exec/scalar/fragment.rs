@@ -56,7 +56,8 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         self.fragment_value(lane, source)[usize::from(source.swizzle.0[component] & 3)]
     }
 
-    /// Loads an operand in the format of its file: swizzled, absolute, negated. Components outside `wanted` are zero.
+    /// Loads an operand in the format of its file, then applies swizzle, absolute value and negation. Components
+    /// outside `wanted` are zero.
     pub(super) fn loaded(&mut self, lane: usize, source: &Source, wanted: Mask, negate: u8) -> Components {
         let value = self.fragment_value(lane, source);
         let half = source.register.file.is_half();

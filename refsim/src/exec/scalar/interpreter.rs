@@ -299,8 +299,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// The operands of an instruction in one lane, each loaded by `load` from a lane. `dsx` and `dsy` subtract the
-    /// second operand from the first, which come from the two lanes of the quad's row or column: both lanes get the
-    /// same value, and inactive lanes contribute the contents of their registers.
+    /// second operand from the first, where the two come from the two lanes of a row or column of the quad: both lanes
+    /// get the same value, and inactive lanes contribute the contents of their registers.
     pub(super) fn operands(
         &mut self,
         lane: usize,

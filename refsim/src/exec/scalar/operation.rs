@@ -47,7 +47,7 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
             [alu.add(dot, c[0]); 4]
         }
         Cnd => each(mask, |i| alu.cnd(a[i], b[i], c[i])),
-        // ARB selects by `< 0`, Direct3D by `>= 0`: the two differ for NaN.
+        // ARB selects by `< 0`, Direct3D by `>= 0`; the results differ for NaN.
         Cmp if version == Version::ArbFp1_0 => each(mask, |i| if alu.less(a[i], 0) { b[i] } else { c[i] }),
         Cmp => each(mask, |i| alu.cmp(a[i], b[i], c[i])),
         Bem => macros::bem(alu, &a, &b, &context.bump),

@@ -162,7 +162,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     }
 
     /// The operand of `texld` and `texcrd` in ps_1_4. `_dz` and `_dw` divide x and y by z or w, or set them to 1.0 if
-    /// the divisor is zero. Components 3 and 4 are undefined on the cards, and 0 here.
+    /// the divisor is zero. The third and fourth component are undefined on the cards; here they are 0.
     fn selected(&mut self, lane: usize, source: &Source) -> Components {
         let plain = Source { modifier: Modifier::None, ..*source };
         let [x, y, z, w] = self.address_of(lane, &plain);

@@ -15,7 +15,7 @@ use crate::raster::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, FragmentInput
 pub const ENTRY: &str = "follow_main";
 /// Words of `tiles` per pixel: column, row, offset and length of its triangle list, column in the targets.
 pub const JOB_WORDS: usize = 5;
-/// Words of a record before its steps.
+/// Number of words of a record before its steps.
 pub const HEAD: usize = RESULTS + 19;
 /// Offsets in a record: interpolated components and depth; outputs of the program.
 const INPUT: usize = 4;

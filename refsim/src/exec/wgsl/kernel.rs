@@ -48,9 +48,9 @@ const FIELDS: [(&str, usize); 22] = [
     ("D_SETUP_WORDS", 1),
     ("D_GROUPS", 1),
     ("D_TILES", 1),
-    // Set of orders that pass, reference.
+    // Alpha test: the set of orders that pass, and the reference.
     ("D_ALPHA", 2),
-    // Set of orders that pass, write enable.
+    // Depth test: the set of orders that pass, and the write enable.
     ("D_DEPTH", 2),
     ("D_DEPTH_FORMAT", 1),
     ("D_DEPTH_SCALE", 1),
@@ -58,7 +58,7 @@ const FIELDS: [(&str, usize); 22] = [
     ("D_DEPTH_WIDTH", 1),
     ("D_DEPTH_NEAREST", 1),
     ("D_NEAREST", 1),
-    // Enable, equation of colours, equation of alpha.
+    // Blending: enable flag, equation of colours, equation of alpha.
     ("D_BLEND", 7),
     // First row of `scratch` after the program's registers; resume flag; limit of loop iterations per invocation; loop
     // iterations per triangle.
@@ -81,7 +81,7 @@ pub const DRAW_WORDS: usize = field("");
 /// Index in `draw` of the word that is 1 in a dispatch that resumes the previous one.
 pub const RESUMES: usize = field("D_RESUMES");
 
-/// Loop iterations for testing whether a triangle covers anything.
+/// Loop iterations for testing whether a triangle covers any pixel.
 const LOOK_COST: u32 = 12;
 
 /// Offset of a field; the total size for an unknown name.

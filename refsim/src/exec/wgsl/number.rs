@@ -23,7 +23,7 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     let rounding = match format.rounding {
         Rounding::NearestEven => 0,
         Rounding::NearestAway => 1,
-        // Devices refuse the other (`Format::for_registers`).
+        // Devices reject stochastic rounding (`Format::for_registers`).
         Rounding::TowardZero | Rounding::Stochastic(_) => 2,
         Rounding::Down => 3,
         Rounding::Up => 4,
@@ -47,7 +47,7 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     [kind, upper.into(), frac.into(), rounding, overflow, flush, special, denominator_word(format)]
 }
 
-/// The kind of a float: 1 for IEEE 754, 2 without infinity, 3 without infinity and NaN, 4 without -0.
+/// The kind of a float: 1 for IEEE 754, 2 without infinity, 3 without infinity or NaN, 4 without -0.
 fn float_word(format: &Format) -> u32 {
     match format.encoding {
         Encoding::Ieee => 1,

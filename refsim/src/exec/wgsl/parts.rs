@@ -43,7 +43,7 @@ const FEATURES: [&str; 25] = [
     "HAS_FLOAT_BLENDING",
     "HAS_INTEGER_BLENDING",
 ];
-/// Features of draws that use units of cards. Each has a section of the text, with its constant.
+/// Features of draws that use units of cards. The text of each is a section, which also defines the feature's constant.
 const UNITS: [&str; 3] = ["HAS_UNITS", "HAS_VERTEX_UNIT", "HAS_GT200"];
 /// Operations that are expensive to compile, in groups that are included together. All other operations are always
 /// included, so that programs that differ only in these share a text.
@@ -228,14 +228,14 @@ impl Parts {
         out
     }
 
-    /// Reduces a line; `None` if it begins an arm or block to be removed.
+    /// Returns a line, reduced to the labels that are kept; `None` if it begins an arm or block to be removed.
     fn heading(&self, line: &str, all: &Self) -> Option<String> {
         let trimmed = line.trim_start();
         if let Some(feature) = trimmed.strip_prefix("if (").and_then(|rest| rest.strip_suffix(") {")) {
             let goes = all.0.contains(feature) && !self.0.contains(feature);
             return (!goes).then(|| line.to_owned());
         }
-        // Sums need a rule of the device; texts of other devices have no constant that names them.
+        // Only some devices' rules have such sums; the texts for other devices omit the constant.
         if trimmed.starts_with("const VM_SUM:") {
             return self.contains("VM_SUM").then(|| line.to_owned());
         }
@@ -251,7 +251,7 @@ impl Parts {
 const BEGIN: &str = "// begin ";
 const END: &str = "// end ";
 
-/// A section of the text that goes with a feature of [`UNITS`].
+/// Wraps a text into a section that is removed unless the draw uses this feature of [`UNITS`].
 pub(super) fn section(feature: &str, text: &str) -> String {
     format!("{BEGIN}{feature}\nconst {feature}: bool = true;\n{text}{END}{feature}\n")
 }

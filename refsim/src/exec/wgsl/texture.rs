@@ -133,10 +133,10 @@ shared! {
     DETAIL_GRADIENTS = 2;
 }
 
-/// Maximum number of levels of an image: 16384 texels per axis.
+/// Maximum number of levels of an image, for 16384 texels per axis.
 const MAX_LEVELS: usize = 15;
 
-/// The text: constants, then functions.
+/// The library's text: constants, then functions.
 pub fn library() -> String {
     let mut text = String::new();
     for (name, value) in SHARED {

@@ -1,4 +1,4 @@
-//! Writer of instructions on registers without number: each instruction writes a new one, with few exceptions.
+//! Emits instructions on virtual registers: each instruction writes a new register, with few exceptions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,33 +9,33 @@ use crate::isa::{
     Register, RegisterFile, Source, Span, Swizzle, TextureTarget,
 };
 
-/// Maximum number of instructions before those without use are removed.
+/// Maximum number of instructions before unused ones are removed.
 const MAX_INSTRUCTIONS: usize = 1 << 15;
 
-/// Numbers of a text four by four.
+/// Four literals of the text in one register; `None` for free components.
 type Literal = [Option<u32>; 4];
 
-/// The instructions so far, and their shared state.
+/// The instructions emitted so far, and the state that they share.
 #[derive(Default)]
 pub(super) struct Builder {
     pub(super) instructions: Vec<Instruction>,
     pub(super) literals: Vec<Literal>,
-    /// Place in the text of the next instruction.
+    /// Span of the next instruction in the text.
     pub(super) span: Span,
     /// `true` if the next instruction computes in f16.
     pub(super) half: bool,
     gathered: BTreeMap<Value, (Register, Vec<u8>)>,
-    /// The instruction that last set the condition codes.
+    /// The conditions from which the condition codes were last set.
     codes: Value,
     codes_vary: bool,
-    /// Temporaries that differ between fragments.
+    /// Temporaries whose values differ between fragments.
     varying: BTreeSet<u16>,
-    /// The loops that are being unrolled, from the outermost.
+    /// The loops that are being unrolled, outermost first.
     pub(super) loops: Vec<Span>,
     registers: u16,
 }
 
-/// The bits of a component that is known, as a number.
+/// The bits of a component known at translation, as a single-precision number.
 fn known(component: &Component) -> Option<u32> {
     match component {
         Component::Float(bits) => Some(*bits),
@@ -49,7 +49,7 @@ impl Builder {
         Err(Refusal::new(message, self.span))
     }
 
-    /// Refuses programs with too many steps.
+    /// Returns the error for programs with too many steps.
     pub(super) fn too_long<T>(&self) -> Result<T, Refusal> {
         let most = MAX_INSTRUCTIONS;
         Err(match self.loops.last() {
@@ -104,7 +104,7 @@ impl Builder {
         self.instructions.last_mut().map(|instruction| &mut instruction.fragment)
     }
 
-    /// A register of literals with these numbers, and where they are in it.
+    /// Returns a register of literals that contains these numbers, and the components where they are.
     fn literal(&mut self, numbers: &[u32]) -> (Register, Vec<u8>) {
         let fits = |literal: &Literal| {
             let mut filled = *literal;
@@ -120,14 +120,15 @@ impl Builder {
         let found = (0..self.literals.len()).find_map(|index| Some((index, fits(&self.literals[index])?)));
         let (index, (filled, lanes)) = found.unwrap_or_else(|| {
             self.literals.push([None; 4]);
-            // Four numbers at most always fit an empty register.
+            // An empty register always has room for up to four numbers.
             (self.literals.len() - 1, fits(&[None; 4]).unwrap_or_default())
         });
         self.literals[index] = filled;
         (Register::new(RegisterFile::Constant, FIRST_LITERAL + index as u16), lanes)
     }
 
-    /// One register with all components, and where they are in it; moves them together if they are not.
+    /// Returns a register that contains all components, and the components where they are; moves them into one register
+    /// if they are in several.
     fn gather(&mut self, components: &[Component]) -> Result<(Register, Vec<u8>), Refusal> {
         if let Some(numbers) = components.iter().map(known).collect::<Option<Vec<u32>>>() {
             return Ok(self.literal(&numbers));
@@ -143,7 +144,7 @@ impl Builder {
                 _ => return self.unknown(),
             });
         }
-        // Interpolated values would turn a half precision instruction into one of full precision.
+        // An interpolated operand would force a half-precision instruction to full precision.
         let direct = !(self.half && matches!(places[0].0.file, RegisterFile::Texture | RegisterFile::WindowPosition));
         if direct && places.iter().all(|(register, _)| *register == places[0].0) {
             return Ok((places[0].0, places.iter().map(|(_, lane)| *lane).collect()));
@@ -173,7 +174,7 @@ impl Builder {
         Ok((register, lanes))
     }
 
-    /// Refuses a use of [`Component::Unknown`].
+    /// Returns the error for a use of [`Component::Unknown`].
     pub(super) fn unknown<T>(&self) -> Result<T, Refusal> {
         let message = "expected a whole number that is known when the shader is translated, found one that is computed";
         Err(Refusal::new(message, self.span).with_help("count with constants, and compute with f32 or f16"))
@@ -189,7 +190,7 @@ impl Builder {
         Ok(self.operand(register, [0, 1, 2, 3].map(|i| lanes.get(i).copied().unwrap_or(last)), modifier))
     }
 
-    /// An operation on operands with modifiers: a result of `width` components, 1 to 4.
+    /// Emits an operation on operands with modifiers. The result has `width` components, 1 to 4.
     pub(super) fn modified(
         &mut self,
         opcode: Opcode,
@@ -211,7 +212,7 @@ impl Builder {
         Ok((0..width as u8).map(|lane| Component::Place(register, lane)).collect())
     }
 
-    /// An operation: a result as wide as the widest operand.
+    /// Emits an operation whose result is as wide as its widest operand.
     pub(super) fn op(&mut self, opcode: Opcode, operands: &[&[Component]]) -> Result<Value, Refusal> {
         let width = operands.iter().map(|operand| operand.len()).max().unwrap_or(1);
         self.wide(opcode, operands, width)
@@ -226,7 +227,7 @@ impl Builder {
         self.modified(Opcode::Mov, &[(value, Modifier::Negate)], value.len())
     }
 
-    /// A texel of image unit `unit`.
+    /// Emits a read of a texel from image unit `unit`.
     pub(super) fn texel(&mut self, opcode: Opcode, unit: u16, operands: &[&[Component]]) -> Result<Value, Refusal> {
         let half = std::mem::take(&mut self.half);
         let mut sources = Vec::new();
@@ -246,7 +247,7 @@ impl Builder {
         self.push(Opcode::Mov, Some((register, mask)), vec![source])
     }
 
-    /// Sets the condition codes by conditions, which are 0 or 1.
+    /// Sets the condition codes from conditions, each 0 or 1.
     fn set_codes(&mut self, conditions: &[Component]) -> Result<(), Refusal> {
         if self.codes != conditions {
             let source = self.source(conditions, Modifier::None)?;
@@ -265,7 +266,7 @@ impl Builder {
         self.last().into_iter().for_each(|fragment| fragment.condition = Some(condition));
     }
 
-    /// Kills the fragments where a condition holds.
+    /// Kills the fragments in which a condition holds.
     pub(super) fn kill(&mut self, condition: Component) -> Result<(), Refusal> {
         self.half = false;
         self.set_codes(&[condition])?;
@@ -274,7 +275,8 @@ impl Builder {
         Ok(())
     }
 
-    /// `accept` where the conditions hold (one for all, or one each), elsewhere `reject`; any number of components.
+    /// Selects `accept` where the conditions hold (one for all components, or one each), else `reject`; for any number
+    /// of components.
     pub(super) fn select(
         &mut self,
         conditions: &[Component],
@@ -322,7 +324,7 @@ impl Builder {
         Ok(result)
     }
 
-    /// A condition chosen by a condition.
+    /// Selects between two conditions by a third.
     fn choose(&mut self, condition: Component, a: Component, b: Component) -> Result<Component, Refusal> {
         let (a, b) = match (a, b) {
             (Component::Bool(true), b) => return self.or(condition, b),

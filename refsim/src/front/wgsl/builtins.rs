@@ -1,5 +1,5 @@
-//! Arithmetic and builtin functions, each by its formula of the WGSL specification, one rounding a step; docs/wgsl.md
-//! has the table.
+//! Arithmetic and builtin functions, each computed by its formula in the WGSL specification, with one rounding per
+//! step; docs/wgsl.md has the table.
 
 use naga::MathFunction as F;
 
@@ -10,7 +10,7 @@ use crate::isa::{Modifier, Opcode};
 
 type Result<T = Value> = std::result::Result<T, Refusal>;
 
-/// Functions that are one instruction.
+/// Functions that map to a single instruction.
 const OPERATIONS: [(&str, Opcode); 15] = [
     ("min", Opcode::Min),
     ("max", Opcode::Max),
@@ -25,19 +25,20 @@ const OPERATIONS: [(&str, Opcode); 15] = [
     ("less", Opcode::Slt),
     ("greater", Opcode::Sgt),
     ("equal", Opcode::Seq),
-    // `step(edge, x)` is 1 from the edge on.
+    // `step(edge, x)` is 1 for `x >= edge`.
     ("step", Opcode::Sle),
     ("rcp", Opcode::Rcp),
 ];
 
-/// Functions by formulas of their arguments `a`, `b`, `c`, names before `=`, and other functions.
+/// Functions defined by formulas. A formula uses the arguments `a`, `b`, `c`, names defined before an `=`, and other
+/// functions.
 const FORMULAS: [(&str, &str); 23] = [
     ("remainder", "a - b * trunc(a / b)"),
     ("clamp", "min(max(a, b), c)"),
     ("saturate", "min(max(a, 0), 1)"),
     ("ceil", "-floor(-a)"),
     ("trunc", "m = floor(abs(a)); select(less(a, 0), -m, m)"),
-    // Of two nearest whole numbers the even one.
+    // Of the two nearest whole numbers, a tie takes the even one.
     ("round", "n = floor(a); f = fract(a); select(max(greater(f, 0.5), min(equal(f, 0.5), fract(n * 0.5))), n + 1, n)"),
     ("sign", "greater(a, 0) - less(a, 0)"),
     ("mix", "a * (1 - c) + b * c"),
@@ -58,7 +59,7 @@ const FORMULAS: [(&str, &str); 23] = [
     ("refract", "d = dot(b, a); k = 1 - c * c * (1 - d * d); select(step(0, k), c * a - (c * d + sqrt(k)) * b, 0)"),
 ];
 
-/// A formula that is being written as instructions, from its rest.
+/// A formula that is being translated into instructions; `rest` is the part not yet parsed.
 struct Formula<'a> {
     builder: &'a mut Builder,
     rest: &'static str,
@@ -66,7 +67,7 @@ struct Formula<'a> {
 }
 
 impl Formula<'_> {
-    /// Takes a mark, if it is next.
+    /// Consumes a mark if it comes next.
     fn accepts(&mut self, mark: char) -> bool {
         let rest = self.rest.trim_start().strip_prefix(mark);
         self.rest = rest.unwrap_or(self.rest);
@@ -137,7 +138,7 @@ impl Builder {
         self.op(Opcode::Mul, &[a, b])
     }
 
-    /// `a` times the reciprocal of `b`.
+    /// Multiplies `a` by the reciprocal of `b`.
     pub(super) fn divide(&mut self, a: &[Component], b: &[Component]) -> Result {
         let reciprocal = self.op(Opcode::Rcp, &[b])?;
         match a {
@@ -157,7 +158,7 @@ impl Builder {
         }
     }
 
-    /// A function of numbers by its name.
+    /// Emits a function of numbers, given by its name.
     pub(super) fn function(&mut self, name: &str, arguments: &[Value]) -> Result {
         if let Some((_, opcode)) = OPERATIONS.iter().find(|(known, _)| *known == name) {
             let operands: Vec<&[Component]> = arguments.iter().map(Vec::as_slice).collect();
@@ -202,7 +203,8 @@ impl Builder {
         if let Some(known) = whole(function, arguments) {
             return Ok(known);
         }
-        // The name in the text, which differs from naga's in its first letter, as far as messages need it.
+        // The function's name in the text; it differs from naga's name in the first letter (accurate enough for
+        // messages).
         let mut name = format!("{function:?}");
         name[..1].make_ascii_lowercase();
         if arguments.iter().flatten().any(|c| matches!(c, Component::Int(_) | Component::Unknown)) {
@@ -212,7 +214,7 @@ impl Builder {
     }
 }
 
-/// A function of whole numbers that are known.
+/// Evaluates a function of whole numbers that are known at translation.
 fn whole(function: F, arguments: &[Value]) -> Option<Value> {
     let column = |lane: usize| {
         let at = |argument: &Value| match argument.get(lane) {

@@ -24,7 +24,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Value of an expression, evaluated on first use.
+    /// The value of an expression, which is evaluated on first use.
     pub(super) fn entry(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Meaning> {
         match frame.values.get(&handle) {
             Some(entry) => Ok(entry.clone()),
@@ -32,7 +32,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Evaluates an expression, and keeps its value.
+    /// Evaluates an expression and caches its value.
     pub(super) fn evaluate(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Meaning> {
         let span = place(frame.function.expressions.get_span(handle));
         self.step(span)?;
@@ -48,7 +48,7 @@ impl<'a> Translator<'a> {
         let kind = scalar(self.type_of(frame, handle));
         let mut operand = |this: &mut Self, handle: Handle<Expression>| {
             let value = this.value(frame, handle);
-            // Operands have places of their own.
+            // Evaluating an operand has changed the current span.
             this.builder.span = span.unwrap_or(this.builder.span);
             this.builder.half = is_half(kind);
             value
@@ -141,7 +141,7 @@ impl<'a> Translator<'a> {
         Ok(Meaning::Value(value))
     }
 
-    /// Refuses what differences of neighbors need where some of them may be elsewhere.
+    /// Returns an error if the derivative at this point could need a neighboring fragment that does not execute it.
     fn in_whole_quads(&self, function: &Function) -> Result<()> {
         let filters = &self.module.diagnostic_filters;
         let first = function.diagnostic_filter_leaf.map(|leaf| &filters[leaf]);
@@ -159,7 +159,7 @@ impl<'a> Translator<'a> {
         ))
     }
 
-    /// Notes an operation on f32 that can be rewritten.
+    /// Records an operation on f32 that can be rewritten in f16.
     fn note(&mut self, frame: &Frame<'a>, handle: Handle<Expression>, span: Option<Span>) {
         let expressions = &frame.function.expressions;
         let (form, operands) = match &expressions[handle] {
@@ -178,7 +178,7 @@ impl<'a> Translator<'a> {
             return;
         }
         let types = operands.iter().map(|operand| {
-            // Of a scalar beside a vector the text has the scalar.
+            // For a scalar that is combined with a vector, the text contains the scalar.
             let whole = match &expressions[*operand] {
                 Expression::Splat { value, .. } => {
                     let spans = [*operand, *value].map(|part| expressions.get_span(part).to_range());
@@ -271,7 +271,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// The zero of a type that variables start with.
+    /// The zero value of a type, with which variables are initialized.
     pub(super) fn zero_of(&self, ty: Handle<naga::Type>) -> Result {
         self.zeros(&self.module.types[ty].inner)
     }
@@ -296,7 +296,7 @@ fn symbol(operator: B) -> &'static str {
     }
 }
 
-/// The name of a type of f32.
+/// The WGSL name of a type whose scalars are f32; `None` for other types.
 fn name(inner: &TypeInner) -> Option<String> {
     scalar(inner).filter(|scalar| *scalar == Scalar::F32)?;
     Some(match inner {

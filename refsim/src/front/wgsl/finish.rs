@@ -8,7 +8,7 @@ use crate::isa::{Instruction, Mask, Opcode, RegisterFile, Source, Span, Swizzle}
 /// Number of temporaries of a program.
 const TEMPORARIES: usize = 32;
 
-/// Lanes of an instruction's operand that are read.
+/// Lanes that an instruction reads of one of its operands.
 fn lanes(instruction: &Instruction, index: usize) -> Mask {
     match (instruction.opcode, index) {
         (Opcode::TexLd | Opcode::TexLdD, _) => Mask(0b0011),
@@ -53,7 +53,7 @@ pub(super) fn without_unused(instructions: Vec<Instruction>) -> Vec<Instruction>
     kept
 }
 
-/// Allocation of a virtual register: the temporary, and the component of its first component.
+/// Allocation of a virtual register: a temporary, and the component in it at which the register starts.
 #[derive(Clone, Copy)]
 struct PackedRegister {
     register: u16,
@@ -61,10 +61,11 @@ struct PackedRegister {
     mask: u8,
 }
 
-/// Gives registers numbers. A register's components stay together, those of several share a temporary.
+/// Assigns temporaries to virtual registers. The components of one register stay together; several registers can share
+/// a temporary.
 ///
 /// # Errors
-/// If they do not fit.
+/// If the temporaries do not suffice.
 pub(super) fn numbered(instructions: &mut [Instruction]) -> Result<(), Refusal> {
     let (mut widths, mut last): (BTreeMap<u16, u32>, BTreeMap<u16, usize>) = (BTreeMap::new(), BTreeMap::new());
     for (at, instruction) in instructions.iter().enumerate() {
@@ -100,7 +101,7 @@ pub(super) fn numbered(instructions: &mut [Instruction]) -> Result<(), Refusal> 
         }
         let to = written.and_then(|index| windows.get(&index).copied());
         moved(instruction, to, &sources);
-        // A result that only its own later parts would have read.
+        // No later instruction uses the register.
         if let (Some(index), Some(window)) = (written, to)
             && last[&index] == at
         {
@@ -116,7 +117,7 @@ fn full(span: Span) -> Refusal {
     Refusal::new(message, span).with_help("compute later what is used later, or draw in passes")
 }
 
-/// The window of so many components in the fullest temporary that has room.
+/// Finds `width` adjacent free components, in the fullest temporary that has them.
 fn free(taken: &[u8; TEMPORARIES], width: u32) -> Option<PackedRegister> {
     let mask = (1_u8 << width) - 1;
     let fits = (0..TEMPORARIES).flat_map(|register| (0..=4 - width).map(move |first| (register, first)));
@@ -125,9 +126,9 @@ fn free(taken: &[u8; TEMPORARIES], width: u32) -> Option<PackedRegister> {
         .map(|(register, first)| PackedRegister { register: register as u16, first: first as u8, mask: mask << first })
 }
 
-/// Rewrites an instruction for the windows of its registers.
+/// Rewrites an instruction for the temporaries allocated to its registers.
 fn moved(instruction: &mut Instruction, to: Option<PackedRegister>, sources: &[Option<PackedRegister>]) {
-    // Component-wise operations move with their destination.
+    // The operands of a component-wise operation are shifted along with the destination.
     let each = match instruction.opcode {
         Opcode::Dp3 | Opcode::Dp4 | Opcode::TexLd | Opcode::TexLdD => false,
         opcode => !opcode.is_scalar(),

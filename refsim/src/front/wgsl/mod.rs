@@ -1,4 +1,4 @@
-//! WGSL: a fragment entry point in one straight line of instructions.
+//! WGSL front end: translates a fragment entry point into straight-line code.
 
 mod builder;
 mod builtins;
@@ -27,13 +27,13 @@ use values::{Component, Value, scalars};
 /// Maximum length of a text, in bytes.
 const MAX_TEXT: usize = 1 << 18;
 
-/// Extensions of WGSL that a text may use: f16 and `quantizeToF16`.
+/// WGSL extensions that a text may use: f16 and `quantizeToF16`.
 const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16.union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
 
-/// Stack of the front end, in bytes: it calls itself for each term of an expression.
+/// Stack size of the front end, in bytes: it recurses for each term of an expression.
 const STACK: usize = 1 << 28;
 
-/// A program, and what can be rewritten of its text.
+/// A translated program, and the operations of its text that can be rewritten in f16.
 type Translation = (Program, Vec<WgslOperation>);
 
 pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
@@ -90,7 +90,7 @@ fn parsed(text: &str) -> Result<Module, Refusal> {
     })
 }
 
-/// The place of a whole call; naga keeps only that of the function's name.
+/// Extends the span of a function's name, which is all that naga keeps, to the whole call.
 fn with_arguments(text: &str, span: Span) -> Span {
     let rest = text.get(span.end as usize..).filter(|rest| rest.starts_with('(')).unwrap_or_default();
     let mut open = 0;
@@ -101,7 +101,7 @@ fn with_arguments(text: &str, span: Span) -> Span {
     closes.map_or(span, |at| Span::new(span.start, span.end + at as u32 + 1))
 }
 
-/// The first cause of an error, which says what is wrong; those before it number naga's parts.
+/// The root cause of an error, which says what is wrong; the errors above it name naga's internal handles.
 fn first_cause(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     causes.last().map(ToString::to_string).unwrap_or_default()
@@ -141,7 +141,7 @@ impl Translator<'_> {
         Ok((0..list.len() as u8).map(|lane| Component::Place(register, lane)).collect())
     }
 
-    /// Writes the outputs, and makes a program of the instructions.
+    /// Writes the outputs and assembles the program from the instructions.
     fn finish(mut self, entry: &EntryPoint, head: Span, value: &[Component]) -> Result<Program, Refusal> {
         let text = self.text;
         let refused = |message: &str| Err(Refusal::new(message, head));
@@ -172,7 +172,7 @@ impl Translator<'_> {
             match binding {
                 Binding::Location { location: 0, blend_src: None, .. } if part.len() <= 4 => {
                     let mut color = part.to_vec();
-                    // Components that a color leaves out are black and opaque.
+                    // Components missing from a color are filled from (0, 0, 0, 1).
                     color.extend((part.len()..4).map(|lane| Component::Float(if lane == 3 { 0x3f80_0000 } else { 0 })));
                     self.builder.output(Register::new(RegisterFile::ColorOut, 0), 0b1111, &color)?;
                 }

@@ -49,14 +49,15 @@ impl Translator<'_> {
         Ok(vec![if function == RelationalFunction::All { all } else { any }])
     }
 
-    /// A conversion of each component, or of a matrix.
+    /// Converts each component of a scalar, vector or matrix.
     pub(super) fn convert(&mut self, value: &[Component], from: Option<Scalar>, to: Scalar) -> Result {
         let (Some(from), 1..) = (from, to.width) else {
             return self.builder.refuse("bitcast is not translated");
         };
         let to_float = to.kind == ScalarKind::Float;
         if from.kind == ScalarKind::Float && to_float {
-            // Narrowing rounds; widening does where a uniform or an interpolated value was not rounded yet.
+            // Narrowing rounds. Widening rounds too, because a uniform or an interpolated value may not have been
+            // rounded yet.
             let half = is_half(Some(from)) || is_half(Some(to));
             self.builder.half = half;
             return match half {
@@ -131,7 +132,7 @@ impl Translator<'_> {
         }
     }
 
-    /// The columns of a matrix times the components of a vector, summed from the first.
+    /// Multiplies the columns of a matrix by the components of a vector, and sums the products in order.
     fn columns_by(&mut self, matrix: &[Component], vector: &[Component], rows: VectorSize) -> Result {
         let mut sum: Option<Value> = None;
         for (column, factor) in matrix.chunks(rows as usize).zip(vector) {
@@ -177,7 +178,7 @@ impl Translator<'_> {
         }
     }
 
-    /// Arithmetic of whole numbers that are known.
+    /// Evaluates an operator on whole numbers that are known at translation.
     fn whole(&mut self, operator: B, a: &[Component], b: &[Component], kind: ScalarKind) -> Result {
         let width = a.len().max(b.len());
         let one = |lane: usize| {
@@ -211,7 +212,7 @@ impl Translator<'_> {
     }
 }
 
-/// A whole number of 32 bits.
+/// Wraps a whole number to 32 bits.
 fn wrapped(value: i64, kind: ScalarKind) -> i64 {
     match kind {
         ScalarKind::Uint => (value as u32).into(),

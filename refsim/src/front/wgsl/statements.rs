@@ -1,5 +1,5 @@
-//! Statements: every fragment executes all of them, and values are selected where paths meet. Loops are unrolled and
-//! functions put in line.
+//! Statements: every fragment executes all of them, and values are selected where paths join. Loops are unrolled, and
+//! function calls are inlined.
 
 use std::collections::BTreeMap;
 
@@ -12,13 +12,13 @@ use super::values::{Component, Value};
 
 type Result<T = ()> = std::result::Result<T, Refusal>;
 
-/// The variable of a function's result.
+/// The variable slot of a function's result.
 pub(super) const RESULT: usize = 0;
-/// Maximum depth of blocks and calls.
+/// Maximum nesting depth of blocks and calls.
 const MAX_DEPTH: usize = 64;
 
 impl<'a> Translator<'a> {
-    /// Puts a function in line, and returns its result; empty if it has none.
+    /// Inlines a function and returns its result; empty if the function has none.
     pub(super) fn call(
         &mut self,
         function: &'a Function,
@@ -53,7 +53,8 @@ impl<'a> Translator<'a> {
         Ok(self.variables.remove(&RESULT).unwrap_or_default())
     }
 
-    /// Refuses a name without a type for a number that no i32 holds: naga finds another type for it.
+    /// Returns an error if a variable without a declared type is initialized with an integer that exceeds i32: naga
+    /// would infer another type.
     fn is_whole_number(&self, function: &Function, init: Handle<Expression>, name: &str) -> Result {
         let expression = &function.expressions[init];
         let Some(span) = place(function.expressions.get_span(init)) else { return Ok(()) };
@@ -88,7 +89,7 @@ impl<'a> Translator<'a> {
             Statement::If { condition, accept, reject } => {
                 let at = place(frame.function.expressions.get_span(*condition));
                 let condition = self.value(frame, *condition)?[0];
-                // Selections after it have the condition's place.
+                // Later selections have the condition's span.
                 self.builder.span = at.unwrap_or(self.builder.span);
                 self.branch(frame, condition, [accept, reject], depth)
             }
@@ -152,7 +153,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// A call by a text, in which no variable may have two names.
+    /// Inlines a call in the text; returns an error if a variable is written under one name and used under another.
     fn call_of(
         &mut self,
         callee: Handle<Function>,
@@ -233,8 +234,8 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// Executes a block where two conditions hold; returns the mask of fragments left at its end, and whether all are
-    /// left.
+    /// Executes a block where two conditions hold. Returns the mask of fragments that reach its end, and `true` if none
+    /// has left.
     fn path(
         &mut self,
         frame: &mut Frame<'a>,
@@ -249,7 +250,7 @@ impl<'a> Translator<'a> {
         Ok((self.live, self.live == entered))
     }
 
-    /// The variables of two paths that meet: the first's where the condition holds.
+    /// Merges the variables of two paths: takes the first path's values where the condition holds.
     fn merged(&mut self, condition: Component, mut first: Variables, second: Variables) -> Result<Variables> {
         let (mut accept, mut reject) = (Value::new(), Value::new());
         for (slot, value) in &first {
@@ -278,7 +279,7 @@ impl<'a> Translator<'a> {
         Ok(first)
     }
 
-    /// The fragments that execute this leave by an exit, which keeps their variables.
+    /// Makes the active fragments leave by an exit, which saves their variables.
     fn leave(&mut self, exit: impl Fn(&mut Self) -> Option<&mut Exit>) -> Result {
         self.builder.half = false;
         self.charge()?;
@@ -298,11 +299,11 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// Goes on behind a loop or a switch that the fragments `before` have entered.
+    /// Continues after a loop or a switch that the fragments in `before` have entered.
     fn resume(&mut self, Exit(exit): Exit, before: Component) {
         match exit {
             Some((left, variables)) => {
-                // If no fragment left an outer construct, all active fragments continue.
+                // If no fragment has left an outer construct, all fragments that were active before continue.
                 let left_further = [self.returns.last(), self.continues.last()];
                 let all = left_further.into_iter().flatten().all(|Exit(exit)| exit.is_none());
                 self.live = if all { before } else { left };

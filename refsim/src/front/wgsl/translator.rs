@@ -10,7 +10,7 @@ use super::builder::Builder;
 use super::values::{Component, MAX_SCALARS, Value, scalars};
 use crate::isa::{FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Register, RegisterFile, Span};
 
-/// Maximum number of statements and expressions that are walked over, loops unrolled.
+/// Maximum number of statements and expressions translated, with loops unrolled.
 const MAX_WORK: usize = 1 << 17;
 /// Maximum number of uniforms, counted in vectors.
 const MAX_PARAMETERS: usize = (FIRST_LITERAL - FIRST_NAMED) as usize - 2;
@@ -24,7 +24,7 @@ pub(super) enum Meaning {
         slot: usize,
         offset: usize,
         length: usize,
-        /// The parameter that it came through, 0 if none.
+        /// The pointer parameter through which it was passed, 0 if none.
         path: usize,
     },
     /// Image unit.
@@ -32,7 +32,7 @@ pub(super) enum Meaning {
     Sampler,
 }
 
-/// A function that is being put in line.
+/// State of a function that is being inlined.
 pub(super) struct Frame<'a> {
     pub(super) function: &'a Function,
     pub(super) info: &'a FunctionInfo,
@@ -44,7 +44,7 @@ pub(super) struct Frame<'a> {
 /// The values of all variables, by slot.
 pub(super) type Variables = BTreeMap<usize, Value>;
 
-/// Fragments that have left a loop or a function: which, and with which values.
+/// Fragments that have left a loop or a function: their mask, and the values of their variables.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Exit(pub(super) Option<(Component, Variables)>);
 
@@ -52,9 +52,10 @@ pub(super) struct Translator<'a> {
     pub(super) text: &'a str,
     pub(super) module: &'a Module,
     pub(super) info: &'a ModuleInfo,
-    /// What can be rewritten, by first and last byte.
+    /// The operations that can be rewritten in f16, by the start and the end of their spans.
     pub(super) operations: BTreeMap<[u32; 2], WgslOperation>,
-    /// Slots that the current function has read and, `true`, written, each with the parameter that led there.
+    /// Variable slots that the current function has read or (`true`) written, each with the parameter used for the
+    /// access.
     pub(super) accesses: BTreeSet<(usize, usize, bool)>,
     pub(super) builder: Builder,
     pub(super) parameters: Vec<Parameter>,
@@ -71,7 +72,7 @@ pub(super) struct Translator<'a> {
     work: usize,
 }
 
-/// The place of a node in the text, if naga knows it.
+/// Span of a node in the text, if naga knows it.
 pub(super) fn place(span: naga::Span) -> Option<Span> {
     span.to_range().map(|range| Span::new(range.start as u32, range.end as u32))
 }
@@ -99,7 +100,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Counts a step of the translation, whose sum is bounded.
+    /// Counts a step of the translation; returns an error if there are too many.
     pub(super) fn step(&mut self, at: Option<Span>) -> Result<(), Refusal> {
         if let Some(span) = at {
             self.builder.span = span;
@@ -174,7 +175,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Refuses what the text has at the current place.
+    /// Returns the error that the text at the current span cannot be translated.
     pub(super) fn refuse_this<T>(&self) -> Result<T, Refusal> {
         let Span { start, end } = self.builder.span;
         let quoted = self.text.get(start as usize..end as usize).unwrap_or_default();
@@ -182,7 +183,7 @@ impl<'a> Translator<'a> {
         self.builder.refuse(format!("`{}` is not translated", name.trim_end()))
     }
 
-    /// The place of a word in the text behind a place, if it is there.
+    /// Finds the first occurrence of a word after a position in the text.
     pub(super) fn word_behind(&self, start: usize, word: &str) -> Option<Span> {
         let is_part = |c: char| c.is_alphanumeric() || c == '_';
         let mut found =
@@ -229,7 +230,7 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// The value of an expression outside functions.
+    /// The value of an expression outside of functions.
     pub(super) fn constant(&mut self, handle: Handle<Expression>) -> Result<Value, Refusal> {
         self.step(None)?;
         match &self.module.global_expressions[handle] {

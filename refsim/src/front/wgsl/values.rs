@@ -1,4 +1,4 @@
-//! Values as lists of scalars, and how types are laid out in such lists.
+//! Values as lists of scalars, and the layout of types in such lists.
 
 use naga::{ArraySize, Handle, Module, Scalar, ScalarKind, Type, TypeInner};
 
@@ -7,25 +7,25 @@ use crate::isa::Register;
 /// One scalar of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Component {
-    /// A number of the text: the bits of an IEEE single, which holds every f16 too.
+    /// A number known at translation: the bits of an IEEE single, which can represent every f16 too.
     Float(u32),
-    /// A whole number that is known when the text is translated.
+    /// A whole number known at translation.
     Int(i64),
-    /// A condition that is known then.
+    /// A condition known at translation.
     Bool(bool),
     /// A component of a register: a number, or a condition as 0 or 1.
     Place(Register, u8),
-    /// A whole number that differs between fragments.
+    /// A whole number that is not known at translation.
     Unknown,
 }
 
-/// A scalar, vector, matrix (column by column), array or structure, flattened.
+/// A scalar, vector, matrix (column by column), array or structure, as a list of scalars.
 pub(super) type Value = Vec<Component>;
 
 /// Maximum number of scalars in one value.
 pub(super) const MAX_SCALARS: usize = 4096;
 
-/// The scalars of a type in order; `None` for other types, and for very large ones.
+/// The scalars of a type in order; `None` for types of other kinds, and for very large types.
 pub(super) fn scalars(module: &Module, inner: &TypeInner) -> Option<Vec<Scalar>> {
     let of = |handle: &Handle<Type>| scalars(module, &module.types[*handle].inner);
     let list = match inner {
@@ -74,7 +74,7 @@ pub(super) fn part(module: &Module, inner: &TypeInner, index: usize) -> Option<(
     }
 }
 
-/// The kind of the scalars of a type that has one kind.
+/// The scalar type of a scalar, vector or matrix; `None` for other types.
 pub(super) fn scalar(inner: &TypeInner) -> Option<Scalar> {
     match inner {
         TypeInner::Scalar(scalar) => Some(*scalar),

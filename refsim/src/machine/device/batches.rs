@@ -11,8 +11,8 @@ struct Bin {
     triangles: Vec<u32>,
 }
 
-/// A dispatch: the kernel's words for `tiles` (per tile its column, its row, the offset of its triangle list and the
-/// list's length; then the lists), and the number of tiles.
+/// A dispatch: the words of `tiles`, and the number of tiles. The words hold column, row, offset and length of the
+/// triangle list for each tile; then the lists.
 pub(super) struct TileBatch {
     pub(super) words: Vec<u32>,
     pub(super) tiles: usize,

@@ -48,10 +48,10 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Executes a checked call on the given GPU, or on the best adapter of the host.
+    /// Executes a validated call on the given GPU, or on the best adapter of the host.
     ///
-    /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU only reports that a
-    /// fragment exceeded it; the batch executor then finds the fragment.
+    /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU only reports that some
+    /// fragment exceeded the budget; the batch executor then finds that fragment.
     pub(in crate::machine) fn draw_on_gpu(
         &mut self,
         call: &DrawCall<'_>,
@@ -83,14 +83,14 @@ impl Machine {
             }
         }
         self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
-        // The GPU found an overrun but not the first fragment; the host repeats the draw and reports it.
+        // The GPU found an overrun, but not the first one; the host repeats the draw to find and report it.
         let kind = (ExecutorKind::Batch, &self.batch);
         let tiles = executor(kind, &tile_draw(&self.profile, &self.memory, call));
         walk::draw(&self.memory, &self.profile, call, plan, kind, &tiles)?;
         Err(self.disagreement())
     }
 
-    /// Error: the GPU reported an exceeded step budget, but the host finds none.
+    /// The error if the GPU reported an exceeded step budget, but the host finds none.
     pub(in crate::machine) fn disagreement(&self) -> MachineError {
         let name = |card: &Card| card.board.gpu().adapter().name.clone();
         let adapter = self.memory.card.as_ref().map_or_else(|| "the best there is".to_owned(), name);
@@ -107,7 +107,7 @@ impl Machine {
 }
 
 impl Card {
-    /// Draws; returns `None` if a fragment exceeded the step budget.
+    /// Draws on the GPU; returns `None` if a fragment exceeded the step budget.
     fn draw(
         &mut self,
         (memory, profile): (&Memory, &Profile),
@@ -145,7 +145,7 @@ impl Card {
         Ok(Some(events))
     }
 
-    /// Reads the counts; an error if the driver terminated a loop.
+    /// Reads the counts; returns an error if the driver terminated a loop.
     pub(super) fn uncut(&self) -> Result<Vec<u32>, MachineError> {
         let found = self.board.counts(COUNT_WORDS)?;
         if found.get(CUT).is_some_and(|&n| n != 0) {
@@ -185,7 +185,7 @@ impl Card {
         Ok(draw_words(profile, call, targets, depth, step_budget))
     }
 
-    /// Draws a group of triangles.
+    /// Draws a group of triangles into the tiles.
     fn shade(
         &mut self,
         words: &mut DrawWords,

@@ -17,8 +17,8 @@ use crate::raster::TriangleSetup;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A fragment of a traced pixel: the index of the triangle's set-up within the pass, the pixel's state before, the
-/// execution of the program, and the pixel's state after.
+/// A fragment of a traced pixel: the index of the triangle's set-up within the pass, the execution of the program, and
+/// the pixel's state before and after.
 pub(in crate::machine) struct TracedFragment {
     pub(in crate::machine) triangle: usize,
     pub(in crate::machine) before: PixelState,
@@ -39,7 +39,7 @@ pub(in crate::machine) struct GpuTracer<'a> {
     pub(in crate::machine) overrun: bool,
 }
 
-/// Progress of a pixel through one pass.
+/// Progress of a pixel within one pass.
 struct PixelProgress {
     triangles: Vec<u32>,
     /// Number of triangles already processed.

@@ -32,11 +32,11 @@ struct GpuCopy<T> {
     base: usize,
     words: usize,
     newer: Newer,
-    /// Downloaded contents since the last draw into it.
+    /// Contents, if they were downloaded since the last draw into the resource.
     back: OnceLock<T>,
 }
 
-/// The copy that was written last.
+/// The copy, on the host or on the GPU, that was written last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Newer {
     /// Both copies are equal.

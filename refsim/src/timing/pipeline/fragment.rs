@@ -52,7 +52,7 @@ pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates:
 }
 
 /// Arithmetic clocks of a phase. Fixed-point units, if any, work while the float unit is busy (including `blocked`
-/// clocks of texture reads); the remaining fixed-point work is shared with the float unit.
+/// clocks of texture reads); the float unit takes over a share of the remaining fixed-point work.
 fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     let units = rates.fixed_units.unwrap_or(0);
     let mut work = FragmentWork::default();
@@ -72,7 +72,7 @@ fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
 /// Clocks of the float unit for fixed-point work, after `busy` clocks of its own, so that the fixed-point units finish
 /// at the same time. Operations are moved to the float unit first, because one counts as two multiplications.
 fn taken_over(work: &FragmentWork, busy: u64, units: u64) -> u64 {
-    // Work in units of multiplications; the fixed-point units do `done` per clock.
+    // Work in units of multiplications. The fixed-point units perform `done` of them per clock.
     let [operations, multiplications, done] =
         [work.operations, work.multiplications, units.saturating_mul(2)].map(u128::from);
     let meanwhile = done * u128::from(busy);

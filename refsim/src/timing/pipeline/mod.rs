@@ -115,8 +115,8 @@ pub(super) fn pipeline_clocks(
     }
 }
 
-/// Core clocks per instruction of a pipeline, as a fraction: 1 on cards with four-component pipelines; four shader
-/// clocks on scalar processors.
+/// Duration of an instruction in a pipeline, in core clocks, as a fraction: 1 on cards with four-component pipelines,
+/// four shader clocks on scalar processors.
 struct Shaders {
     numerator: u128,
     denominator: u128,
@@ -141,7 +141,7 @@ fn vertices(draw: &DrawRecord, rates: &Rates, (cache, shaders): (CacheSize, &Sha
     let slots = instructions * wide(rates.vertex_clocks_per_slot.unwrap_or(1));
     let executed = match rates.vertex_units {
         Some(units) => clocks(slots, wide(units)),
-        // Unified processors for vertices and pixels.
+        // Unified processors run both vertex and pixel programs.
         None => clocks(slots * shaders.numerator, wide(rates.pixel_pipes.unwrap_or(1)) * shaders.denominator),
     };
     let fetched = match (rates.vertices_per_s, rates.core_clock_hz) {

@@ -83,8 +83,9 @@ fn fetched(draw: &DrawRecord, cache: CacheSize) -> u64 {
     u64::try_from((bytes * run).div_ceil(u128::from(draw.counts.vertices.max(1)))).unwrap_or(u64::MAX)
 }
 
-/// Compulsory misses are estimated: if all textures of the draw fit into the cache, each texel is fetched once, else
-/// once per primitive. At most one texel per read is fetched, because the filter's other texels hit the cache.
+/// Estimates the bytes of compulsory misses. If all textures of the draw fit into the cache, each texel is fetched
+/// once, else once per primitive. At most one texel per read is fetched, because the other texels of a filter hit the
+/// cache.
 fn estimate(draw: &DrawRecord, rates: &Rates) -> u64 {
     let read = |s: &&SamplerRecord| draw.fetches(s.sampler) > 0;
     let size = draw.samplers.iter().filter(read).fold(0_u64, |sum, s| sum.saturating_add(s.texture_bytes));

@@ -36,7 +36,7 @@ impl From<ResourceId> for ResourceCopy {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fence(Mark);
 
-/// Times at which a resource is free for reading and writing.
+/// Times from which a resource can be read and written.
 #[derive(Clone, Copy, Debug, Default)]
 struct ResourceUse {
     written: Mark,
@@ -96,8 +96,8 @@ impl Queue {
         self.on_host(SpanKind::HostWork, duration, &command);
     }
 
-    /// Uploads data for a whole resource, in parallel with the card's work. The bus waits for earlier draws that read
-    /// or write the resource.
+    /// Uploads data for a whole resource, in parallel with the card's work. The transfer waits for earlier draws that
+    /// read or write the resource.
     pub fn upload(&mut self, resource: ResourceCopy, duration: Picoseconds, label: impl Into<Label>) {
         let command = self.submit(self.figures.upload_ps, label.into());
         let taken = self.dequeue(command.ready);
@@ -117,7 +117,7 @@ impl Queue {
         self.done = self.done.or_later(end);
     }
 
-    /// Fills a resource with one value; `duration` is time of the memory.
+    /// Fills a resource with one value; `duration` is how long the memory is busy.
     pub fn clear(&mut self, resource: ResourceCopy, duration: Picoseconds, label: impl Into<Label>) {
         let command = self.submit(self.figures.clear_ps, label.into());
         let (start, _) = self.front_end(&command, Picoseconds::ZERO, SpanKind::State);
@@ -131,7 +131,7 @@ impl Queue {
     /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory work in parallel on one draw at a time.
     pub fn draw(&mut self, reads: &[ResourceCopy], writes: &[ResourceCopy], cost: DrawCost, label: impl Into<Label>) {
         let command = self.submit(self.figures.draw_ps, label.into());
-        // The total minus the busiest unit: the time to fill and drain the pipeline.
+        // The total minus the busiest unit's time is the time to fill and drain the pipeline.
         let fill = cost.front_end.max(cost.shader).max(cost.memory).until(cost.total);
         let (start, vertices) = self.front_end(&command, cost.front_end, SpanKind::Vertices);
         let needs = self.body_needs(start.plus(fill), reads, writes);
@@ -175,7 +175,7 @@ impl Queue {
         }
     }
 
-    /// A fence after all commands so far; it costs nothing because it is part of another command.
+    /// A fence after all commands so far. It costs nothing, because it belongs to another command.
     pub(super) fn fence_for_free(&self) -> Fence {
         Fence(self.done)
     }
@@ -233,7 +233,8 @@ impl Queue {
         (placed.start, placed.end)
     }
 
-    /// Dependencies of the first pixel of a draw or clear; `filled` is when the pipeline has a first pixel.
+    /// Dependencies of the first pixel of a draw or clear; `filled` is the time at which the pipeline delivers that
+    /// pixel.
     fn body_needs(&self, filled: Mark, reads: &[ResourceCopy], writes: &[ResourceCopy]) -> [(Mark, WaitReason); 3] {
         let inputs = reads.iter().map(|resource| self.resource_use(*resource).written);
         let outputs = writes.iter().map(|resource| {

@@ -33,7 +33,7 @@ impl Schedule {
 
     /// Schedules work of `duration` on the unit, after its earlier work. `ready` is when the command reaches the unit.
     ///
-    /// Work of zero duration keeps its place in the order but has no span.
+    /// Work of zero duration keeps its position in the order, but has no span.
     pub(super) fn place(
         &mut self,
         unit: Unit,
@@ -55,7 +55,7 @@ impl Schedule {
             return Placed { start, end: start };
         }
         self.wait(unit, at_hand.time, start, reason, work.command);
-        // 2^32 spans do not fit into memory.
+        // 2^32 spans do not fit into memory, so the conversion cannot fail.
         let id = SpanId(u32::try_from(self.timeline.spans.len()).unwrap_or(u32::MAX));
         let end = Mark { time: start.time + duration, after: Some(id), latency: Picoseconds::ZERO };
         self.timeline.spans.push(TimelineSpan {

@@ -15,7 +15,7 @@ use super::Picoseconds;
 /// Label of a span: the name of a draw, an upload, or host work. Shared by the spans of one command.
 pub type Label = Arc<str>;
 
-/// A unit of host, card or bus, which does one piece of work at a time.
+/// A unit of the host, the card or a bus; it does one piece of work at a time.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
@@ -39,7 +39,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// All units, in the order in which work passes them.
+    /// All units, in pipeline order.
     pub const ALL: [Self; 6] =
         [Self::Host, Self::UploadBus, Self::FrontEnd, Self::ShaderArray, Self::Memory, Self::ReadBackBus];
 
@@ -104,8 +104,8 @@ pub struct TimelineSpan {
     pub label: Label,
     /// Index of the command in program order, from 0; host work counts too.
     pub command: u32,
-    /// The dependency that ended last; this span starts [`TimelineSpan::latency`] after its end. `None` without
-    /// dependencies.
+    /// The dependency that ended last; this span starts [`TimelineSpan::latency`] after that end. `None` if there are
+    /// no dependencies.
     pub after: Option<SpanId>,
     /// Latency after the dependency, in which the pipeline fills or drains.
     pub latency: Picoseconds,
@@ -137,7 +137,7 @@ pub enum WaitReason {
     /// Earlier commands are not finished.
     #[strum(to_string = "earlier commands")]
     Order,
-    /// Earlier pipeline stages have not produced anything yet.
+    /// Earlier pipeline stages have not delivered their first output yet.
     #[strum(to_string = "earlier stages")]
     Input,
 }
@@ -153,7 +153,7 @@ pub struct Wait {
     pub end: Picoseconds,
     /// The reason.
     pub reason: WaitReason,
-    /// The span waited for; `None` for a pipeline fill without a predecessor.
+    /// The span that is waited for; `None` for a pipeline fill without a predecessor.
     pub on: Option<SpanId>,
     /// The command that waits.
     pub command: u32,
@@ -175,7 +175,7 @@ pub(in crate::timing) struct Mark {
 }
 
 impl Mark {
-    /// The later of two marks; `self` if equal.
+    /// The later of two marks; `self` if they are equal.
     pub(in crate::timing) fn or_later(self, other: Self) -> Self {
         if other.time > self.time { other } else { self }
     }

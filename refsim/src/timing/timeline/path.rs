@@ -27,7 +27,7 @@ impl Segment {
     }
 }
 
-/// Share of one unit and kind of work in the critical path.
+/// Time on the critical path that one unit spends on one kind of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathShare {
     /// The busy unit.

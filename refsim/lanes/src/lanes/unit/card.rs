@@ -21,12 +21,12 @@ pub(crate) trait CardFunctions {
     /// Table entry for RSQ of `x`.
     fn rsq_entry(&self, x: u32) -> Self::Entry;
     fn rsq(&self, x: u32, entry: Self::Entry) -> u32;
-    /// Any other operation; `None` if the unit does not have it.
+    /// Any other operation; `None` if the unit lacks it.
     fn function(&self, operation: Op, operands: [u32; 3]) -> Option<u32>;
 }
 
 /// Operations that differ between units. The `quick_` versions are vectorized: they also return the range of magnitudes
-/// met, which shows whether the result may be wrong. `FUSED` is `true` if the host has fused multiply-add.
+/// encountered, which shows whether the result may be wrong. `FUSED` is `true` if the host has fused multiply-add.
 pub(crate) trait CardUnit: CardFunctions + Copy + Send + Sync + Debug {
     /// True if comparisons return NaN for unordered words.
     const SETS_NAN: bool;
@@ -84,7 +84,7 @@ impl<U: CardUnit> CardLane<U> {
         if x.is_nan() { NAN } else { x.to_bits() }
     }
 
-    /// Computes an operation on words; comparisons return masks. `None` for operations that lanes do not have.
+    /// Computes an operation on words; comparisons return masks. `None` for operations that lanes do not implement.
     pub(crate) fn word(&self, operation: Op, [a, b, c]: [u32; 3]) -> Option<u32> {
         let unit = &self.unit;
         Some(match operation {

@@ -1,5 +1,5 @@
 //! The unit of GT200: host sums and products where these are exact or rounded once. The `quick_` versions are
-//! vectorized and return the range of magnitudes met, which shows whether their results may be wrong.
+//! vectorized and return the range of magnitudes encountered, which shows whether their results may be wrong.
 
 use super::card::CardUnit;
 use super::tables::{GT200, Tables};
@@ -90,7 +90,7 @@ impl CardUnit for Gt200 {
         self.rounded(self.product(a, b))
     }
 
-    /// The first product, then MAD for the others.
+    /// Rounds the first product, then adds each further product with MAD.
     fn dot<const N: usize>(&self, a: [u32; N], b: [u32; N]) -> u32 {
         (1..N).fold(self.mul(a[0], b[0]), |sum, k| self.mad(a[k], b[k], sum))
     }

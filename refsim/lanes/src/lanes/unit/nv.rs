@@ -1,7 +1,7 @@
-//! The vertex unit of NV20 to NV35: products cut to 24 bits, sums of aligned addends.
+//! The vertex unit of NV20 to NV35: products truncated to 24 bits, sums of aligned addends.
 //!
 //! [`Nv::mul`] and [`Nv::sum`] are right for all words. The `quick_` versions are vectorized: they compute in host
-//! floats and return the range of magnitudes met, which shows whether their results may be wrong.
+//! floats and return the range of magnitudes encountered, which shows whether their results may be wrong.
 
 use super::card::CardUnit;
 use super::tables::{NV, Tables};

@@ -32,7 +32,7 @@ impl CardFunctions for Nv {
 
     #[inline(always)]
     fn rsq_entry(&self, x: u32) -> [f64; 1] {
-        // The upper bits of the mantissa, and the last one of the field.
+        // Table index: the inverted lowest bit of the exponent field, then the upper bits of the mantissa.
         self.tables.rsq[((!x & 1 << 23 | x & MANTISSA) >> 17) as usize]
     }
 
@@ -40,7 +40,7 @@ impl CardFunctions for Nv {
     fn rsq(&self, x: u32, [a]: [f64; 1]) -> u32 {
         let sign = if self.modern { x & SIGN } else { 0 };
         let (e, m) = (field(x), x & MANTISSA);
-        // The reciprocal of the root of half the number in [1, 4).
+        // Computes the reciprocal root of half the significand, which is in [1, 4).
         let even = 1 - (e & 1);
         let g = f64::from((significand(x) << even).cast_signed());
         let a = halved((3.0 * pow2(37) - a * a * g) * a, 32);
@@ -119,7 +119,7 @@ fn logarithm(x: u32) -> i64 {
     256 * base + slope * i64::from(m >> 10 & 255) + (i64::from(field(x)) - 127) * (1 << 26)
 }
 
-/// An integer of `2^-bits`, its top 24 bits cut.
+/// Converts an integer in units of `2^-bits` to a float, truncated to 24 bits.
 fn cut_signed(value: i64, bits: i32) -> u32 {
     if value == 0 { 0 } else { cut(value < 0, value.unsigned_abs(), bits) }
 }

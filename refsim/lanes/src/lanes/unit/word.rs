@@ -5,11 +5,11 @@ use crate::lanes::round::ZERO;
 use crate::lanes::toward;
 
 pub(super) const SIGN: u32 = 1 << 31;
-/// The exponent field; alone, infinity.
+/// Mask of the exponent field; on its own, the word of infinity.
 pub(super) const FIELD: u32 = 0x7f80_0000;
 pub(super) const MANTISSA: u32 = 0x7f_ffff;
 pub(super) const ONE: u32 = 0x3f80_0000;
-/// The NaN that units make.
+/// The NaN that units generate.
 pub(super) const NAN: u32 = 0x7fff_ffff;
 
 #[inline(always)]
@@ -68,8 +68,8 @@ pub(super) fn mask(condition: bool) -> u32 {
     if condition { u32::MAX } else { 0 }
 }
 
-/// `a b` with the bits beyond 24 dropped; rounded, or cut, if the result is not a normal number. `FUSED` is `true` if
-/// the host has fused multiply-add.
+/// `a b` with the bits beyond 24 dropped; rounded or truncated if the result is not a normal number. `FUSED` is `true`
+/// if the host has fused multiply-add.
 #[inline(always)]
 pub(super) fn cut_product<const FUSED: bool>(a: u32, b: u32) -> f32 {
     let (a, b) = (f32::from_bits(a), f32::from_bits(b));

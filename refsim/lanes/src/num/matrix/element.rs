@@ -46,7 +46,7 @@ impl Element {
     pub const FP16: Self = element("fp16", 5, 10, Encoding::Ieee);
     /// The upper half of binary32.
     pub const BF16: Self = element("bf16", 8, 7, Encoding::Ieee);
-    /// OCP E4M3: no infinity, NaN 7f and ff.
+    /// OCP E4M3: no infinity; the patterns 7f and ff are NaN.
     pub const E4M3: Self = element("e4m3", 4, 3, Encoding::Finite);
     /// OCP E5M2: IEEE.
     pub const E5M2: Self = element("e5m2", 5, 2, Encoding::Ieee);
@@ -56,13 +56,13 @@ impl Element {
     pub const E2M3: Self = element("e2m3", 2, 3, Encoding::Finite);
     /// OCP E2M1: numbers only.
     pub const E2M1: Self = element("e2m1", 2, 1, Encoding::Finite);
-    /// AMD's fp8: bias 8, one NaN, 80.
+    /// AMD's fp8: bias 8; the pattern 80 is the only NaN.
     pub const FP8: Self = element("fp8", 4, 3, Encoding::UnsignedZero);
-    /// AMD's bf8: bias 16, one NaN, 80.
+    /// AMD's bf8: bias 16; the pattern 80 is the only NaN.
     pub const BF8: Self = element("bf8", 5, 2, Encoding::UnsignedZero);
     /// Scales that are powers of two.
     pub const UE8M0: Self = Self { name: "ue8m0", format: Some(Format::E8M0), ignored_bits: 0 };
-    /// Scales of NVFP4: E4M3 whose sign is ignored.
+    /// Scales of NVFP4: E4M3 with the sign ignored.
     pub const UE4M3: Self = Self { name: "ue4m3", ..Self::E4M3 };
 
     /// Bits of the exponent field and of the fraction.
@@ -86,12 +86,12 @@ impl Element {
         self.width().div_ceil(4) as usize
     }
 
-    /// The number of a pattern.
+    /// Decodes a pattern to a double.
     pub fn number(self, word: u64) -> f64 {
         self.format.map_or(f64::from_bits(word), |format| to_f64(&format, (word >> self.ignored_bits) as u32))
     }
 
-    /// The pattern of a number, rounded to nearest even; `None` for NaN if the type has no NaN.
+    /// Encodes a double as a pattern, rounded to nearest even; `None` for NaN if the type has no NaN.
     pub fn code(self, number: f64) -> Option<u64> {
         let Some(format) = self.format else { return Some(number.to_bits()) };
         let fits = !number.is_nan() || format.canonical_nan().is_some();
@@ -171,11 +171,11 @@ pub struct ResultFormat {
 }
 
 impl ResultFormat {
-    /// Single precision, cut. `2^128` and more is infinity.
+    /// Single precision, truncated. Magnitudes of `2^128` and more become infinity.
     pub const CUT32: Self = Self { name: "fp32, cut", format: cut(23), ..Self::NEAREST16.with(Element::FP32) };
-    /// Single precision, cut to 13 bits of fraction; the low ten bits of the word are zero.
+    /// Single precision, truncated to 13 bits of fraction; the low ten bits of the word are zero.
     pub const CUT22: Self = Self { name: "e8m13, cut", format: cut(13), ..Self::CUT32 };
-    /// Half precision, to nearest even. 65520 and more is infinity.
+    /// Half precision, to nearest even. Magnitudes of 65520 and more become infinity.
     pub const NEAREST16: Self =
         Self { name: "fp16, to nearest", element: Element::FP16, format: Format::FP16, is_nvidia: true };
     /// Single precision, to nearest even. A result that rounds to zero keeps its sign.

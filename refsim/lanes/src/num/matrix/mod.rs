@@ -29,7 +29,8 @@ pub use table::UNITS;
 /// Rule by which the addends of a block are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// NVIDIA's adder: addends are aligned to the largest exponent, which is at least `least`, cut, and added exactly.
+    /// NVIDIA's adder: addends are aligned to the largest exponent, which is at least `least`, truncated, and added
+    /// exactly.
     Aligned {
         /// Least exponent that addends are aligned to.
         least: i32,
@@ -46,7 +47,7 @@ pub enum Rule {
     Exact,
     /// Single precision, 2 or 4 products in pairs, subnormal numbers flushed (CDNA2).
     Pairs,
-    /// Aligned products, then floors (CDNA3).
+    /// Aligned products; their sum and `c` are rounded down (CDNA3).
     Floored {
         /// Products of even and of odd index are summed separately.
         halves: bool,
@@ -78,8 +79,8 @@ pub struct MatrixUnit {
     pub scaling: Option<(usize, Element)>,
     /// Type and rounding of d.
     pub result: ResultFormat,
-    /// Confidence in the rule: measured (agrees with results of GPUs), two models or one model (agrees with published
-    /// models).
+    /// Evidence for the rule: `measured` (it agrees with results of GPUs), `two models` or `one model` (it agrees with
+    /// published models).
     pub evidence: &'static str,
     /// The sources: measured results, chips, and models that agree.
     pub source: &'static str,
@@ -92,7 +93,7 @@ pub struct Operand<'a> {
     pub element: Element,
     /// Their patterns.
     pub codes: &'a [u64],
-    /// Patterns of the scales, one for each of [`MatrixUnit::scaling`]'s numbers; empty without scales.
+    /// Patterns of the scales, one per group of numbers ([`MatrixUnit::scaling`]); empty if there are no scales.
     pub scales: &'a [u8],
 }
 

@@ -1,10 +1,10 @@
-//! Results of the units for one block: NVIDIA's adder and its forms, AMD's CDNA1 to CDNA3, and fused multiply-adds.
+//! Results of the units for one block: NVIDIA's adder and its variants, AMD's CDNA1 to CDNA3, and fused multiply-adds.
 
 use super::element::{Element, ResultFormat, Value, special};
 use crate::num::aligned::{Addend, Alignment, aligned};
 use crate::num::{Denormals, DotOrder, Format, ops};
 
-/// NVIDIA: addends are aligned to the largest exponent, cut to `bits` below it, and added exactly.
+/// NVIDIA: addends are aligned to the largest exponent, truncated to `bits` bits below it, and added exactly.
 pub(super) fn adder(addends: &[Value], bits: u32, least: i32, result: ResultFormat) -> u64 {
     if let Some(value) = special(addends.iter().copied()) {
         return result.special(value);
@@ -46,12 +46,12 @@ pub(super) fn groups(products: &[Value], scales: &[[Value; 2]], c: Value, bits: 
     sum(groups.chain(c.addend()), bits, GROUPS_LEAST, result)
 }
 
-/// The addend of a group; none if all its products, or a scale, are zero.
+/// The addend of a group; `None` if all its products, or a scale, are zero.
 fn group(products: &[Value], [sa, sb]: [Value; 2]) -> Option<Addend> {
     let scale = sa.times(sb).addend()?;
     let products: Vec<Addend> = products.iter().filter_map(|product| product.addend()).collect();
     let fraction = products.first()?.fraction;
-    // Magnitudes are below 6 * 6, in quarters.
+    // Magnitudes are below 6 * 6, in units of 1/4.
     let quarters = |p: &Addend| (p.magnitude << p.exponent).cast_signed() * if p.negative { -1 } else { 1 };
     let sum: i64 = products.iter().map(quarters).sum();
     Some(Addend {
@@ -138,7 +138,7 @@ pub(super) fn floored(products: &[Value], c: Value, halves: bool) -> u64 {
     let top = products_top.map_or(c_exponent, |t| t.max(c_exponent));
     let floor = |value: i128, by: i32| value >> by.clamp(0, 127);
     let together: i128 = sums.iter().map(|sum| floor(sum.sum, products_top.unwrap_or(0) - sum.top)).sum();
-    // Units of 2^(top - 32) from here.
+    // From here on, sums are in units of 2^(top - 32).
     let finer = SUM_KEPT - KEPT.cast_signed();
     let u = floor(together << finer, top - products_top.unwrap_or(top));
     let is_left_out = c.magnitude == 0 || halves && c_exponent < top - 25;
@@ -150,7 +150,7 @@ pub(super) fn floored(products: &[Value], c: Value, halves: bool) -> u64 {
     result.round(kept < 0, kept.unsigned_abs(), exponent + dropped)
 }
 
-/// A product of `2^128` and more is an infinity.
+/// Replaces a product of `2^128` or more by an infinity.
 fn overflowing(product: Value) -> Value {
     match product.addend() {
         Some(x) if x.magnitude.ilog2().cast_signed() + x.exponent - x.fraction.cast_signed() >= 128 => {

@@ -1,4 +1,4 @@
-//! Sums of an adder that aligns its addends, and the multiply-add that cuts its product.
+//! Sums of an adder that aligns its addends, and the multiply-add that truncates its product.
 
 use super::mad;
 use crate::num::aligned::{Addend, Alignment, aligned};

@@ -29,7 +29,8 @@ pub enum DotOrder {
 }
 
 impl DotOrder {
-    /// The order with this name in profiles and options: `sequential`, `tree`, `exact`, or `aligned:F` with its bits.
+    /// The order with this name in profiles and options: `sequential`, `tree`, `exact`, or `aligned:F` with `F` kept
+    /// bits.
     pub fn named(text: &str) -> Option<Self> {
         match text {
             "sequential" => Some(Self::Sequential),
@@ -40,7 +41,7 @@ impl DotOrder {
     }
 }
 
-/// Parses the bits of `aligned:F`, 0 to [`MAX_ALIGNED_BITS`].
+/// Parses the number of kept bits in `aligned:F`, 0 to [`MAX_ALIGNED_BITS`].
 pub fn aligned_bits(text: &str) -> Option<u8> {
     text.strip_prefix("aligned:")?.parse().ok().filter(|bits| *bits <= MAX_ALIGNED_BITS)
 }

@@ -9,7 +9,7 @@ use crate::num::unit;
 use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// `a * b + c` with product and sum rounded: the multiply-add of the cards.
+/// `a * b + c` with product and sum each rounded: the cards' multiply-add.
 pub fn mad(env: impl Into<Env>, a: u32, b: u32, c: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Mad, &[a, b, c]) {

@@ -61,7 +61,7 @@ pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact:
 /// Splits `sig * 2^exp / den`, with `exp` at most 0, into integer part, remainder, and the remainder that corresponds
 /// to 1.
 fn split(sig: u64, exp: i32, den: u32) -> (u64, u64, u64) {
-    // `sig` has at most 32 bits, so after dropping 40 places the remainder still compares correctly with one half.
+    // `sig` has at most 32 bits, so after dropping 40 bits the remainder still compares correctly with one half.
     let one = u64::from(den) << exp.unsigned_abs().min(40);
     (sig / one, sig % one, one)
 }

@@ -26,7 +26,7 @@ pub(crate) fn product(env: &Env, a: Unpacked, b: Unpacked) -> Outcome {
             from_parts(*env, sa != sb, u128::from(ma * mb), ea + eb, false)
         }
         (Finite { sign: sa, sig: ma, exp: ea, den: da }, Finite { sign: sb, sig: mb, exp: eb, den: db }) => {
-            // At most 2^31 * 2^31, or 2^15 * 2^15 over a denominator.
+            // The product of the significands is at most 2^31 * 2^31, or 2^15 * 2^15 over a denominator.
             round_quotient(env, sa != sb, ma * mb, ea + eb, u64::from(da) * u64::from(db))
         }
         (Nan { .. }, _) | (_, Nan { .. }) => nan_result(&env.format, &[a, b]),

@@ -74,7 +74,7 @@ pub fn cnd(env: impl Into<Env>, cond: u32, a: u32, b: u32) -> Outcome {
     Outcome::exact(pass(&format, if first { a } else { b }))
 }
 
-/// Compares a condition with a bound, by the unit of a card.
+/// Compares a condition with a bound, in the order of a card's unit.
 fn reaches(format: &crate::num::Format, condition: u32, bound: u32, holds: impl Fn(Ordering) -> bool) -> bool {
     unit::order(format.unit, condition, bound).is_some_and(holds)
 }

@@ -30,7 +30,7 @@ pub(in crate::num) fn evaluate(format: &Format, operation: UnitOperation, operan
     bits.map(|bits| outcome(bits, operands))
 }
 
-/// Operations that all units share.
+/// Operations that all units compute alike.
 fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u32> {
     use UnitOperation::{Abs, Neg, SetEqual, SetLess, SetLessEqual, SetNotEqual};
     let holds: fn(Ordering) -> bool = match operation {
@@ -45,12 +45,13 @@ fn common(unit: Unit, operation: UnitOperation, [a, b, _]: [u32; 3]) -> Option<u
     Some(match (order(unit, a, b), unit) {
         (Some(order), _) => ONE * u32::from(holds(order)),
         (None, Unit::Nv3x) => NAN,
-        // IEEE 754: unequal, and no other relation.
+        // IEEE 754: unordered words are unequal, and every other relation is false.
         (None, _) => ONE * u32::from(operation == SetNotEqual),
     })
 }
 
-/// The order of two words by a unit, `None` if unordered; ideal formats compare words as sign and magnitude.
+/// Compares two words in the order of a unit; `None` if they are unordered. Ideal formats compare words as sign and
+/// magnitude.
 pub(in crate::num) fn order(unit: Unit, a: u32, b: u32) -> Option<Ordering> {
     match unit {
         Unit::Gt200 | Unit::Gt200ZeroWins => gt200::compare(a, b),

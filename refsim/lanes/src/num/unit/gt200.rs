@@ -28,7 +28,7 @@ impl Exact {
         }
     }
 
-    /// The sum of numbers of at most 24 bits, `None` if it is zero. Bits more than 80 places below the larger number
+    /// The sum of numbers of at most 24 bits, `None` if it is zero. Bits more than 80 positions below the larger number
     /// are merged into one bit, which does not change any rounding to 24 bits.
     fn plus(self, other: Self) -> Option<Self> {
         const FAR: i32 = 80;
@@ -160,7 +160,7 @@ pub fn dot(unit: Unit, rounding: Rounding, terms: &[(u32, u32)]) -> u32 {
     rest.iter().fold(mul(unit, rounding, a, b), |sum, &(a, b)| mad(unit, a, b, sum))
 }
 
-/// `x 2^k`, exact except for the overflow and underflow of a product.
+/// `x 2^k`, exact, except that it overflows and underflows like a product.
 pub fn scale(rounding: Rounding, x: u32, k: i32) -> u32 {
     let word = Word::of(x);
     match word.field {
@@ -184,7 +184,7 @@ pub fn compare(a: u32, b: u32) -> Option<Ordering> {
     ordered.then(|| key(a).cmp(&key(b)))
 }
 
-/// MIN, or MAX if `greater`: of a NaN and a number, the number; -0 is below +0.
+/// MIN, or MAX if `greater`. If one operand is NaN, returns the other one; -0 is below +0.
 fn choose(a: u32, b: u32, greater: bool) -> u32 {
     match (Word::of(a).is_nan(), Word::of(b).is_nan()) {
         (true, true) => return NAN,

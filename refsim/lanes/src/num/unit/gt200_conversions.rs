@@ -32,7 +32,7 @@ pub fn to_half(rounding: Rounding, x: u32) -> u32 {
         255 => 0x7c00,
         ..94 => 0,
         field => {
-            // 11 bits, or for subnormals a multiple of 2^-24.
+            // Keeps 11 bits; subnormals are multiples of 2^-24.
             let least = (field - 112).max(1);
             let drop = (least + 125 - field).cast_unsigned();
             let steps = divide(rounding, word.negative, word.significand().into(), drop) as u32;

@@ -71,7 +71,7 @@ pub fn lg2(x: u32) -> u32 {
         _ => {}
     }
     let (r, [a, b, c]) = (word.bits(0, 17) as u32, GT200_LG2[word.bits(17, 6)]);
-    // 1.0 is the only power of two with an exact result.
+    // 1.0 is the only power of two whose result is exact.
     let fraction = match (word.mantissa, word.field) {
         (0, 127) => 0,
         _ => ((a << 12) + b * i64::from(r) + 2 * c * square(r) + 13125) >> 2,

@@ -6,12 +6,12 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `word.rs` | single floats as words; the cut to 24 bits |
-//! | `dispatch.rs` | which function an operation of [`super::NumberOperation`] is |
+//! | `word.rs` | single floats as words; truncation to 24 bits |
+//! | `dispatch.rs` | maps each [`super::NumberOperation`] to a function |
 //! | `tables.rs` | the tables of the chips, `tables/*.csv` |
 //! | [`nv`] | vertex units: product, aligned sum, comparisons, floor, attributes from bytes and shorts |
 //! | [`nv_functions`] | vertex units: RCP RCC RSQ EXP LOG LIT, and LG2 EX2 SIN COS of NV3x |
-//! | [`gt200`] | GT200: sums, products, the cut product of MAD, comparisons |
+//! | [`gt200`] | GT200: sums, products, MAD with its truncated product, comparisons |
 //! | [`gt200_functions`] | GT200: RCP RSQRT LG2, PRESIN SIN COS, PREEX2 EX2 |
 //! | [`gt200_conversions`] | GT200: to and from half floats and integers, rounding to integers |
 //!

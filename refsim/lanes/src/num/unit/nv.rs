@@ -2,7 +2,7 @@
 //!
 //! | | NV2x | NV3x legacy | NV3x modern |
 //! |---|---|---|---|
-//! | product | cut to 24 bits | same | same |
+//! | product | truncated to 24 bits | same | same |
 //! | overflow | largest finite number | infinity | infinity |
 //! | 0 (or subnormal) times anything | +0, NaN and infinity included | same | 0 times infinity or NaN is NaN, else +0 |
 //! | subnormal addends | count half their IEEE value | skipped | skipped |
@@ -27,7 +27,7 @@ fn finish(unit: Unit, negative: bool, field: i32, mantissa: u32) -> u32 {
     }
 }
 
-/// `a b`, cut to 24 bits.
+/// `a b`, truncated to 24 bits.
 pub fn mul(unit: Unit, a: u32, b: u32) -> u32 {
     let (x, y) = (Word::of(a), Word::of(b));
     if x.is_zero() || y.is_zero() {
@@ -81,7 +81,7 @@ pub fn add(unit: Unit, a: u32, b: u32) -> u32 {
     sum(unit, &[a, b])
 }
 
-/// `a b + c`: the cut product, then the adder.
+/// `a b + c`: the truncated product, then the adder.
 pub fn mad(unit: Unit, a: u32, b: u32, c: u32) -> u32 {
     add(unit, mul(unit, a, b), c)
 }
@@ -141,7 +141,7 @@ pub fn floor(x: u32) -> u32 {
         ..127 if word.negative => ONE | SIGN,
         ..127 => 0,
         field => {
-            // Units of the mantissa in 1: at least 2.
+            // Mantissa units per 1: at least 2.
             let units = 1u32 << (150 - field);
             // Below zero, rounds to the next larger magnitude; a carry out of the mantissa increments the field.
             let up = if word.negative { x + (units - 1) } else { x };
@@ -155,12 +155,12 @@ pub fn frc(unit: Unit, x: u32) -> u32 {
     add(unit, x, floor(x) ^ SIGN)
 }
 
-/// An unsigned byte as an attribute: `v / 255` cut to 24 fraction bits, 255 is 1.
+/// An unsigned byte as an attribute: `v / 255` truncated to 24 fraction bits; 255 gives 1.
 pub fn from_unsigned_byte(v: u8) -> u32 {
     if v == 255 { ONE } else { cut(false, u64::from(v) * 65793, 24) }
 }
 
-/// A signed short as a normalized attribute: `(2 v + 1) / 65535` cut to 24 bits; both ends are exact.
+/// A signed short as a normalized attribute: `(2 v + 1) / 65535` truncated to 24 bits; both ends are exact.
 pub fn from_normalized_short(v: i16) -> u32 {
     match v {
         i16::MIN => ONE | SIGN,

@@ -66,7 +66,7 @@ pub fn rsq(unit: Unit, x: u32) -> u32 {
         _ => {}
     }
     let (odd, f) = (word.field % 2 != 0, word.significand().cast_signed());
-    // Numbers from 1 to 2, and from 2 to 4.
+    // Significands in [1, 2), and in [2, 4).
     let (field, index, g) = if odd {
         (126 - (word.field - 127) / 2, word.bits(17, 6), f)
     } else {
@@ -77,7 +77,7 @@ pub fn rsq(unit: Unit, x: u32) -> u32 {
     }
     let [mut a] = NV_RSQ[index];
     a = (((3 << 37) - a * a * g) * a) >> 32;
-    // Three factors of up to 24, 24 and 25 bits.
+    // The product of three factors of up to 24, 24 and 25 bits exceeds 64 bits.
     let (wide, g) = (i128::from(a), i128::from(g));
     let root = (((3 << 49) - wide * wide * g) * wide) >> 39;
     assemble(false, field, below_leading(root as i64))
@@ -239,7 +239,7 @@ fn product(c: i64, r: i64) -> i64 {
     value
 }
 
-/// The interpolator's parts for a 23-bit `x`: row, product with its slope, and square.
+/// Interpolates at a 23-bit `x`; returns the table row, the product with the row's slope, and the square.
 fn interpolate(table: &[[i64; 3]], x: u32) -> ([i64; 3], i64, i64) {
     let (mut t, mut r) = (x >> 16, i64::from(x & 0xffff));
     if t % 2 == 1 {

@@ -1,4 +1,4 @@
-//! The tables of the chips, read from `tables/*.csv` once. Columns are the columns of the files, without the index.
+//! The tables of the chips, read from `tables/*.csv` once. The columns are those of the files, except the index.
 
 use std::sync::LazyLock;
 
@@ -29,7 +29,7 @@ macro_rules! tables {
 tables! {
     /// First approximations of reciprocals, by the upper 6 bits of the mantissa.
     NV_RCP: 1 = "nv_rcp";
-    /// First approximations of reciprocal roots: odd fields, then even ones.
+    /// First approximations of reciprocal roots: entries for odd fields, then for even ones.
     NV_RSQ: 1 = "nv_rsq";
     /// Base and slope of `2^x - 1` in EXP.
     NV_EXP: 2 = "nv_exp";

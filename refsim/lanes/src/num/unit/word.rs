@@ -1,6 +1,6 @@
 //! Fields of single floats: sign, exponent field, mantissa.
 
-/// The NaN that the units make.
+/// The NaN that the units generate.
 pub const NAN: u32 = 0x7fff_ffff;
 
 pub(super) const ONE: u32 = 0x3f80_0000;
@@ -58,7 +58,7 @@ pub(super) const fn assemble(negative: bool, field: i32, mantissa: u32) -> u32 {
     signed(negative, field.cast_unsigned() << 23 | mantissa)
 }
 
-/// The top 24 bits of an integer above 0, truncated: the place of the leading one, and the 23 bits below it.
+/// The top 24 bits of an integer above 0, truncated: the bit position of the leading one, and the 23 bits below it.
 pub(super) const fn top24(magnitude: u64) -> (i32, u32) {
     let place = magnitude.ilog2();
     let kept = if place > 23 { magnitude >> (place - 23) } else { magnitude << (23 - place) };

@@ -155,7 +155,7 @@ pub(crate) fn cube([x, y, z]: [&LaneRow; 3], face: &mut LaneRow, [u, v]: [&mut L
     for i in 0..LANES {
         let [x, y, z] = [finite(x[i]), finite(y[i]), finite(z[i])];
         let below = |c: u32| c >> 31;
-        // Of equal magnitudes, the last is selected.
+        // If magnitudes are equal, the last axis is selected.
         let of_x = (below(x), if below(x) == 1 { z } else { flip(z) }, flip(y), size(x));
         let of_y = (2 + below(y), x, if below(y) == 1 { flip(z) } else { z }, size(y));
         let of_z = (4 + below(z), if below(z) == 1 { flip(x) } else { x }, flip(y), size(z));

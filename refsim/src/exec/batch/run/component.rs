@@ -1,4 +1,4 @@
-//! Sources of the components of a filtered read, and their values before the filter.
+//! Sources of the components of a filtered read, and the components' values before filtering.
 
 use refsim_lanes::AnyLane;
 
@@ -8,17 +8,18 @@ use crate::texture::{
     AddressMode, Channel, ChannelValue, FilterArithmetic, SampleRules, SampledComponent, SampledSource, SamplerState,
 };
 
-/// Maximum width of fixed-point channels whose sums are exact: weights of three axes have 36 bits, a double 53.
+/// Maximum width of fixed-point channels whose weighted sums are exact: weights along three axes have 36 bits, and a
+/// double 53.
 const WIDEST: u8 = 16;
 
 /// Source of a result component.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum FilteredComponent {
-    /// A raw constant, for texels and border.
+    /// A raw value that is the same for texels and the border.
     Constant(u32),
     /// A sum of numerators, and its denominator.
     Ratio(SampledSource, f64),
-    /// An interpolated byte; `true` if signed.
+    /// An interpolated byte; the flag is `true` if the byte is signed.
     Byte(SampledSource, bool),
     Single(SampledSource),
 }
@@ -81,7 +82,7 @@ impl FilteredComponent {
         }
     }
 
-    /// The numerator, byte or single-precision value of a component.
+    /// Encodes a component as the value that the filter combines: a numerator, a byte or a single.
     pub(super) fn kept(self, component: SampledComponent, rules: &SampleRules) -> u32 {
         match (self, component, component.value(rules)) {
             (Self::Byte(..), SampledComponent::Byte { byte, .. }, _) => byte.cast_unsigned(),

@@ -29,8 +29,7 @@ pub(super) fn corner_numbers<const AXES: usize, const CORNERS: usize>(
     }
 }
 
-/// Weights of the corners, in units of the filter's fraction to the power of the number of axes: integers of at most 36
-/// bits.
+/// Weights of the corners, in units of `2^-(bits * AXES)`: integers of at most 36 bits.
 #[inline(always)]
 pub(super) fn corner_weights<const AXES: usize, const CORNERS: usize>(
     taps: &[AxisTaps; AXES],

@@ -18,7 +18,7 @@ const FARTHEST: i32 = 128;
 pub(super) struct LevelChoice {
     log: LogTable,
     state: SamplerState,
-    /// Factors by axis that convert derivatives to texels of level 0.
+    /// Factors that convert derivatives to texels of level 0, by axis.
     scales: Vec<f32>,
     last: i32,
 }
@@ -34,7 +34,7 @@ pub(super) struct PickedLevels {
 }
 
 impl LevelChoice {
-    /// Creates the parameters; `None` for cube maps, whose derivatives depend on the face.
+    /// Creates the parameters; `None` for cube maps, whose derivatives depend on the cube face.
     pub(super) fn new(image: &Image, state: &SamplerState, rules: &SampleRules) -> Option<Self> {
         let sizes = [image.width(), image.height(), image.slices()];
         let axes = match image.kind() {
@@ -130,7 +130,7 @@ impl LevelChoice {
     }
 }
 
-/// Adds the square of a derivative in texels; `begins` for the first term.
+/// Adds the square of a derivative in texels to the sum; `begins` is `true` for the first term, which starts the sum.
 #[inline(always)]
 fn add_square(derivative: &LaneRow, scale: f32, begins: bool, sum: &mut [f32; LANES]) {
     for i in 0..LANES {
@@ -139,7 +139,8 @@ fn add_square(derivative: &LaneRow, scale: f32, begins: bool, sum: &mut [f32; LA
     }
 }
 
-/// Adds the square of the difference across a quad, between lanes whose indices differ in `bit`.
+/// Adds the square of the difference between the lanes of a quad whose indices differ in `bit`; `begins` as in
+/// `add_square`.
 #[inline(always)]
 fn add_difference(coordinate: &LaneRow, bit: usize, scale: f32, begins: bool, sum: &mut [f32; LANES]) {
     for i in 0..LANES {

@@ -31,7 +31,7 @@ pub(crate) type TableKey = (u64, SamplerState, SampleRules);
 /// Cache of tables, for textures whose contents have a stamp.
 pub(crate) type TextureTables = Cache<TableKey, TextureTable>;
 
-/// A texture that is read in rows.
+/// Data of a texture that is read in rows.
 #[derive(Debug)]
 pub(crate) enum TextureTable {
     Nearest(TexelTable),
@@ -56,7 +56,7 @@ impl TextureTable {
         match self {
             Self::Nearest(table) => !table.large,
             Self::Filtered(level) => !level.is_large(),
-            // It contains tables of small levels only, built on first use.
+            // A leveled texture contains only tables of small levels, built on first use.
             Self::Leveled(_) => true,
         }
     }
@@ -110,7 +110,7 @@ impl<'a> BatchTexture<'a> {
 
     fn read_lanes(&self, step: &FetchStep, formats: &LaneFormats, run: &LaneRow, slots: &mut Slots) {
         let single = formats.lane(Arith::Single);
-        // Disabled lanes still take part in arithmetic, so they get a number of the format instead of the slot's old
+        // Disabled lanes still take part in arithmetic, so they get a number of the format in place of the slot's old
         // contents.
         for to in step.to.iter().flatten() {
             slots.fill(*to, 0);

@@ -41,10 +41,10 @@ pub(crate) struct FilteredLevel {
     count: usize,
 }
 
-/// Tables by code, built on first use.
+/// Tables indexed by the code of a channel, built on first use.
 #[derive(Debug, Default)]
 struct DecodedCodes {
-    /// The numerator or byte for each code of a narrow channel, by component; not built for few texels.
+    /// The numerator or byte for each code of a narrow channel, by component; not built if the level has few texels.
     narrow: [OnceLock<Vec<u32>>; 4],
     /// Raw values of unsigned and signed bytes, by the byte's bits.
     bytes: [OnceLock<Vec<u32>>; 2],
@@ -68,7 +68,7 @@ impl FilteredLevel {
         if binding.needs_detail() {
             return None;
         }
-        // With a mip filter there is one level.
+        // With a mip filter, the texture has a single level: other such textures need a level of detail.
         let last = image.levels().len() - 1;
         let number = if state.mip == MipFilter::None { usize::from(state.max_mip_level).min(last) } else { 0 };
         Self::of_level(binding, number, rules, lane)
@@ -283,7 +283,7 @@ impl FilteredLevel {
         }
     }
 
-    /// Taps of every lane, and indices of the texels at their corners.
+    /// Computes the taps of every lane, and the indices of the texels at the corners.
     fn place<const AXES: usize, const CORNERS: usize>(
         &self,
         [x, y, z, _]: [&LaneRow; 4],

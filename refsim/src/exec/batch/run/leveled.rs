@@ -72,7 +72,8 @@ impl LeveledTexture {
         self.levels[0].round(&rows, step, (rules, formats), slots);
     }
 
-    /// Adds the weighted difference to the second level, for lanes that have one.
+    /// For lanes that read a second level, adds the weighted difference between the levels to the first level's
+    /// results.
     fn combine(
         &self,
         picked: &PickedLevels,
@@ -133,7 +134,7 @@ fn key(picked: &PickedLevels, lane: usize) -> (usize, bool) {
     (picked.first[lane] as usize, picked.smaller[lane] != 0)
 }
 
-/// Sets of occurring keys, as bits `2 level + filter`. A texture has at most 32 levels.
+/// Sets of the keys that occur, as bits `2 level + filter`. A texture has at most 32 levels.
 struct LevelSets {
     first: u64,
     /// Keys of lanes that also read the next level.
@@ -160,7 +161,7 @@ impl LevelSets {
     }
 }
 
-/// Copies selected lanes of the components of a step.
+/// Copies the components of a step, for the lanes selected by `wanted`.
 fn take(step: &FetchStep, wanted: impl Fn(usize) -> bool, from: &FilteredRows, to: &mut FilteredRows) {
     for c in (0..4).filter(|&c| step.to[c].is_some()) {
         for i in (0..LANES).filter(|&i| wanted(i)) {

@@ -56,7 +56,7 @@ pub(crate) fn run_steps(steps: &[BatchStep], around: &Surroundings<'_>, run: &La
     }
 }
 
-/// Computes cosines or sines with [`crate::num`]: a vectorised version would not be worth its proof.
+/// Computes cosines or sines with [`crate::num`]: a vectorised version would not be worth the effort of proving it.
 fn circle(formats: &LaneFormats, arith: Arith, sine: bool, (from, to): (Slot, Slot), slots: &mut Slots) {
     let (format, lane) = (formats.format(arith), formats.lane(arith));
     let value = |bits| if sine { definition::sin(format, bits).bits } else { definition::cos(format, bits).bits };
@@ -70,8 +70,8 @@ fn circle(formats: &LaneFormats, arith: Arith, sine: bool, (from, to): (Slot, Sl
     }
 }
 
-/// Clamps to [0, 1] and rounds to a multiple of 1 / steps, halves up; the fraction, rounded to odd, goes into the wide
-/// row.
+/// Clamps values to [0, 1] and rounds them to multiples of 1 / steps, halves up. Stores the fractions, rounded to odd,
+/// in the wide row.
 fn to_steps(steps: u32, from: u16, slots: &mut Slots) {
     let count = f64::from(steps);
     for i in 0..LANES {

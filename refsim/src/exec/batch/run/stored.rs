@@ -23,7 +23,7 @@ pub(crate) struct Stored<'a> {
 #[derive(Clone, Copy, PartialEq)]
 enum Component {
     Constant(ChannelValue),
-    /// A single-precision float at this byte offset.
+    /// Single-precision float at this byte offset.
     Single(usize),
     /// Half-precision float at this byte offset.
     Half(usize),
@@ -45,7 +45,7 @@ impl Component {
         }
     }
 
-    /// The intermediate value of a stored texel, to be rounded in whole rows: a single, or a numerator.
+    /// The intermediate value of a stored texel, a single or a numerator; whole rows of these are then rounded.
     #[inline(always)]
     fn kept(self, texel: &[u8], rules: &SampleRules) -> u32 {
         match self {

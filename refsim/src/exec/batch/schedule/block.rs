@@ -69,18 +69,18 @@ pub(crate) enum BatchStep {
 /// A scheduled block.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepBlock {
-    /// Uniform slots, filled before the first run and never overwritten.
+    /// Slots of uniform values, filled before the first run and never overwritten.
     pub(crate) constants: Vec<(Slot, u32)>,
     /// Slots that the caller fills before each run: `(input component, slot)`.
     pub(crate) inputs: Vec<(u16, Slot)>,
     /// Slots of values computed by another block: `(node, slot)`.
     pub(crate) given: Vec<(NodeId, Slot)>,
     pub(crate) steps: Vec<BatchStep>,
-    /// Slots of the roots at the end, in the order requested.
+    /// Slots of the roots after the last step, in the order requested.
     pub(crate) roots: Vec<Slot>,
     /// Number of slots used.
     pub(crate) slots: usize,
-    /// Slots of constants and given values whose rows no step reads, only the uniform value.
+    /// Slots of constants and given values of which steps read only the uniform value, never the row.
     pub(crate) without_row: Vec<Slot>,
 }
 
@@ -134,7 +134,7 @@ pub(crate) fn schedule(
     maker.block
 }
 
-/// The last user of each node (roots stay live), and the needed nodes in order.
+/// The last user of each node (roots stay live), and the needed nodes in order of creation.
 fn uses(
     graph: &Graph,
     fusion: &Fusion<'_>,
@@ -181,7 +181,7 @@ impl Scheduler<'_> {
         (self.next - 1) as Slot
     }
 
-    /// Assigns a slot to a node that no step computes.
+    /// Assigns a slot to a node that is not computed by a step.
     fn leaf(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
         let slot = match self.graph.kind(node) {
             NodeKind::Constant(raw) => {
@@ -338,7 +338,7 @@ impl Scheduler<'_> {
                 self.release(node);
                 self.block.steps.push(BatchStep::Fetch(FetchStep { sampler: sampler.into(), coordinates, detail, to }));
             }
-            // Leaves got their slots earlier, texels together with their read.
+            // Leaves got their slots earlier; texels got theirs together with their read.
             NodeKind::Compute(..)
             | NodeKind::Difference(..)
             | NodeKind::Dot(..)

@@ -21,7 +21,7 @@ pub(crate) struct PlannedInstruction {
     pub(crate) opcode: Opcode,
     /// Computation of its results.
     pub(crate) block: StepBlock,
-    /// Destination slots of the block's roots; conditions have one root and no destination.
+    /// Destination slots of the block's roots; a condition has one root and no destination.
     pub(crate) to: Vec<Slot>,
     /// Sampler read by a texture instruction.
     pub(crate) sampler: Option<usize>,
@@ -38,7 +38,7 @@ pub(crate) struct FlowPlan {
     pub(crate) flow: FlowMap,
     /// The step budget, if the program may exceed it.
     pub(crate) budget: Option<u32>,
-    /// Uniform slots, filled before the first run.
+    /// Slots of uniform values, filled before the first run.
     pub(crate) constants: Vec<(Slot, u32)>,
     inputs: Vec<(u16, Slot)>,
     pub(crate) registers: BTreeMap<RegisterComponent, Slot>,

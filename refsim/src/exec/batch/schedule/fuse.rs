@@ -132,7 +132,7 @@ impl<'g> Fusion<'g> {
         }
     }
 
-    /// Fuses an operand into the operation.
+    /// Fuses the operation with the operation of one of its operands, if possible.
     fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
         // Products that are fused must have the same rule for zeros.
@@ -172,25 +172,25 @@ impl<'g> Fusion<'g> {
         longer.map(|fused| Fused { zero_wins: plain.zero_wins, ..fused })
     }
 
-    /// The operation of an operand that has no other reader.
+    /// The operation that computes an operand, if the operand has no other reader.
     fn alone(&self, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         let alone = self.readers[node.0 as usize] == 1 && !given(node);
         self.fused.get(&node).filter(|_| alone)
     }
 
-    /// The operation of an operand that has no other reader and the same format.
+    /// The operation that computes an operand in the format `arith`, if the operand has no other reader.
     fn part(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         self.alone(node, given).filter(|part| part.arith == arith)
     }
 
-    /// The products of an operand that has no other reader.
+    /// The product or sum of products that computes an operand, if the operand has no other reader.
     fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         let is_products = |part: &&Fused| matches!(part.code, LaneCode::Plain(Op::Mul) | LaneCode::Sum(_));
         self.part(arith, node, given).filter(is_products)
     }
 }
 
-/// Appends a product to a sum; `None` if there are too many.
+/// Appends a product to a sum; `None` if the sum would have too many products.
 fn sum(products: &Fused, last: &[NodeId]) -> Option<Fused> {
     let all = [products.operands(), last].concat();
     let code = LaneCode::Sum((all.len() / 2) as u8);

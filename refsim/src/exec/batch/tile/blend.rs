@@ -13,7 +13,7 @@ use crate::texture::{ChannelClass, ComponentSource, TargetRounding, TexelFormat}
 /// Maximum channel width: products with the square of the range fit in 64-bit integers.
 const WIDEST: u8 = 16;
 
-/// A stored channel that is written.
+/// Position of a channel that is written: word and shift in the texel, and color component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ChannelPlace {
     pub(crate) word: usize,
@@ -26,7 +26,7 @@ pub(crate) struct ChannelPlace {
 pub(crate) struct Blender {
     state: BlendState,
     values: BlendValues,
-    /// Sources of the components of a stored texel.
+    /// Sources of the four components of a stored texel.
     components: [StoredComponent; 4],
 }
 
@@ -75,7 +75,8 @@ impl Blender {
         Some(Self { state: *state, values, components })
     }
 
-    /// Blends a raw colour over a texel; returns each word's bits of `channels`, zero elsewhere.
+    /// Blends a raw colour over a texel; returns the words of the texel, in which all bits outside the written channels
+    /// are zero.
     pub(crate) fn blend(
         &self,
         color: &[u32; 4],

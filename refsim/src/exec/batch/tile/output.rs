@@ -23,9 +23,9 @@ pub(crate) struct Shaded<'a> {
     pub(crate) slots: &'a Slots,
     pub(crate) covered: &'a LaneRow,
     pub(crate) depth: &'a LaneRow,
-    /// Pixels of the lanes, if they are packed.
+    /// The pixels of the lanes, if fragments are packed.
     pub(crate) packed: Option<&'a PackedLanes>,
-    /// `true` if the early depth test was made.
+    /// `true` if the depth test was made before the program ran.
     pub(crate) tested: bool,
 }
 
@@ -68,7 +68,7 @@ impl Shaded<'_> {
 pub(crate) struct OutputStage {
     pub(crate) state: OutputState,
     pub(crate) rules: OutputRules,
-    /// Bit `i`: the program writes colour `i`.
+    /// Bit `i` is set if the program writes colour `i`.
     pub(crate) written: u8,
 }
 
@@ -152,7 +152,7 @@ impl OutputStage {
         self.merge_rest(shaded, survivors, targets);
     }
 
-    /// Writes targets that are not in rows through [`crate::output`].
+    /// Writes the targets that are not kept in rows, through [`crate::output`].
     fn merge_rest(&self, shaded: Shaded<'_>, survivors: &Survivors, targets: &mut Targets<'_>) {
         let written = self.written_elsewhere(targets);
         if written == 0 {
@@ -163,7 +163,7 @@ impl OutputStage {
         }
     }
 
-    /// Written colours whose targets are not in rows.
+    /// Bits of the written colours whose targets are not kept in rows.
     fn written_elsewhere(&self, targets: &Targets<'_>) -> u8 {
         let here = (0..MAX_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
         here.fold(0, |bits, i| bits | (self.written & 1 << i))
@@ -269,8 +269,8 @@ fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, alive: &mut LaneRow) -> u32 {
     )
 }
 
-/// Removes lanes whose value fails a comparison with the reference from `alive`; returns the number left. NaN is
-/// unordered.
+/// Removes lanes whose value fails a comparison with the reference from `alive`; returns the number left. With NaN only
+/// "not equal" and "always" hold.
 #[inline(always)]
 fn compare<T: PartialOrd>(
     number: impl Fn(u32) -> T,

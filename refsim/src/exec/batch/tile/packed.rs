@@ -17,7 +17,7 @@ use crate::texture::Region;
 const SMALL: u32 = 64;
 /// Minimum number of consecutive small triangles for packing.
 const MIN_TRIANGLES: usize = 4;
-/// Number of used lanes above which a batch is shaded once no more triangles fit.
+/// Number of used lanes above which a batch is shaded as soon as the next triangle does not fit.
 const WORTH: usize = 3 * LANES / 4;
 
 /// A lane's pixel and inputs.
@@ -59,7 +59,7 @@ pub(crate) struct PackedLanes {
 pub(crate) fn packable(surfaces: &Surfaces, order: &[u32], region: Region, given: &[Vec<u32>]) -> usize {
     let Some(&first) = order.first() else { return 0 };
     let shares = |&triangle: &u32| {
-        // Most draws of large triangles end here, before their values are compared.
+        // Most draws of large triangles end here, before the triangles' values are compared.
         setup(surfaces, triangle).is_some_and(|(_, setup)| is_small(region.intersect(setup.bounds)))
             && given.iter().all(|values| values[triangle as usize] == values[first as usize])
     };
@@ -133,7 +133,7 @@ impl PackedLanes {
             let tile_lane = frame.lane(x, y) as u8;
             PackedFragment { x, y, triangle, tile_lane, covered, shape, planes, linear, depth }
         };
-        // Non-negative if the pixel is inside.
+        // Non-negative at pixels inside the triangle.
         let edges = |x: u32, y: u32| [0, 1, 2].map(|i: usize| setup.edges[i].at(x, y) - setup.edges[i].bias);
         let right = |e: [i64; 3]| [0, 1, 2].map(|i: usize| e[i] + setup.edges[i].a);
         let inside = |e: [i64; 3]| (e[0] | e[1] | e[2]) >= 0;

@@ -80,7 +80,7 @@ impl PackedLanes {
     }
 }
 
-/// A component of the window position, single precision.
+/// Computes a component of the window position in single precision.
 fn position(setup: &TriangleSetup, fragment: &PackedFragment, axis: usize) -> u32 {
     let half = setup.half_pixels() as f32 * 0.5;
     match axis {
@@ -96,7 +96,7 @@ fn position(setup: &TriangleSetup, fragment: &PackedFragment, axis: usize) -> u3
     }
 }
 
-/// Perspective-correct weights, given 1 / w at the vertices; screen-space weights if all w are equal.
+/// Perspective-correct weights, given 1 / w at the vertices; screen-space weights in lanes where `affine` is nonzero.
 #[inline(always)]
 fn along_surface(linear: &[[f32; LANES]; 2], w: &[[f32; LANES]; 3], affine: &LaneRow, out: &mut [[f32; LANES]; 2]) {
     let [first, second] = out;

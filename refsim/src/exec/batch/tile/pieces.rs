@@ -6,8 +6,8 @@ use std::sync::{Mutex, PoisonError};
 /// Triangles per piece, the unit of work if several workers share a tile.
 pub(super) const PIECE: usize = 16;
 
-/// The triangles of a tile in pieces. Threads take pieces from both ends, so that a late thread takes fewer. All pieces
-/// taken from the front precede all pieces taken from the back.
+/// The triangles of a tile in pieces. Threads take pieces from both ends, so that a thread that starts late takes
+/// fewer. All pieces taken from the front precede all pieces taken from the back.
 pub(super) struct Pieces<'o> {
     order: &'o [u32],
     size: usize,
@@ -21,7 +21,7 @@ impl<'o> Pieces<'o> {
         Self { order, size, left: Mutex::new(0..order.len().div_ceil(size)) }
     }
 
-    /// Number of `workers` that get at least one piece each.
+    /// Number of threads, at most `workers`, that can get at least one piece each.
     pub(super) fn workers(order: &[u32], workers: usize) -> usize {
         workers.min(order.len() / PIECE).max(1)
     }

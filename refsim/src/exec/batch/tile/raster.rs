@@ -36,8 +36,8 @@ pub(crate) struct TileFrame {
 }
 
 impl TileFrame {
-    /// The tile around a region: square if it fits, else flat, else a line. If both square and flat fit, their lanes
-    /// are identical.
+    /// The tile around a region: square if it fits, else flat, else a line. If both square and flat fit, lanes have the
+    /// same positions in both.
     pub(crate) fn around(region: Region) -> Self {
         let (shape, height) = match () {
             () if (region.x & 15) + region.width <= 16 => (TileShape::Square, 16),
@@ -126,7 +126,7 @@ fn cover_lanes<const SHAPE: u8>(edges: &[[i64; 3]; 3], columns: (u32, u32), rows
     }
 }
 
-/// Lanes of quads with a covered lane.
+/// Finds the lanes of all quads that contain a covered lane.
 pub(crate) fn quads(covered: &LaneRow, out: &mut LaneRow) {
     for (i, lane) in out.iter_mut().enumerate() {
         let (row, column) = (i & !16, i & !1);
@@ -143,7 +143,7 @@ pub(crate) struct TileWeights {
     simd: SimdLevel,
     linear: [[f32; LANES]; 2],
     perspective: [[f32; LANES]; 2],
-    /// Inputs of the weights: edges 1 and 2, area, reciprocals of w.
+    /// Inputs from which the weights were computed: edges 1 and 2, area, reciprocals of w.
     made_from: Option<Origin>,
 }
 
@@ -201,7 +201,7 @@ impl TileWeights {
         }
     }
 
-    /// A component of the window position in every lane, single precision.
+    /// Computes a component of the window position in every lane, in single precision.
     pub(crate) fn position(&self, setup: &TriangleSetup, axis: usize, frame: TileFrame, out: &mut LaneRow) {
         let half = setup.half_pixels() as f32 * 0.5;
         match axis {
@@ -221,7 +221,7 @@ impl TileWeights {
         }
     }
 
-    /// A varying component in every lane, single precision; `format` is the format of the plane.
+    /// Computes a varying component in every lane, in single precision; `format` is the format of the plane.
     pub(crate) fn plane(&self, plane: &Plane, format: Format, single: &AnyLane, out: &mut LaneRow) {
         if format == Format::FP32 {
             return self.simd.run(
@@ -236,7 +236,7 @@ impl TileWeights {
     }
 }
 
-/// Copies the lanes in `mask`.
+/// Copies the lanes in `mask` from `from` to `to`.
 #[inline(always)]
 pub(crate) fn lay_over(to: &mut LaneRow, from: &LaneRow, mask: &LaneRow) {
     for i in 0..LANES {

@@ -14,7 +14,7 @@ use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPla
 use crate::exec::batch::vertex::{Surfaces, Triangle};
 use crate::raster::{ComponentMask, POSITION_COMPONENT};
 
-/// Number of triangles whose constants are computed faster than a worker can be woken.
+/// Up to this number of triangles, computing their constants is faster than waking a worker.
 const FEW: usize = 4 * LANES;
 
 /// A round of triangles of a draw, with values computed for them before tiles are drawn.
@@ -24,7 +24,7 @@ pub struct TileRound<'s> {
     /// Components that are constant over every triangle.
     pub(super) constant: u64,
     pub(super) code: RoundCode<'s>,
-    /// One row, by triangle, per value given to the plan's varying block.
+    /// Values given to the plan's varying block: one list per value, indexed by triangle.
     pub(super) given: Vec<Vec<u32>>,
     /// Values given to the plan's invariant block.
     fixed: Vec<u32>,
@@ -118,7 +118,7 @@ fn fixed_values(block: &StepBlock, around: &Surroundings<'_>) -> Vec<u32> {
     block.roots.iter().map(|&root| slots.row(root)[0]).collect()
 }
 
-/// Computes per-triangle constants: one row, by triangle, per root of the block.
+/// Computes per-triangle constants: one list per root of the block, indexed by triangle.
 fn uniforms(
     idle: &Pool<(u64, Slots)>,
     constant: u64,

@@ -38,9 +38,9 @@ pub(crate) struct TileShader {
     members: Vec<Member>,
     /// Number of members in the part.
     used: usize,
-    /// Shape of the next triangle if it did not fit, because it overlaps pixels of the part.
+    /// Shape of the next triangle, if it did not fit because it overlaps pixels of the part.
     closed_by: Option<u32>,
-    /// Pixels of the part, their number, and the lanes of quads that contain one.
+    /// Pixels of the part, their number, and the lanes of quads that contain such a pixel.
     pub(crate) covered: LaneRow,
     pub(crate) covered_count: u64,
     pub(crate) run: LaneRow,
@@ -54,9 +54,9 @@ pub(crate) struct TileShader {
 /// Slots of the varying inputs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct InputSlots {
-    /// Components: row in the surfaces, slot.
+    /// For each component: its row in the surfaces, and its slot.
     pub(crate) rows: Vec<(usize, Slot)>,
-    /// Window position: its component, slot.
+    /// For each component of the window position: its index, and its slot.
     pub(crate) position: Vec<(usize, Slot)>,
 }
 
@@ -142,7 +142,7 @@ impl TileShader {
         self.used
     }
 
-    /// Adds a triangle to the part unless it overlaps its pixels.
+    /// Adds a triangle to the part, unless it overlaps pixels of the part.
     fn add(&mut self, surfaces: &Surfaces, shape: u32, planes: u32) -> bool {
         if self.members.len() == self.used {
             let weights = TileWeights::new(self.simd);
@@ -184,7 +184,7 @@ impl TileShader {
         }
     }
 
-    /// Fills the slots of varying components; returns `false` if they are valid already.
+    /// Fills the slots of varying components; returns `false` if the slots were valid already.
     pub(crate) fn fill_inputs(&mut self, surfaces: &Surfaces, inputs: &InputSlots, formats: &LaneFormats) -> bool {
         if self.inputs_hold {
             return false;

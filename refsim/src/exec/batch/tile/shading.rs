@@ -19,7 +19,7 @@ use crate::texture::Region;
 
 /// Receiver of shaded fragments.
 pub(super) trait FragmentSink {
-    /// The tile's depths, if fragments are written immediately.
+    /// The tile's depths, if this sink writes fragments immediately.
     fn stored_depths(&mut self) -> Option<&mut LaneRow>;
 
     /// Receives fragments that passed the tests before the depth test, or all tests if the depth test was made early.
@@ -125,7 +125,7 @@ impl<'r> TileShading<'r> {
     ) -> Result<(), Overrun> {
         let Self { around, round, shader, output, survivors, .. } = self;
         round.count(shader.covered_count, counts);
-        // The early test needs the depths of previous triangles, which only the sink that writes immediately has.
+        // The early test needs the depths of previous triangles; only the sink that writes immediately has them.
         let stored = self.early.and_then(|buffer| Some((buffer, sink.stored_depths()?)));
         let tested = stored.is_some();
         if let Some((buffer, stored)) = stored {

@@ -30,7 +30,7 @@ impl Survivors {
     }
 }
 
-/// Up to this number of fragments, writing them one by one is faster than encoding whole rows.
+/// Up to this number of fragments, writing fragment by fragment is faster than encoding whole rows.
 const FEW: u32 = 24;
 
 /// Writes one texel.

@@ -11,7 +11,7 @@ use crate::texture::{ChannelClass, Region, TargetRounding, TexelFormat};
 /// Encoding of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Coding {
-    /// Clamped to [0, 1], times the first number, plus the second, truncated: exact in doubles for 24 bits times 24.
+    /// `floor(x * a + b)` with `x` clamped to [0, 1]: exact in doubles if `x` and `a` have at most 24 bits.
     Steps(f64, f64),
     /// A single.
     Single,

@@ -11,7 +11,7 @@ use crate::event::PrimitiveCounts;
 use crate::num::Format;
 use crate::raster::{ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, shape};
 
-/// Number of triangles whose shapes a worker sets up at a time.
+/// Number of triangles whose shapes a worker sets up at once.
 const CHUNK: usize = 1024;
 /// Number of recent triangles whose positions are compared with a new one's.
 const RECENT: usize = 4;
@@ -33,7 +33,7 @@ enum ShapeOutcome {
     /// An index into the chunk's shapes.
     Shape(usize),
     Dropped,
-    /// Clipped: the remaining triangles depend on its components.
+    /// Clipped: the resulting triangles depend on the components.
     Cut,
 }
 
@@ -42,7 +42,7 @@ impl Instances<'_> {
         self.triangles[triangle].map(|vertex| vertex * self.count + instance)
     }
 
-    /// For each instance, `true` if the previous instance has the same positions.
+    /// For each instance, `true` if it has the same positions as the previous instance.
     fn repeats(&self) -> Vec<bool> {
         let mut repeats = vec![true; self.count];
         if let Some(first) = repeats.first_mut() {
@@ -182,7 +182,8 @@ impl Surfaces {
             }
             Some(constant)
         };
-        // Per row, 1 for each triangle over which the component is constant; empty if it is constant over all.
+        // For each row, 1 for each triangle over which the component is constant; empty if it is constant over all
+        // triangles.
         let flags: Vec<Option<Vec<u8>>> = if total <= CHUNK {
             self.rows.iter_mut().map(work).collect()
         } else {
@@ -264,7 +265,7 @@ fn shapes(
     (outcomes, shapes)
 }
 
-/// Outcome of a triangle that a clip plane cuts, independent of its components.
+/// Outcome of a triangle that a clip plane cuts; it does not depend on the triangle's components.
 fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRules) -> ShapeOutcome {
     let [a, b, c] = positions.map(|position| Vertex { position, ..Vertex::default() });
     if setup([&a, &b, &c], state, rules, &mut Vec::new()).emitted == 0 {
@@ -274,7 +275,7 @@ fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRul
     }
 }
 
-/// Planes of one component in single precision, and 1 where it is constant.
+/// Computes the planes of one component in single precision, and a flag that is 1 where the component is constant.
 #[inline(always)]
 fn single_planes([v0, v1, v2]: [&[u32]; 3], (base, d1, d2): (&mut [u32], &mut [u32], &mut [u32]), constant: &mut [u8]) {
     let count = v0.len();

@@ -37,7 +37,7 @@ pub struct BatchVertices {
     formats: LaneFormats,
     color_clamp: ColorClamp,
     constants: Vec<[u32; 4]>,
-    /// Components that are computed, after the position's four.
+    /// Components that are computed after the four of the position.
     components: Vec<usize>,
     code: Arc<DecodedVertex>,
 }
@@ -159,7 +159,7 @@ impl BatchVertices {
         }
     }
 
-    /// The row with an index as in [`Self::each_row`].
+    /// The row with this index, numbered as in [`Self::each_row`].
     fn row<'r>(&self, rows: &'r VertexRows, number: usize) -> &'r [u32] {
         match number {
             0..4 => &rows.position[number],
@@ -216,7 +216,7 @@ impl BatchVertices {
                 slots.row_mut(slot)[..count].fill(register.map_or(0, |c| c[usize::from(constant % 4)]));
                 continue;
             }
-            // Inputs are single precision, so their bits are raw values.
+            // Inputs are in single precision, so their bits are raw values.
             let row = &mut slots.row_mut(slot)[..count];
             attributes(usize::from(component / 4), usize::from(component % 4), first, row);
         }
@@ -243,7 +243,7 @@ impl BatchVertices {
         }
     }
 
-    /// Final contents of a register component of a program with flow control.
+    /// Final contents of a register component, for a program with flow control.
     fn held(&self, slot: Option<Slot>, place: RegisterComponent, slots: &Slots, count: usize) -> Vec<u32> {
         let Some(slot) = slot else { return vec![0; count] };
         let main = self.formats.lane(Arith::Main);

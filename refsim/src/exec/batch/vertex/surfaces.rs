@@ -17,13 +17,13 @@ pub(crate) struct Triangle {
     pub(crate) planes: u32,
 }
 
-/// A component's planes of all triangles.
+/// The planes of one component, for all triangles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlaneRows {
     /// Component, as in [`ComponentMask`].
     pub(crate) component: usize,
     pub(crate) base: Vec<u32>,
-    /// Empty if the component is constant over all triangles, like `d2`.
+    /// Empty, like `d2`, if the component is constant over all triangles.
     pub(crate) d1: Vec<u32>,
     pub(crate) d2: Vec<u32>,
 }
@@ -52,7 +52,7 @@ pub struct Surfaces {
     pub(crate) rows: Vec<PlaneRows>,
     /// Components of `rows` that are constant over a triangle, by index of its planes.
     pub(crate) constant: Vec<u64>,
-    /// By triangle, `true` if the previous triangle has the same constant components with the same values.
+    /// For each triangle, `true` if the previous triangle has the same constant components with the same values.
     pub(crate) joins: Vec<bool>,
     pub(crate) iterator_format: Format,
 }

@@ -59,10 +59,10 @@ struct ViewportTransform {
 /// Snapping of positions to the grid.
 #[derive(Clone, Copy)]
 struct Snap {
-    /// Grid lines per pixel, and the farthest grid line.
+    /// Grid lines per pixel, and the largest index of a grid line.
     grid: f64,
     far: f64,
-    /// Added before the floor, in grid units.
+    /// Number that is added before rounding down, in grid units.
     half: f64,
     /// Positions below this are rounded up.
     origin: f64,
@@ -112,7 +112,7 @@ impl Window {
         ClipResult::ALL[self.spans[vertex / SPAN].flags[vertex % SPAN] as usize & 3]
     }
 
-    /// Window position of a vertex that is inside.
+    /// Window position of a vertex that is inside all clip planes.
     pub(crate) fn corner(&self, vertex: usize) -> Corner {
         let (span, i) = (&self.spans[vertex / SPAN], vertex % SPAN);
         Corner { x: span.x[i].into(), y: span.y[i].into(), depth: span.depth[i], reciprocal_w: span.reciprocal_w[i] }
@@ -171,7 +171,8 @@ fn is_finite(x: f32) -> bool {
     x.abs() < f32::INFINITY
 }
 
-/// The grid line of a position. Near a rounding boundary the sum is exact in double precision.
+/// Snaps a window coordinate to a line of the subpixel grid, clamped to ±`far`. Near a rounding boundary
+/// `x * grid + half` is exact in double precision.
 #[inline(always)]
 fn snapped(x: f32, Snap { grid, far, half, origin }: Snap) -> i32 {
     let x = f64::from(x);

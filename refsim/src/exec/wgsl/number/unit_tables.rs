@@ -26,11 +26,11 @@ fn word(cell: i64) -> u32 {
 /// Tables of the vertex units.
 pub(super) fn vertex() -> String {
     let single = |name, table: &[[i64; 1]]| function(name, 1, table.iter().map(|row| vec![word(row[0])]));
-    // A base in the low `bits`, the slope above.
+    // Rows of one word: a base in the low `bits` bits, and the slope above.
     let linear = |name, table: &[[i64; 2]], bits: u32| {
         function(name, 1, table.iter().map(|row| vec![word(row[0]) | word(row[1]) << bits]))
     };
-    // A base and a slope of 24 bits, each with half of the curvature above.
+    // Rows of two words: a base and a slope of 24 bits, each with half of the curvature in the upper 8 bits.
     let quadratic = |name, table: &[[i64; 3]]| {
         let pack = |&[base, slope, curve]: &[i64; 3]| {
             vec![word(base) | (word(curve) & 0xff) << 24, word(slope) | (word(curve) >> 8) << 24]
@@ -47,7 +47,7 @@ pub(super) fn vertex() -> String {
         + &single("v_angle_row", &data::NV3X_SINCOS_MULTIPLIER)
 }
 
-/// Tables of GT200. The functions know the signs of slopes and curvatures.
+/// Tables of GT200. The signs of slopes and curvatures are constants in the functions.
 pub(super) fn gt200() -> String {
     let rows = |name, table: &[[i64; 3]]| {
         let pack = |&[base, slope, curve]: &[i64; 3]| vec![word(base), word(slope) | word(curve) << 16];

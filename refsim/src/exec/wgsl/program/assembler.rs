@@ -10,7 +10,8 @@ use crate::num::{Format, NumberOperation};
 use refsim_lanes::RowSum;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// First operand of each range: slots are below, then constants, words of a triangle's set-up, input and output rows.
+/// First operand of each range. Slots are numbered from 0; then come constants, words of a triangle's set-up, input
+/// rows and output rows.
 pub(super) const FIRST_CONSTANT: usize = 0x8000;
 pub(super) const SETUP: u16 = 0xfe00;
 pub(super) const INPUT: u16 = 0xff00;
@@ -45,7 +46,7 @@ pub(super) struct Assembler<'g> {
 /// Slots of the values of one block.
 pub(super) struct Places {
     at: BTreeMap<NodeId, u16>,
-    /// Number of remaining reads per value.
+    /// Number of remaining reads of each value.
     left: BTreeMap<NodeId, u32>,
     free: Vec<u16>,
     next: usize,

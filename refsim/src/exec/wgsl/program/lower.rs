@@ -20,9 +20,9 @@ pub(super) enum SinkKind {
     Color(u16, u16),
     /// Output of the mask of killed lanes.
     Killed,
-    /// Output of depth and of the mask of lanes that have it.
+    /// Output of depth, and of the mask of lanes that write depth.
     Depth(Arith),
-    /// Trace record of an instruction: up to four values, as many lane masks, and the mask of their components.
+    /// Trace record of an instruction: up to four values, a lane mask for each, and the mask of their components.
     Trace(usize, Mask),
     /// Merge into the slot of a register under a mask: value, mask.
     Merge(Slot),
