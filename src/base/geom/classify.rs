@@ -10,7 +10,7 @@ use super::{Contact, Mesh};
 pub struct Candidate {
     /// The triangle, or `None` for no hit.
     pub triangle: Option<u32>,
-    /// Its t; ignored without a triangle.
+    /// Ray parameter t of the hit; ignored if `triangle` is `None`.
     pub t: f32,
 }
 

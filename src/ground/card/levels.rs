@@ -24,7 +24,7 @@ impl Levels {
         Ok(Self { base, targets })
     }
 
-    /// The levels, the finest first; `base` itself is not among them.
+    /// The levels, finest first; `base` itself is not among them.
     pub fn targets(&self) -> &[TextureId] {
         &self.targets
     }

@@ -26,7 +26,7 @@ pub(super) fn not_utf_16(bytes: &[u8], name: &Path) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Lines with their numbers, whether they end in LF, CR LF, or CR alone.
+/// Lines with their numbers; LF, CR LF and a lone CR all end a line.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     fn by_cr(line: &[u8]) -> impl Iterator<Item = &[u8]> {
         line.strip_suffix(b"\r").unwrap_or(line).split(|&byte| byte == b'\r')

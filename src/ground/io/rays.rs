@@ -30,7 +30,7 @@ fn header_error(name: &Path, found: &str) -> InputError {
     input_error!("expected the header `ox,oy,oz,dx,dy,dz`, found {found}").at(FilePlace::line(name, 1))
 }
 
-/// Reads rays from a file. Fails with [`InputError`], with the path, and the line where there is one.
+/// Reads rays from a file. Fails with an [`InputError`] that names the path and, where known, the line.
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, InputError> {
     let mut limited = open_limited(path, MAX_BYTES).map_err(|source| unreadable(path, source))?;
     let rays = read_rays(&mut limited, path);
@@ -43,7 +43,7 @@ fn unreadable(path: &Path, source: io::Error) -> InputError {
 }
 
 /// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid. Fails with
-/// [`InputError`], with the line where there is one.
+/// an [`InputError`] that names the line where known.
 pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, InputError> {
     read_rays(bytes, name)
 }

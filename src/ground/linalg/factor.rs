@@ -26,7 +26,7 @@ pub(super) fn residual_error(size: usize) -> InputError {
 /// Eigenvalues and eigenvectors of a symmetric matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymmetricEigen {
-    /// Eigenvalues, the largest first.
+    /// Eigenvalues, largest first.
     pub values: Vec<f64>,
     /// Row i is the unit eigenvector of eigenvalue i; its component of largest magnitude is positive.
     pub vectors: Matrix,

@@ -1,4 +1,4 @@
-//! The buffers of a glTF file: the binary chunk, text in the file itself, and files beside it.
+//! The buffers of a glTF file: the binary chunk, Base64 text in the JSON, and separate files.
 
 use std::borrow::Cow;
 use std::io;

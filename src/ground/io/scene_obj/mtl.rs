@@ -35,7 +35,7 @@ const INDEX: f32 = 1.5;
 const ROUNDING: f32 = 1e-6;
 
 /// Reads the materials of a library, in order; `name` is the file's name in messages. Never panics. Fails with
-/// [`InputError`], with the line where there is one.
+/// an [`InputError`] that names the line where known.
 pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, InputError> {
     read_mtl(bytes, name, None)
 }
