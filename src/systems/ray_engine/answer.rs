@@ -67,7 +67,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// No hit of any ray, before any work.
+    /// Answer without hits, for rays that need no work on the card.
     pub(super) fn without_hits(rays: usize, kernel: &'static str) -> Self {
         Self { hits: vec![None; rays], events: DrawEvents::default(), kernel, log: Vec::new() }
     }

@@ -155,7 +155,7 @@ fn what_exceeds_the_budget_is_passed_over() {
     assert_eq!(found.of_point(), paper::compress(&signal, &options).expect("compressed").of_point());
 }
 
-/// Each empty cluster, lowest first, takes the point of largest error (the lowest of equals), but not a cluster's last
+/// Each empty cluster, lowest first, takes the point of largest error (on ties, the lowest), but not a cluster's last
 /// point.
 #[test]
 fn empty_clusters_take_the_worst_points_but_no_last_ones() {

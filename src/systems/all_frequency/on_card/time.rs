@@ -120,7 +120,8 @@ pub struct FactoredFrame {
     pub terms: usize,
     /// Multiplications of steps 2 and 3.
     pub host: Multiplies,
-    /// Vertices run per triangle, which follow from the order of the mesh and the card's vertex cache.
+    /// Mean number of vertex program runs per triangle, which depends on the order of the mesh and the card's vertex
+    /// cache.
     pub run_per_triangle: f64,
 }
 

@@ -7,7 +7,7 @@ use crate::transfer::grid::LIGHT_TEXELS;
 
 /// Transfer stored by one of the compression methods.
 pub trait StoredTransfer {
-    /// Bytes per layout. [`Self::multiply`] computes with the numbers of the first layout.
+    /// Size in bytes of each layout. [`Self::multiply`] computes with the numbers of the first layout.
     fn sizes(&self) -> Vec<StoredSize>;
 
     /// Local light L~ in f64: one number per row of T, from `light` with one number per column. Panics if the light

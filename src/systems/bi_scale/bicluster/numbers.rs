@@ -1,4 +1,4 @@
-//! The numbers that the search computes with, as integers that are equal where their numbers are.
+//! The numbers of the search, each represented by an integer; equal numbers have equal integers.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

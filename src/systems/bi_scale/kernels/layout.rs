@@ -15,7 +15,7 @@ pub struct LocalLayout {
     pub sets: usize,
 }
 
-/// Interpolated numbers besides local light: u, v and the three of the view.
+/// Interpolated numbers besides local light: u, v and three components of the view.
 const BESIDE: usize = 5;
 
 impl LocalLayout {

@@ -138,9 +138,8 @@ impl GatherCard {
         }
     }
 
-    /// Local light of each row in red, green and blue, from one color per column. Fails with [`CardError`] for light of
-    /// another size, numbers that are not finite (or negative in [`LightFormat::Bytes`]), and draws that the card
-    /// refuses.
+    /// Local light of each row in red, green and blue, from one color per column. Fails with [`CardError`] if the light
+    /// has another size, a number is not finite (or negative in [`LightFormat::Bytes`]), or the card rejects a draw.
     pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, CardError> {
         let scale = self.draw(light)?;
         let texels = Texels::read_back(&self.machine, self.stages[1].targets[0])?.texels;

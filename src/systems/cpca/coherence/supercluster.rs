@@ -42,7 +42,7 @@ pub struct Superclusters {
 
 impl Superclusters {
     /// Begins with one supercluster per cluster. Repeatedly merges the two superclusters that share the most triangles
-    /// and fit the registers together (the lowest of equals), until no two neighbours fit. Fails with [`InputError`] if
+    /// and fit the registers together (on ties, the lowest), until no two neighbours fit. Fails with [`InputError`] if
     /// a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
     pub fn new(
         clustering: &Clustering,

@@ -41,12 +41,12 @@ impl WeightFormat {
     }
 }
 
-/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. They cost the card
-/// nothing, because the products include them: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
+/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. Decoding costs the
+/// card nothing, because the products include them: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
 #[derive(Clone, Debug)]
 pub struct CardWeights {
     format: WeightFormat,
-    /// Low and extent of each cluster's vectors.
+    /// For each vector of each cluster, the decoding range of the weights: minimum and extent.
     ranges: Vec<Vec<[f64; 2]>>,
 }
 
@@ -71,7 +71,8 @@ impl CardWeights {
         Self { format, ranges }
     }
 
-    /// Low and extent of each vector of a cluster. Panics if there is no such cluster.
+    /// Decoding range of the weights on each vector of a cluster: minimum and extent. Panics if there is no such
+    /// cluster.
     pub fn ranges(&self, cluster: usize) -> &[[f64; 2]] {
         &self.ranges[cluster]
     }

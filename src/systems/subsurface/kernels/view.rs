@@ -27,7 +27,7 @@ pub enum EyeTransmittance {
     Mean,
 }
 
-/// Where direct light is computed.
+/// The stage that computes direct light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DirectLight {
     /// No direct light.

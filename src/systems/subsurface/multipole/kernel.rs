@@ -48,7 +48,8 @@ pub(super) struct DistanceTable<const N: usize> {
     /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
     pub(super) tolerance: f64,
-    /// The radius in mm around an entering photon within which, in every channel, all light but the tolerance leaves.
+    /// Radius in mm around the entry of light within which, in every channel, all light but the fraction `tolerance`
+    /// leaves.
     pub(super) layer: f64,
 }
 
