@@ -37,12 +37,12 @@ pub enum DisagreementKind {
     WrongNeighbour,
     /// The correct triangle, at a t beyond the tolerance.
     TOff,
-    /// A surface missed, or hit, near its silhouette: the result is correct for a ray whose direction differs by a
-    /// few ULPs. If a surface was missed in front of another, it suffices that such a ray hits nothing in the first
-    /// half of the distance to the other, because distant triangles are smaller than an ULP. If a triangle was hit, it
-    /// suffices that such a ray passes near the vertex or edge that the triangle shares with the first one, or near a
-    /// corner of the triangle at the same t: at a vertex of the silhouette, triangles that face away tie with triangles
-    /// in front of them.
+    /// A surface missed, or hit, near its silhouette: the result is correct for a ray whose direction differs by a few
+    /// ULPs. If a surface was missed in front of another, it suffices that such a ray hits nothing in the first half of
+    /// the distance to the other, because distant triangles are smaller than an ULP. If a triangle was hit, it suffices
+    /// that such a ray passes near the vertex or edge that the triangle shares with the first one, or near a corner of
+    /// the triangle at the same t: at a vertex of the silhouette, triangles that face away tie with triangles in front
+    /// of them.
     Silhouette,
     /// A surface missed, or hit, where the ray starts: the result is correct for an origin moved a few ULPs along the
     /// ray.
@@ -233,8 +233,8 @@ impl Disagreement {
         }
     }
 
-    /// Sort key, worst first: by kind, then the larger error of t (unknown counts as largest), then the index of
-    /// the ray.
+    /// Sort key, worst first: by kind, then the larger error of t (unknown counts as largest), then the index of the
+    /// ray.
     pub(super) fn rank(&self) -> impl Ord + use<> {
         (self.kind, Reverse(self.t_ulps.unwrap_or(u64::MAX)), self.ray)
     }

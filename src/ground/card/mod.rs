@@ -6,8 +6,8 @@
 //! - [`Levels`]: a pyramid of targets, each filled from the one before;
 //! - [`NearestTarget`]: a color target that keeps the nearest fragment;
 //! - [`Attribute`], [`by_register`], [`vertex_streams`]: data per vertex;
-//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: the triangle at each pixel of a
-//!   device's raster, which [`RasterizedEyes`] uses in place of eye rays;
+//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: the triangle at each pixel of a device's
+//!   raster, which [`RasterizedEyes`] uses in place of eye rays;
 //! - [`frame_time`](mod@frame_time): modelled time of a frame, host work included;
 //! - [`CardError`]: the reason why a card cannot compute or draw.
 //!

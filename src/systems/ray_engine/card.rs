@@ -202,8 +202,8 @@ impl Streams {
         triangles
     }
 
-    /// Triangles with sorted corners, largest id first: at equal depths the last draw wins, which has the smallest
-    /// id. The corners' fourth components are the edge scales; the color's is the normal's scale with the sign of the
+    /// Triangles with sorted corners, largest id first: at equal depths the last draw wins, which has the smallest id.
+    /// The corners' fourth components are the edge scales; the color's is the normal's scale with the sign of the
     /// sorting.
     fn sorted(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
