@@ -78,7 +78,7 @@ impl<'a> Oracle<'a> {
     /// Judges one hit per ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
     ///
     /// # Errors
-    /// [`InputError`] unless there are as many hits as rays.
+    /// [`InputError`] unless the numbers of hits and rays are equal.
     pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, InputError> {
         ensure!(
             rays.len() == hits.len(),

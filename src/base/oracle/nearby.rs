@@ -111,8 +111,7 @@ pub(super) fn passes_contact(mesh: &Mesh, ray: &Ray, [a, b]: [u32; 2], ulps: u32
     mesh.contact(a, b) != Contact::None && shared.iter().any(|&from| shared.iter().any(|&to| near(from, to)))
 }
 
-/// Returns `true` if a ray passes within `ulps` ULPs of a corner of a triangle, if the corner's t is within `ulps` ULPs
-/// of `t`.
+/// Returns `true` if a ray passes within `ulps` ULPs of a triangle's corner whose t is within `ulps` ULPs of `t`.
 pub(super) fn passes_corner_at(mesh: &Mesh, ray: &Ray, triangle: u32, t: f64, ulps: u32) -> bool {
     let plane = ImagePlane::of(ray);
     let (reach, step) = (f64::from(ulps) * std::f64::consts::SQRT_2, f64::from(ulps) * ulp(t.abs() as f32));

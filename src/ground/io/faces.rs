@@ -44,7 +44,7 @@ impl<C: Copy> Faces<C> {
         self.faces.iter().zip(ends).map(|(&(start, place), end)| (place, &self.corners[start..end]))
     }
 
-    /// The triangles of all faces, n - 2 for a face of n corners. Faces with a fault are refused if `strict`, otherwise
+    /// The triangles of all faces, n - 2 for a face of n corners. Faces with a fault are rejected if `strict`, otherwise
     /// counted in the notes. `named` returns the name of a face for messages.
     pub(super) fn triangles(
         &self,

@@ -54,7 +54,7 @@ pub enum UpAxis {
 pub struct ModelOptions {
     /// The axis of the file that points up; `None`: y for glTF and z for all others. In the result z points up.
     pub up: Option<UpAxis>,
-    /// If true, unusable materials and faces are refused and triangles stay unchanged; otherwise defects are repaired
+    /// If true, unusable materials and faces are rejected and triangles stay unchanged; otherwise defects are repaired
     /// and noted.
     pub strict: bool,
 }

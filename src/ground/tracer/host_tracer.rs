@@ -188,7 +188,7 @@ impl HostTracer {
     }
 
     /// Returns the first hit by [`Octree::traverse`]. In cells marked in `gpu`, every triangle of the cell is tested,
-    /// as on the card; without marks, hit and counts equal those of [`Self::nearest`].
+    /// as on the card; without marks, hit and counts are the same as for [`Self::nearest`].
     pub fn nearest_in(&self, ray: &Ray, gpu: Option<&GpuCells>) -> (Option<Hit>, HostCounts) {
         let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);

@@ -175,7 +175,7 @@ fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
         if scaled.fract() != 0.0 {
             return None;
         }
-        // Numbers beyond 64 bits are refused below, in any unit.
+        // Numbers beyond 64 bits are rejected below, in any unit.
         let zeros = if scaled.abs() < TWO_TO_63 { (scaled as i64).trailing_zeros() } else { 64 };
         fraction_bits = fraction_bits.max(EntryValues::MOST_FRACTION_BITS.saturating_sub(zeros));
     }

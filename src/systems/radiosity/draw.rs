@@ -18,10 +18,10 @@ const EDGE_ON: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DrawError {
-    /// The card refuses a resource or a draw.
+    /// The card rejects a resource or a draw.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// The device refuses a program.
+    /// The device rejects a program.
     #[error("{0}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
     Kernel(#[from] KernelError),
     /// The number of radiosities differs from the number of patches.

@@ -35,7 +35,7 @@ pub enum EngineError {
         help("take a device with ps_1_4 and fixed point, such as r200, and front faces")
     )]
     NoByteRays { device: String },
-    /// The device refuses a program.
+    /// The device rejects a program.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Kernel(#[from] KernelError),
@@ -47,7 +47,7 @@ pub enum EngineError {
     #[error(transparent)]
     #[diagnostic(code(ray_engine::batch))]
     Batch(#[from] InputError),
-    /// The card refuses a resource or a draw.
+    /// The card rejects a resource or a draw.
     #[error("the card refuses the work")]
     #[diagnostic(code(ray_engine::machine))]
     Machine(#[from] MachineError),

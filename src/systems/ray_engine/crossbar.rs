@@ -103,7 +103,7 @@ impl Crossbar {
     }
 
     /// Intersects all rays with all triangles: section 3.3 of the paper. Fails with [`EngineError`] if the card has no
-    /// suitable program, or refuses the work.
+    /// suitable program, or rejects the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }

@@ -83,7 +83,7 @@ impl<'a> Buffers<'a> {
 /// The path that a relative URI names, if it stays within the folder.
 fn local(uri: &str) -> Option<PathBuf> {
     let path = percent_decode_str(uri).decode_utf8().ok()?;
-    // Refuse schemes, drives, and the separator of some systems only.
+    // Reject schemes, drives, and the separator of some systems only.
     if path.is_empty() || path.contains([':', '\\', '\0']) {
         return None;
     }

@@ -2,7 +2,7 @@
 //!
 //! Geometry is read as by [`super::obj`]; in addition, `vn` and the normals of corners, `mtllib` and `usemtl` are used.
 //! A triangle with a normal at each corner is smooth, others are flat. A face without a material is grey. A face whose
-//! material is in no library is grey with a note, or refused if `strict`. Libraries are in the model's folder
+//! material is in no library is grey with a note, or rejected if `strict`. Libraries are in the model's folder
 //! ([`mtl`]).
 //!
 //! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no material

@@ -156,7 +156,7 @@ impl MtlReader<'_> {
         }
     }
 
-    /// Refuses a number that overflows single precision, before the key's own range is checked.
+    /// Rejects a number that overflows single precision, before the key's own range is checked.
     fn not_too_large(&self, here: &Statement<'_>) -> Result<(), InputError> {
         let large = here.values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
         large.map_or(Ok(()), |word| Err(self.syntax(here.line, NumberError::TooLarge.expected(), word)))

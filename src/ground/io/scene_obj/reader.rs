@@ -35,7 +35,7 @@ pub(super) struct SceneReader {
     used: Vec<(String, usize)>,
     place_of: BTreeMap<String, usize>,
     current: Option<usize>,
-    /// Notes on changed materials; `None` if such materials are refused.
+    /// Notes on changed materials; `None` if such materials are rejected.
     notes: Option<Vec<ModelNote>>,
 }
 

@@ -31,7 +31,7 @@ pub struct LocalLightError {
     pub root_mean_square: f64,
     /// The largest difference, in the unit of the light.
     pub largest: f64,
-    /// `root_mean_square` relative to the root mean square of T L; 0 without a difference.
+    /// `root_mean_square` relative to the root mean square of T L; 0 if there is no difference.
     pub relative: f64,
 }
 

@@ -4,7 +4,7 @@
 //! Additions have the order of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), so a card with single
 //! precision gives the same bits, except for subnormal numbers, which `gt200` flushes. Lists have about the paper's
 //! size: four bytes per row of a bicluster, eight per column. Values of biclusters are rounded to single precision,
-//! which is exact for visibility; values beyond its range are refused.
+//! which is exact for visibility; values beyond its range are rejected.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -245,7 +245,7 @@ impl Stage {
     }
 }
 
-/// Refuses biclusters with values beyond single precision.
+/// Rejects biclusters with values beyond single precision.
 fn require_singles(biclusters: &Biclustering) -> Result<(), CardError> {
     for bicluster in 0..biclusters.len() {
         let values = biclusters.columns_of(bicluster).iter().map(|entry| biclusters.value(entry.value));

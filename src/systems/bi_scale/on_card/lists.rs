@@ -9,7 +9,7 @@ use crate::card::{CardError, Texels};
 /// The number of places that stay distinct in single precision with one half added: 23 bits.
 const MOST_PLACES: usize = 1 << 23;
 
-/// Refuses more sums or columns than there are distinct places.
+/// Rejects more sums or columns than there are distinct places.
 pub(super) fn check_places(what: &str, found: usize) -> Result<(), CardError> {
     if found < MOST_PLACES {
         return Ok(());

@@ -68,7 +68,7 @@ impl Superclusters {
         (numbered.of_cluster == of_cluster).then_some(numbered)
     }
 
-    /// Refuses superclusters that exceed the registers, or belong to another clustering.
+    /// Rejects superclusters that exceed the registers, or belong to another clustering.
     pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), InputError> {
         let (expected, found) = (clustering.subspaces().len(), self.of_cluster.len());
         ensure!(expected == found, "expected superclusters of {expected} clusters, found those of {found}");

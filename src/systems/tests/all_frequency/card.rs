@@ -1,4 +1,4 @@
-//! Pictures compared with f64 pixel by pixel, counts, and refusals.
+//! Pictures compared with f64 pixel by pixel, counts, and errors.
 
 use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};

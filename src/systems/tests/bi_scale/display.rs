@@ -1,4 +1,4 @@
-//! Pictures compared with f64, counts, and refusals.
+//! Pictures compared with f64, counts, and errors.
 
 use crossbar_systems::bi_scale::kernels::BlockEdges;
 use crossbar_systems::bi_scale::on_card::reference::pixel;
