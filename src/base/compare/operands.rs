@@ -1,4 +1,4 @@
-//! Operands of an instruction, reconstructed from the earlier steps.
+//! Operands of an instruction, reconstructed from the earlier steps of its trace.
 
 use std::collections::BTreeMap;
 

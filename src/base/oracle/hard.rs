@@ -1,4 +1,4 @@
-//! Generation of rays on which intersectors differ.
+//! Generation of hard rays, on which intersectors tend to disagree.
 
 use std::fmt;
 

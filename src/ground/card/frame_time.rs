@@ -1,5 +1,5 @@
-//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; also for frames whose log
-//! follows from sizes and counts alone.
+//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; also for frames that are not
+//! drawn, whose log is computed from sizes and counts alone.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! The host's side of an emulated card that computes, for all systems.
+//! General-purpose computing on an emulated card, as seen from the host: the common base of all systems.
 //!
 //! - [`KernelText`]: a program with the name of its file, assembled and checked against a device;
 //! - [`Texels`]: rectangles of floats, to textures and back; [`new_target`]: an empty one to draw into;

@@ -1,4 +1,4 @@
-//! The triangle at each pixel by a device's rasterization, for comparisons in which only arithmetic differs.
+//! The triangle that a device rasterizes at each pixel, for comparisons in which only the arithmetic differs.
 
 use glam::DVec3;
 use refsim::device::Profile;

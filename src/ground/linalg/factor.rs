@@ -1,4 +1,4 @@
-//! Eigenvalues and eigenvectors, with a fixed choice of the arbitrary signs.
+//! Eigenvalues and eigenvectors; the arbitrary signs of the vectors follow a fixed rule.
 
 use nalgebra::DMatrix;
 

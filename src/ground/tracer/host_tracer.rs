@@ -1,4 +1,4 @@
-//! First hits on the host alone by octree and f32 test: "CPU only" in Table 3.
+//! First hits on the host alone, by an octree and the f32 triangle test: "CPU only" in Table 3.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Compression: its bits, its independence of threads and vector instructions, and errors.
+//! Compression of signals: fixed bits, independence of threads and vector instructions, and errors.
 
 use crossbar_systems::clustering::{
     AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress,

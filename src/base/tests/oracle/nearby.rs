@@ -1,4 +1,4 @@
-//! Rays near a ray with a wrong hit for which the hit is correct.
+//! Search for a nearby ray for which a wrong hit is correct.
 
 use crossbar_base::geom::vector::wide;
 use crossbar_base::geom::{Hit, Mesh, Ray, Sides, exact};

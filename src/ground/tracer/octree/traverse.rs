@@ -1,4 +1,5 @@
-//! The parametric traversal in its plain form: reference of `compact.rs`, and the traversal of the Ray Engine.
+//! The parametric traversal in its plain form: the reference for `compact.rs`, and the traversal that the Ray Engine
+//! uses.
 
 use std::ops::ControlFlow;
 

@@ -1,4 +1,4 @@
-//! Errors of approximations by terms and by spherical harmonics, over texels whose directions lie above the horizon.
+//! Errors of approximations by products of factors and by spherical harmonics, over texels above the horizon.
 
 use std::f64::consts::PI;
 

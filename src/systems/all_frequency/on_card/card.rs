@@ -1,4 +1,5 @@
-//! A mesh with transferred radiance on an emulated card, and a picture with counts of colors out of range.
+//! A mesh with transferred radiance on an emulated card, and its picture, with counts of the colors that are out of
+//! range.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The time of a frame (Table 1): the host's steps at one calibrated rate, transfer over the bus, vertices and pixels.
+//! The time of a frame (Table 1): the host's steps at one calibrated rate, uploads over the bus, vertices and pixels.
 
 use refsim::event::{Event, ResourceId};
 use refsim::isa::Version;

@@ -1,4 +1,5 @@
-//! Rows as a few Haar wavelet coefficients each (section VI-B, Figure 6; \[NRH03\]'s non-linear approximation).
+//! Each row of a matrix as a few Haar wavelet coefficients (section VI-B, Figure 6; \[NRH03\]'s non-linear
+//! approximation).
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Data of a pass: textures with their triangles, and local light of vertices.
+//! The data that a pass draws: a texture's triangles, and the local light of vertices.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

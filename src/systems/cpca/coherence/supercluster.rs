@@ -174,7 +174,7 @@ fn renamed(mixed: MixedTriangles, to: u32, from: u32) -> MixedTriangles {
     found
 }
 
-/// The two superclusters, lower first, that share the most triangles and fit together.
+/// The two superclusters, lower first, that share the most triangles among the pairs that fit into the registers.
 fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(u32, u32)> {
     let mut common: BTreeMap<(u32, u32), u64> = BTreeMap::new();
     for (&[a, b, c], &count) in mixed {

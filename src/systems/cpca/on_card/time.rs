@@ -1,5 +1,5 @@
-//! The time of a frame: the host on which section 7 measures, and the log of a frame from sizes and counts alone,
-//! without mesh, clusters or pixels.
+//! The time of a frame: the host on which section 7 measures, and the log of a frame, computed from sizes and counts
+//! alone, without mesh, clusters or pixels.
 
 use refsim::event::Event;
 use refsim::isa::Version;

@@ -1,4 +1,4 @@
-//! Links as texels of textures for the card's pass 2.
+//! Links encoded as texels of textures, for pass 2 on the card.
 //!
 //! The card's map contains E_t a_t / (mean texel area of the atlas), so that unweighted means of its levels are
 //! weighted by area. The factor of a link to cluster C is stored as F_iC times (mean texel area of the atlas) / (mean

@@ -1,4 +1,4 @@
-//! Pass 2 on the host, in f64: radiosity as the sum of factor times mean irradiance.
+//! Pass 2 on the host, in f64: radiosity as the sum over links of factor times mean irradiance.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Transfer as integers of a few bits.
+//! Coding of transfer as integers of a few bits.
 
 use crossbar_systems::all_frequency::code::{CodeOptions, CodeSize, CodedSegment, CodedTransfer, ScaleOf, SparseRows};
 use crossbar_systems::all_frequency::compressed::CompressedSegment;

@@ -1,4 +1,4 @@
-//! Factors of tables, and their errors.
+//! Factors of tables of reflectance, and the errors of the factors.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-//! Pictures compared with f64, counts, and errors.
+//! Pictures of bi-scale transfer on cards, compared with f64; counts of a frame; errors.
 
 use crossbar_systems::bi_scale::kernels::BlockEdges;
 use crossbar_systems::bi_scale::on_card::reference::pixel;
