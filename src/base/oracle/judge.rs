@@ -12,7 +12,7 @@ use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
 
-/// Judge of first hits by exact arithmetic.
+/// Judges first hits by exact arithmetic.
 #[derive(Debug)]
 pub struct Oracle<'a> {
     tracer: Tracer<'a>,

@@ -14,8 +14,8 @@ const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
 pub struct MatrixEntry {
     /// The column of an entry of a row; the row of an entry of a column.
     pub index: u32,
-    /// The value, encoded by the [`EntryValues`] of the matrix or of the biclusters: equal integers are equal numbers,
-    /// 0 is 0, and integers have the order of the numbers.
+    /// The value, encoded by the [`EntryValues`] of the matrix or of the biclusters: equal integers represent equal
+    /// numbers, 0 represents 0, and integers have the order of the numbers.
     pub value: i32,
 }
 

@@ -57,7 +57,7 @@ impl RayTextures {
         Ok(Self { made, textures, target })
     }
 
-    /// Replaces the rays by others of equal number.
+    /// Replaces the rays by the same number of other rays.
     pub(super) fn load(
         &mut self,
         machine: &mut Machine,

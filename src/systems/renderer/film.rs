@@ -154,7 +154,7 @@ fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, rng: SampleRng) -> 
         None => Ray::new(camera.eye(), narrow(direction)),
         Some(lens) => through_lens(camera, lens, direction, [rng.before(2), rng.before(3)]),
     };
-    // Only a direction beyond f32 has no ray.
+    // There is no ray if its direction overflows f32.
     ray.unwrap_or(centre)
 }
 

@@ -145,7 +145,7 @@ impl HemisphereSamples {
         }))
     }
 
-    /// Errors of other values for the same pairs.
+    /// Errors of approximate values for the same pairs.
     pub(super) fn errors_of(&self, values: &Matrix) -> ProductErrors {
         ProductErrors::over(self.counts(), |at, f, found| {
             f.copy_from_slice(self.values.row(at));

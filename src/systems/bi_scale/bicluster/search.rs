@@ -238,7 +238,7 @@ impl<N: SearchNumbers> Search<N> {
         }
     }
 
-    /// Lines 2 to 21, with the numbers of the search as values; `None` if a residual has no integer.
+    /// Lines 2 to 21 of Algorithm 1, on integers that represent the values; `None` if a residual has no integer.
     fn run(&mut self, matrix: &SparseMatrix, found: &mut dyn FnMut(u64)) -> Option<Biclustering> {
         let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
         while self.left.total() > 0 {

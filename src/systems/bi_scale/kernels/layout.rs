@@ -19,7 +19,7 @@ pub struct LocalLayout {
 const BESIDE: usize = 5;
 
 impl LocalLayout {
-    /// Number of directions per pass: each takes three of the numbers that u, v and the view leave.
+    /// Number of directions per pass: each takes three of the numbers that remain besides u, v and the view.
     pub const fn directions(self) -> usize {
         (4 * self.sets).saturating_sub(BESIDE) / 3
     }

@@ -225,5 +225,5 @@ impl CardSolver {
     }
 }
 
-/// Called after a pass with the card, the system and its number, and the pass.
+/// Called after each pass with the card, the system's index, the system's textures, and the index of the pass.
 type PassObserver<'a> = dyn FnMut(&Machine, usize, &Layer, usize) -> Result<(), CardError> + 'a;

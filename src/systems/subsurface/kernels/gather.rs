@@ -66,7 +66,7 @@ pub struct GatherKernel {
 }
 
 impl GatherKernel {
-    /// All programs, with a texture for each tile.
+    /// All programs for links in separate textures.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for layout in [LinkLayout::Fixed, LinkLayout::Adaptive] {

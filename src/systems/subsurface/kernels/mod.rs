@@ -12,7 +12,7 @@ pub use repeated::LightKernel;
 pub use view::{DirectLight, EyeTransmittance, ViewKernel};
 
 kernels! {
-    /// Every file of this folder; files with lights are for one light.
+    /// All program files of this folder; those that compute lights contain the code for one light.
     FILES:
     LIGHT_VERTICES "light_vertices.vsa"
     LIT "lit.fp"

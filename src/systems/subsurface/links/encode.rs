@@ -40,7 +40,7 @@ impl LinkPlace {
     }
 }
 
-/// Numbers of factors and places that a format cannot represent.
+/// Counts of factors and places that a format cannot represent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LostFactors {
     /// Number of factors of used links, which are above 0.
@@ -114,7 +114,7 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// Numbers of factors and places that a format cannot represent.
+    /// Counts of factors and places that a format cannot represent.
     pub fn lost(&self, format: Format) -> LostFactors {
         let mut lost = LostFactors::default();
         let least_normal = least_normal(format);
