@@ -49,7 +49,7 @@ pub struct Visit<'a> {
     pub cell: CellId,
     /// Its triangles in ascending order.
     pub triangles: &'a [u32],
-    /// `true` if the cell is one of the [`GpuCells`], whose triangles are sent to the card together.
+    /// `true` if the cell is a GPU cell, whose triangles are sent to the card together.
     pub gpu: bool,
     /// Parameters at which the ray enters and leaves it, in multiples of the ray's direction. The entry may lie behind
     /// the origin.
