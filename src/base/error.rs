@@ -60,7 +60,7 @@ enum Cause {
 }
 
 impl InputError {
-    /// An error with a code for programs; the code is empty if the caller sets it by [`Self::coded`]. [`input_error`]
+    /// Creates an error with a machine-readable code: empty if the caller sets it with [`Self::coded`]. [`input_error`]
     /// formats the message.
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
         Self(Box::new(ErrorParts { code, message: message.into(), help: None, place: None, cause: None }))
@@ -87,7 +87,7 @@ impl InputError {
         self
     }
 
-    /// Adds the file, or its line, with which the message begins.
+    /// Adds the file, or a line of it, and puts it at the start of the message.
     #[must_use]
     pub fn at(mut self, place: impl Into<FilePlace>) -> Self {
         self.0.place = Some(place.into());
@@ -101,7 +101,7 @@ impl InputError {
         self
     }
 
-    /// The code for programs; empty if there is none.
+    /// The machine-readable code; empty if there is none.
     pub fn error_code(&self) -> &'static str {
         self.0.code
     }

@@ -3,7 +3,7 @@
 /// Maximum length of a name for which a suggestion is made.
 const LONGEST: usize = 80;
 
-/// Returns the name nearest to `found`, the first of equals, if at most one letter in three is wrong, missing,
+/// Returns the name nearest to `found` (on ties, the first), if at most one letter in three is wrong, missing,
 /// superfluous or swapped with the next. Case is ignored.
 pub fn nearest<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters = found.chars().take(LONGEST + 1).count();

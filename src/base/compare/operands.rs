@@ -1,4 +1,4 @@
-//! Operands of an instruction, reconstructed from the earlier steps.
+//! Operands of an instruction, reconstructed from the earlier steps of its trace.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use super::{
     side::{TraceSide, component},
 };
 
-/// Value on both sides of a register that an instruction read, before swizzle and modifier.
+/// Register that an instruction read, with its value on each side before swizzle and modifier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operand {
     /// The register's four components.

@@ -1,4 +1,4 @@
-//! One side of a comparison of traces.
+//! One of the two sides of a comparison of traces.
 
 use refsim::{
     asm,

@@ -5,7 +5,7 @@ use super::Mesh;
 /// Edge with its triangles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edge {
-    /// Its two vertices, the smaller index first.
+    /// The edge's two vertices, smaller index first.
     pub vertices: [u32; 2],
     /// Triangles that contain the edge, in ascending order: one on a boundary, two inside a surface.
     pub triangles: Vec<u32>,

@@ -8,9 +8,9 @@ use super::{Contact, Mesh};
 /// First hit of a ray as reported by a renderer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
-    /// The triangle, or `None` for no hit.
+    /// The triangle that was hit; `None` for a miss.
     pub triangle: Option<u32>,
-    /// Its t; ignored without a triangle.
+    /// Ray parameter t of the hit; ignored if `triangle` is `None`.
     pub t: f32,
 }
 

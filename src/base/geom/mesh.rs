@@ -134,7 +134,7 @@ impl Mesh {
         &self.positions
     }
 
-    /// Given normals per vertex; `None` without. [`Mesh::vertex_normals`] computes missing normals.
+    /// Normals per vertex as given; `None` if the mesh has none. [`Mesh::vertex_normals`] computes missing normals.
     pub fn normals(&self) -> Option<&[[f32; 3]]> {
         (!self.normals.is_empty()).then_some(&self.normals)
     }
@@ -170,7 +170,7 @@ impl Mesh {
         self.triangles.iter().map(|indices| indices.map(|index| self.positions[index as usize]))
     }
 
-    /// Smallest and largest coordinates of the vertices that triangles use; `None` without triangles.
+    /// Smallest and largest coordinates of the vertices that triangles use; `None` if there are no triangles.
     pub fn bounds(&self) -> Option<[[f32; 3]; 2]> {
         let mut corners = self.iter_corners().flatten();
         let first = corners.next()?;

@@ -1,7 +1,7 @@
 //! The Utah teapot: 32 bicubic Bezier patches, tessellated at any rate into one mesh with shared vertices.
 //!
-//! **Arithmetic.** The control points are whole numbers of 1/100000 and the parameters are i/N, so every point of the
-//! grid is a fraction of two integers. It is computed exactly and rounded to f32 once. Two patches therefore give
+//! **Arithmetic.** The control points are multiples of 1/100000 and the parameters are i/N, so every point of the grid
+//! is a fraction of two integers. It is computed exactly and rounded to f32 once. Two patches therefore give
 //! bit-identical points on their common border, and welding by bit identity closes the seams without an epsilon.
 //!
 //! **Watertightness.** For N >= 2 every edge belongs to exactly two triangles that traverse it in opposite directions,

@@ -1,8 +1,8 @@
 //! The Utah teapot as published: 306 control points and 32 bicubic patches of 16 points.
 //!
 //! Martin Newell's data of 1975 (University of Utah) as distributed since the 1980s, with the four bottom patches added
-//! later. `fixtures/README.md` describes how these numbers were checked. The coordinates are decimals of at most five
-//! places; stored here as multiples of 1/100000, so that the surface can be evaluated exactly.
+//! later. `fixtures/README.md` describes how these numbers were checked. The coordinates have at most five decimal
+//! places; they are stored here as multiples of 1/100000, so that the surface can be evaluated exactly.
 
 /// Units of [`POINTS`] in one unit of length.
 pub(super) const UNITS: i128 = 100_000;

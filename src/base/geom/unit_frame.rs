@@ -11,7 +11,7 @@ pub struct UnitFrame {
 }
 
 impl UnitFrame {
-    /// Creates the frame of a body's points; without points, the frame is the scene's.
+    /// Creates the frame of a body's points; if there are no points, its coordinates equal the scene's.
     pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
         let bounds = points.into_iter().fold(None, |bounds: Option<[DVec3; 2]>, p| {
             Some(bounds.map_or([p, p], |[low, high]| [low.min(p), high.max(p)]))

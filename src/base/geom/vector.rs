@@ -24,7 +24,7 @@ pub fn area_vector([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
-/// Returns the coordinate axis along which a direction has its smallest component, the first of equals. The axis is far
+/// Returns the coordinate axis along which a direction has its smallest component (on ties, the first). The axis is far
 /// from parallel to the direction.
 pub fn least_axis(direction: DVec3) -> DVec3 {
     let size = direction.abs();

@@ -10,12 +10,12 @@ use crate::compare::shortest;
 use crate::error::InputError;
 use crate::geom::{ExactT, Hit, Ray};
 
-/// Kind of a wrong hit; the worst first.
+/// Kinds of wrong hits, worst first.
 ///
 /// Rounding in a correct intersector can cause the last three kinds. [`DisagreementKind::Silhouette`] and
 /// [`DisagreementKind::Start`] are correct for a ray within a few ULPs of the given ray
-/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), which is [`Disagreement::right_for`]. A leak is
-/// correct for no nearby ray: at an edge whose two triangles face the same way, seen along the ray, every nearby ray
+/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), stored in [`Disagreement::right_for`]. No nearby
+/// ray makes a leak correct: at an edge whose two triangles face the same way, seen along the ray, every nearby ray
 /// hits one of the two.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -37,12 +37,12 @@ pub enum DisagreementKind {
     WrongNeighbour,
     /// The correct triangle, at a t beyond the tolerance.
     TOff,
-    /// A surface missed, or hit, beside its silhouette: the result is correct for a ray whose direction differs by a
-    /// few ULPs. If a surface was missed in front of another, it suffices that such a ray hits nothing in the first
-    /// half of the distance to the other, because distant triangles are smaller than an ULP. If a triangle was hit, it
-    /// suffices that such a ray passes near the vertex or edge that the triangle shares with the first one, or near a
-    /// corner of the triangle at the same t: at a vertex of the silhouette, triangles that face away tie with triangles
-    /// in front of them.
+    /// A surface missed, or hit, near its silhouette: the result is correct for a ray whose direction differs by a few
+    /// ULPs. If a surface was missed in front of another, it suffices that such a ray hits nothing in the first half of
+    /// the distance to the other, because distant triangles are smaller than an ULP. If a triangle was hit, it suffices
+    /// that such a ray passes near the vertex or edge that the triangle shares with the first one, or near a corner of
+    /// the triangle at the same t: at a vertex of the silhouette, triangles that face away tie with triangles in front
+    /// of them.
     Silhouette,
     /// A surface missed, or hit, where the ray starts: the result is correct for an origin moved a few ULPs along the
     /// ray.
@@ -52,7 +52,7 @@ pub enum DisagreementKind {
 }
 
 impl DisagreementKind {
-    /// All kinds, the worst first.
+    /// All kinds, worst first.
     pub const ALL: [Self; 11] = [
         Self::NoSuchTriangle,
         Self::Leak,
@@ -148,7 +148,7 @@ pub struct Disagreement {
     /// for if the triangle does not exist or is the correct one.
     #[serde(serialize_with = "ray_if_any")]
     pub right_for: Option<Ray>,
-    /// If `right_for` is `None`: this ray, or a ray within a few ULPs, that passes within as many ULPs of the vertex or
+    /// If `right_for` is `None`: this ray, or a ray within a few ULPs, that passes within a few ULPs of the vertex or
     /// edge that the found triangle shares with the first triangle of that ray, or of a corner of the found triangle at
     /// the same t.
     #[serde(serialize_with = "ray_if_any")]
@@ -233,8 +233,8 @@ impl Disagreement {
         }
     }
 
-    /// Sort key, the worst first: by kind, then the larger error of t (unknown counts as largest), then the index of
-    /// the ray.
+    /// Sort key, worst first: by kind, then the larger error of t (unknown counts as largest), then the index of the
+    /// ray.
     pub(super) fn rank(&self) -> impl Ord + use<> {
         (self.kind, Reverse(self.t_ulps.unwrap_or(u64::MAX)), self.ray)
     }

@@ -1,4 +1,4 @@
-//! Generation of rays on which intersectors differ.
+//! Generation of hard rays, on which intersectors tend to disagree.
 
 use std::fmt;
 
@@ -102,9 +102,8 @@ impl<R: JudgedRay> JudgedRay for &R {
 }
 
 /// Generates at most `each` rays of each of the six [`Aim`]s for a mesh of any size, spread over it: at most 6 times
-/// `each` in all, fewer where the mesh does not have as many edges, vertices or triangles to aim at. The same seed
-/// gives the same rays; an empty mesh gives none. A thousand rays of each aim at 1,000 triangles take 0.13 s in a debug
-/// build.
+/// `each` in all, fewer if the mesh has too few edges, vertices or triangles to aim at. The same seed gives the same
+/// rays; an empty mesh gives none. A thousand rays of each aim at 1,000 triangles take 0.13 s in a debug build.
 ///
 /// ```
 /// # extern crate crossbar_base as crossbar;

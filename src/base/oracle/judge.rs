@@ -12,7 +12,7 @@ use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
 
-/// Judge of first hits by exact arithmetic.
+/// Judges first hits by exact arithmetic.
 #[derive(Debug)]
 pub struct Oracle<'a> {
     tracer: Tracer<'a>,
@@ -68,7 +68,7 @@ impl<'a> Oracle<'a> {
 
     /// Sets the maximum distance of nearby rays in ULPs; the default is 8. A missed surface is a
     /// [`DisagreementKind::Silhouette`] if the miss is correct for a nearby ray, otherwise a leak. With 0 there are no
-    /// nearby rays: every missed surface is a leak, also beside a silhouette.
+    /// nearby rays: every missed surface is a leak, even at a silhouette.
     #[must_use]
     pub fn with_nearby_ulps(mut self, ulps: u32) -> Self {
         self.nearby_ulps = ulps;
@@ -78,7 +78,7 @@ impl<'a> Oracle<'a> {
     /// Judges one hit per ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
     ///
     /// # Errors
-    /// [`InputError`] unless there are as many hits as rays.
+    /// [`InputError`] unless the numbers of hits and rays are equal.
     pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, InputError> {
         ensure!(
             rays.len() == hits.len(),
@@ -262,10 +262,10 @@ impl<'a> Oracle<'a> {
         })
     }
 
-    /// Searches for a ray, this one or one nearby, that passes the common edge or vertex of the triangle found and the
-    /// first that it hits, or a corner of it as far away; returns the kind of error then. Where a surface ends in a
-    /// vertex, a triangle that faces away ties with those in front of it at this one point, and no ray of f32 may hit
-    /// it first; from far away whole surfaces are such a point.
+    /// Searches for this ray, or a nearby one, that passes an edge or vertex shared by the found triangle and the ray's
+    /// first triangle, or a corner of the found triangle at the same t; returns the kind of error if there is one.
+    /// Where a surface ends in a vertex, a triangle that faces away ties with the triangles in front of it at this one
+    /// point, and perhaps no f32 ray hits it first; seen from far away, a whole surface is such a point.
     fn touched_nearby(
         &self,
         ray: &Ray,
@@ -294,7 +294,7 @@ impl<'a> Oracle<'a> {
         pairs.into_iter().any(|pair| passes_contact(self.mesh(), ray, pair, self.nearby_ulps))
     }
 
-    /// Searches for a nearby ray for which a hit is correct; returns the kind of error then.
+    /// Searches for a nearby ray for which the hit is correct; returns the kind of error if there is one.
     fn right_nearby(
         &self,
         ray: &Ray,
@@ -304,7 +304,7 @@ impl<'a> Oracle<'a> {
     ) -> (DisagreementKind, Option<Ray>) {
         use DisagreementKind::{FalseHit, Leak, LeakThrough, Silhouette, Start, WrongTriangle};
         let excused = matches!(kind, Leak | LeakThrough | FalseHit | WrongTriangle);
-        // Half-way between the missed surface and the one seen behind it.
+        // Half-way between the missed surface and the surface hit behind it.
         let behind = nearest.zip(met_at).filter(|_| kind == LeakThrough);
         let middle = behind.map(|(nearest, met)| (nearest.t.to_f64() + met.to_f64()) / 2.0);
         let mut passed = false;

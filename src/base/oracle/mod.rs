@@ -3,7 +3,7 @@
 //!
 //! An [`Oracle`] decides first hits on the f32 values as given ([`crate::geom::exact`]) and classifies each result that
 //! differs as a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the correct triangle, a t too far
-//! off. If several triangles are hit at exactly the same t, as on a shared edge, each is a correct answer. Beside a
+//! off. If several triangles are hit at exactly the same t, as on a shared edge, each is a correct answer. At a
 //! silhouette, where the two triangles of an edge face opposite ways, a miss is correct for a ray a few ULPs away
 //! ([`DisagreementKind::Silhouette`]), and [`Oracle::assert_watertight`] accepts it. Where the two triangles face the
 //! same way, a miss is a hole for all nearby rays. [`hard_rays`] generates rays on which intersectors differ. The

@@ -1,11 +1,11 @@
 //! Rays within a few ULPs of a given one, and the vertices and edges that such rays pass.
 //!
 //! Intersectors round. The test of Woop, Benthin and Wald, for example, is exact for a scene whose vertices, relative
-//! to the ray's origin, are each displaced by at most five roundings of f32. So its result beside a silhouette is
-//! correct for a ray close to the given one, and not an error. A **nearby** ray has the same origin, and the two
-//! smaller components of its direction differ by some ULPs of the largest component. For a hit near the ray's start, a
-//! nearby ray has the same direction, and its origin is moved along it by some ULPs of the largest coordinate. Nearby
-//! rays are tested one by one in exact arithmetic, so the ray that is found proves the verdict.
+//! to the ray's origin, are each displaced by at most five roundings of f32. So its result near a silhouette is correct
+//! for a ray close to the given one, and not an error. A **nearby** ray has the same origin, and the two smaller
+//! components of its direction differ by some ULPs of the largest component. For a hit near the ray's start, a nearby
+//! ray has the same direction, and its origin is moved along it by some ULPs of the largest coordinate. Nearby rays are
+//! tested one by one in exact arithmetic, so the ray that is found proves the verdict.
 
 use glam::{DVec2, DVec3};
 
@@ -79,7 +79,7 @@ pub(super) fn turned(ray: &Ray, ulps: u32) -> impl Iterator<Item = Ray> {
 }
 
 /// Iterates over nearby rays of the same direction, nearest origin first; none if a hit at `t` is out of their reach.
-/// Origins are ULPs of the largest coordinate of origin and points apart.
+/// The step between origins is one ULP of the largest coordinate of the ray's origin and `points`.
 pub(super) fn moved(
     ray: &Ray,
     points: impl IntoIterator<Item = [f32; 3]>,
@@ -111,8 +111,7 @@ pub(super) fn passes_contact(mesh: &Mesh, ray: &Ray, [a, b]: [u32; 2], ulps: u32
     mesh.contact(a, b) != Contact::None && shared.iter().any(|&from| shared.iter().any(|&to| near(from, to)))
 }
 
-/// Returns `true` if a ray passes within `ulps` ULPs of a corner of a triangle whose own t equals `t` within as many
-/// ULPs.
+/// Returns `true` if a ray passes within `ulps` ULPs of a triangle's corner whose t is within `ulps` ULPs of `t`.
 pub(super) fn passes_corner_at(mesh: &Mesh, ray: &Ray, triangle: u32, t: f64, ulps: u32) -> bool {
     let plane = ImagePlane::of(ray);
     let (reach, step) = (f64::from(ulps) * std::f64::consts::SQRT_2, f64::from(ulps) * ulp(t.abs() as f32));

@@ -12,7 +12,7 @@ use crate::geom::Sides;
 const LISTED: usize = 10;
 const LISTED_IN_JSON: usize = 1000;
 
-/// Result of an oracle. At most ten disagreements are listed as text, and 1000 as JSON, the worst first;
+/// Result of an oracle. At most ten disagreements are listed as text, and 1000 as JSON, worst first;
 /// [`Report::disagreements`] has them all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -60,7 +60,7 @@ impl Report {
         self.disagreements.is_empty()
     }
 
-    /// Wrong results, the worst first: by [`DisagreementKind`], then by the error of t, then by index.
+    /// Wrong results, worst first: by [`DisagreementKind`], then by the error of t, then by index.
     #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
@@ -78,7 +78,7 @@ impl Report {
         self.disagreements.iter().filter(|wrong| wrong.kind.is_leak()).count()
     }
 
-    /// Kinds that occur and their numbers, the worst first.
+    /// Kinds that occur, with their counts, worst first.
     pub fn counts(&self) -> impl Iterator<Item = (DisagreementKind, usize)> + '_ {
         DisagreementKind::ALL.into_iter().map(|kind| (kind, self.count(kind))).filter(|&(_, count)| count > 0)
     }

@@ -11,7 +11,7 @@ use super::texel::{Cluster, Texel};
 /// Factor that enlarges a radius, so that rounding leaves no point outside.
 const ROUNDING: f64 = 1.0 + 1e-14;
 
-/// Computes the clusters of each level, the finest first.
+/// Computes the clusters of each level, finest first.
 pub(super) fn levels(surface: &AtlasSurface, places: &[FacePlace], texels: &[Texel], side: u32) -> Vec<Vec<Cluster>> {
     let mut levels: Vec<Vec<Cluster>> =
         vec![texels.iter().map(|texel| Cluster { area: texel.area, point: texel.point, radius: 0.0 }).collect()];

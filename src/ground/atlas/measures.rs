@@ -1,4 +1,4 @@
-//! Measures of faces that the splits of clusters optimise.
+//! Per-face data from which the splits of clusters are optimised.
 
 use std::ops::RangeInclusive;
 
@@ -12,7 +12,7 @@ pub(super) type SplitLimits = RangeInclusive<usize>;
 #[derive(Debug)]
 pub(super) struct FaceMeasures {
     centers: Vec<DVec3>,
-    /// Normals, with twice the areas as lengths.
+    /// Normal of each face, with twice the face's area as length.
     normals: Vec<DVec3>,
     demands: Vec<f64>,
 }

@@ -120,7 +120,7 @@ impl Atlas {
         self.surface.areas().iter().sum()
     }
 
-    /// Area of the surface over the number of texels.
+    /// Area of the surface divided by the number of texels.
     pub fn mean_texel_area(&self) -> f64 {
         self.area() / self.texels.len() as f64
     }

@@ -19,7 +19,7 @@ pub struct FacePlace {
     pub y: u32,
     /// Texels per row: a power of two.
     pub width: u32,
-    /// Rows: as many as `width`, or twice as many.
+    /// Number of rows: `width` or twice `width`.
     pub height: u32,
     /// Index, 0 to 2, of the face's corner at (x, y): corner a. Corners b and c follow it in the face's order.
     pub first: u8,

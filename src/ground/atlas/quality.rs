@@ -27,7 +27,7 @@ pub struct AtlasQuality {
     pub simply_connected: usize,
     /// Number of connected nodes with a disconnected child.
     pub torn: usize,
-    /// Every level, the finest first.
+    /// Quality of each level, finest first.
     pub levels: Vec<LevelQuality>,
 }
 

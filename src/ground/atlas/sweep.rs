@@ -134,7 +134,7 @@ fn part_places(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, part: &[
     place
 }
 
-/// Axes by the extent of the cluster along them, the longest first.
+/// Axes, in descending order of the cluster's extent along them.
 fn axes(graph: &FaceGraph, measures: &FaceMeasures) -> [usize; 3] {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for &face in graph.faces() {

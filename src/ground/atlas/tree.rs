@@ -20,7 +20,7 @@ pub struct ClusterNode {
     pub y: u32,
     /// Texels per row.
     pub width: u32,
-    /// Rows: as many as `width`, or twice as many.
+    /// Number of rows: `width` or twice `width`.
     pub height: u32,
 }
 

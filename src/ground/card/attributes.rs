@@ -31,7 +31,7 @@ pub fn by_register(
     (0..registers).map(|register| by_vertex.iter().map(|vertex| vertex[register]).collect()).collect()
 }
 
-/// Refuses attributes that overflow single precision. Fails with [`CardError::Input`]; `what` is the expectation in its
+/// Fails with [`CardError::Input`] if an attribute overflows single precision; `what` names the expected value in the
 /// message.
 pub fn check_finite(what: &str, attributes: &[Attribute]) -> Result<(), CardError> {
     let mut numbers = attributes.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));

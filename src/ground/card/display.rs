@@ -1,5 +1,5 @@
-//! A mesh drawn from a camera, for all systems that display one. Only front faces are drawn, as rays of the host hit
-//! only front faces.
+//! A mesh drawn from a camera, for all systems that display one. Only front faces are drawn, because the host's rays
+//! hit only front faces.
 
 use refsim::device::Profile;
 use refsim::event::Event;

@@ -16,10 +16,10 @@ pub enum CardError {
     /// value.
     #[error("{0}")]
     Input(String),
-    /// The device does not run a language, or refuses a program.
+    /// The device does not support a shader version, or rejects a program.
     #[error(transparent)]
     Program(#[from] KernelError),
-    /// The card refused a resource or a draw, or could not be opened.
+    /// The card rejected a resource or a draw, or could not be opened.
     #[error(transparent)]
     Draw(#[from] MachineError),
 }
@@ -30,7 +30,7 @@ impl CardError {
         Self::Input(sentence.to_string())
     }
 
-    /// The error of a number out of its range.
+    /// The error for a number out of its range.
     pub fn figure(what: &str, found: impl Display) -> Self {
         Self::Input(format!("expected {what}, found {found}"))
     }

@@ -1,5 +1,5 @@
-//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; also for frames whose log
-//! follows from sizes and counts alone.
+//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; also for frames that are not
+//! drawn, whose log is computed from sizes and counts alone.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ pub struct FrameTime {
     pub triangles: u64,
     /// Number of draws.
     pub calls: usize,
-    /// The bottleneck whose draws take the most time together; `None` without draws.
+    /// The bottleneck whose draws take the most time together; `None` if there are no draws.
     pub bottleneck: Option<Bottleneck>,
 }
 
@@ -110,7 +110,7 @@ pub fn host_work(operation: HostOperation, operations: u64) -> Event {
     Event::Host(HostWork { kind: operation, operations })
 }
 
-/// The log of a frame from numbers of triangles alone; pixels take no time.
+/// The log of a frame that is not drawn, from triangle counts alone; pixels take no time.
 #[derive(Clone, Debug)]
 pub struct UnseenFrame {
     run_per_triangle: f64,
@@ -120,8 +120,8 @@ pub struct UnseenFrame {
 }
 
 impl UnseenFrame {
-    /// A frame that begins with work of the host. Vertices run per triangle follow from the order of a mesh and the
-    /// card's vertex cache.
+    /// A frame that begins with the host work in `log`. `run_per_triangle` is the mean number of vertex program runs
+    /// per triangle; it depends on the order of the mesh and the card's vertex cache.
     pub fn new(log: Vec<Event>, run_per_triangle: f64) -> Self {
         let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");
         Self { run_per_triangle, pixel: Arc::new(ProgramWork::new(&program, FlowConstants::default())), log }

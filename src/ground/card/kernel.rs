@@ -103,7 +103,7 @@ impl KernelText {
     }
 }
 
-/// Refuses a device that does not support all `versions`; `what` names the programs that need them. Fails with
+/// Rejects a device that does not support all `versions`; `what` names the programs that need them. Fails with
 /// [`KernelError`], which lists the cards that support them.
 pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> Result<(), KernelError> {
     let runs = |profile: &Profile| versions.iter().all(|version| profile.limits.versions.contains(version));

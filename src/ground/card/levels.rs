@@ -24,14 +24,14 @@ impl Levels {
         Ok(Self { base, targets })
     }
 
-    /// The levels, the finest first; `base` itself is not among them.
+    /// The levels, finest first; `base` itself is not among them.
     pub fn targets(&self) -> &[TextureId] {
         &self.targets
     }
 
     /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the
     /// fragment's center in texels of that level: the common corner of the four texels that the fragment covers. Fails
-    /// with [`MachineError`] if the card refuses a draw.
+    /// with [`MachineError`] if the card rejects a draw.
     pub fn fill(
         &self,
         machine: &mut Machine,

@@ -1,15 +1,15 @@
-//! The host's side of an emulated card that computes, for all systems.
+//! General-purpose computing on an emulated card, as seen from the host: the common base of all systems.
 //!
 //! - [`KernelText`]: a program with the name of its file, assembled and checked against a device;
 //! - [`Texels`]: rectangles of floats, to textures and back; [`new_target`]: an empty one to draw into;
 //! - [`FullScreenPass`]: one quad over a target; [`PingPong`]: two targets that passes write in turn;
 //! - [`Levels`]: a pyramid of targets, each filled from the one before;
 //! - [`NearestTarget`]: a color target that keeps the nearest fragment;
-//! - [`Attribute`], [`by_register`], [`vertex_streams`]: what vertices hold;
-//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: what pixels show by a device's raster, in place
-//!   of eye rays [`RasterizedEyes`];
-//! - [`frame_time`](mod@frame_time): how long a frame takes beside the host's work;
-//! - [`CardError`]: why a card does not do it.
+//! - [`Attribute`], [`by_register`], [`vertex_streams`]: data per vertex;
+//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: the triangle at each pixel of a device's
+//!   raster, which [`RasterizedEyes`] uses in place of eye rays;
+//! - [`frame_time`](mod@frame_time): modelled time of a frame, host work included;
+//! - [`CardError`]: the reason why a card cannot compute or draw.
 //!
 //! Textures are rectangles, which is how the cards of 2003 had float textures: coordinates count texels, and the
 //! center of texel i is at i + 0.5.

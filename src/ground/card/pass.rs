@@ -50,7 +50,7 @@ pub struct FullScreenPass<'a> {
 
 impl FullScreenPass<'_> {
     /// Draws the quad with the texture coordinates of [`full_screen_quad`]. Fails with [`MachineError`] if the card
-    /// refuses the draw.
+    /// rejects the draw.
     pub fn draw<const SETS: usize>(
         &self,
         machine: &mut Machine,

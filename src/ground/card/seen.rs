@@ -1,4 +1,4 @@
-//! The triangle at each pixel by a device's rasterization, for comparisons in which only arithmetic differs.
+//! The triangle that a device rasterizes at each pixel, for comparisons in which only the arithmetic differs.
 
 use glam::DVec3;
 use refsim::device::Profile;
@@ -67,14 +67,14 @@ pub fn seen_pixels(
     Ok(texels.texels.iter().map(seen).collect())
 }
 
-/// A caster whose eye rays are drawn, as the Ray Engine is meant to augment a renderer that rasterizes (section 1): a
-/// ray through the center of a camera's pixel finds the front face that a device's raster shows there. The caster
-/// behind it traces all other rays.
+/// A caster that finds the hits of eye rays by rasterization, because the Ray Engine is meant to augment a rasterizing
+/// renderer (section 1): a ray through the center of a camera's pixel hits the front face that a device's raster shows
+/// there. Another caster traces all other rays.
 pub struct RasterizedEyes<'a> {
     camera: Camera,
     seen: Vec<Option<Hit>>,
     behind: &'a mut dyn Caster,
-    /// Number of rays that were found in the raster.
+    /// Number of rays whose hit was read from the raster.
     pub drawn: u64,
 }
 
@@ -87,14 +87,14 @@ impl<'a> RasterizedEyes<'a> {
         let hit = |seen: SeenPixel| {
             let corners = seen.corners.map(|corner| wide(mesh.positions()[corner as usize]));
             let point = corners.iter().zip(seen.weights).map(|(corner, weight)| weight * corner).sum::<DVec3>();
-            // The component of a camera's rays along the view is 1.
+            // Camera rays have a component of 1 along the view direction, so t is the depth.
             Hit { triangle: seen.triangle, t: (point - wide(camera.eye())).dot(camera.forward()) as f32 }
         };
         let seen = seen_pixels(profile, (mesh.positions(), mesh.triangles()), &camera)?;
         Ok(Self { camera, seen: seen.into_iter().map(|seen| seen.map(hit)).collect(), behind, drawn: 0 })
     }
 
-    /// Pixel whose ray this is.
+    /// Pixel through whose center the ray passes.
     fn pixel(&self, ray: &Ray) -> Option<usize> {
         let (camera, direction) = (&self.camera, wide(ray.direction()));
         let across = |axis: DVec3| direction.dot(axis) / axis.dot(axis);

@@ -119,7 +119,7 @@ pub fn new_texture(
     machine.create_texture(Image::from_values(format, kind, extents, Format::FP32, &bits, TargetRounding::Nearest)?)
 }
 
-/// Extents for an image; sizes beyond 32 bits become u32::MAX, which the image refuses.
+/// Extents for an image; sizes beyond 32 bits become u32::MAX, which the image rejects.
 fn extents([width, height]: [usize; 2]) -> [u32; 3] {
     let extent = |size| u32::try_from(size).unwrap_or(u32::MAX);
     [extent(width), extent(height), 1]

@@ -57,7 +57,7 @@ pub(super) fn part_error(name: &Path, part: impl Display, expected: impl Display
     .at(name)
 }
 
-/// Error: parameters of a material contradict each other. In an MTL file the place is the material's `newmtl` line.
+/// Error: parameters of a material contradict each other. In an MTL file, `place` is the material's `newmtl` line.
 pub(super) fn material_error(
     place: impl Into<FilePlace>,
     name: impl Display,

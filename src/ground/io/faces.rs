@@ -8,7 +8,7 @@ use crate::geom::polygon::{PolygonFault, triangulate};
 #[derive(Debug)]
 pub(super) struct Faces<C> {
     corners: Vec<C>,
-    /// For each face the index of its first corner, and its place in the file.
+    /// For each face the index of its first corner, and its line or index in the file.
     faces: Vec<(usize, usize)>,
 }
 
@@ -38,13 +38,13 @@ impl<C: Copy> Faces<C> {
         self.faces.last().map_or(&[], |&(start, _)| &self.corners[start..])
     }
 
-    /// The place and the corners of each face.
+    /// The line or index in the file, and the corners, of each face.
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, &[C])> {
         let ends = self.faces.iter().skip(1).map(|&(start, _)| start).chain([self.corners.len()]);
         self.faces.iter().zip(ends).map(|(&(start, place), end)| (place, &self.corners[start..end]))
     }
 
-    /// The triangles of all faces, n - 2 for a face of n corners. Faces with a fault are refused if `strict`, otherwise
+    /// The triangles of all faces, n - 2 for a face of n corners. Faces with a fault are rejected if `strict`, otherwise
     /// counted in the notes. `named` returns the name of a face for messages.
     pub(super) fn triangles(
         &self,

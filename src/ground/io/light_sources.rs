@@ -22,13 +22,13 @@ pub struct LightSourceRow {
     pub radiance: [f64; 3],
 }
 
-/// Reads sources from a file. Fails with [`InputError`], with the path, and the line where there is one.
+/// Reads sources from a file. Fails with an [`InputError`] that names the path and, where known, the line.
 pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, InputError> {
     parse_light_sources(&read_file(path, "table of light sources", MAX_BYTES)?, path)
 }
 
-/// Reads sources from bytes; `name` is the file's name in messages. Fails with [`InputError`], with the line where
-/// there is one.
+/// Reads sources from bytes; `name` is the file's name in messages. Fails with an [`InputError`] that names the line
+/// where known.
 pub fn parse_light_sources(bytes: &[u8], name: &Path) -> Result<Vec<LightSourceRow>, InputError> {
     let mut found = Vec::new();
     for_each_row(bytes, name, &HEADER, "source", &mut |_, record| {

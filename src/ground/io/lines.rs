@@ -16,7 +16,7 @@ pub(super) fn decoded(text: &[u8]) -> String {
     std::str::from_utf8(text).map_or_else(|_| text.iter().copied().map(char::from).collect(), str::to_owned)
 }
 
-/// Refuses text in UTF-16, which some editors write.
+/// Rejects text in UTF-16, which some editors write.
 pub(super) fn not_utf_16(bytes: &[u8], name: &Path) -> Result<(), InputError> {
     let zeros = |at: usize| bytes.get(at..at + 2).map(|pair| [pair[0] == 0, pair[1] == 0]);
     let unmarked = matches!(zeros(0), Some([low, high]) if low != high) && zeros(0) == zeros(2);
@@ -26,7 +26,7 @@ pub(super) fn not_utf_16(bytes: &[u8], name: &Path) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Lines with their numbers, whether they end in LF, CR LF, or CR alone.
+/// Lines with their numbers; LF, CR LF and a lone CR all end a line.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
     fn by_cr(line: &[u8]) -> impl Iterator<Item = &[u8]> {
         line.strip_suffix(b"\r").unwrap_or(line).split(|&byte| byte == b'\r')

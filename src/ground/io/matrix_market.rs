@@ -2,7 +2,7 @@
 //! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
 //!
 //! The reader also accepts the fields `integer` and `pattern` (all entries are 1), and the symmetries `symmetric` and
-//! `skew-symmetric`. Real numbers are rounded to the nearest f64. It refuses dense arrays, complex and Hermitian
+//! `skew-symmetric`. Real numbers are rounded to the nearest f64. It rejects dense arrays, complex and Hermitian
 //! matrices, integers that f64 cannot represent exactly, and real numbers that round to 0 or infinity.
 
 use std::io::{self, Write};

@@ -54,21 +54,21 @@ pub enum UpAxis {
 pub struct ModelOptions {
     /// The axis of the file that points up; `None`: y for glTF and z for all others. In the result z points up.
     pub up: Option<UpAxis>,
-    /// If true, unusable materials and faces are refused and triangles stay unchanged; otherwise defects are repaired
+    /// If true, unusable materials and faces are rejected and triangles stay unchanged; otherwise defects are repaired
     /// and noted.
     pub strict: bool,
 }
 
-/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs. Fails with [`InputError`], with the path, and the
-/// line, element or part where there is one.
+/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs. Fails with an [`InputError`] that names the path
+/// and, where known, the line, element or part.
 pub fn load_mesh(path: &Path) -> Result<Mesh, InputError> {
     let bytes = load_model(path)?;
     mesh_of(&bytes, ModelFormat::of(&bytes, path), path, true).map(|(mesh, _)| mesh)
 }
 
 /// Reads a scene without repairs: from an OBJ file and its material libraries, from a glTF file and its buffers, or
-/// from a PLY or STL file, which gets one grey material. It has no views and no point lights. Fails with
-/// [`InputError`], with the path, and the line, element or part where there is one.
+/// from a PLY or STL file, which gets one grey material. It has no views and no point lights. Fails with an
+/// [`InputError`] that names the path and, where known, the line, element or part.
 pub fn load_scene(path: &Path) -> Result<Scene, InputError> {
     load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }

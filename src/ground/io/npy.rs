@@ -57,7 +57,7 @@ pub(super) struct NpyView<'a> {
     /// Bytes of a number.
     pub(super) size: usize,
     pub(super) shape: Vec<usize>,
-    /// The numbers' bytes, as many as shape and type require.
+    /// The numbers' bytes; their count matches shape and type.
     pub(super) data: &'a [u8],
 }
 

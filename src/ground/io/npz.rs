@@ -20,7 +20,7 @@ use crate::error::{InputError, input_error};
 /// The first bytes of such a file.
 pub const MAGIC: &[u8] = b"PK\x03\x04";
 
-/// The arrays of a file; each is taken out once.
+/// The arrays of a file; each can be taken out once.
 #[derive(Debug)]
 pub struct NpzReader<'a> {
     name: &'a Path,

@@ -1,6 +1,6 @@
 //! Tables of numbers, row by row: comma-separated values, and NumPy's arrays ([`super::npy`]).
 //!
-//! In comma-separated values each line is a row, all rows have equally many numbers, and a first line without any
+//! In comma-separated values each line is a row, all rows have the same number of columns, and a first line without any
 //! number is a header. Numbers are read as f64 for computation, or as f32 ([`TableNumber`]) for signals, which `.npz`
 //! files store as f32.
 
@@ -13,7 +13,7 @@ use crate::error::{FilePlace, InputError, input_error};
 /// Longest file that is read, in bytes (2 GiB).
 pub const MAX_BYTES: u64 = 1 << 31;
 
-/// Rows of equally many numbers, row by row. They may be infinite or NaN if the file format allows it.
+/// Rows with the same number of columns, stored row by row. They may be infinite or NaN if the file format allows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberTable<T = f32> {
     /// Numbers per row.
@@ -60,8 +60,8 @@ impl TableNumber for f64 {
     }
 }
 
-/// Reads a comma-separated table from bytes; `name` is the file's name in messages. Fails with [`InputError`], with the
-/// line where there is one.
+/// Reads a comma-separated table from bytes; `name` is the file's name in messages. Fails with an [`InputError`] that
+/// names the line where known.
 pub fn parse_number_table<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);

@@ -31,14 +31,14 @@ pub(super) fn load_model(path: &Path) -> Result<Vec<u8>, InputError> {
     read_file(path, "model", MAX_BYTES)
 }
 
-/// Refuses input that [`load_model`] would refuse by its length.
+/// Rejects input that is longer than [`load_model`] accepts.
 pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), InputError> {
     let fits = bytes.len() as u64 <= MAX_BYTES;
     if fits { Ok(()) } else { Err(too_long_error("model", name, MAX_BYTES)) }
 }
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics. Fails with [`InputError`], with the
-/// line where there is one.
+/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics. Fails with an [`InputError`] that
+/// names the line where known.
 pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_obj(bytes, name, true).map(|(mesh, _)| mesh)
 }

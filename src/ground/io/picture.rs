@@ -22,8 +22,8 @@ pub struct PictureFile {
 }
 
 impl PictureFile {
-    /// Reads a file; its first bytes, not its name, determine the format. Fails with [`InputError`], with the path,
-    /// also for files that [`PictureSize::of`] refuses.
+    /// Reads a file; its first bytes, not its name, determine the format. Fails with an [`InputError`] that names the
+    /// path, also if [`PictureSize::of`] rejects the file.
     pub fn open(path: &Path) -> Result<Self, InputError> {
         let bytes = read_file(path, "picture", MAX_BYTES)?;
         match PictureSize::of(&bytes) {

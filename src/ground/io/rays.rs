@@ -1,7 +1,7 @@
 //! Rays and hits as comma-separated tables.
 //!
 //! Rays: the header `ox,oy,oz,dx,dy,dz`, then one ray per line. Numbers are rounded to the nearest f32; directions are
-//! not renormalised. Numbers that are not finite or overflow f32, and zero directions, are refused.
+//! not renormalised. Numbers that are not finite or overflow f32, and zero directions, are rejected.
 //!
 //! Hits: the header `ray,triangle,t`, then a line per ray in the order of the rays. `triangle` counts from 0 in the
 //! order of the mesh file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the
@@ -30,7 +30,7 @@ fn header_error(name: &Path, found: &str) -> InputError {
     input_error!("expected the header `ox,oy,oz,dx,dy,dz`, found {found}").at(FilePlace::line(name, 1))
 }
 
-/// Reads rays from a file. Fails with [`InputError`], with the path, and the line where there is one.
+/// Reads rays from a file. Fails with an [`InputError`] that names the path and, where known, the line.
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, InputError> {
     let mut limited = open_limited(path, MAX_BYTES).map_err(|source| unreadable(path, source))?;
     let rays = read_rays(&mut limited, path);
@@ -42,8 +42,8 @@ fn unreadable(path: &Path, source: io::Error) -> InputError {
     unreadable_error("rays", path, source)
 }
 
-/// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid. Fails with
-/// [`InputError`], with the line where there is one.
+/// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid. Fails with an
+/// [`InputError`] that names the line where known.
 pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, InputError> {
     read_rays(bytes, name)
 }

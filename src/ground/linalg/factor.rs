@@ -1,4 +1,4 @@
-//! Eigenvalues and eigenvectors, with a fixed choice of the arbitrary signs.
+//! Eigenvalues and eigenvectors; the arbitrary signs of the vectors follow a fixed rule.
 
 use nalgebra::DMatrix;
 
@@ -26,7 +26,7 @@ pub(super) fn residual_error(size: usize) -> InputError {
 /// Eigenvalues and eigenvectors of a symmetric matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymmetricEigen {
-    /// Eigenvalues, the largest first.
+    /// Eigenvalues, largest first.
     pub values: Vec<f64>,
     /// Row i is the unit eigenvector of eigenvalue i; its component of largest magnitude is positive.
     pub vectors: Matrix,

@@ -17,7 +17,7 @@ pub(super) const MAX_RESIDUAL: f64 = 1e-10;
 /// All eigenvalues of a symmetric matrix, and the eigenvectors of the largest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeadingEigen {
-    /// All eigenvalues, the largest first.
+    /// All eigenvalues, largest first.
     pub values: Vec<f64>,
     /// Row i is the unit eigenvector of eigenvalue i; its component of largest magnitude is positive.
     pub vectors: Matrix,
@@ -65,7 +65,7 @@ impl LeadingEigen {
     }
 }
 
-/// Negates a vector if its component of largest magnitude (the first of equals) is negative.
+/// Negates a vector if its component of largest magnitude (on ties, the first) is negative.
 pub fn make_largest_positive(vector: &mut [f64]) {
     let mut largest = 0.0_f64;
     vector.iter().for_each(|&value| largest = if value.abs() > largest.abs() { value } else { largest });

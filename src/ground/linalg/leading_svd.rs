@@ -19,7 +19,7 @@ use crate::linalg::factor::{not_finite_error, residual_error};
 /// All singular values of a matrix, and the vectors of the largest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeadingSvd {
-    /// All singular values, the largest first: as many as the matrix has rows or columns, whichever is fewer.
+    /// All singular values, largest first; their number is the smaller of the matrix's numbers of rows and columns.
     pub values: Vec<f64>,
     /// Numerical rank: the number of values above the largest times 2^-52 times the number of rows or columns,
     /// whichever is larger.
@@ -58,7 +58,7 @@ impl LeadingSvd {
         let mut scaled = matrix.clone();
         scaled.par_rows_mut().for_each(|row| row.iter_mut().for_each(|value| *value *= scale));
         let bidiagonal = Bidiagonal::new(scaled);
-        // Elements of right and left vectors alternate, the right one first.
+        // Elements of right and left vectors alternate, beginning with the right one.
         let mut beside = vec![0.0; 2 * columns - 1];
         beside.iter_mut().step_by(2).zip(&bidiagonal.diagonal).for_each(|(to, &from)| *to = from);
         beside.iter_mut().skip(1).step_by(2).zip(&bidiagonal.above).for_each(|(to, &from)| *to = from);
@@ -127,7 +127,7 @@ impl LeadingSvd {
     }
 }
 
-/// Matrix without vectors, whose vectors would have this many elements.
+/// Matrix without rows, with this number of columns.
 fn none(elements: usize) -> Matrix {
     Matrix::zeros([0, elements]).expect("no elements")
 }

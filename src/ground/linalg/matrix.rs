@@ -51,7 +51,7 @@ impl Matrix {
         self.columns
     }
 
-    /// Returns `true` if there are as many rows as columns.
+    /// Returns `true` if the numbers of rows and columns are equal.
     pub fn is_square(&self) -> bool {
         self.rows == self.columns
     }

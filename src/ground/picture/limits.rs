@@ -41,7 +41,7 @@ pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_byte
     Ok(())
 }
 
-/// Refuses a size for which a file is too short, because memory is allocated before the pixels are read. `least` is the
+/// Rejects a size for which a file is too short, because memory is allocated before the pixels are read. `least` is the
 /// length of the shortest file of this size.
 pub(super) fn require_length(
     format: PictureFormat,

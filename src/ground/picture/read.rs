@@ -1,4 +1,4 @@
-//! Decoding of picture files, by their first bytes.
+//! Decoding of picture files, whose first bytes determine the format.
 
 use std::borrow::Cow;
 use std::io::Cursor;

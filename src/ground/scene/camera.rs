@@ -26,9 +26,9 @@ pub struct Camera {
     height: u32,
     /// Unit vector to the target.
     forward: DVec3,
-    /// Vector to the right edge of the picture from its centre, at distance 1.
+    /// Vector from the centre of the picture to its right edge, in the plane at distance 1.
     right: DVec3,
-    /// Vector to the upper edge of the picture from its centre, at distance 1.
+    /// Vector from the centre of the picture to its upper edge, in the plane at distance 1.
     up: DVec3,
 }
 
@@ -129,12 +129,12 @@ impl Camera {
         (0..self.height).flat_map(|y| (0..self.width).map(move |x| self.ray(x, y))).collect()
     }
 
-    /// Vector to the right edge of the picture from its centre, at distance 1.
+    /// Vector from the centre of the picture to its right edge, in the plane at distance 1.
     pub fn right(&self) -> DVec3 {
         self.right
     }
 
-    /// Vector to the upper edge of the picture from its centre, at distance 1.
+    /// Vector from the centre of the picture to its upper edge, in the plane at distance 1.
     pub fn up(&self) -> DVec3 {
         self.up
     }

@@ -67,7 +67,7 @@ impl CubeMap {
         CUBE_FACES[face].at([column, row].map(|at| (at as f64 + 0.5) / self.side as f64)).0
     }
 
-    /// Returns the face, column and row of the texel that a direction falls into, the lowest face of equals. The
+    /// Returns the face, column and row of the texel that a direction falls into; on ties, the lowest face. The
     /// direction must not be zero.
     pub fn texel_of(self, direction: DVec3) -> [usize; 3] {
         let along = |face: usize| direction.dot(CUBE_FACES[face].center);

@@ -1,4 +1,4 @@
-//! Distant light from pictures of the whole sphere, and lookups in them.
+//! Distant light from pictures of the whole sphere, and radiance lookups in such pictures.
 
 use glam::DVec3;
 use rayon::prelude::*;

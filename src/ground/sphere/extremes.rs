@@ -48,7 +48,7 @@ impl Extremes {
     }
 }
 
-/// Returns the best samples at least a distance apart.
+/// Returns the best samples that are at least `apart` from each other.
 fn peaks(directions: &[DVec3], values: &[f64], sign: f64, apart: f64) -> Vec<DVec3> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| (sign * values[b]).total_cmp(&(sign * values[a])).then(a.cmp(&b)));

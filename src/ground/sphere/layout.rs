@@ -86,7 +86,7 @@ impl LayoutGrid {
         row * width + column
     }
 
-    /// Pixel of a cross, on the face of the direction's largest component (the first of equals).
+    /// Pixel of a cross, on the face of the direction's largest component (on ties, the first).
     fn cross_pixel(&self, direction: DVec3) -> usize {
         let side = self.cross_side();
         let tiles = (0..self.height / side).flat_map(|row| (0..self.width / side).map(move |column| [column, row]));

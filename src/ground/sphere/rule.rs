@@ -40,9 +40,9 @@ impl DirectionRule {
 
     /// Creates a rule over the hemisphere z >= 0 with about as many directions as [`Self::hemisphere`] of degree
     /// `size`, at many different heights, and exact only up to degree `degree`. There are floor(size / 2) + 1 rings and
-    /// as many pairs of opposite columns; no two pairs of columns share a height. So the height of an occluder that is
-    /// equally high all around is resolved to a fraction of a ring. With fewer than degree + 3 rings, the rule is
-    /// [`Self::hemisphere`]'s.
+    /// the same number of pairs of opposite columns; no two pairs of columns share a height. So the height of an
+    /// occluder that is equally high all around is resolved to a fraction of a ring. With fewer than degree + 3 rings,
+    /// the rule is [`Self::hemisphere`]'s.
     ///
     /// Each column integrates polynomials in z exactly. The part of azimuthal frequency m of a polynomial in x, y and z
     /// is a polynomial in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.
@@ -181,7 +181,7 @@ fn column(count: usize, phase: f64, degree: usize) -> Option<Vec<(f64, f64)>> {
     let size = degree + 1;
     let products = (0..size * size).map(|at| sum(&|values| values[at / size] * values[at % size]));
     let products = Matrix::new([size; 2], products.collect()).ok()?;
-    // The integral of the first polynomial is 1, that of the others 0.
+    // The integral of the first polynomial is 1; the integrals of the others are 0.
     let missing: Vec<f64> = (0..size).map(|i| f64::from(u8::from(i == 0)) - sum(&|values| values[i])).collect();
     let factors = Lu::new(&products).ok()?.solve(&missing);
     let change = |values: &[f64]| -> f64 { values.iter().zip(&factors).map(|(value, factor)| value * factor).sum() };

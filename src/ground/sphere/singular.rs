@@ -1,4 +1,4 @@
-//! Singular values by rotations of columns (one-sided Jacobi; Hestenes 1958).
+//! Singular values by the one-sided Jacobi method (Hestenes 1958), which rotates pairs of columns.
 //!
 //! For the small matrices of the hemisphere, the method finds the smallest singular value as accurately as the
 //! condition number allows, and singular vectors that are orthogonal up to rounding. Bidiagonalisation leaves residuals

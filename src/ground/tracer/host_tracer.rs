@@ -1,4 +1,4 @@
-//! First hits on the host alone by octree and f32 test: "CPU only" in Table 3.
+//! First hits on the host alone, by an octree and the f32 triangle test: "CPU only" in Table 3.
 
 use rayon::prelude::*;
 
@@ -188,7 +188,7 @@ impl HostTracer {
     }
 
     /// Returns the first hit by [`Octree::traverse`]. In cells marked in `gpu`, every triangle of the cell is tested,
-    /// as on the card; without marks, hit and counts equal those of [`Self::nearest`].
+    /// as on the card; without marks, hit and counts are the same as for [`Self::nearest`].
     pub fn nearest_in(&self, ray: &Ray, gpu: Option<&GpuCells>) -> (Option<Hit>, HostCounts) {
         let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);

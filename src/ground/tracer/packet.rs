@@ -1,4 +1,4 @@
-//! The test of `triangle_test.rs` on eight triangles at a time, for the vector units of the host.
+//! The ray-triangle test of `triangle_test.rs` for eight triangles at a time, in the host's vector units.
 
 use super::triangle_test::{HostRay, HostTriangle, scaled_corners};
 use glam::Vec3;

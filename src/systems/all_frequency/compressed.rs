@@ -12,7 +12,7 @@ pub struct SegmentOptions {
     /// vertices divided by this, rounded down, at least 1. Rounding up or to nearest agrees no better with Table 1
     /// (docs/papers/all_frequency.md).
     pub points_per_cluster: usize,
-    /// Representatives per cluster n, at most the numbers per vertex; the paper uses 16.
+    /// Number n of representatives per cluster, at most the dimension of the signal; the paper uses 16.
     pub vectors: usize,
     /// Maximum number of iterations for each number of representatives.
     pub iterations: usize,
@@ -107,7 +107,7 @@ impl CompressedTransfer {
         Ok(Self { rows, vertices, segments })
     }
 
-    /// Light coefficients per segment n; 0 without a segment.
+    /// Number n of light coefficients per segment; 0 if there are no segments.
     pub fn coefficients(&self) -> usize {
         self.segments.first().map_or(0, |first| first.clustering.dimension() / self.rows)
     }

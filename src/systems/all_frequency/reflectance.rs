@@ -25,8 +25,8 @@ impl Reflectance {
         }
     }
 
-    /// G at a direction of length 1 towards the viewer, in the local frame. G is 0 from below. Panics if `into` does
-    /// not have one element per term.
+    /// G at a direction of length 1 towards the viewer, in the local frame. G is 0 below the horizon. Panics if `into`
+    /// does not have one element per term.
     pub fn view(&self, direction: DVec3, into: &mut [f64]) {
         match self {
             _ if direction.z <= 0.0 => into.fill(0.0),

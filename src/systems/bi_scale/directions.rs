@@ -46,8 +46,8 @@ impl LocalDirections {
         &self.directions
     }
 
-    /// The index of the direction nearest to `direction` (local, may lie below the horizon), by the largest cosine; the
-    /// lowest index of equals.
+    /// The index of the direction nearest to `direction` (local, may lie below the horizon), by the largest cosine; on
+    /// ties, the lowest index.
     pub fn nearest(&self, direction: DVec3) -> usize {
         // Cells are at most three times as long as wide, so no center two cells away is nearer than the center of the
         // cell itself.

@@ -14,8 +14,8 @@ const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
 pub struct MatrixEntry {
     /// The column of an entry of a row; the row of an entry of a column.
     pub index: u32,
-    /// The value, encoded by the [`EntryValues`] of the matrix or of the biclusters: equal integers are equal numbers,
-    /// 0 is 0, and integers have the order of the numbers.
+    /// The value, encoded by the [`EntryValues`] of the matrix or of the biclusters: equal integers represent equal
+    /// numbers, 0 represents 0, and integers have the order of the numbers.
     pub value: i32,
 }
 
@@ -175,7 +175,7 @@ fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
         if scaled.fract() != 0.0 {
             return None;
         }
-        // Numbers beyond 64 bits are refused below, in any unit.
+        // Numbers beyond 64 bits are rejected below, in any unit.
         let zeros = if scaled.abs() < TWO_TO_63 { (scaled as i64).trailing_zeros() } else { 64 };
         fraction_bits = fraction_bits.max(EntryValues::MOST_FRACTION_BITS.saturating_sub(zeros));
     }
@@ -189,7 +189,7 @@ pub struct EntryValues {
     /// Number of fraction bits of a unit whose 32-bit multiples are all values of the matrix; `None` if there is no
     /// such unit.
     fraction_bits: Option<u32>,
-    /// The unit; 1 without one.
+    /// The unit; 1 if there is none.
     unit: f64,
     /// Unless entries are in units: the numbers in increasing order; entry 1 represents the first.
     table: Option<Vec<f64>>,

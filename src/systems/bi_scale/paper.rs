@@ -53,7 +53,7 @@ impl Submatrix {
         Some(changed)
     }
 
-    /// The most frequent non-zero value of a column in the rows; of equally frequent values the lowest.
+    /// The most frequent non-zero value of a column in the rows; on ties, the lowest value.
     fn most_frequent(&self, column: usize, matrix: &[Vec<f64>]) -> Option<f64> {
         let values = || self.rows.iter().map(|&row| matrix[row][column]).filter(|&value| value != 0.0);
         let count = |value: f64| values().filter(|&other| other == value).count();

@@ -18,7 +18,7 @@ const CHUNK: usize = 512;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fitted {
     pub(super) subspace: AffineSubspace,
-    /// Numbers whose sum is the squared error of the cluster's points: the eigenvalues without vectors, if known.
+    /// Numbers whose sum is the squared error of the cluster's points: the eigenvalues that have no vector, if known.
     left: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ impl Fitted {
         self.left.iter().sum()
     }
 
-    /// All eigenvalues above the threshold, the largest first. After a fit without vectors, none are known.
+    /// All eigenvalues above the threshold, largest first. After a fit without vectors, none are known.
     pub(super) fn eigenvalues(&self) -> Vec<f64> {
         let all: Vec<f64> = self.subspace.eigenvalues.iter().chain(&self.left).copied().collect();
         let kept = all.iter().take_while(|&&value| value > all[0] * NO_EIGENVALUE).count();
@@ -101,7 +101,7 @@ pub(super) fn principal_vectors(
     Ok(Principal::of_points(&residuals, &products, count)?.vectors)
 }
 
-/// All eigenvalues, the largest first, and the leading vectors.
+/// All eigenvalues, largest first, and the leading vectors.
 struct Principal {
     values: Vec<f64>,
     vectors: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Finds the cluster that approximates each point best (the lower of equals), by comparing every point with every
+//! Finds the cluster that approximates each point best (on ties, the lowest), by comparing every point with every
 //! cluster in f64. Signals of many dimensions are first compared along their principal axes ([`Axes`]): a cluster whose
 //! lower bound exceeds an error already found is skipped, which changes only the time.
 

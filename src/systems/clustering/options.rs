@@ -65,7 +65,7 @@ pub enum CpcaMethod {
 /// The points that are the clusters' initial representatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StartPoints {
-    /// Drawn at random without repetition.
+    /// Drawn at random without replacement.
     Seed(u64),
     /// Given, one per cluster, counted from 0.
     Given(Vec<u32>),

@@ -1,5 +1,5 @@
-//! First-order effect of a short accumulator on a solution: why half precision makes a room too dark, and more patches
-//! make it darker still.
+//! First-order effect of an accumulator of few bits on a solution: why half precision makes a room too dark, and more
+//! patches make it darker still.
 //!
 //! An accumulator S of p mantissa bits is a multiple of `q = 2^(floor(log2 |S|) - p)`. A term t added to S therefore
 //! counts as t rounded to a multiple of q: to the nearest, or with truncation to the one below. A row of the iteration

@@ -18,10 +18,10 @@ const EDGE_ON: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DrawError {
-    /// The card refuses a resource or a draw.
+    /// The card rejects a resource or a draw.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// The device refuses a program.
+    /// The device rejects a program.
     #[error("{0}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
     Kernel(#[from] KernelError),
     /// The number of radiosities differs from the number of patches.
@@ -84,7 +84,7 @@ impl Projection {
     /// A corner with its coordinates in the patch, `TEX0` of the programs: u, v, depth, 1 in front and 0 behind.
     ///
     /// The program writes depth as the distance along the view divided by the largest such distance. Its precision is
-    /// equal at all distances, and there is no near plane. Clip space's z clips nothing.
+    /// equal at all distances, and there is no near plane. z in clip space is half of w, so it clips nothing.
     pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], is_front: bool) -> Vertex {
         let [x, y, w] = self.clip(shared(corner));
         let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };

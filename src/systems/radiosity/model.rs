@@ -30,7 +30,7 @@ pub fn mflops(patches: u32, iterations_per_s: f64) -> f64 {
     operations(patches) * iterations_per_s / 1e6
 }
 
-/// Bytes of matrix that an iteration reads, `bytes` per texel.
+/// Bytes that an iteration reads from the matrix; `bytes` is the size of a texel.
 pub fn matrix_bytes(patches: u32, elements_a_texel: u32, bytes: u32) -> f64 {
     f64::from(patches) * f64::from(patches.div_ceil(elements_a_texel)) * f64::from(bytes)
 }

@@ -99,7 +99,7 @@ pub(super) fn steps_for_at_most(faces: &[Face], most: usize) -> Vec<[u32; 2]> {
 }
 
 impl Face {
-    /// Lengths across and along; of opposite sides the longer one counts.
+    /// Lengths across and along, each the longer of two opposite sides.
     fn sides(&self) -> [f64; 2] {
         let n = self.corners.len();
         let side = |i: usize| (self.corners[(i + 1) % n] - self.corners[i]).length();

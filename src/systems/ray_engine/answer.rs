@@ -28,14 +28,14 @@ pub enum EngineError {
         help("give the rays one origin, or take a device with ps_2_0: r300, r350, nv30, nv35")
     )]
     NoSharedEdges { device: String },
-    /// The program for rays in bytes is one of ps_1_4, for front faces.
+    /// The only program for rays in bytes is in ps_1_4 and for front faces.
     #[error("device `{device}` has no program for rays in bytes that meet these faces")]
     #[diagnostic(
         code(ray_engine::no_byte_rays),
         help("take a device with ps_1_4 and fixed point, such as r200, and front faces")
     )]
     NoByteRays { device: String },
-    /// The device refuses a program.
+    /// The device rejects a program.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Kernel(#[from] KernelError),
@@ -47,7 +47,7 @@ pub enum EngineError {
     #[error(transparent)]
     #[diagnostic(code(ray_engine::batch))]
     Batch(#[from] InputError),
-    /// The card refuses a resource or a draw.
+    /// The card rejects a resource or a draw.
     #[error("the card refuses the work")]
     #[diagnostic(code(ray_engine::machine))]
     Machine(#[from] MachineError),
@@ -67,7 +67,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// No hit of any ray, before any work.
+    /// Answer without hits, for rays that need no work on the card.
     pub(super) fn without_hits(rays: usize, kernel: &'static str) -> Self {
         Self { hits: vec![None; rays], events: DrawEvents::default(), kernel, log: Vec::new() }
     }

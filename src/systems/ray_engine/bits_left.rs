@@ -1,4 +1,4 @@
-//! Loss of triangle normals to the precision of a card's number format.
+//! Triangle normals that are lost because a card's number format has too few bits.
 
 use super::EdgeRule;
 use super::units::Units;

@@ -1,4 +1,4 @@
-//! Buckets: finds the triangles that rays of one origin and similar directions can hit.
+//! Buckets of rays with one origin and similar directions: finds the triangles that they can hit.
 //!
 //! As in section 5.3, triangles outside the bucket of rays are not drawn. The test is conservative by a margin that is
 //! much larger than the card's errors, and runs in f64: a triangle is omitted only if it lies entirely to one side of

@@ -57,7 +57,7 @@ impl RayTextures {
         Ok(Self { made, textures, target })
     }
 
-    /// Replaces the rays by others of equal number.
+    /// Replaces the rays by the same number of other rays.
     pub(super) fn load(
         &mut self,
         machine: &mut Machine,
@@ -114,7 +114,7 @@ impl RayTextures {
         wait: bool,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
         let (color, depth) = (self.target.color, self.target.depth);
-        // The fence of the second transfer is also behind the first.
+        // The fence of the second transfer also follows the first transfer.
         let (fence, image, depth) = if wait {
             (None, machine.read_back(color)?, machine.read_depth(depth)?)
         } else {
@@ -202,8 +202,8 @@ impl Streams {
         triangles
     }
 
-    /// Triangles with sorted corners, the largest id first: of equal depths the last draw stays, which has the smallest
-    /// id. The corners' fourth components are the edge scales; the color's is the normal's scale with the sign of the
+    /// Triangles with sorted corners, largest id first: at equal depths the last draw wins, which has the smallest id.
+    /// The corners' fourth components are the edge scales; the color's is the normal's scale with the sign of the
     /// sorting.
     fn sorted(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));

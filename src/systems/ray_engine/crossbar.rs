@@ -103,14 +103,14 @@ impl Crossbar {
     }
 
     /// Intersects all rays with all triangles: section 3.3 of the paper. Fails with [`EngineError`] if the card has no
-    /// suitable program, or refuses the work.
+    /// suitable program, or rejects the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
 
     /// Runs [`Crossbar::intersect`] and records the card's log, bucket by bucket, as on a card with one set of textures
-    /// and targets. The hits are those of [`Crossbar::intersect`]; the log is the same for every executor and number of
-    /// threads. Fails as [`Crossbar::intersect`] does.
+    /// and targets. The hits are the same as by [`Crossbar::intersect`]; the log is the same for every executor and
+    /// number of threads. Fails as [`Crossbar::intersect`] does.
     pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: None })
     }

@@ -78,7 +78,7 @@ impl Errors {
     }
 }
 
-/// Constants that cull nothing: no triangle satisfies |ab| + |ac| <= -1.
+/// Constants with which no triangle is culled: none satisfies |ab| + |ac| <= -1.
 pub(super) fn nothing() -> Vec<[u32; 4]> {
     let mut out = vec![[0.0_f32; 4]; COUNT];
     out[COUNT - 1][2] = -1.0;

@@ -59,7 +59,7 @@ pub struct Kernel {
     pub texels: RayTexels,
     /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
-    /// How shared edges are evaluated.
+    /// Evaluation of shared edges.
     pub edges: EdgeRule,
 }
 

@@ -1,4 +1,4 @@
-//! Batches of rays as rectangles of pixels.
+//! Batches of rays, laid out as rectangles of pixels.
 
 use refsim::texture::Region;
 

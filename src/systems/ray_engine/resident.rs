@@ -19,7 +19,7 @@ pub struct ResidentCrossbar {
 
 impl ResidentCrossbar {
     /// Clears the targets, draws every triangle over every ray, and reads back: the result of
-    /// [`super::Crossbar::intersect`] with all pairs. Fails with [`EngineError::Machine`] if the card refuses the work.
+    /// [`super::Crossbar::intersect`] with all pairs. Fails with [`EngineError::Machine`] if the card rejects the work.
     pub fn intersect(&mut self) -> Result<Answer, EngineError> {
         let answer = Answer::without_hits(self.rays.rays().len(), self.kernel.name);
         let Some((machine, sheet, units, streams)) = &mut self.work else { return Ok(answer) };

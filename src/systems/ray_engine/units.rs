@@ -43,12 +43,12 @@ impl Units {
     /// Like [`Self::choose`], for a mesh with these lowest and highest coordinates.
     pub(super) fn within((form, range): (Form, Range), bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
         let reach = Reach::of(bounds, rays);
-        // Registers hold o - a and its product with d.
+        // Registers hold o - a and its cross product with d.
         let offsets =
             || scale_into(reach.offset, range.of_vectors()).min(scale_into(reach.cross, range.of_cross_products()));
         let scale = match form {
             Form::OneOrigin => offsets(),
-            // Textures hold o, registers a, depth t / 4.
+            // Ray textures hold the origin o, registers the corner a, the depth buffer t / 4.
             Form::AnyOrigin => scale_into(reach.origin, range.of_texels())
                 .min(scale_into(reach.position, range.of_vectors()))
                 .min(offsets())

@@ -38,7 +38,7 @@ impl VertexCrossbar {
         Self { profile, executor: executor.into() }
     }
 
-    /// Intersects every ray with the front of every triangle. Fails with [`EngineError`] if the card refuses a program
+    /// Intersects every ray with the front of every triangle. Fails with [`EngineError`] if the card rejects a program
     /// or the work.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch) -> Result<Answer, EngineError> {
         let mut machine = self.executor.machine(self.profile.clone())?;

@@ -1,8 +1,9 @@
 //! Environment mapping: mirrors show a cube map of their surroundings, drawn by a card.
 //!
-//! What the Ray Engine's Figure 1 shows beside traced reflections. The map has the scene without its mirrors, seen from
-//! the point of them nearest to the middle of theirs in the picture, in bytes; a vertex program reflects the view, and the pixel program looks the reflected vector up. So
-//! reflections are those of things infinitely far away: they neither touch what they reflect nor meet each other.
+//! The Ray Engine's Figure 1 shows this method next to traced reflections. The map holds the scene without its mirrors,
+//! in 8-bit texels, as seen from the visible mirror point whose pixel is nearest to the mean of all mirror pixels. A
+//! vertex program reflects the view vector, and the pixel program looks the reflected vector up. So objects appear as
+//! if they were infinitely far away: a reflection does not touch its object, and mirrors do not reflect each other.
 
 use glam::{DVec2, DVec3};
 use refsim::device::Profile;
@@ -29,7 +30,7 @@ use crate::tracer::{Caster, HostTracer};
 
 /// Texels along an edge of the map.
 const SIDE: u32 = 128;
-/// Program that looks the reflected vector up; c0 is the reflectance.
+/// Pixel program that looks the reflected vector up in the map; c0 is the reflectance.
 const LOOKUP: &str = "ps_1_1\ntex t0\nmul r0, t0, c0\n";
 
 /// Card that draws mirrors.
@@ -44,7 +45,7 @@ pub struct EnvironmentCard<'a> {
 /// Renders as [`whitted::render`] with one sample per pixel and no reflected rays, and draws the mirrors on a card.
 ///
 /// # Errors
-/// [`InputError`] as [`whitted::render`], for more than one sample, and if the card refuses the draws.
+/// [`InputError`] as for [`whitted::render`], for more than one sample, and if the card rejects a draw.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -86,7 +87,7 @@ fn reflectance(scene: &Scene, triangle: u32) -> Option<[f32; 3]> {
     }
 }
 
-/// The scene without its mirrors from a place, as texels of a cube map.
+/// The scene without its mirrors, seen from the point `place`, as texels of a cube map.
 fn map(scene: &Scene, mirrors: &[u32], place: DVec3, settings: &Settings) -> Result<Vec<[f64; 3]>, InputError> {
     let others: Vec<u32> = (0..scene.mesh().len() as u32).filter(|at| mirrors.binary_search(at).is_err()).collect();
     let pick = |at: &u32| scene.mesh().triangles()[*at as usize];

@@ -23,8 +23,8 @@ pub struct RenderedPicture {
     pub color: Vec<[f64; 3]>,
     /// Estimated variance of the mean: the variance of the samples divided by their number; 0 for one sample.
     pub variance: Vec<[f64; 3]>,
-    /// First hit of the ray through the centre of the pixel. Its t counts lengths of the camera's ray, so it is the
-    /// depth along the view.
+    /// First hit of the ray through the centre of the pixel. Its t is in multiples of the camera ray's direction, so it
+    /// is the depth along the view.
     pub first: Vec<Option<Hit>>,
     /// Samples that were not finite and count as black: 0 for scenes with reasonable parameters.
     pub not_finite: u64,
@@ -154,7 +154,7 @@ fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, rng: SampleRng) -> 
         None => Ray::new(camera.eye(), narrow(direction)),
         Some(lens) => through_lens(camera, lens, direction, [rng.before(2), rng.before(3)]),
     };
-    // Only a direction beyond f32 has no ray.
+    // There is no ray if its direction overflows f32.
     ray.unwrap_or(centre)
 }
 
@@ -166,6 +166,6 @@ fn through_lens(camera: &Camera, lens: Lens, direction: DVec3, u: [f64; 2]) -> R
     let start = eye + x * lens.radius * right + y * lens.radius * up;
     let start = narrow(start);
     let sharp = eye + lens.focus * direction;
-    // The direction is as long along the view as the pinhole's, so that t stays the depth along the view.
+    // The direction has the pinhole ray's component along the view, so that t stays the depth along the view.
     Ray::new(start, narrow(1.0 / lens.focus * (sharp - wide(start))))
 }

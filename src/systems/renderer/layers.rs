@@ -11,7 +11,7 @@ use crate::tracer::offset::SINGLE;
 /// Converts to a picture with color in single precision (`R`, `G`, `B`), and for the first hit through the centre of
 /// each pixel: depth along the view (`Z`, infinite for a miss), shading normal (`N.X`, `N.Y`, `N.Z`), total reflectance
 /// or transmittance (`albedo.R`, `albedo.G`, `albedo.B`), and `triangle` (`u32::MAX` for a miss). Fails if the picture
-/// has no pixels, or not as many as the camera.
+/// has no pixels, or the camera has another number of pixels.
 pub fn layers(picture: &RenderedPicture, scene: &Scene, camera: &Camera) -> Result<Picture, InputError> {
     let color: Vec<[f32; 3]> = picture.color.iter().map(|color| color.map(|c| c as f32)).collect();
     let surface = |(ray, hit)| Surfel::new(scene, SINGLE, &ray, hit?);

@@ -61,7 +61,7 @@ impl PhotonMap {
     /// Returns the sum of `value` over the photons around a point per unit area, from the `nearest` photons within
     /// `radius` on surfaces with a similar normal; `nearest` is at least 2. The k-th photon determines the area, pi
     /// r^2, and the k - 1 others the sum, which is unbiased for evenly distributed photons. If fewer than `nearest`
-    /// photons are within the radius, all count, divided by the area of the radius.
+    /// photons are within the radius, all of them count, and the area is the whole disk of this radius.
     pub fn density(
         &self,
         at: DVec3,

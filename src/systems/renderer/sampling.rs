@@ -58,7 +58,7 @@ impl DiscreteDistribution {
         Self { sums: sums.collect() }
     }
 
-    /// Sum of all weights; 0 without weights.
+    /// Sum of all weights; 0 if there are none.
     pub fn total(&self) -> f64 {
         self.sums.last().copied().unwrap_or(0.0)
     }

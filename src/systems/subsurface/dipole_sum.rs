@@ -1,4 +1,4 @@
-//! R_d for many distances at once, in vector code.
+//! R_d for many distances at once, with vector instructions.
 
 use std::f64::consts::PI;
 

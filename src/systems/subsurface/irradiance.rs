@@ -1,4 +1,4 @@
-//! Equation 8 on the host, in f64: the light that enters the surface.
+//! Equation 8 on the host, in f64: the irradiance that enters the surface.
 
 use std::f64::consts::PI;
 

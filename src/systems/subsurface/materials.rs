@@ -3,7 +3,7 @@
 
 use super::material::{Coefficients, Material};
 
-/// How certain a published number is.
+/// Confidence in a published number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FigureConfidence {
     /// Printed in the paper that is reproduced.
@@ -38,7 +38,7 @@ pub struct PublishedFigure<T> {
     pub value: T,
     /// The publication.
     pub source: &'static str,
-    /// How certain the number is.
+    /// Confidence in the number.
     pub confidence: FigureConfidence,
 }
 

@@ -238,7 +238,7 @@ impl<'a> Reference<'a> {
         sum
     }
 
-    /// Quadrature points of a texel's part: three per triangle, which is exact for quadratic functions.
+    /// Quadrature points of a texel's part: three per piece of a triangle, which is exact for quadratic functions.
     fn points(&self, texel: usize, is_close: bool) -> Vec<WeightedPoint> {
         let divisions = if is_close { (self.length(texel).ceil() as u32).clamp(1, MAX_DIVISIONS) } else { 1 };
         let mut points = Vec::new();

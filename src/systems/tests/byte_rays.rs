@@ -1,4 +1,4 @@
-//! Rays in two textures of bytes: for rays that bytes represent exactly, the card's hits equal those of exact
+//! Rays in two textures of bytes: for rays that bytes represent exactly, the card's hits equal the hits by exact
 //! arithmetic.
 
 use crossbar_base::geom::Ray;

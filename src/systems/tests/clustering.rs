@@ -1,4 +1,4 @@
-//! Compression: its bits, its independence of threads and vector instructions, and refusals.
+//! Compression of signals: fixed bits, independence of threads and vector instructions, and errors.
 
 use crossbar_systems::clustering::{
     AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress,
@@ -155,7 +155,7 @@ fn what_exceeds_the_budget_is_passed_over() {
     assert_eq!(found.of_point(), paper::compress(&signal, &options).expect("compressed").of_point());
 }
 
-/// Each empty cluster, lowest first, takes the point of largest error (the lowest of equals), but not a cluster's last
+/// Each empty cluster, lowest first, takes the point of largest error (on ties, the lowest), but not a cluster's last
 /// point.
 #[test]
 fn empty_clusters_take_the_worst_points_but_no_last_ones() {

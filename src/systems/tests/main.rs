@@ -1,4 +1,4 @@
-//! Tests of the modules' public interfaces, a file or folder per module, in one binary that compiles the library once.
+//! Tests of the modules' public interfaces, with a file or folder per module, in one binary.
 
 mod all_frequency;
 mod bi_scale;

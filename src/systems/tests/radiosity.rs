@@ -123,7 +123,7 @@ fn areas_add_up_to_the_face() {
     }
 }
 
-/// Patches are numbers in a float target, negative from behind.
+/// A float target holds the number of the patch at each pixel, negative for a patch seen from behind.
 #[test]
 fn a_picture_names_all_patches_from_the_front() {
     let patches = Patches::new(&scene(&[&SQUARE]), Subdivision::PerSide(128)).expect("patches");

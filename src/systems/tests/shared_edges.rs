@@ -138,7 +138,7 @@ fn aimed(mesh: &Mesh, eye: [f32; 3], each: u32, margin: Margin) -> [Vec<Ray>; 2]
     [edges.map(|aimed| aimed.ray).collect(), vertices.map(|aimed| aimed.ray).collect()]
 }
 
-/// Models, each with an eye.
+/// Models, each with the position of an eye.
 fn models() -> Vec<(&'static str, Mesh, [f32; 3])> {
     let eye = Camera::teapot(4, 4).expect("a camera").eye();
     let head = meshes::build("stand-in-head").expect("a mesh of the project").welded();

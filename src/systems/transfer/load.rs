@@ -1,4 +1,4 @@
-//! Signals from files.
+//! Signals read from files.
 
 use std::path::Path;
 

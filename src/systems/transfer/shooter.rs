@@ -1,5 +1,5 @@
-//! Ray origins of vertices, offset from all triangles on which the vertex lies, as a corner or not; the rays and their
-//! hits.
+//! Ray origins of vertices, offset from all triangles on which a vertex lies (as a corner or inside); the rays and
+//! their hits.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! Ground truth: which triangles a ray hits, and which first, decided in exact arithmetic on the f32 values as given.
 //!
-//! **Definitions.** A triangle is closed: its edges and corners belong to it. A hit has t >= 0, where t counts lengths
+//! **Definitions.** A triangle is closed: its edges and corners belong to it. A hit has t >= 0, where t is in multiples
 //! of the ray's direction. A ray in the triangle's plane (n.d = 0) misses it, so that a triangle without area (n = 0)
 //! is never hit. n = (b - a) x (c - a); a ray comes from the front if n.d < 0. Hits are ordered by exact t, then by id;
 //! all triangles that tie for the first t are reported.

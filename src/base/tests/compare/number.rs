@@ -24,7 +24,7 @@ fn zeros_of_two_signs_differ_in_one_layout_only() {
 
 #[test]
 fn two_layouts_count_in_the_coarser_one() {
-    // 1 + 2^-12 against 1 + 2^-11: half of fp16's last place, 2^-10, is 2^-11 and a half more.
+    // 1 + 2^-12 and 1 + 2^-10 differ by 3/4 of fp16's last place, 2^-10.
     let (apart, unit) = ulps(&number("fp32", 0x3f80_0800), &number("fp16", 0x3c01));
     assert_eq!((apart, unit.to_string().as_str()), (Some(0.75), "e5m10"));
     // Near 0.001 the last place of s3.12 is larger than that of fp16.

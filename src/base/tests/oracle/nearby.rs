@@ -1,4 +1,4 @@
-//! Rays near a ray with a wrong hit for which the hit is correct.
+//! Search for a nearby ray for which a wrong hit is correct.
 
 use crossbar_base::geom::vector::wide;
 use crossbar_base::geom::{Hit, Mesh, Ray, Sides, exact};
@@ -15,9 +15,9 @@ fn wrong(mesh: &Mesh, ray: &Ray, found: Option<Hit>, ulps: u32) -> Disagreement 
     oracle.judge_one(0, ray, found).1.expect("a wrong answer")
 }
 
-/// A miss beside the square's outline is correct for a ray on the first ring of 1, 2, 4, ... ULPs that reaches beyond
-/// the outline. `off` is the ray's distance inside, in ULPs of the direction. If no ring within the limit reaches it,
-/// the miss is a leak.
+/// A miss just inside the square's outline is correct for a ray on the first ring of 1, 2, 4, ... ULPs that reaches
+/// beyond the outline. `off` is the ray's distance inside, in ULPs of the direction. If no ring within the limit
+/// reaches it, the miss is a leak.
 #[test]
 fn nearby_directions_are_tried_in_rings_up_to_the_limit() {
     let mesh = square();
@@ -55,7 +55,7 @@ fn the_largest_direction_has_nearby_ones() {
 #[test]
 fn origins_move_along_the_ray() {
     let mesh = Mesh::new(vec![[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], vec![[0, 1, 2]]).expect("a mesh");
-    // One ULP of the largest coordinate, which is 4, of a corner.
+    // One ULP of the corners' largest coordinate, 4.
     let unit = 4.0 * f32::EPSILON;
     let start = |steps: f32| Ray::new([1.0, 1.0, steps * unit], [0.0, 0.0, -0.5]).expect("a ray");
     for (steps, ulps, moved) in [(0.0, 2, Some(-1.0)), (1.0, 2, Some(-1.0)), (2.0, 4, Some(-2.0)), (3.0, 2, None)] {

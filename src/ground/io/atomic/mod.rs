@@ -1,4 +1,4 @@
-//! Atomic writes: a file is written beside its place, then renamed into it.
+//! Atomic writes: a file is written to a staging folder next to its destination, then renamed.
 
 mod staging;
 
@@ -57,7 +57,7 @@ fn fill_device(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>)
     write().map_err(|source| WriteError::File { path: path.into(), source })
 }
 
-/// Writes beside `file`, and renames; errors name `path`. Missing folders are created.
+/// Writes to a staging folder next to `file`, then renames; errors name `path`. Missing folders are created.
 fn write_beside(
     file: &Path,
     path: &Path,
@@ -155,9 +155,10 @@ impl FileSet {
         fill_file(&staged, &self.folder.join(name), fill)
     }
 
-    /// Moves all files to their places and returns the places in the order of staging. Likely failures (a file that was
-    /// staged but not written, a path that is a folder, a subfolder that cannot be created) are checked before the
-    /// first rename. Fails with [`WriteError`]; after an error, no file has been moved unless a rename itself failed.
+    /// Moves all files to their final paths and returns these paths in the order of staging. Likely failures (a file
+    /// that was staged but not written, a path that is a folder, a subfolder that cannot be created) are checked before
+    /// the first rename. Fails with [`WriteError`]; after an error, no file has been moved unless a rename itself
+    /// failed.
     pub fn commit(self) -> Result<Vec<PathBuf>, WriteError> {
         let places: Vec<PathBuf> = self.names.iter().map(|name| self.folder.join(name)).collect();
         for (name, place) in self.names.iter().zip(&places) {

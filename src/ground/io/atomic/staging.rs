@@ -58,8 +58,8 @@ impl Staging {
         fs::rename(self.path().join(name), place)
     }
 
-    /// Renames files, which lie below `rest`, to their places in `folder`, under a lock against other processes.
-    /// Returns the place that could not be written, if any.
+    /// Moves the files below `rest` into `folder` by renaming, under a lock against other processes. Returns the path
+    /// that could not be written, if any.
     pub(super) fn rename_files(
         &self,
         rest: &Path,

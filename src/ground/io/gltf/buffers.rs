@@ -1,4 +1,4 @@
-//! The buffers of a glTF file: the binary chunk, text in the file itself, and files beside it.
+//! The buffers of a glTF file: the binary chunk, Base64 text in the JSON, and separate files.
 
 use std::borrow::Cow;
 use std::io;
@@ -83,7 +83,7 @@ impl<'a> Buffers<'a> {
 /// The path that a relative URI names, if it stays within the folder.
 fn local(uri: &str) -> Option<PathBuf> {
     let path = percent_decode_str(uri).decode_utf8().ok()?;
-    // Refuse schemes, drives, and the separator of some systems only.
+    // Reject schemes, drives, and the separator of some systems only.
     if path.is_empty() || path.contains([':', '\\', '\0']) {
         return None;
     }

@@ -60,7 +60,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
     }
 }
 
-/// Parses only the used parts of a document, because the crate refuses other parts that the format allows.
+/// Parses only the used parts of a document, because the crate rejects other parts that the format allows.
 fn used_parts(text: &[u8]) -> Result<json::Root, json::Error> {
     let mut document: json::Value = json::deserialize::from_slice(text)?;
     keep_used(&mut document);

@@ -25,7 +25,7 @@ pub(super) struct Geometry {
     /// One per triangle.
     pub(super) material_of: Vec<u32>,
     some_without: [bool; 2],
-    /// Number of corners of all primitives, including those of omitted triangles.
+    /// Number of corners of all primitives, including the corners of omitted triangles.
     corners: usize,
 }
 

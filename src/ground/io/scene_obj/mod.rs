@@ -2,12 +2,12 @@
 //!
 //! Geometry is read as by [`super::obj`]; in addition, `vn` and the normals of corners, `mtllib` and `usemtl` are used.
 //! A triangle with a normal at each corner is smooth, others are flat. A face without a material is grey. A face whose
-//! material is in no library is grey with a note, or refused if `strict`. Libraries are in the model's folder
+//! material is in no library is grey with a note, or rejected if `strict`. Libraries are in the model's folder
 //! ([`mtl`]).
 //!
 //! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no material
 //! has that name, a word that begins with `#` begins a comment, also in the MTL file. If no such library can be read, a
-//! `mtllib` line lists several names, each of which ends in `.mtl`.
+//! `mtllib` line is read as a list of names, each of which ends in `.mtl`.
 //!
 //! [`write`] creates text that reads back with the same bits.
 
@@ -30,7 +30,7 @@ use crate::scene::Scene;
 use reader::SceneReader;
 
 /// Reads a scene from bytes; `name` is the file's name in messages, and `library` reads a material library. Never
-/// panics. Fails with [`InputError`], with the line where there is one.
+/// panics. Fails with an [`InputError`] that names the line where known.
 pub fn parse_scene(
     bytes: &[u8],
     name: &Path,

@@ -34,8 +34,8 @@ const INDEX: f32 = 1.5;
 /// Tolerance of `Kd` + `Ks` above 1, for the rounding of numbers that sum to 1.
 const ROUNDING: f32 = 1e-6;
 
-/// Reads the materials of a library, in order; `name` is the file's name in messages. Never panics. Fails with
-/// [`InputError`], with the line where there is one.
+/// Reads the materials of a library, in order; `name` is the file's name in messages. Never panics. Fails with an
+/// [`InputError`] that names the line where known.
 pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, InputError> {
     read_mtl(bytes, name, None)
 }
@@ -156,7 +156,7 @@ impl MtlReader<'_> {
         }
     }
 
-    /// Refuses a number that overflows single precision, before the key's own range is checked.
+    /// Rejects a number that overflows single precision, before the key's own range is checked.
     fn not_too_large(&self, here: &Statement<'_>) -> Result<(), InputError> {
         let large = here.values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
         large.map_or(Ok(()), |word| Err(self.syntax(here.line, NumberError::TooLarge.expected(), word)))

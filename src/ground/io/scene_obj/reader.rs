@@ -1,4 +1,4 @@
-//! Reads the parts of a scene's OBJ file beyond its geometry, line by line.
+//! Reads a scene's OBJ file line by line: materials and normals in addition to the geometry.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -35,7 +35,7 @@ pub(super) struct SceneReader {
     used: Vec<(String, usize)>,
     place_of: BTreeMap<String, usize>,
     current: Option<usize>,
-    /// Notes on changed materials; `None` if such materials are refused.
+    /// Notes on changed materials; `None` if such materials are rejected.
     notes: Option<Vec<ModelNote>>,
 }
 

@@ -1,4 +1,4 @@
-//! Scenes as text that reads back with the same bits: corners, normals, materials.
+//! Writes scenes as text that reads back with the same bits: corners, normals, materials.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};

@@ -49,7 +49,7 @@ impl ErrorSums {
         Self { not_finite: 0, ..self }
     }
 
-    /// Signed mean; 0 without errors, infinite if an error is infinite.
+    /// Signed mean; 0 if there are no errors, infinite if an error is infinite.
     pub fn mean(&self) -> f64 {
         self.or_infinite(if self.weight > 0.0 { self.sum / self.weight } else { 0.0 })
     }
@@ -59,7 +59,7 @@ impl ErrorSums {
         self.or_infinite(self.squares)
     }
 
-    /// Root of the mean square; 0 without errors, infinite if an error is infinite.
+    /// Root of the mean square; 0 if there are no errors, infinite if an error is infinite.
     pub fn rms(&self) -> f64 {
         self.or_infinite(if self.weight > 0.0 { (self.squares / self.weight).sqrt() } else { 0.0 })
     }

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 /// Half edge of the cube around every body.
 const HALF: f64 = 1.6;
-/// Fraction of a turn by which bodies face +x.
+/// Fraction of a full turn by which bodies are rotated towards +x.
 const TURNED: f64 = 0.09;
 
 /// A body's surface with this many vertices, turned.

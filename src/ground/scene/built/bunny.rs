@@ -1,17 +1,17 @@
-//! The Stanford bunny: as scanned, and closed with as many vertices as a paper prints.
+//! The Stanford bunny: as scanned, and closed with the vertex counts that papers print.
 
 use glam::DVec3;
 
 use super::resample::ClosedSurface;
 
-/// The scan `bun_zipper`, y up, in metres, as a binary little-endian file: three floats per vertex, and a byte before
-/// the three corners of a triangle in two bytes each. The model and its terms: `src/ground/LICENSE-BUNNY`.
+/// The scan `bun_zipper`, y up, in metres, as a binary little-endian file: three floats per vertex; per triangle a
+/// byte, then three 16-bit vertex indices. Source and terms of use: `src/ground/LICENSE-BUNNY`.
 const FILE: &[u8] = include_bytes!("bunny.ply");
-/// Its numbers of vertices and triangles.
+/// Numbers of vertices and triangles of the scan.
 const COUNTS: [usize; 2] = [35_947, 69_451];
 /// Bytes of a vertex and of a triangle.
 const BYTES: [usize; 2] = [12, 7];
-/// Longest edge of the box around it.
+/// Longest edge of the bunny's bounding box after scaling.
 const SIZE: f64 = 2.5;
 
 /// The bunny with `vertices` vertices around the origin: its five holes are filled, then it is refined or coarsened.

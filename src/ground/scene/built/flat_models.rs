@@ -113,7 +113,7 @@ impl FlatParts {
         }
     }
 
-    /// Inserts a vertex into the middle of each of the `count` largest triangles; the first of equals are chosen.
+    /// Inserts a vertex into the middle of each of the `count` largest triangles; on ties, the first are chosen.
     fn divide_largest(&mut self, count: usize) {
         let area = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|corner| DVec3::from(self.positions[corner as usize].map(f64::from)));

@@ -20,7 +20,7 @@ const QUADS: i32 = 96;
 const HALF: f64 = 12.0;
 /// Waves: amplitude in metres, turns per metre along x and y, and phase in turns.
 const WAVES: [[f64; 4]; 3] = [[0.03, 0.31, 0.42, 0.1], [0.022, -0.55, 0.36, 0.4], [0.012, 0.83, -0.66, 0.7]];
-/// Stretches along the hull, and around half a section.
+/// Number of segments along the hull, and around half of a cross section.
 const STATIONS: u32 = 14;
 const AROUND: u32 = 10;
 /// Rings of the sky: height over radius, and radiance below it.
@@ -64,7 +64,7 @@ fn water(parts: &mut Parts) {
     }
 }
 
-/// A dome that shines inwards, a radiance per ring: it ends below the water, and the water beyond it.
+/// A dome that emits inwards, with one radiance per ring. It ends below the water, which extends beyond it.
 fn sky(parts: &mut Parts) {
     let mut below = [1.0, -0.05];
     for (ring, (height, radiance)) in SKY.into_iter().enumerate() {

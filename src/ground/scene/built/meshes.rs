@@ -1,4 +1,4 @@
-//! Named meshes built by the project that are not scenes.
+//! Named meshes built by the project, without lights and views.
 
 use super::super::Material;
 use super::flat_models::{FlatModel, MaterialMesh};

@@ -5,11 +5,11 @@
 //! objects; they never change a count.
 //!
 //! - `parts`, `solids`: quads, blocks, surfaces of revolution, combined with their materials;
-//! - one file a scene;
+//! - one file per scene;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
-//! - [`transfer_models`]: meshes with the vertex counts of those of others, with normals and texture coordinates;
-//! - `bunny`, `bodies`: the surfaces of these; `isosurface` makes bodies of rounded pieces, `resample` gives a closed
-//!   surface any number of vertices;
+//! - [`transfer_models`]: meshes with the vertex counts of other papers' models, normals and texture coordinates;
+//! - `bunny`, `bodies`: the surfaces of these models; `isosurface` makes bodies of rounded pieces, `resample` gives a
+//!   closed surface any number of vertices;
 //! - [`flat_models`]: models of flat parts with several materials;
 //! - [`meshes`]: all of these by name;
 //! - [`ground`]: a square below a model that receives its shadow.

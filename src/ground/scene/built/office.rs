@@ -1,4 +1,4 @@
-//! An office with furniture of many small triangles: 34,000, as many as the office of the Ray Engine (Table 1).
+//! An office with furniture of many small triangles: 34,000, like the office of the Ray Engine (Table 1).
 //!
 //! | what | triangles |
 //! |---|---|

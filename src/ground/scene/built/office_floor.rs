@@ -1,4 +1,4 @@
-//! One floor of an office building, in the style of Soda Hall: 11,052 triangles, as many as the model of the Ray Engine
+//! One floor of an office building, in the style of Soda Hall: 11,052 triangles, like the model of the Ray Engine
 //! (Table 1).
 //!
 //! A corridor separates the rooms along the outer walls from rooms in the core. Walls have a thickness, doors are open

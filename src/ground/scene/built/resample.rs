@@ -1,8 +1,8 @@
-//! Closed surfaces with any number of vertices: the longest edges are divided, or the shortest are drawn together.
+//! Closed surfaces with any number of vertices: the longest edges are divided, or the shortest are collapsed.
 //!
 //! New vertices lie on the curve that the normals at the edge's ends give it (the cubic of a PN triangle: Vlachos,
 //! Peters, Boyd, Mitchell 2001, "Curved PN Triangles"), so that a refined surface is rounder and a coarsened one keeps
-//! its volume. Triangles keep the order of those that they come from.
+//! its volume. Triangles keep the order of the triangles that they come from.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -11,10 +11,10 @@ use glam::DVec3;
 
 use crate::geom::vector::{area_vector, unit};
 
-/// Cosine of the angle by which a triangle's normal may turn when an edge is drawn together.
+/// Cosine of the angle by which a triangle's normal may turn when an edge is collapsed.
 const TURN: f64 = 0.3;
 
-/// Triangle mesh in double precision, fronts outwards: closed, but for a scan before [`ClosedSurface::closed`].
+/// Triangle mesh in double precision, fronts outwards: closed, except for a scan before [`ClosedSurface::closed`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ClosedSurface {
     pub(super) positions: Vec<DVec3>,
@@ -22,7 +22,7 @@ pub(super) struct ClosedSurface {
 }
 
 impl ClosedSurface {
-    /// Unit normals of the vertices: those of the triangles around them, by area.
+    /// Unit normals of the vertices: the area-weighted means of the normals of the triangles around them.
     pub(super) fn normals(&self) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for triangle in &self.triangles {
@@ -32,7 +32,7 @@ impl ClosedSurface {
         sums.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::Z)).collect()
     }
 
-    /// The surface with `vertices` vertices, or with the fewest to which its shape lets it be coarsened.
+    /// Returns the surface with `vertices` vertices, or with the fewest that its shape allows.
     pub(super) fn resampled(self, vertices: usize) -> Self {
         if vertices < self.positions.len() {
             Coarsening::new(self).to(vertices)
@@ -69,7 +69,7 @@ impl ClosedSurface {
     pub(super) fn closed(mut self) -> Self {
         let all: BTreeSet<[u32; 2]> = self.triangles.iter().flat_map(|&triangle| edges(triangle)).collect();
         let open = all.iter().filter(|[a, b]| !all.contains(&[*b, *a]));
-        // Along a rim in the direction of the triangles that are missing.
+        // Rims are followed in the direction of the missing triangles.
         let mut next: BTreeMap<u32, u32> = open.map(|&[a, b]| (b, a)).collect();
         while let Some((first, mut at)) = next.pop_first() {
             let mut rim = vec![first];
@@ -111,7 +111,7 @@ struct Curved {
 }
 
 impl Curved {
-    /// Middle of the curve between two vertices, and its normal.
+    /// Midpoint of the curve between two vertices, and the normal there.
     fn middle(&self, [a, b]: [u32; 2]) -> (DVec3, DVec3) {
         let [a, b] = [a as usize, b as usize];
         let along = self.positions[b] - self.positions[a];
@@ -120,7 +120,7 @@ impl Curved {
         (0.5 * (self.positions[a] + self.positions[b]) - 0.125 * bent, unit(sum).unwrap_or(self.normals[a]))
     }
 
-    /// Squared length of an edge, as bits that are ordered as it is.
+    /// Squared length of an edge as the bits of f64, which have the same order.
     fn length(&self, [a, b]: [u32; 2]) -> u64 {
         self.positions[a as usize].distance_squared(self.positions[b as usize]).to_bits()
     }
@@ -139,11 +139,11 @@ const fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
 struct Refinement {
     vertices: Curved,
     triangles: Vec<[u32; 3]>,
-    /// The triangle that follows each in the order of the result; the last has itself.
+    /// For each triangle, the next one in the order of the result; the last has its own index.
     next: Vec<usize>,
     /// Triangle to the left of each directed edge.
     left: BTreeMap<[u32; 2], usize>,
-    /// Edges by length, the first of equals first.
+    /// Max-heap of edges by length; ties go to the smaller pair of vertices.
     longest: BinaryHeap<(u64, Reverse<[u32; 2]>)>,
 }
 
@@ -199,19 +199,19 @@ impl Refinement {
     }
 }
 
-/// Bits of the length of an edge, its ends, and how often the edges of both had changed when it had this length.
+/// Bits of an edge's squared length, its ends, and the change counts of both ends when it had this length.
 type RankedEdge = (u64, [u32; 2], [u32; 2]);
 
-/// Drawing together of the shortest edges.
+/// Collapse of the shortest edges.
 struct Coarsening {
     vertices: Curved,
-    /// A triangle that is gone has one corner three times.
+    /// A removed triangle has the same corner three times.
     triangles: Vec<[u32; 3]>,
     /// Triangles around each vertex.
     around: Vec<Vec<usize>>,
-    /// Number of changes to the edges of a vertex.
+    /// For each vertex, the number of changes to its edges.
     changes: Vec<u32>,
-    /// Edges by length, with the changes of both ends at which this was theirs.
+    /// Min-heap of edges by length; an entry is stale if the change count of an end differs from the stored one.
     shortest: BinaryHeap<Reverse<RankedEdge>>,
 }
 
@@ -258,11 +258,11 @@ impl Coarsening {
         corners.filter(|&corner| corner != vertex).collect()
     }
 
-    /// Draws an edge together into its first vertex, unless this would fold the surface or join parts of it.
+    /// Collapses an edge into its first vertex, unless this would fold the surface or join parts of it.
     fn draws_together(&mut self, [a, b]: [u32; 2]) -> bool {
         let (of_a, of_b) = (self.neighbors(a), self.neighbors(b));
         let common: Vec<u32> = of_a.intersection(&of_b).copied().collect();
-        // Dey, Edelsbrunner, Guha, Nekhayev 1999: the surface stays one if no other vertex is common to both.
+        // Dey, Edelsbrunner, Guha, Nekhayev 1999: the topology is kept if the ends share no other neighbour.
         if common.len() != 2 || common.iter().any(|&vertex| self.around[vertex as usize].len() < 4) {
             return false;
         }

@@ -1,5 +1,5 @@
-//! Models with the face counts of those of the subsurface paper: the Stanford bunny, and stand-ins for a head and a
-//! dolphin, which are not available.
+//! Models with the face counts of the models in the subsurface paper: the Stanford bunny, and stand-ins for a head and
+//! a dolphin, which are not available.
 
 use super::resample::ClosedSurface;
 use super::{bodies, bunny};
@@ -21,7 +21,7 @@ pub fn bunny() -> Mesh {
     plain(bunny::scanned())
 }
 
-/// Surface with an even number of faces: half as many vertices, and two more, or two fewer per handle of its shape.
+/// Surface with an even number of faces: faces / 2 vertices, plus two, minus two per handle of its shape.
 fn of_faces(build: fn(usize) -> ClosedSurface, faces: usize) -> ClosedSurface {
     let first = build(faces / 2);
     let faces_of_as_many = first.triangles.len();

@@ -1,4 +1,4 @@
-//! A small closed room with a teapot: 2,650 triangles, as many as the teapot room of the Ray Engine (Table 1).
+//! A small closed room with a teapot: 2,650 triangles, like the teapot room of the Ray Engine (Table 1).
 //!
 //! | what | triangles |
 //! |---|---|

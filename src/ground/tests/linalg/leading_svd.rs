@@ -7,7 +7,7 @@ fn matrix([rows, columns]: [usize; 2], rule: impl Fn(usize, usize) -> f64) -> Ma
         .expect("a small matrix")
 }
 
-/// All singular values by nalgebra, the largest first.
+/// All singular values by nalgebra, largest first.
 fn all_values(matrix: &Matrix) -> Vec<f64> {
     let values: Vec<f64> = matrix.rows().flatten().copied().collect();
     let matrix = DMatrix::from_row_slice(matrix.row_count(), matrix.column_count(), &values);

@@ -19,7 +19,7 @@ fn a_matrix_without_inverse_is_refused() {
     assert_eq!(error(&nan), told(0));
 }
 
-/// Sizes just below and above those of a panel, a tile and a parallel task.
+/// Sizes just below and above the size of a panel, a tile and a parallel task.
 #[test]
 fn panels_change_no_bit_of_elimination_column_by_column() {
     for size in [1_usize, 2, 5, 63, 64, 65, 100, 129, 333] {

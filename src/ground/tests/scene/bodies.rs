@@ -6,8 +6,8 @@ use crossbar_ground::scene::built::stand_ins;
 use crossbar_ground::scene::built::transfer_models::TransferModel;
 use glam::DVec3;
 
-/// Refined and coarsened surfaces are closed, of one part without a handle, around the origin, of exactly the requested
-/// number of vertices, with edges of similar length: a body with its volume.
+/// Refined and coarsened surfaces are closed and lie around the origin. They have exactly the requested number of
+/// vertices, no handles (heads and Buddhas excepted), and nearly the volume of the finest one.
 #[test]
 fn bodies_are_closed_at_every_size_and_keep_their_volume() {
     use TransferModel::{BiScaleArmor, BiScaleBunny, BiScaleBunnyMiddle, Bird, Buddha, Bunny, Head};
@@ -24,7 +24,7 @@ fn bodies_are_closed_at_every_size_and_keep_their_volume() {
         for coarser in sizes {
             let vertices = (vertices / (coarser * coarser)) as usize;
             let mesh = model.mesh(coarser).welded();
-            // Parts of coarse heads and Buddhas meet: each handle adds four triangles.
+            // Parts of coarse heads and Buddhas touch and form handles; each handle adds four triangles.
             let handles = if matches!(model, Head | Buddha) { (mesh.len() + 4 - 2 * vertices) / 4 } else { 0 };
             let triangles = 2 * vertices - 4 + 4 * handles;
             assert_eq!((mesh.positions().len(), mesh.len()), (vertices, triangles), "{model:?}");
@@ -42,7 +42,7 @@ fn volume(mesh: &Mesh) -> f64 {
     mesh.iter_corners().map(|corners| corners.map(wide)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
 }
 
-/// The bunny's box is 2.5 long and lies around the origin, for any number of vertices.
+/// The bunny's bounding box is 2.5 long and centred at the origin, for any number of vertices.
 #[test]
 fn the_bunny_is_as_large_as_stand_ins_are() {
     for coarser in 1..=4 {
@@ -51,8 +51,8 @@ fn the_bunny_is_as_large_as_stand_ins_are() {
     }
 }
 
-/// Triangles stay where they were in the order of the surface that is refined: the parts of one follow each other, so
-/// that no more neighbors in the order are far from each other than in the scan.
+/// Refinement keeps the order of triangles: the parts of a divided triangle follow each other, so that hardly more
+/// pairs of consecutive triangles are far apart than in the scan.
 #[test]
 fn the_order_of_triangles_is_kept() {
     let far = |mesh: &Mesh| {

@@ -19,7 +19,7 @@ fn a_face_of_a_cube_covers_a_sixth_and_its_parts_add_up() {
     let map = CubeMap::new(16);
     let parts = (0..256).map(|at| map.solid_angle(at % 16, at / 16));
     assert!((parts.sum::<f64>() - whole).abs() < 1e-14);
-    // A texel of 2^-29 beside the middle of the face.
+    // A texel of side 2^-29 next to the middle of the face.
     let tiny = CubeMap::new(1 << 30).solid_angle(1 << 29, 1 << 29);
     let square = f64::from_bits((1023 - 58) << 52);
     assert!((tiny / square - 1.0).abs() < 1e-15, "no digit is lost: {tiny:e}");

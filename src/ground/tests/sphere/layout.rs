@@ -1,4 +1,5 @@
-//! Pictures of the whole sphere: an independent version of every layout's directions, integrated by a product rule.
+//! Layouts of pictures of the whole sphere, tested against independent formulas for their directions, integrated by a
+//! product rule.
 
 use std::f64::consts::{PI, TAU};
 

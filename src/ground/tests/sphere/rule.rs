@@ -30,7 +30,7 @@ fn horizons_of_any_height_are_told_to_a_fraction_of_a_ring() {
     assert!(rings > 0.03 && spread < 0.004, "{rings} and {spread}");
 }
 
-/// Light beside a wall, whose horizon rises towards one side, for any azimuth.
+/// Light next to a wall, whose horizon rises towards one side, for any azimuth.
 #[test]
 fn walls_at_any_azimuth_are_told_about_as_well() {
     // Multiples of two numbers that fill the unit square evenly.

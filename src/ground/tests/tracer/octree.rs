@@ -1,4 +1,4 @@
-//! The fast traversal against the plain one, and which triangles a cell lists.
+//! The fast traversal compared with the plain one, and the triangles that a cell lists.
 
 use crossbar_base::geom::random::CounterRng;
 use crossbar_base::geom::teapot::teapot;

@@ -191,7 +191,7 @@ fn parameter(key: i64) -> f64 {
     f64::from_bits(key.cast_unsigned())
 }
 
-/// Smallest of three parameters, and the bit of its axis; the first axis of equals.
+/// Smallest of three parameters, and the bit of its axis; on ties, the first axis.
 #[inline(always)]
 fn first(far: Keys) -> (i64, u32) {
     let (x_or_y, bit) = if far[0] <= far[1] { (far[0], 4) } else { (far[1], 2) };

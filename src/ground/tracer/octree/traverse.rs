@@ -1,4 +1,5 @@
-//! The parametric traversal in its plain form: reference of `compact.rs`, and the traversal of the Ray Engine.
+//! The parametric traversal in its plain form: the reference for `compact.rs`, and the traversal that the Ray Engine
+//! uses.
 
 use std::ops::ControlFlow;
 
@@ -48,7 +49,7 @@ pub struct Visit<'a> {
     pub cell: CellId,
     /// Its triangles in ascending order.
     pub triangles: &'a [u32],
-    /// `true` if it is a GPU cell.
+    /// `true` if the cell is a GPU cell, whose triangles are sent to the card together.
     pub gpu: bool,
     /// Parameters at which the ray enters and leaves it, in multiples of the ray's direction. The entry may lie behind
     /// the origin.
@@ -75,7 +76,7 @@ struct Walk<'a, F> {
 
 impl Octree {
     /// Calls `visit` for every cell with triangles that the ray crosses at t >= 0, front to back, until it returns
-    /// [`Flow::Stop`]. With `gpu`, GPU cells are visited as one; otherwise all visited cells are leaves.
+    /// [`Flow::Stop`]. With `gpu`, each GPU cell is visited as a whole; otherwise all visited cells are leaves.
     pub fn traverse<'a>(
         &'a self,
         ray: &Ray,

@@ -1,4 +1,4 @@
-//! Transfer in spherical harmonics of one order on both sides.
+//! Transfer matrices whose rows and columns are spherical harmonics of one order.
 
 use glam::DVec3;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! Decoding of a coded segment, and coding again in fewer bits for a precision study.
+//! Decoding of a coded segment, and recoding it with fewer bits for a precision study.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

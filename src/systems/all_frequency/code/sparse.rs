@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Rows of a block: as many as a byte can number.
+/// Number of rows of a block; a byte holds the index of a row in its block.
 pub const BLOCK_ROWS: usize = 256;
 
 /// Rows of integers in blocks of [`BLOCK_ROWS`], the last one shorter. For each column of a block, the non-zero numbers

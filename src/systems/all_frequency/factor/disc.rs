@@ -1,4 +1,4 @@
-//! Errors of approximations by terms and by spherical harmonics, over texels whose directions lie above the horizon.
+//! Errors of approximations by products of factors and by spherical harmonics, over texels above the horizon.
 
 use std::f64::consts::PI;
 
@@ -145,7 +145,7 @@ impl HemisphereSamples {
         }))
     }
 
-    /// Errors of other values for the same pairs.
+    /// Errors of approximate values for the same pairs.
     pub(super) fn errors_of(&self, values: &Matrix) -> ProductErrors {
         ProductErrors::over(self.counts(), |at, f, found| {
             f.copy_from_slice(self.values.row(at));

@@ -142,7 +142,7 @@ impl Factorization {
         Ok(Self { view: table.view(), light: table.light(), svd })
     }
 
-    /// All singular values, the largest first.
+    /// All singular values, largest first.
     pub fn singular_values(&self) -> &[f64] {
         &self.svd.values
     }

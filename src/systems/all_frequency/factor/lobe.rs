@@ -1,4 +1,4 @@
-//! Microfacet lobes in the forms that the paper leaves open.
+//! Microfacet lobes, with the details that the paper leaves open as options.
 //!
 //! The paper cites Cook and Torrance 1982 and Schlick 1994 with two or three parameters each, and prints errors; it
 //! does not say which factors of these models it used. [`Lobe`] has each factor as an option.

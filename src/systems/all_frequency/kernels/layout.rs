@@ -1,4 +1,4 @@
-//! The layout of a vertex's numbers in texture coordinate sets.
+//! The layout of a vertex's terms and view in texture coordinate sets.
 
 /// The representation of the view that is interpolated (section 6 says "compute the local view direction", but not
 /// where).

@@ -95,7 +95,7 @@ pub(super) fn colors(
     Ok((stream, counts))
 }
 
-/// The expectation in messages on attributes.
+/// The expected value in error messages about attributes.
 const HELD: &str = "radiance that its format holds";
 
 /// The coordinate sets of a pass of products per pixel: T_p times exposure, color and `scales`, one per term, which

@@ -1,4 +1,5 @@
-//! A mesh with transferred radiance on an emulated card, and a picture with counts of colors out of range.
+//! A mesh with transferred radiance on an emulated card, and its picture, with counts of the colors that are out of
+//! range.
 
 use std::sync::Arc;
 
@@ -83,8 +84,9 @@ impl<'a> FactoredCard<'a> {
         self.display.machine_mut()
     }
 
-    /// The target of a frame. Background pixels are 0, alpha is 1 elsewhere. Fails with [`CardError`] for an exposure
-    /// out of range, radiance outside its format's range, and draws that the card refuses.
+    /// Draws a frame and returns its render target. Background pixels are 0, alpha is 1 elsewhere. Fails with
+    /// [`CardError`] if the exposure is out of range, radiance exceeds the range of its format, or the card rejects a
+    /// draw.
     pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(view, false)?.0)
     }

@@ -96,7 +96,7 @@ impl ProductOptions {
         SetLayout { terms, channels: if self.is_pass_per_channel { 1 } else { 3 }, view: self.view }
     }
 
-    /// Refuses options that the device cannot satisfy.
+    /// Rejects options that the device cannot satisfy.
     pub(super) fn check(&self, profile: &Profile, terms: usize) -> Result<(), CardError> {
         require_versions(profile, &[Version::Ps2_0], "the product per pixel")?;
         if let Some(found) = self.map_bits.filter(|bits| !(2..=24).contains(bits)) {
@@ -146,7 +146,7 @@ impl ProductOptions {
     }
 }
 
-/// Refuses more textures than the device has samplers.
+/// Rejects more textures than the device has samplers.
 fn check_samplers(profile: &Profile, terms: usize, format: TexelFormat, needed: usize) -> Result<(), CardError> {
     let (device, found) = (&profile.name, profile.limits.samplers.map_or(16, |limit| limit as usize).min(16));
     if needed <= found {

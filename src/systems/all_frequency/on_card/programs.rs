@@ -60,7 +60,7 @@ impl Programs {
 #[derive(Clone, Debug)]
 pub(super) struct FactorMaps {
     pub(super) textures: Vec<TextureId>,
-    /// Factor of the texels per term.
+    /// For each term, the factor that scales its texels.
     pub(super) scales: Vec<f64>,
 }
 

@@ -8,7 +8,8 @@ use crate::all_frequency::kernels::ViewNumbers;
 use crate::geom::vector::wide;
 use crate::sphere::ParabolicMap;
 
-/// G(v) . T_p times the surface's color for each vertex: red, green, blue, of any sign; 0 from below.
+/// G(v) . T_p times the surface's color for each vertex: red, green, blue, of any sign; 0 if the eye is below the
+/// horizon.
 pub fn vertex_radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
     let mut all = Vec::with_capacity(mesh.vertices.len());
     for vertex in 0..mesh.vertices.len() {

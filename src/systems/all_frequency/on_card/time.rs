@@ -1,4 +1,4 @@
-//! The time of a frame (Table 1): the host's steps at one calibrated rate, transfer over the bus, vertices and pixels.
+//! The time of a frame (Table 1): the host's steps at one calibrated rate, uploads over the bus, vertices and pixels.
 
 use refsim::event::{Event, ResourceId};
 use refsim::isa::Version;
@@ -120,7 +120,8 @@ pub struct FactoredFrame {
     pub terms: usize,
     /// Multiplications of steps 2 and 3.
     pub host: Multiplies,
-    /// Vertices run per triangle, which follow from the order of the mesh and the card's vertex cache.
+    /// Mean number of vertex program runs per triangle, which depends on the order of the mesh and the card's vertex
+    /// cache.
     pub run_per_triangle: f64,
 }
 

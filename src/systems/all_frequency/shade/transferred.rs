@@ -63,7 +63,7 @@ pub struct LightSizeError {
 }
 
 impl LightSizeError {
-    /// Refuses too few coefficients for segments up to `last`.
+    /// Rejects too few coefficients for segments up to `last`.
     pub(super) fn check(found: usize, per_segment: usize, last: Option<usize>) -> Result<(), Self> {
         let expected = last.map_or(0, |last| (last + 1) * per_segment);
         if found < expected { Err(Self { expected, per_segment, found }) } else { Ok(()) }

@@ -18,7 +18,7 @@ pub struct RowClusterOptions {
     pub vectors: usize,
     /// Affine subspaces (with a mean) or linear ones.
     pub form: CpcaForm,
-    /// Number of sample rows for the initial clusters, drawn without repetition from the non-zero rows. A row takes 4
+    /// Number of sample rows for the initial clusters, drawn without replacement from the non-zero rows. A row takes 4
     /// bytes per column: 4,096 rows of 6,144 columns take 100 MB.
     pub sample: usize,
     /// Maximum number of iterations on the sample for each number of vectors.

@@ -1,4 +1,5 @@
-//! Rows as a few Haar wavelet coefficients each (section VI-B, Figure 6; \[NRH03\]'s non-linear approximation).
+//! Each row of a matrix as a few Haar wavelet coefficients (section VI-B, Figure 6; \[NRH03\]'s non-linear
+//! approximation).
 
 use rayon::prelude::*;
 
@@ -14,7 +15,7 @@ pub(super) const FACE: usize = LIGHT_SIDE * LIGHT_SIDE;
 /// The largest value of a signed byte.
 const BYTE: f64 = 127.0;
 
-/// The criterion by which a row's coefficients are chosen; among equals the lowest number is chosen.
+/// The criterion by which a row's coefficients are chosen; on ties, the lowest coefficient number is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientPriority {
@@ -25,7 +26,7 @@ pub enum CoefficientPriority {
     Magnitude,
 }
 
-/// Storage of a coefficient's value, next to its number of two bytes.
+/// Storage of a coefficient's value; the coefficient's number takes two more bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientStorage {

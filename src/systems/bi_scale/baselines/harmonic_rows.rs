@@ -10,7 +10,7 @@ use crate::error::{InputError, ensure};
 use crate::sphere::{MAX_ORDER, function_count, harmonics};
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
 
-/// The sides of transfer that are in harmonics.
+/// The sides of transfer that are represented in harmonics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 pub enum HarmonicSides {
@@ -35,7 +35,7 @@ pub struct HarmonicRows {
 }
 
 impl HarmonicRows {
-    /// Converts rows to light in harmonics of an order, without data of vertices.
+    /// Projects each row from light texels to harmonics of an order; vertex data are not needed.
     pub fn of_light(matrix: &SparseMatrix, order: usize) -> Result<Self, InputError> {
         if matrix.columns() != LIGHT_TEXELS {
             return Err(columns_error(matrix.columns()));

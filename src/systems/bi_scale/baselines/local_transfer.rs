@@ -1,4 +1,4 @@
-//! Transfer with the frames of its vertices: data for the rotation of harmonics or visibility.
+//! A transfer matrix together with its vertices' frames, which baselines need to rotate harmonics or visibility.
 
 use crate::bi_scale::baselines::stored::columns_error;
 use crate::bi_scale::directions::{LocalDirections, hemisphere};

@@ -1,7 +1,7 @@
 //! Refinement of clusters of sparse rows by rounds over all rows.
 //!
 //! A million dense rows of a transfer matrix would take 25 GB; inner products with the clusters' vectors need only the
-//! entries. A round assigns each row to the cluster that approximates it best, the first of equals. Then each cluster
+//! entries. A round assigns each row to the cluster that approximates it best (on ties, the first). Then each cluster
 //! takes the mean of its rows, and its vectors are multiplied by the covariance of its rows and orthonormalised
 //! (orthogonal iteration). No step increases the error. Means and nearest clusters are optimal. For positive
 //! semidefinite C and orthonormal V, let U be an orthonormal basis of C V: then tr(U^T C U) >= tr(V^T C V), because U
@@ -93,7 +93,7 @@ impl ByColumn {
     }
 }
 
-/// Assigns each row to its best cluster, the first of equals.
+/// Assigns each row to its best cluster; on ties, to the first.
 pub(super) fn placed(matrix: &SparseMatrix, subspaces: &[RowSubspace]) -> Vec<PlacedRow> {
     let lines = ByColumn::new(subspaces);
     let rows = (0..matrix.rows()).into_par_iter();

@@ -7,7 +7,7 @@ use crate::transfer::grid::LIGHT_TEXELS;
 
 /// Transfer stored by one of the compression methods.
 pub trait StoredTransfer {
-    /// Bytes per layout. [`Self::multiply`] computes with the numbers of the first layout.
+    /// Size in bytes of each layout. [`Self::multiply`] computes with the numbers of the first layout.
     fn sizes(&self) -> Vec<StoredSize>;
 
     /// Local light L~ in f64: one number per row of T, from `light` with one number per column. Panics if the light
@@ -31,7 +31,7 @@ pub struct LocalLightError {
     pub root_mean_square: f64,
     /// The largest difference, in the unit of the light.
     pub largest: f64,
-    /// `root_mean_square` relative to the root mean square of T L; 0 without a difference.
+    /// `root_mean_square` relative to the root mean square of T L; 0 if there is no difference.
     pub relative: f64,
 }
 

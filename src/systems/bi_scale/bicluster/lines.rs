@@ -18,7 +18,7 @@ pub(super) fn transposed(rows: &[Vec<MatrixEntry>], width: usize) -> Lines {
 /// The non-zero values of one column in the rows of a submatrix, each with its count.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ColumnTally {
-    /// Unordered; counts may be 0 again.
+    /// In no particular order; a count may have returned to 0.
     values: Vec<(i32, u32)>,
     nonzeros: u32,
     /// The highest count.

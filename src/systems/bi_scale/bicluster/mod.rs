@@ -2,8 +2,8 @@
 //!
 //! - [`Bicluster`], [`Biclustering`]: rows, columns, and a value for each column (equations 4 to 8);
 //! - [`bicluster`]: makes the decisions of [Algorithm 1](super::paper::biclusters) by influence values in queues
-//!   (section V, Precomputation Optimization). It computes with integers that are equal where numbers are: multiples of
-//!   the matrix's unit, else indices of numbers by first appearance.
+//!   (section V, Precomputation Optimization). It represents each number by an integer: the multiple of the matrix's
+//!   unit, or without a unit the number's index by first appearance.
 //!
 //! Both make these choices, which the paper leaves open:
 //! - The remaining non-zeros are numbered row by row; the n-th bicluster starts at a non-zero chosen uniformly by a

@@ -1,4 +1,4 @@
-//! The numbers that the search computes with, as integers that are equal where their numbers are.
+//! The numbers of the search, each represented by an integer; equal numbers have equal integers.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -60,8 +60,8 @@ pub(super) struct KnownNumbers {
 }
 
 impl KnownNumbers {
-    /// The numbers of a matrix, and its entries as their indices, row by row; `None` if there are more numbers than
-    /// integers.
+    /// The distinct numbers of a matrix, and its entries row by row, with indices of numbers as values; `None` if there
+    /// are more numbers than integers.
     pub(super) fn new(matrix: &SparseMatrix, drop: f64) -> Option<(Self, Vec<Vec<MatrixEntry>>)> {
         let mut known = Self { drop, ..Self::default() };
         known.integer(0.0);

@@ -1,4 +1,4 @@
-//! Lines in buckets by their key, the best key first.
+//! Lines in buckets by their key, best key first.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -15,8 +15,8 @@ use super::{Bicluster, BiclusterOptions, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::error::{InputError, ensure, input_error};
 
-/// Biclusters of a matrix, identical to those of [`paper::biclusters`](crate::bi_scale::paper::biclusters). `found` is
-/// called after each with the number of remaining non-zeros.
+/// Biclusters of a matrix, identical to the result of [`paper::biclusters`](crate::bi_scale::paper::biclusters).
+/// `found` is called after each with the number of remaining non-zeros.
 ///
 /// Besides the biclusters, the search takes 16 bytes per non-zero and about 80 per row and column. If no unit exists in
 /// which 32 bits hold the values and all residuals, it takes about 100 bytes more per distinct number. If only a
@@ -238,7 +238,7 @@ impl<N: SearchNumbers> Search<N> {
         }
     }
 
-    /// Lines 2 to 21, with the numbers of the search as values; `None` if a residual has no integer.
+    /// Lines 2 to 21 of Algorithm 1, on integers that represent the values; `None` if a residual has no integer.
     fn run(&mut self, matrix: &SparseMatrix, found: &mut dyn FnMut(u64)) -> Option<Biclustering> {
         let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
         while self.left.total() > 0 {

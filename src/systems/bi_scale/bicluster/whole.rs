@@ -1,4 +1,4 @@
-//! Biclusters, and the options by which they are found.
+//! Biclusters, and the options of the search for them.
 
 use crate::bi_scale::matrix::{EntryValues, MatrixEntry};
 

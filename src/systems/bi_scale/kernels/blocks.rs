@@ -1,5 +1,5 @@
 //! A bidirectional texture as a volume (Figure 4): one layer per view. A layer has one block of texels per direction of
-//! light, arranged as the directions in their square.
+//! light; blocks are arranged like the directions in their square.
 
 /// Borders between the blocks of a layer.
 #[non_exhaustive]

@@ -15,11 +15,11 @@ pub struct LocalLayout {
     pub sets: usize,
 }
 
-/// Interpolated numbers besides local light: u, v and the three of the view.
+/// Interpolated numbers besides local light: u, v and three components of the view.
 const BESIDE: usize = 5;
 
 impl LocalLayout {
-    /// Number of directions per pass: each takes three of the numbers that u, v and the view leave.
+    /// Number of directions per pass: each takes three of the numbers that remain besides u, v and the view.
     pub const fn directions(self) -> usize {
         (4 * self.sets).saturating_sub(BESIDE) / 3
     }

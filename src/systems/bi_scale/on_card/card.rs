@@ -141,8 +141,8 @@ impl<'a> BiScaleCard<'a> {
     }
 
     /// Draws a frame from local light, M colors (red, green, blue) per vertex, and returns the target. Background
-    /// pixels are 0, alpha is 1 elsewhere. Fails with [`CardError`] for an exposure out of range, light of another size
-    /// or outside its format's range, and draws that the card refuses.
+    /// pixels are 0, alpha is 1 elsewhere. Fails with [`CardError`] if the exposure is out of range, the light has
+    /// another size or exceeds the range of its format, or the card rejects a draw.
     pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(local, view, false)?.0)
     }

@@ -4,7 +4,7 @@
 //! Additions have the order of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), so a card with single
 //! precision gives the same bits, except for subnormal numbers, which `gt200` flushes. Lists have about the paper's
 //! size: four bytes per row of a bicluster, eight per column. Values of biclusters are rounded to single precision,
-//! which is exact for visibility; values beyond its range are refused.
+//! which is exact for visibility; values beyond its range are rejected.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -138,9 +138,8 @@ impl GatherCard {
         }
     }
 
-    /// Local light of each row in red, green and blue, from one color per column. Fails with [`CardError`] for light of
-    /// another size, numbers that are not finite (or negative in [`LightFormat::Bytes`]), and draws that the card
-    /// refuses.
+    /// Local light of each row in red, green and blue, from one color per column. Fails with [`CardError`] if the light
+    /// has another size, a number is not finite (or negative in [`LightFormat::Bytes`]), or the card rejects a draw.
     pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, CardError> {
         let scale = self.draw(light)?;
         let texels = Texels::read_back(&self.machine, self.stages[1].targets[0])?.texels;
@@ -246,7 +245,7 @@ impl Stage {
     }
 }
 
-/// Refuses biclusters with values beyond single precision.
+/// Rejects biclusters with values beyond single precision.
 fn require_singles(biclusters: &Biclustering) -> Result<(), CardError> {
     for bicluster in 0..biclusters.len() {
         let values = biclusters.columns_of(bicluster).iter().map(|entry| biclusters.value(entry.value));

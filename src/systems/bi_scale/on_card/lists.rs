@@ -2,14 +2,14 @@
 //!
 //! Sums are sorted by the lengths of their lists, so that lists within a row of the target have similar lengths. A pass
 //! covers rows whose longest lists have the same number of texels, and reads that many texels per fragment. Shorter
-//! lists are padded with places of 0.
+//! lists are padded with places that hold 0.
 
 use crate::card::{CardError, Texels};
 
 /// The number of places that stay distinct in single precision with one half added: 23 bits.
 const MOST_PLACES: usize = 1 << 23;
 
-/// Refuses more sums or columns than there are distinct places.
+/// Rejects more sums or columns than there are distinct places.
 pub(super) fn check_places(what: &str, found: usize) -> Result<(), CardError> {
     if found < MOST_PLACES {
         return Ok(());
@@ -63,8 +63,9 @@ pub(super) struct Lists {
 
 impl Lists {
     /// Creates the lists of `lengths.len()` sums with `lengths[i]` texels each; `texel(i, n)` gives the n-th texel of
-    /// list i, and `filler` is a texel of places of 0. The target has at least one unused place, which stays 0. Fails
-    /// with [`CardError`] if the target exceeds the largest texture, or has more places than remain distinct.
+    /// list i, and `filler` is a texel of places that hold 0. The target has at least one unused place, which stays 0.
+    /// Fails with [`CardError`] if the target exceeds the largest texture, or has more places than single precision
+    /// distinguishes.
     pub(super) fn new(
         what: &'static str,
         lengths: &[usize],

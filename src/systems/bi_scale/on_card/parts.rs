@@ -1,4 +1,4 @@
-//! Data of a pass: textures with their triangles, and local light of vertices.
+//! The data that a pass draws: a texture's triangles, and the local light of vertices.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -69,12 +69,12 @@ pub(super) fn parts(
 pub(super) struct LocalStream<'a> {
     pub(super) vertices: &'a CardVertices,
     pub(super) layout: LocalLayout,
-    /// M times red, green and blue for each vertex.
+    /// Local light: one RGB triple per direction, M directions per vertex.
     pub(super) local: &'a [[f32; 3]],
     pub(super) directions: usize,
     /// Exposure times the texels' factor.
     pub(super) factor: f64,
-    /// The largest number times `factor`.
+    /// Largest magnitude of local light times `factor`.
     pub(super) largest: f64,
     pub(super) format: LocalFormat,
 }
@@ -101,7 +101,7 @@ impl LocalStream<'_> {
     }
 }
 
-/// The largest value of local light times a factor. Fails with [`CardError::Input`] if it is beyond single precision.
+/// Largest magnitude of local light times `factor`. Fails with [`CardError::Input`] if it exceeds single precision.
 pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, CardError> {
     let numbers = local.as_flattened().iter();
     let found = numbers.fold(0.0_f64, |most, &value| most.max((factor * f64::from(value)).abs()));

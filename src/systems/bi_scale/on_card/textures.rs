@@ -47,7 +47,7 @@ pub fn volume_image(
     Ok((image, grid, scale))
 }
 
-/// Refuses a volume that the device cannot store or filter.
+/// Rejects a volume that the device cannot store or filter.
 fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(), CardError> {
     if ![TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f].contains(&format) {
         let sentence = format!("expected a bidirectional texture in rgba8, rgba16f or rgba32f, found {format}");
@@ -85,7 +85,7 @@ pub struct VolumeTexture {
 }
 
 impl VolumeTexture {
-    /// Uploads a texture. Fails as [`volume_image`] does, and if the card refuses the texture.
+    /// Uploads a texture. Fails as [`volume_image`] does, and if the card rejects the texture.
     pub fn new(
         machine: &mut Machine,
         texture: &BidirectionalTexture,

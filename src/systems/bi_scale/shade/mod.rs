@@ -3,8 +3,8 @@
 //!
 //! - [`ShadedPixel`]: a pixel's vertices, texture coordinates and view; [`pixel_frame`]: its local frame;
 //! - [`TexelSamples`]: the four texels around texture coordinates;
-//! - [`TextureLookup`]: computes the bits of [`paper::radiance`](super::paper::radiance) faster;
-//! - [`TracedScene`]: a pixel by rays, and the causes of its error.
+//! - [`TextureLookup`]: a faster [`paper::radiance`](super::paper::radiance) with bit-identical results;
+//! - [`TracedScene`]: ray-traced pixels, and the causes of a pixel's error.
 
 mod pixel;
 mod traced;

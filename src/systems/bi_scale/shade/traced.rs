@@ -17,7 +17,7 @@ use crate::transfer::LocalFrame;
 use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections, LIGHT_TEXELS, light_texel, texel_center};
 use crate::transfer::visibility::{Horizon, VisibilitySampling};
 
-/// Approximations of transfer; each step includes those before it.
+/// Approximations of transfer; each step includes the previous ones.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TracedRung {

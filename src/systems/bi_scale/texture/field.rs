@@ -22,7 +22,7 @@ pub struct HeightField {
     bottom: f64,
 }
 
-/// The bilinear surface of a cell: h00 + a p + b q + a b s with a, b in [0, 1] from the cell's first corner.
+/// The bilinear surface of a cell: corner + a along + b across + a b twist, a and b in [0, 1] from the first corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CellPatch {
     corner: f64,

@@ -6,7 +6,7 @@
 //! - [`HeightField`], [`MesoMaterial`], [`MesoPatch`]: a repeated patch of heights and materials, seen and lit by rays;
 //! - [`PatchKind`]: procedural bumps, mail, tiles, bricks and weave;
 //! - [`TextureSampling`]: samples patches into textures;
-//! - [`mod@reference`]: rays against heights by plain loops.
+//! - [`mod@reference`]: intersection of rays with heights by plain loops.
 
 mod field;
 mod file;

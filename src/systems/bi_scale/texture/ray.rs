@@ -1,4 +1,5 @@
-//! Rays against a repeating height field: exact up to rounding, since along a ray the surface of a cell is a parabola.
+//! Intersection of rays with a repeating height field: exact up to rounding, since along a ray the surface of a cell is
+//! a parabola.
 //!
 //! [`follow`] visits the cells along the ray and stops at the first hit. [`reference`](super::reference) tests all
 //! cells around the ray instead. Both clip the ray against a cell by the same two divisions and intersect the cell by

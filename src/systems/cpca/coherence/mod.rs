@@ -1,7 +1,7 @@
 //! Coherence of clusters over a mesh (section 5 of the paper): a triangle whose vertices are in different clusters is
 //! drawn once for each of them.
 //!
-//! - [`overdraw`]: how many triangles are drawn;
+//! - [`overdraw`]: the number of triangles drawn;
 //! - [`reclassify`]: vertices move to clusters of their neighbours, within a budget of error;
 //! - [`Superclusters`]: groups of clusters that are drawn as one, up to the number of constant registers, or of a given
 //!   size; they do not change the error.

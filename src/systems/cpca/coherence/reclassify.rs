@@ -21,10 +21,10 @@ pub struct Reclassified {
 }
 
 /// Moves vertices to clusters of their neighbours (section 5). The next move is always the one with the greatest
-/// reduction of overdraw per increase of squared error, infinite without an increase; of equals the lowest vertex.
-/// Moves add at most `budget` times the initial squared error; a move that would exceed it is skipped. The paper uses
-/// 0.05 to 0.1. Fails with [`InputError`] if mesh, signal and clustering contradict each other, or the budget is
-/// invalid.
+/// reduction of overdraw per increase of squared error (infinite if the error does not increase); ties go to the lowest
+/// vertex. Moves add at most `budget` times the initial squared error; a move that would exceed it is skipped. The
+/// paper uses 0.05 to 0.1. Fails with [`InputError`] if mesh, signal and clustering contradict each other, or the
+/// budget is invalid.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,
@@ -51,7 +51,7 @@ struct Move {
     to: u32,
     reduction: u64,
     increase: f64,
-    /// How often the vertex's best move was computed before this one; moves of earlier rounds are outdated.
+    /// Number of earlier computations of the vertex's best move; moves of earlier rounds are outdated.
     round: u32,
 }
 
@@ -170,7 +170,7 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// How often the triangles around a vertex are drawn if it belongs to `cluster`.
+    /// Number of draws of the triangles around a vertex if the vertex belongs to `cluster`.
     fn drawn(&self, vertex: usize, cluster: u32) -> u64 {
         let of = |corner: u32| if corner as usize == vertex { cluster } else { self.of_point[corner as usize] };
         let triangles = self.around[vertex].iter().map(|&triangle| self.triangles[triangle as usize]);

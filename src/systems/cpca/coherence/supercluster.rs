@@ -42,7 +42,7 @@ pub struct Superclusters {
 
 impl Superclusters {
     /// Begins with one supercluster per cluster. Repeatedly merges the two superclusters that share the most triangles
-    /// and fit the registers together (the lowest of equals), until no two neighbours fit. Fails with [`InputError`] if
+    /// and fit the registers together (on ties, the lowest), until no two neighbours fit. Fails with [`InputError`] if
     /// a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
     pub fn new(
         clustering: &Clustering,
@@ -68,7 +68,7 @@ impl Superclusters {
         (numbered.of_cluster == of_cluster).then_some(numbered)
     }
 
-    /// Refuses superclusters that exceed the registers, or belong to another clustering.
+    /// Rejects superclusters that exceed the registers, or belong to another clustering.
     pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), InputError> {
         let (expected, found) = (clustering.subspaces().len(), self.of_cluster.len());
         ensure!(expected == found, "expected superclusters of {expected} clusters, found those of {found}");
@@ -174,7 +174,7 @@ fn renamed(mixed: MixedTriangles, to: u32, from: u32) -> MixedTriangles {
     found
 }
 
-/// The two superclusters, lower first, that share the most triangles and fit together.
+/// The two superclusters, lower first, that share the most triangles among the pairs that fit into the registers.
 fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(u32, u32)> {
     let mut common: BTreeMap<(u32, u32), u64> = BTreeMap::new();
     for (&[a, b, c], &count) in mixed {

@@ -1,4 +1,5 @@
-//! The vertex programs of section 6.2: e_p = alpha M_0 l + w_1 M_1 l + w_2 M_2 l + ..., and the local view vector.
+//! The vertex programs of section 6.2: they compute e_p = alpha M_0 l + w_1 M_1 l + w_2 M_2 l + ..., and the local view
+//! vector.
 //!
 //! - v0: position, w = 1; v1.x: index of the first constant of the vertex's cluster, relative to
 //!   [`VertexKernel::first`]; v1.y: alpha; v2 and up: weights, four per register; if glossy, then tangent and normal.

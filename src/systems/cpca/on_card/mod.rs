@@ -105,8 +105,8 @@ impl<'a> PrtCard<'a> {
         self.display.machine_mut()
     }
 
-    /// Draws a frame and returns the target. Background pixels are 0. Fails with [`CardError`] for light of too low an
-    /// order, an exposure out of range, products that are not finite, and draws that the card refuses.
+    /// Draws a frame and returns the target. Background pixels are 0. Fails with [`CardError`] if the order of the
+    /// light is too low, the exposure is out of range, a product is not finite, or the card rejects a draw.
     pub fn view_texels(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(light, view, false)?.0)
     }

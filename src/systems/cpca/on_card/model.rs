@@ -37,7 +37,7 @@ impl TransferSize {
         self.clusters * (self.vectors + 1)
     }
 
-    /// Constant registers per cluster in the programs, with whole registers per vector.
+    /// Constant registers per cluster in the programs, in which each vector takes whole registers.
     pub fn registers_per_cluster(&self) -> usize {
         self.registers(0).needed(self.vectors)
     }

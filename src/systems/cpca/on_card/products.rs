@@ -19,8 +19,8 @@ pub struct Products {
 
 impl Products {
     /// Computes products in double precision, multiplied by `factor` and by the ranges of weights, and rounded once.
-    /// Light coefficients beyond the matrices' columns are ignored. Fails with [`CardError`] for parts with
-    /// inconsistent sizes, light of too low an order, and products that overflow single precision.
+    /// Light coefficients beyond the matrices' columns are ignored. Fails with [`CardError`] if parts have inconsistent
+    /// sizes, the order of the light is too low, or a product overflows single precision.
     pub fn new(
         transfer: &CompressedTransfer<'_>,
         weights: &CardWeights,

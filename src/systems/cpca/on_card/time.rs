@@ -1,5 +1,5 @@
-//! The time of a frame: the host on which section 7 measures, and the log of a frame from sizes and counts alone,
-//! without mesh, clusters or pixels.
+//! The time of a frame: the host on which section 7 measures, and the log of a frame, computed from sizes and counts
+//! alone, without mesh, clusters or pixels.
 
 use refsim::event::Event;
 use refsim::isa::Version;
@@ -32,7 +32,8 @@ pub struct FrameCounts {
     pub drawn: u64,
     /// Number of superclusters, or of clusters if each is drawn alone.
     pub groups: u64,
-    /// Vertices run per triangle, which follow from the order of the mesh and the card's vertex cache.
+    /// Mean number of vertex program runs per triangle, which depends on the order of the mesh and the card's vertex
+    /// cache.
     pub run_per_triangle: f64,
 }
 

@@ -41,12 +41,12 @@ impl WeightFormat {
     }
 }
 
-/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. They cost the card
-/// nothing, because the products include them: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
+/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. Decoding costs the
+/// card nothing, because the products include them: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
 #[derive(Clone, Debug)]
 pub struct CardWeights {
     format: WeightFormat,
-    /// Low and extent of each cluster's vectors.
+    /// For each vector of each cluster, the decoding range of the weights: minimum and extent.
     ranges: Vec<Vec<[f64; 2]>>,
 }
 
@@ -71,7 +71,8 @@ impl CardWeights {
         Self { format, ranges }
     }
 
-    /// Low and extent of each vector of a cluster. Panics if there is no such cluster.
+    /// Decoding range of the weights on each vector of a cluster: minimum and extent. Panics if there is no such
+    /// cluster.
     pub fn ranges(&self, cluster: usize) -> &[[f64; 2]] {
         &self.ranges[cluster]
     }
@@ -92,7 +93,7 @@ impl CardWeights {
 /// Options of drawing compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrtCardOptions {
-    /// True if clusters are drawn in superclusters, those of the transfer or as large as the constant registers allow;
+    /// True if clusters are drawn in superclusters: the transfer's, or ones as large as the constant registers allow;
     /// false if each cluster is drawn alone.
     pub superclusters: bool,
     /// Texels along an edge of the maps of y; 32 in the paper.

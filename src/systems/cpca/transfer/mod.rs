@@ -1,6 +1,6 @@
 //! Radiance transfer at the vertices of a mesh, as matrices of harmonics.
 //!
-//! - [`TracedRays`]: which directions are blocked, and by which triangles;
+//! - [`TracedRays`]: the blocked directions of each vertex, and the triangles that block them;
 //! - [`Response`]: the exit radiance of a material per light from each direction;
 //! - [`Transfer`]: the matrix of each vertex, with bounces and [subsurface scattering](Transfer::scattered).
 

@@ -1,4 +1,4 @@
-//! The rays of all vertices: which are blocked, and their hits.
+//! The rays of all vertices: blocked or not, and their hits.
 
 use std::ops::Range;
 

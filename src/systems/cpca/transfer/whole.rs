@@ -18,7 +18,7 @@ const CHUNK: usize = 1024;
 /// Number of interreflections, not counting the reflection towards the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bounces {
-    /// This number; 0 computes only shadows.
+    /// This number of them; with 0, only direct light with shadows is computed.
     Count(u32),
     /// Bounces until one adds less than this fraction of the direct transfer (root mean square over all numbers).
     Tolerance {

@@ -86,14 +86,14 @@ impl Display {
     }
 
     /// Draws each patch with constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity
-    /// divided by pi. Fails with [`DrawError`] if the card refuses.
+    /// divided by pi. Fails with [`DrawError`] if the card rejects a draw.
     pub fn flat(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         self.draw(machine, self.target, Some(radiosity), exposure, |_| &self.flat)?;
         self.picture(machine)
     }
 
     /// Draws each patch with radiosity interpolated between its corners, which the card resamples; exposure as in
-    /// [`Display::flat`]. Fails with [`DrawError`] if the card refuses.
+    /// [`Display::flat`]. Fails with [`DrawError`] if the card rejects a draw.
     pub fn smooth(&self, machine: &mut Machine, radiosity: TextureId, exposure: f64) -> Result<Picture, DrawError> {
         let corners = self.resampler.run(machine, radiosity)?;
         self.draw(machine, self.target, Some(corners), exposure, |shape| &shape.smooth)?;
@@ -101,7 +101,7 @@ impl Display {
     }
 
     /// Draws the patch whose front each pixel shows, if any; rows from the top. Fails with [`DrawError`] if the card
-    /// refuses.
+    /// rejects a draw.
     pub fn ids(&self, machine: &mut Machine) -> Result<Vec<Option<u32>>, DrawError> {
         self.draw(machine, self.ids, None, 1.0, |_| &self.id)?;
         let codes = Texels::read_back(machine, self.ids.color)?;

@@ -31,7 +31,7 @@ impl FormFactors {
         self.matrix.times(&vec![1.0; self.len()])
     }
 
-    /// Statistics of the row sums. All zero for no patches.
+    /// Statistics of the row sums. All are zero if there are no patches.
     pub fn summary(&self) -> RowSums {
         let sums = self.row_sums();
         let fold = |start: f64, f: fn(f64, f64) -> f64| {
@@ -102,7 +102,7 @@ impl FormFactors {
     }
 }
 
-/// The row whose sum is farthest from 1 (the first of equals), and its sum; zeros without rows.
+/// The row whose sum is farthest from 1 (on ties, the first), and its sum; zeros if there are no rows.
 fn farthest(sums: &[f64]) -> (usize, f64) {
     let off = |sum: f64| if sum.is_nan() { f64::INFINITY } else { (sum - 1.0).abs() };
     let start = (0, sums.first().copied().unwrap_or(0.0));

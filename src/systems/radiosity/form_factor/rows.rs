@@ -48,7 +48,7 @@ impl FormFactorRows {
         Ok(rows)
     }
 
-    /// The exchanges of a patch with later patches. Panics if there is no such patch.
+    /// The exchanges of a patch with all patches of higher index. Panics if there is no such patch.
     pub fn row(&self, patch: usize) -> &[f64] {
         &self.matrix.row(patch)[patch + 1..]
     }

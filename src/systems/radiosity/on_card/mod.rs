@@ -61,8 +61,8 @@ impl CardSolver {
     }
 
     /// Creates a solver and uploads systems that are already in the card's layout: one, or three luminance systems of
-    /// one size for the three channels. Errors: as [`Self::new`]; [`CardError::Input`] for other numbers of systems or
-    /// several of different sizes, [`CardError::Program`] for blocks that are too long for the device.
+    /// one size for the three channels. Fails as [`Self::new`] does, with [`CardError::Input`] for another number of
+    /// systems or for different sizes, and with [`CardError::Program`] for blocks that are too long for the device.
     pub fn of(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -137,8 +137,8 @@ impl CardSolver {
         Ok(())
     }
 
-    /// Leaves the card in the state that an iteration leaves it in, by the last pass of the last system alone: the
-    /// bindings, not the results.
+    /// Draws only the last pass of the last system, which gives the card the bindings that a whole iteration leaves,
+    /// but not its results.
     pub(in crate::radiosity) fn bind_as_after_iteration(&mut self) -> Result<(), CardError> {
         let passes = self.passes();
         if let (Some(layer), Some(last)) = (self.layers.last(), passes.checked_sub(1)) {
@@ -190,8 +190,8 @@ impl CardSolver {
         self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
     }
 
-    /// Replaces the reflectances: uploads matrix and emittances of a system of as many patches. Radiosities are kept.
-    /// Fails with [`CardError::Input`] if it has another number of patches.
+    /// Replaces the reflectances: uploads matrix and emittances of a system with the same number of patches.
+    /// Radiosities are kept. Fails with [`CardError::Input`] if it has another number of patches.
     pub fn set_system(&mut self, system: &System) -> Result<(), CardError> {
         CardError::check_size(PATCHES, self.len(), system.factors().len())?;
         let fit = Fit { block: self.layout.block, ..self.fit };
@@ -225,5 +225,5 @@ impl CardSolver {
     }
 }
 
-/// Called after a pass with the card, the system and its number, and the pass.
+/// Called after each pass with the card, the system's index, the system's textures, and the index of the pass.
 type PassObserver<'a> = dyn FnMut(&Machine, usize, &Layer, usize) -> Result<(), CardError> + 'a;

@@ -58,7 +58,7 @@ impl CardSolver {
     /// Iterates from the radiosities on the card until every channel's residual is small enough, or a state repeats bit
     /// for bit. `system` is the system on the card before rounding; `each` is called whenever the residual is computed.
     /// Fails with [`CardError::Input`] if the system has another number of patches, or the iteration diverges; with
-    /// [`CardError::Draw`] if the card refuses a draw. Reaching the maximum number of iterations is not an error: see
+    /// [`CardError::Draw`] if the card rejects a draw. Reaching the maximum number of iterations is not an error: see
     /// [`CardSolution::converged`].
     pub fn solve(
         &mut self,

@@ -57,7 +57,7 @@ pub(super) fn shoot(problem: &Problem<'_>, options: &Options) -> Result<Solution
     })
 }
 
-/// The patch with the most unshot power, the first of equals.
+/// The patch with the most unshot power; on ties, the first.
 fn brightest(unshot: &[f64], areas: &[f64]) -> usize {
     let (mut best, mut at) = (-1.0, 0);
     for (i, (left, area)) in unshot.iter().zip(areas).enumerate() {

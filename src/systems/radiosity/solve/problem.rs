@@ -77,7 +77,7 @@ impl IterationHistory {
     }
 }
 
-/// Mean square; 0 for no values.
+/// Mean square; 0 if there are no values.
 pub fn mean_square(values: &[f64]) -> f64 {
     crate::linalg::dot(values, values) / values.len().max(1) as f64
 }

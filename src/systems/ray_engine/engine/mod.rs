@@ -6,7 +6,7 @@
 //! left in caches at the end are forced to the host.
 //!
 //! **The result does not depend on where a ray is tested.** A ray is tested against all triangles of each GPU cell on
-//! its way, on the card or on the host, whose results equal those of a card with fp32 pipelines; at equal t the
+//! its way, on the card or on the host, whose results equal the results of a card with fp32 pipelines; at equal t the
 //! triangle with the lowest index is taken. So order, sizes of caches, `R_min` and threads change counts and time,
 //! never a hit. There are two exceptions. On cards of other formats, card and host can disagree, so the caches matter,
 //! as on the cards of the time. And fp32 may report a hit on a triangle outside the cells along the ray, which the ray
@@ -92,7 +92,7 @@ impl<'a> RayEngine<'a> {
     }
 
     /// Submits rays, and may answer some waiting rays. The rays get consecutive tickets from the returned one. Fails
-    /// with [`EngineError`] if the card refuses the work.
+    /// with [`EngineError`] if the card rejects the work.
     pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
         let first = self.flights.given();
         self.flights.give(rays.len());
@@ -102,7 +102,7 @@ impl<'a> RayEngine<'a> {
         Ok(Ticket(first))
     }
 
-    /// Answers all waiting rays. Fails with [`EngineError`] if the card refuses the work.
+    /// Answers all waiting rays. Fails with [`EngineError`] if the card rejects the work.
     pub fn finish(&mut self) -> Result<(), EngineError> {
         while !self.tree.is_empty() {
             self.release_bucket()?;
@@ -135,7 +135,7 @@ impl<'a> RayEngine<'a> {
     /// ```
     ///
     /// # Errors
-    /// [`EngineError`] if the card refuses the work.
+    /// [`EngineError`] if the card rejects the work.
     pub fn trace(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, EngineError> {
         let first = self.submit(rays)?;
         self.finish()?;

@@ -12,7 +12,7 @@ pub enum Readback {
     /// Draw, wait, read back, continue, as `glReadPixels` does.
     #[default]
     Synchronous,
-    /// The read-back is queued behind the draw, with a fence (NV_fence) that is passed when the results have arrived.
+    /// The read-back is queued after the draw, with a fence (NV_fence) that is passed when the results have arrived.
     /// The rays stay in flight while the host continues. The host takes results after it has given `passes` later
     /// passes to the card, or if no other work is left. 0 counts as 1.
     Asynchronous {
@@ -39,7 +39,7 @@ pub struct EngineParameters {
     pub waiting: usize,
     /// Faces that can be hit.
     pub sides: Sides,
-    /// `true` to use the card; otherwise the host does all tests in equal order.
+    /// `true` to use the card; otherwise the host does all tests in the same order.
     pub card: bool,
     /// Read-back mode.
     pub readback: Readback,

@@ -20,7 +20,7 @@ pub(super) struct PassInFlight {
     pub(super) waiting: Vec<Waiting>,
     /// Hits of the rays. The emulator knows them at once; the host must not use them before it has taken the pass.
     pub(super) hits: Vec<Option<CardHit>>,
-    /// Fence behind the read-back, if the host has not waited for it.
+    /// Fence after the read-back; `None` if the host has already waited for it.
     fence: Option<FenceId>,
     /// Set of textures and targets.
     sheet: usize,

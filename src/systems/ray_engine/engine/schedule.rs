@@ -99,7 +99,7 @@ impl RayEngine<'_> {
         }
     }
 
-    /// Adds a ray to a cell's cache; queues the cell again for each completed pass.
+    /// Adds a ray to a cell's cache; queues the cell each time the cache has filled a further pass.
     fn wait(&mut self, cell: CellId, ray: Waiting) {
         self.note(HostOperation::BucketInsert, 1);
         let cache = self.caches.entry(cell.index()).or_default();

@@ -38,9 +38,9 @@ pub struct RayTreeCounts {
     pub splits: u64,
     /// Batches removed.
     pub batches: u64,
-    /// Rays of batches from the batch's own bucket.
+    /// Rays in batches that come from the batch's own bucket.
     pub own: u64,
-    /// Rays of batches taken from siblings of the bucket.
+    /// Rays in batches that were taken from siblings of the bucket.
     pub stolen: u64,
     /// Levels of inner nodes merged into a bucket.
     pub levels_merged: u64,

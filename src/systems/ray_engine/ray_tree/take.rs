@@ -31,7 +31,7 @@ impl RayTree {
         rays.into_iter().map(|entry| entry.ray).collect()
     }
 
-    /// Returns the node with the most rays below it, the first of equals.
+    /// Returns the node with the most rays below it; on ties, the first.
     fn fullest(&self, nodes: impl IntoIterator<Item = u32>) -> u32 {
         let mut best = (0, None);
         for node in nodes {
@@ -51,7 +51,7 @@ impl RayTree {
         node
     }
 
-    /// Moves up to `most` rays of a bucket, the last first, and corrects the counts above it.
+    /// Moves up to `most` rays from the end of a bucket, and corrects the counts above it.
     fn drain(&mut self, bucket: u32, most: usize, into: &mut Vec<RayTreeEntry>) {
         let RayTreeContent::Bucket(rays) = &mut self.nodes[bucket as usize].kind else { return };
         let taken = most.min(rays.len());

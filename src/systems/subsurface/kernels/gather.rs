@@ -21,7 +21,7 @@ use refsim::exec::CheckedProgram;
 
 use crate::card::{KernelError, checked, instructions};
 
-/// The choice of links, as far as it affects the program.
+/// The kind of links, as far as it affects the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LinkLayout {
     /// All links of a texel lead to one level; constants contain their places.
@@ -51,7 +51,7 @@ impl MapTexture {
 /// A program of pass 2, for any number of links.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct GatherKernel {
-    /// How links are chosen.
+    /// The kind of links.
     pub layout: LinkLayout,
     /// True for factors of three channels.
     pub rgb: bool,
@@ -66,7 +66,7 @@ pub struct GatherKernel {
 }
 
 impl GatherKernel {
-    /// All programs, with a texture for each tile.
+    /// All programs for links in separate textures.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for layout in [LinkLayout::Fixed, LinkLayout::Adaptive] {

@@ -12,7 +12,7 @@ pub use repeated::LightKernel;
 pub use view::{DirectLight, EyeTransmittance, ViewKernel};
 
 kernels! {
-    /// Every file of this folder; files with lights are for one light.
+    /// All program files of this folder; those that compute lights contain the code for one light.
     FILES:
     LIGHT_VERTICES "light_vertices.vsa"
     LIT "lit.fp"
@@ -35,12 +35,12 @@ pub const TEXEL_LIGHTS: [LightKernel; 2] = [
 /// Direct light at vertices in pass 3.
 pub const VIEW_LIGHTS: LightKernel = LightKernel { kernel: VIEW_LIT, prefix: "c", first: 7, step: 4 };
 
-/// Instruction slots and constants of a device's vertex programs; usual numbers if it states no limit.
+/// Instruction slots and constants of a device's vertex programs; typical numbers if it states no limit.
 pub(super) fn vertex_room(limits: &Limits) -> [usize; 2] {
     [limits.vertex_instructions.unwrap_or(256) as usize, limits.vertex_constants.unwrap_or(256) as usize]
 }
 
-/// Instruction slots and constants of a device's fragment programs; usual numbers if it states no limit.
+/// Instruction slots and constants of a device's fragment programs; typical numbers if it states no limit.
 pub(super) fn fragment_room(limits: &Limits) -> [usize; 2] {
     [limits.fragment_instructions.unwrap_or(1024) as usize, limits.fragment_parameters.unwrap_or(64) as usize]
 }

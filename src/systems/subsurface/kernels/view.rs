@@ -27,7 +27,7 @@ pub enum EyeTransmittance {
     Mean,
 }
 
-/// Where direct light is computed.
+/// The stage that computes direct light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DirectLight {
     /// No direct light.
@@ -163,7 +163,7 @@ impl ViewKernel {
         format!("view_{transmittance}{direct}")
     }
 
-    /// The program for this number of lights by fragment.
+    /// The program for this number of lights computed at each fragment.
     pub fn text(&self, lights: usize) -> String {
         let by_fragment = self.direct == DirectLight::ByFragment;
         let mut text = PLACE.to_owned();
@@ -188,13 +188,13 @@ impl ViewKernel {
         text
     }
 
-    /// The maximum number of lights by fragment within these numbers of instruction slots and constants.
+    /// The maximum number of lights computed at each fragment within these instruction slots and constants.
     pub fn most_lights(&self, slots: usize, constants: usize) -> usize {
         LIGHT_PART.most_within([0, 1].map(|lights| instructions(&self.text(lights))), slots, constants)
     }
 
-    /// The program for this number of lights by fragment, checked for a device. Fails with [`KernelError`] if it breaks
-    /// a rule of the device.
+    /// The program for this number of lights computed at each fragment, checked for a device. Fails with
+    /// [`KernelError`] if it breaks a rule of the device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.name();
         let name = if self.direct == DirectLight::ByFragment {

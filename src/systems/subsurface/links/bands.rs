@@ -1,4 +1,4 @@
-//! Links of bands (rows of texels), which are independent of each other.
+//! Links of bands (rows of texels); bands are computed independently of each other.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,4 @@
-//! The choice of a texel's links, which are clusters.
+//! The choice of the clusters to which a texel links.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;

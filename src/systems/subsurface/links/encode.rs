@@ -1,4 +1,4 @@
-//! Links as texels of textures for the card's pass 2.
+//! Links encoded as texels of textures, for pass 2 on the card.
 //!
 //! The card's map contains E_t a_t / (mean texel area of the atlas), so that unweighted means of its levels are
 //! weighted by area. The factor of a link to cluster C is stored as F_iC times (mean texel area of the atlas) / (mean
@@ -40,7 +40,7 @@ impl LinkPlace {
     }
 }
 
-/// Numbers of factors and places that a format cannot represent.
+/// Counts of factors and places that a format cannot represent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LostFactors {
     /// Number of factors of used links, which are above 0.
@@ -114,7 +114,7 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// Numbers of factors and places that a format cannot represent.
+    /// Counts of factors and places that a format cannot represent.
     pub fn lost(&self, format: Format) -> LostFactors {
         let mut lost = LostFactors::default();
         let least_normal = least_normal(format);

@@ -1,4 +1,4 @@
-//! Pass 2 on the host, in f64: radiosity as the sum of factor times mean irradiance.
+//! Pass 2 on the host, in f64: radiosity as the sum over links of factor times mean irradiance.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::error::InputError;
 /// The weights of texels in the mean irradiance of a cluster.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MeanWeighting {
-    /// By their areas: links to every texel give equation 9.
+    /// By their areas: if a texel has a link to every texel, the sum is equation 9.
     #[default]
     Area,
     /// Equal weights, as in mipmaps of the irradiance.

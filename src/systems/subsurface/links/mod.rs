@@ -20,7 +20,8 @@ pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
 pub use gather::{IrradianceMeans, MeanWeighting};
 
-/// The channel whose dipole gives scalar factors: green. A mean of three channels would not be one dipole's factors.
+/// The channel whose dipole gives scalar factors: green. The means of three channels' factors would not be the factors
+/// of any dipole.
 pub const SCALAR_CHANNEL: usize = 1;
 
 /// The links of all texels of an atlas. A factor is F_iC of equation 10: B_i is the sum of factor times the cluster's

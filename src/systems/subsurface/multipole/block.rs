@@ -18,7 +18,7 @@ pub(in crate::subsurface) const BLOCK_LEVEL: u32 = 4;
 pub(in crate::subsurface) struct BlockReceiver<'a, const N: usize> {
     receiver: Receiver<'a, N>,
     nodes: Vec<Node<N>>,
-    /// Counter of squares, which tells the parts of current squares from older parts.
+    /// Stamp of the latest square: squares are counted, so that parts of earlier squares are recognised.
     stamp: u64,
     /// The stamps of the squares around the current texel, by level.
     present: [u64; BLOCK_LEVEL as usize + 1],

@@ -1,4 +1,4 @@
-//! Second-order expansion, in the receiver's position, of the light of far clusters.
+//! Second-order Taylor expansion of the light of far clusters in the receiver's position.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Factors by descent from a cluster.
+//! Factors by descent from a cluster to its children.
 
 use super::kernel::{DistanceTable, add};
 use super::near::{PieceCache, texel_mean};

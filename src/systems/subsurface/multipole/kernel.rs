@@ -19,7 +19,7 @@ use crate::subsurface::Dipole;
 const MAX_INTERPOLATION_ERROR: f64 = 1e-6;
 /// Number of diffusion lengths beyond which the relative error does not matter: e^-25 is 1e-11.
 const MATTERS: f64 = 25.0;
-/// Intervals per octave of 1 + (r / z)^2: 2^5 to 2^9.
+/// Range of the base-2 logarithm of the number of intervals per octave of 1 + (r / z)^2.
 const RESOLUTION: std::ops::RangeInclusive<u32> = 5..=9;
 /// The logarithmic derivative of R_d is at most `SLOPE` / d + sigma_tr.
 const SLOPE: f64 = 3.0;
@@ -48,7 +48,8 @@ pub(super) struct DistanceTable<const N: usize> {
     /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
     pub(super) tolerance: f64,
-    /// The radius in mm around an entering photon within which, in every channel, all light but the tolerance leaves.
+    /// Radius in mm around the entry of light within which, in every channel, all light but the fraction `tolerance`
+    /// leaves.
     pub(super) layer: f64,
 }
 

@@ -50,7 +50,7 @@ struct TexelPatch {
     area: f64,
 }
 
-/// The mean of R_d over the pairs of points of two near texels, given by Morton index, the smaller index first.
+/// The mean of R_d over the pairs of points of two near texels, given by Morton index, smaller index first.
 pub(super) fn long_mean<const N: usize>(
     surface: &SurfaceMoments,
     kernel: &DistanceTable<N>,

@@ -16,8 +16,8 @@ pub(super) struct Moments {
 /// Maximum of a piece's squared bounding radius divided by its squared size.
 pub(super) const BALL: f64 = 5.0;
 
-/// The squared size by which a piece counts as far: the mean squared distance from its mean point, but at least the
-/// squared bounding radius divided by [`BALL`].
+/// The squared size that decides whether a piece is far: the mean squared distance from its mean point, but at least
+/// the squared bounding radius divided by [`BALL`].
 pub(super) fn size_squared(covariance: &Covariance, radius_squared: f64) -> f64 {
     covariance.trace().max(radius_squared / BALL)
 }

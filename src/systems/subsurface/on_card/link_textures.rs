@@ -1,4 +1,4 @@
-//! Links as the programs of pass 2 read them.
+//! Links as textures in the layout that the programs of pass 2 read.
 
 use super::options::FloatTexels;
 use crate::card::{CardError, Texels};

@@ -81,7 +81,7 @@ impl MapFormat {
     }
 }
 
-/// Where pass 1 computes light.
+/// The stage of pass 1 that computes light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
 pub enum LightStage {
     /// At the vertices of each face's rectangle, interpolated.
@@ -96,7 +96,7 @@ pub enum LightStage {
 /// The options of the three passes, fixed for all frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SubsurfaceCardOptions {
-    /// Where pass 1 computes light.
+    /// The stage of pass 1 that computes light.
     pub light: LightStage,
     /// Format of the radiosity map.
     pub map: MapFormat,

@@ -161,7 +161,7 @@ impl LightPass {
         self.over_map(machine, &program, &constants, &textures, part.target)
     }
 
-    /// Draws over all texels of the map, or of the data written before the map.
+    /// Draws a pass over all texels of `target`: the radiosity map, or an intermediate target.
     fn over_map(
         &self,
         machine: &mut Machine,

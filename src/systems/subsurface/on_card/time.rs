@@ -42,7 +42,7 @@ pub struct PassTime {
     pub draws: usize,
     /// The pass's time.
     pub time: Picoseconds,
-    /// The bottleneck of the longest draw; `None` without draws.
+    /// The bottleneck of the longest draw; `None` if there are no draws.
     pub bottleneck: Option<Bottleneck>,
     /// Clocks of the texture units.
     pub textures: u64,

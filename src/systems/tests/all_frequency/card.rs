@@ -1,4 +1,4 @@
-//! Pictures compared with f64 pixel by pixel, counts, and refusals.
+//! Pictures by cards, compared with f64 pixel by pixel; counts of clamped colors; errors.
 
 use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};

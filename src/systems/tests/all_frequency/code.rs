@@ -1,4 +1,4 @@
-//! Transfer as integers of a few bits.
+//! Coding of transfer as integers of a few bits.
 
 use crossbar_systems::all_frequency::code::{CodeOptions, CodeSize, CodedSegment, CodedTransfer, ScaleOf, SparseRows};
 use crossbar_systems::all_frequency::compressed::CompressedSegment;
@@ -176,7 +176,7 @@ fn other_bits_are_refused() {
     }
 }
 
-/// Weights of any size on one vector of one number are coded as integers of a few bits times their step, ties to even.
+/// Weights of any size, on a single vector of a single number, are coded as multiples of their step, ties to even.
 #[test]
 fn numbers_come_back_within_half_a_step() {
     let coded = |weights: Vec<f64>, weight_bits: u8| {

@@ -1,4 +1,4 @@
-//! Factors of tables, and their errors.
+//! Factors of tables of reflectance, and the errors of the factors.
 
 use std::f64::consts::PI;
 
@@ -74,8 +74,8 @@ fn a_map_of_32_has_812_texels_in_its_disc() {
     assert!(mean.x.abs() < 1e-2 && mean.y.abs() < 1e-2 && (mean.z - 0.5).abs() < 1e-12, "{mean}");
 }
 
-/// As many terms as the rank leave no error, fewer terms leave the error of the dropped singular values; all directions
-/// have equal solid angles.
+/// With as many terms as the rank there is no error; with fewer, the error follows from the dropped singular values.
+/// All directions have equal solid angles.
 #[test]
 fn terms_of_equal_angles_are_those_of_their_singular_values() {
     let samples = HemisphereSamples::of_equal_angles(&Brdf::Lambert { albedo: 0.6 }, 3.0);

@@ -1,4 +1,4 @@
-//! Layouts of numbers, and the programs that read them.
+//! Layouts of interpolated numbers, and the programs that read them.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,4 @@
-//! Factors of reflectance, transfer in few bits, and its products on the host and on cards.
+//! Factors of reflectance, coded transfer, and its products with light on the host and on cards.
 
 mod card;
 mod code;

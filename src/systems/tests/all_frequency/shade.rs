@@ -1,4 +1,4 @@
-//! Coded transfer times light.
+//! Products of coded transfer and light.
 
 use crossbar_systems::all_frequency::code::{CodeOptions, CodedTransfer};
 use crossbar_systems::all_frequency::shade::{Shader, plain};

@@ -1,4 +1,4 @@
-//! Tables of reflectance: sampled, and from numbers.
+//! Tables of reflectance, sampled from a lobe or given as numbers.
 
 use std::path::Path;
 

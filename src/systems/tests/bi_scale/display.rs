@@ -1,4 +1,4 @@
-//! Pictures compared with f64, counts, and refusals.
+//! Pictures of bi-scale transfer on cards, compared with f64; counts of a frame; errors.
 
 use crossbar_systems::bi_scale::kernels::BlockEdges;
 use crossbar_systems::bi_scale::on_card::reference::pixel;
@@ -143,7 +143,7 @@ fn triangles_show_their_own_textures() {
 fn fewer_bits_show() {
     let hills = Hills::new(rough(8, 4, 4));
     let fine = floats(BlockEdges::Wrapped);
-    // The sampler's weights have more bits than the card's, so that their rounding hides no other.
+    // The sampler's weights have more bits than the card's, so that their rounding does not hide other errors.
     let mut profile = device("gt200");
     profile.rules.filter_fraction_bits = 12;
     let rms = |options, format| hills.error(&profile, fine.edges, &hills.draw(&profile, options, format))[0];

@@ -40,7 +40,7 @@ fn bits(numbers: &[[f32; 3]]) -> Vec<[u32; 3]> {
     numbers.iter().map(|rgb| rgb.map(f32::to_bits)).collect()
 }
 
-/// Values are rounded to single precision, as on the host; values beyond its range are refused.
+/// Values are rounded to single precision, as on the host; values beyond its range are rejected.
 #[test]
 fn values_beyond_single_precision_are_refused() {
     let of = |value: f64| {

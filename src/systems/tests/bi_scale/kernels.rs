@@ -69,7 +69,7 @@ fn lists_fill_a_program() {
     }
 }
 
-/// The display needs volume textures, but no instruction beyond those of ps_2_0.
+/// The display needs volume textures, but only instructions that ps_2_0 has.
 #[test]
 fn nine_directions_take_a_third_of_a_program() {
     let grid = BlockGrid { size: 64, lights: 8, views: 12, edges: BlockEdges::Wrapped };

@@ -1,5 +1,5 @@
-//! Local directions; numbers behind the entries of matrices and of their biclusters; where biclusters start; errors of
-//! products.
+//! Local directions; the numbers that entries of matrices and biclusters represent; start elements of biclusters;
+//! errors of products.
 
 use approx::assert_abs_diff_eq;
 use crossbar_systems::bi_scale::baselines::LocalLightError;
@@ -128,7 +128,7 @@ fn numbers_without_a_unit_get_a_table() {
     assert_eq!(infinite, "expected finite values, found inf in row 1, column 1");
 }
 
-/// Equal integers are equal numbers, and integers are ordered as their numbers are.
+/// Equal integers represent equal numbers, and integers have the order of their numbers.
 #[test]
 fn entries_are_ordered_as_their_numbers() {
     let matrix = of(&[(0, 0, 2.0), (0, 1, -0.1), (0, 2, 1e-300), (1, 0, -1e300), (1, 2, 0.1), (2, 1, 2.0)]).unwrap();

@@ -1,4 +1,4 @@
-//! The card's results per vertex compared bit for bit with the host's sums, and limits.
+//! The card's results per vertex, compared bit for bit with the host's sums; limits of devices.
 
 use std::sync::{Arc, Mutex};
 

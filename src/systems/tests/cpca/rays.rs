@@ -61,8 +61,8 @@ fn planes(vertices: &Vertices, place: DVec3) -> Vec<DVec3> {
     corners.filter_map(on).collect()
 }
 
-/// Every direction's result equals that of a ray from the vertex's origin, or the direction points behind all triangles
-/// there.
+/// Every direction's result equals the result of a ray from the vertex's origin, or the direction points behind all
+/// triangles there.
 #[test]
 fn every_answer_is_that_of_tracing_every_ray() {
     let meshes = (0..30).map(clutter).chain([teapot(2).expect("a teapot"), stand_ins::head()]);

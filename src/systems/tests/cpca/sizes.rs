@@ -31,7 +31,7 @@ const fn size(vertices: usize, [rows, columns]: [usize; 2], clusters: usize, vec
 }
 
 /// The sizes of Table 1, with raw and stored numbers in millions, registers per cluster, and clusters per 256 registers
-/// and per registers that transform, eye and constants leave.
+/// and per number of registers that transform, eye and constants leave.
 #[test]
 fn table_1_follows_from_its_sizes() {
     let rows = [

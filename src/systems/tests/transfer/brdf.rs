@@ -28,7 +28,7 @@ fn schlick(roughness: f64, isotropy: f64) -> Lobe {
     facets(FacetDistribution::Schlick { roughness, isotropy, tangent: TangentCosine::Projected })
 }
 
-/// Views along the light's direction h, so that the half vector is h.
+/// The lobe's value for view and light along h, so that the half vector is h.
 fn at(lobe: &Lobe, h: DVec3) -> f64 {
     lobe.value(h, h)
 }

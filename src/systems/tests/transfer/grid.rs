@@ -30,7 +30,8 @@ fn fine_directions_cover_the_sphere() {
 
 #[test]
 fn inside_a_face_hats_are_bilinear() {
-    // Fine row 41 is row 1 of texel row 10, 1/8 above its center; fine column 47 column 3 of texel 11, 3/8 right.
+    // Fine row 41 is row 1 of texel row 10, 1/8 above its center; fine column 47 is column 3 of texel column 11, 3/8
+    // right.
     let found: Vec<_> = BasisWeights::of(BasisWidth::TwoTexels, 4 * 16_384 + 41 * 128 + 47).iter().collect();
     let at = |row: usize, column: usize| 4 * 1024 + row * 32 + column;
     let expected =

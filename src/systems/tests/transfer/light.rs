@@ -1,4 +1,4 @@
-//! Light that turns.
+//! Rotated light.
 
 use crossbar_systems::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS};
 use crossbar_systems::transfer::light::{CubeLight, Decimation, DistantLight};

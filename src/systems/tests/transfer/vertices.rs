@@ -1,4 +1,4 @@
-//! Vertices of a mesh, their frames, and where their rays start.
+//! Vertices of a mesh, their frames, and the origins of their rays.
 
 use approx::assert_abs_diff_eq;
 use crossbar_systems::cpca::transfer::TracedRays;

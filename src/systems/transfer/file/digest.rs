@@ -1,4 +1,4 @@
-//! The mesh that a file belongs to.
+//! Identification of the mesh that a file belongs to.
 
 use std::fmt;
 use std::path::Path;

@@ -10,7 +10,7 @@ use super::MAX_BYTES;
 use crate::error::{InputError, input_error};
 use crate::io::{NpzReader, NpzWriter, read_file};
 
-/// The version of all files.
+/// Format version, the same for all kinds of files.
 const VERSION: u32 = 1;
 /// Name of the array of metadata, JSON in UTF-8.
 const METADATA: &str = "metadata";

@@ -209,7 +209,7 @@ pub(super) fn red_and_blue_disks() -> [DiskSource; 2] {
     })
 }
 
-/// Refuses radiances that are not finite, or lie below `least`; `texel` gives the light texel of each.
+/// Rejects radiances that are not finite, or lie below `least`; `texel` gives the light texel of each.
 fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize, least: f64) -> Result<(), InputError> {
     for (at, color) in radiances.iter().enumerate() {
         for (channel, &found) in ["red", "green", "blue"].into_iter().zip(color) {

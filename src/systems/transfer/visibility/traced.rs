@@ -1,4 +1,4 @@
-//! Visibility by rays, which are cast only in directions that are not decided beforehand.
+//! Visibility by rays. Rays are cast only in directions whose result is not certain beforehand.
 
 use glam::DVec3;
 use rayon::prelude::*;
