@@ -1,4 +1,4 @@
-//! Laws of the source: rooms use only those that docs/architecture.md allows them; the files of a room have no circular
+//! Laws of the source: rooms use only those that the table of this test allows them; the files of a room have no circular
 //! dependencies; no type name is defined in more than two rooms.
 
 mod circles;

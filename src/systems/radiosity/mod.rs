@@ -8,7 +8,7 @@
 //!   [`display`], images drawn by the card, and radiosities at corners; [`rate`], iterations per second;
 //! - [`gather`]: irradiance at points; [`rooms`]: closed boxes as test scenes.
 //!
-//! docs/papers/radiosity.md maps each equation.
+//! docs/papers/radiosity.md says which file has which section.
 //!
 //! ```
 //! # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*, crossbar_systems::*}; }

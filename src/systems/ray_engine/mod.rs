@@ -15,7 +15,7 @@
 //!   (`cull`);
 //! - 6.1: [`model`], equation (11).
 //!
-//! docs/papers/ray_engine.md maps each equation.
+//! docs/papers/ray_engine.md says which file has which section.
 
 mod answer;
 mod bits_left;

@@ -9,7 +9,7 @@
 //! - 4.2.2 to 4.2.4: [`kernels`], [`on_card`], the three passes as programs of an emulated card;
 //! - [`median_thickness`]: shows whether a model is too thin for the dipole, which assumes a half space.
 //!
-//! docs/papers/subsurface.md maps each equation.
+//! docs/papers/subsurface.md says which file has which section.
 
 mod dipole;
 mod dipole_sum;

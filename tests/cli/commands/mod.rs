@@ -161,7 +161,7 @@ fn every_command_of_cargo_names_what_exists() {
 fn outputs_on_pages_are_those_of_the_program() {
     let root = copy_of_the_repository();
     let shown = texts::outputs();
-    assert!(!shown.is_empty(), "docs/compare.md shows an output");
+    assert!(!shown.is_empty(), "a page shows an output");
     for output in shown {
         let ran = run(root.path(), &output.arguments, "");
         assert_eq!(ran.stderr, "", "{}", output.place);

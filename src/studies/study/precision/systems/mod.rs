@@ -1,7 +1,6 @@
 //! The six systems as subjects, each on a small input of its own.
 //!
 //! The input is made by the host and is the same for every format; the study is about the pixel programs of the card.
-//! docs/precision.md describes the inputs.
 
 mod all_frequency;
 mod bi_scale;
