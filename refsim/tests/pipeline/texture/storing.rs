@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{Channel, Image, Region, TargetRounding, TexelFormat, TextureError, TextureKind, encode_channel};
 
-/// Reference: `floor(clamp(value) * scale + 1/2)`, halves away from zero, or truncated; with big integers.
+/// Reference: `clamp(value) * scale`, rounded with ties away from zero or truncated; with big integers.
 fn model(format: Format, bits: u32, scale: i64, signed: bool, rounding: TargetRounding) -> i64 {
     let Some(value) = Rational::of(format, bits) else {
         let negative = format.is_negative(bits);
