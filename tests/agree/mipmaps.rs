@@ -77,7 +77,7 @@ impl Fixture {
             let call = DrawCall::new(VertexSource::Transformed(vertices), Primitive::QuadList, program, &host, target);
             DrawCall { center: PixelCenter::OpenGl, ..call }
         };
-        // Twice: the second time, the levels are generated anew, after the card has read the first ones.
+        // Twice: the levels are generated again after the card has read the first ones.
         for vertices in [&self.painted, &self.read] {
             machine.draw(&call(vertices, &paint, map))?;
             machine.generate_mipmaps(map)?;
@@ -88,7 +88,7 @@ impl Fixture {
     }
 }
 
-/// The log without the details that only an observed draw records.
+/// The event log without the details that only observed draws record.
 fn log(machine: &mut Machine) -> Vec<Event> {
     let mut log = machine.take_log();
     for event in &mut log {

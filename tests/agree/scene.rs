@@ -1,4 +1,4 @@
-//! A draw and its state as data, and the way an executor draws it.
+//! A draw and its state as data, and how an executor draws it.
 
 use crate::executors::Executor;
 use refsim::check;
@@ -50,7 +50,7 @@ pub(crate) struct Scene {
     pub(crate) draws: usize,
     /// True if a last draw reads the first target as texture 0 and fills other targets.
     pub(crate) second_pass: bool,
-    /// Sampler state of that draw, if the target has mip levels, which are generated before it.
+    /// Sampler state of that draw if the target has mip levels; they are generated before the draw.
     pub(crate) levels: Option<SamplerState>,
 }
 

@@ -134,7 +134,7 @@ fn draw(
     }
     let id = machine.create_texture(texture.clone()).unwrap();
     let other = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
-    // A second texture; lines fetched through one sampler hit through another sampler of the same texture.
+    // A separate texture, because lines fetched through one sampler hit through another sampler of the same texture.
     let third = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
     let target = machine.create_target(TexelFormat::Bgra8, 64, 64).unwrap();
     let (vertices, host) = (screen(scale), Constants::default());

@@ -40,7 +40,7 @@ const EDGES: [u32; 28] = [
     0x7fc0_0001,
 ];
 
-/// The fields of a triangle set-up that depend only on the triangle's shape.
+/// The fields of a triangle set-up that are compared.
 type Shape = ([refsim::raster::Edge; 3], i64, refsim::texture::Region, refsim::raster::Plane, bool, bool, [u32; 3]);
 
 fn shape(s: &TriangleSetup) -> Shape {

@@ -128,7 +128,7 @@ fn colors_leave_in_either_precision_and_depth_through_z() {
 
 #[test]
 fn words_keep_their_bits() {
-    // Lower halves of words; as a float, one word is a NaN and one is subnormal.
+    // Pairs of halves whose word, read as a float, is a NaN or subnormal.
     for halves in [[0x7e01_u32, 0x7fff], [0x0001, 0x0000], [0xffff, 0xff80]] {
         let text = "MOVR R1, R1; MOVRC RC, p[1]; MOVR R2 (GT), R1; UP2H R0, R2.x;";
         let parts =

@@ -41,7 +41,7 @@ fn a_block_is_as_long_as_the_instructions_allow() {
     let verdict = |texels| check(assemble(&kernel(texels)).unwrap(), &nv35());
     let program = verdict(BLOCK).unwrap();
     assert_eq!(program.instructions.len(), 4 * BLOCK + 3);
-    // 255 texels need 1023 instructions, including three outside the blocks; 256 texels need too many.
+    // 255 texels need 1023 instructions, four per texel and three more; 256 texels need too many.
     verdict(BLOCK + 1).unwrap();
     let report = verdict(BLOCK + 2).unwrap_err();
     assert_eq!(report.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::TooManyInstructions]);

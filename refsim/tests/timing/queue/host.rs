@@ -1,4 +1,4 @@
-//! The host model: a single scale, calibrated on one figure.
+//! The host model: a single scale, calibrated with one figure.
 
 use proptest::prelude::*;
 use refsim::timing::Picoseconds;
