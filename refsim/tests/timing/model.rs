@@ -250,7 +250,7 @@ fn vertices_that_left_the_cache_are_run_again() {
     assert_eq!(model.clocks(only_draw(&log)).vertices, Clocks(9));
 }
 
-/// Only constants that change are sent; they start at 0. Four clocks each, or their bytes over the bus.
+/// Only changed constants are sent; all start at 0. Each takes four clocks or the time of its bytes on the bus.
 #[test]
 fn constants_are_sent_where_they_differ() {
     let changed = |constants: &[[f32; 4]]| match indexed(&[0, 1, 2], constants).first() {
@@ -260,7 +260,7 @@ fn constants_are_sent_where_they_differ() {
     assert_eq!(changed(&[[0.0; 4], [1.0; 4], [0.0, 0.0, 0.0, 2.0]]), 2);
     assert_eq!(changed(&[]), 0);
     let model = Model::new(Level::Pipeline, &Profile::named("r300").unwrap()).unwrap();
-    // 325 MHz: 100 constants are 400 clocks, 1.23 us; their 1,600 bytes at 2.112 GB/s take 0.76 us.
+    // 325 MHz: 100 constants take 400 clocks, 1.23 us; their 1,600 bytes at 2.112 GB/s take 0.76 us.
     assert_eq!(model.state_change(0, 100), Picoseconds((400_u64 * 1_000_000).div_ceil(325)));
     assert_eq!(model.state_change(0, 0), Picoseconds::ZERO);
 }

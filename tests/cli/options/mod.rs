@@ -1,9 +1,9 @@
 //! Every option of every command changes the output or is refused: none is accepted and ignored.
 //!
-//! The table has command lines, and options with values; a new option that is not in it fails the test. Each option is
-//! added to each command line. The compared output is the exit code, both streams and all files, except for parts that
-//! differ between two equal runs (times) and the provenance, which names the options. The short form tries a fixed
-//! choice of one in eighteen pairs of a line and an option; `CROSSBAR_FULL=1` tries all.
+//! The table contains command lines and options with values; an option that is missing from it fails the test. Each
+//! option is added to each command line. The compared output is the exit code, both streams and all files, except for
+//! parts that differ between two equal runs (times) and the provenance, which names the options. By default the test
+//! tries a fixed selection of one in eighteen pairs of a line and an option; `CROSSBAR_FULL=1` tries all.
 
 mod table;
 
@@ -34,7 +34,7 @@ const NEVER_ACCEPTED: [&str; 6] = ["--emulator", "--model", "--model-up", "--str
 struct TriedOption {
     name: &'static str,
     value: Option<&'static str>,
-    /// The indices of the command lines that it is tried on; `None` for all.
+    /// Indices of the command lines on which the option is tried; `None` for all.
     only: Option<Vec<usize>>,
     is_same: bool,
 }
