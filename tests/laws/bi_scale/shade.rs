@@ -20,7 +20,7 @@ use proptest::prelude::*;
 
 const VERTICES: u32 = 5;
 
-/// Views, lights and texels along an edge.
+/// Numbers of views, lights and texels along an edge.
 fn sizes() -> impl Strategy<Value = [usize; 3]> {
     [1..4_usize, 1..4_usize, 1..5_usize]
 }
@@ -58,7 +58,7 @@ proptest! {
         let local = &light.as_chunks().0[..lights * VERTICES as usize];
         let found = TextureLookup::new(&texture).radiance(local, &pixel, &mut Vec::new());
         prop_assert_eq!(found, paper::radiance(&texture, local, &pixel));
-        // Light is linear: doubling it doubles the radiance, to the bit.
+        // Radiance is linear in the light: doubling the light doubles it exactly.
         let twice: Vec<[f64; 3]> = local.iter().map(|rgb| rgb.map(|value| 2.0 * value)).collect();
         prop_assert_eq!(paper::radiance(&texture, &twice, &pixel), found.map(|value| 2.0 * value));
     }
