@@ -1,7 +1,7 @@
 //! Error bounds of the f32 iteration of [`CardSystem`].
 //!
 //! With `A = diag(M)^-1 M`, `e = diag(M)^-1 E` and `G = 1 - A`, the exact step is `x' = e + G x`, and the solution x*
-//! is its fixed point. The card's step is the exact one plus d, the rounding errors of the step and of the data. So
+//! is its fixed point. The card's step is the exact step plus d, the rounding errors of the step and of the data. So
 //! the error r obeys `r' = G r + d`, and in the infinity norm `|r'| <= g |r| + |d|` with `g = |G|`, the maximum
 //! absolute row sum: below 1, since reflectances are. After k steps
 //!
