@@ -306,7 +306,7 @@ fn names_run_to_the_end_of_their_line() {
             .ends_with("m.obj:13: material blue# # sky: expected a material of its libraries, found none of this name"),
         "{refused}"
     );
-    // Treating the two words as one name is a guess.
+    // Whether a line with spaces names one file or several is a guess.
     assert_eq!(albedos(&["Material"], "a.mtl").0, [[0.5; 3]]);
     assert_eq!(albedos(&["blue"], "my b.mtl").0, [blue]);
     write("a.mtl b.mtl", "newmtl blue\nKd 0.6 0.6 0.6\n");
