@@ -14,7 +14,7 @@ use refsim::machine::{DrawCall, Machine, MachineError, VertexSource};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, TexelFormat, TextureKind};
 
-/// Draws colours that change from pixel to pixel.
+/// Draws colors that change from pixel to pixel.
 const PAINT: &str = "!!FP1.0\nMULR R0, f[TEX0], f[TEX0].yxwz;\nFRCR R0, R0;\nMOVR o[COLR], R0;\nEND";
 /// Reads a texture at TEX0 with the derivatives of TEX1.
 const READ: &str = "!!FP1.0\nMOVR R1, f[TEX1];\nTXD R0, f[TEX0], R1, R1.zwxy, TEX0, 2D;\nMOVR o[COLR], R0;\nEND";

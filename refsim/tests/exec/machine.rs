@@ -19,7 +19,7 @@ use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, Texel
 /// Corners of a quad that covers a target of `n` x `n` pixels; its coordinates hit the texel centers of an n x n
 /// texture.
 fn screen(n: u32) -> Vec<Vertex> {
-    // Shifted up and left by half a pixel, because Direct3D 9 has pixel centres at integers.
+    // Shifted up and left by half a pixel, because Direct3D 9 has pixel centers at integers.
     let step = 1.0 / n as f32;
     let corner = |x: f32, y: f32, u: f32, v: f32| Vertex {
         position: bits([x - step, y + step, 0.5, 1.0]),
@@ -108,7 +108,7 @@ fn programs_of_any_length_agree() {
     assert_eq!(bytes[0], bytes[1]);
 }
 
-/// Random small quads with random colours and depths.
+/// Random small quads with random colors and depths.
 fn random_quads(count: usize) -> Vec<Vertex> {
     let mut random = Random::new(7);
     let mut next = || random.unit();

@@ -70,7 +70,7 @@ pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     }
 }
 
-/// Returns `true` if a value between two neighbours rounds to the upper one. `against` compares the value with a
+/// Returns `true` if a value between two neighbors rounds to the upper one. `against` compares the value with a
 /// fraction.
 fn up(rounding: Rounding, negative: bool, low: Q, high: Q, low_even: bool, against: &impl Fn(Q) -> Ordering) -> bool {
     match rounding {

@@ -21,7 +21,7 @@ use std::fmt::Write as _;
 pub(crate) struct Layout {
     /// The samplers in use (in ps_1_x: stages), each with its texture kind.
     pub(crate) samplers: Vec<(usize, TextureKind)>,
-    /// Number of colour targets.
+    /// Number of color targets.
     pub(crate) targets: usize,
     /// True if the version's own limits hold; otherwise only the emulator's limits.
     pub(crate) limited: bool,
@@ -29,7 +29,7 @@ pub(crate) struct Layout {
     pub(crate) sampling: bool,
 }
 
-/// A program's text, one line per instruction, the version first. `size` is 0 (shortest) to 3 (longest).
+/// A program's text, one line per instruction, after a line with the version. `size` is 0 (shortest) to 3 (longest).
 pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Random) -> Vec<String> {
     let mut lines = vec![version.token().to_owned()];
     match version {

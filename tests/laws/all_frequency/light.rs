@@ -94,7 +94,7 @@ fn lights_turn_with_their_matrix() {
     }
 }
 
-/// The flux of pictures and generated lights equals that of their l = 0 harmonic, which is exact.
+/// The flux of pictures and generated lights equals the flux of their l = 0 harmonic, which is exact.
 #[test]
 fn generated_lights_have_the_flux_of_their_harmonics() {
     let flux = |light: &HarmonicLight| light.channels().each_ref().map(|channel| channel[0] * (4.0 * PI).sqrt());

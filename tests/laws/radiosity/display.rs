@@ -159,7 +159,7 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
 }
 
 /// A disc of triangles around the origin, ordered so that consecutive triangles are never neighbors, which would be
-/// joined to one face.
+/// joined into one face.
 fn disc(triangles: u32) -> Scene {
     let turn = |k: u32| {
         let angle = f64::from(k) / f64::from(triangles) * std::f64::consts::TAU;

@@ -164,7 +164,7 @@ fn bisected(value: &mut dyn FnMut(f64) -> f64, [from, to]: [f64; 2], allowed: f6
 
 /// Two sides of a bar. Texels have the aspects of the faces, and lengths from a hundredth to hundreds of mean free
 /// paths.
-/// The short form has one medium per length, and one texel in eight.
+/// By default one medium per length, and one texel in eight.
 #[test]
 fn slivers_keep_the_tolerance() {
     let media = [figure_7(), medium(0.74, 0.9), medium(0.05, 1e-4)];

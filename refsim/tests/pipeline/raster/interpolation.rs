@@ -22,7 +22,7 @@ fn corner() -> impl Strategy<Value = Vertex> {
 }
 
 proptest! {
-    /// The definition, implemented in host floats on the public set-up data, gives the same bits.
+    /// The definition, implemented in host floats on the public set-up data, produces the same bits.
     #[test]
     fn host_floats_give_the_same_bits(v in [corner(), corner(), corner()], x in 0u32..64, y in 0u32..64) {
         let s = state(64, 64, CONVENTIONS[0]);

@@ -45,7 +45,7 @@ enum Judgement {
 /// The bounds of a batch.
 pub(crate) struct Bounds {
     format: FormatKind,
-    /// `true` if the program clamps n.d to 1 before it divides.
+    /// `true` if `texdepth` clamps its divisor, n.d, to 1.
     min1: bool,
     one_origin: bool,
     /// The largest component of the offsets; below, of origins and of corners.

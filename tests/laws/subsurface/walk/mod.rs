@@ -26,7 +26,7 @@ pub(crate) struct PhotonWalk {
     pub(crate) coefficients: Coefficients,
     /// The index of refraction.
     pub(crate) eta: f64,
-    /// How photons enter.
+    /// Boundary model for entering photons.
     pub(crate) entry: PhotonEntry,
     /// Number of photons that enter, at least [`BATCHES`].
     pub(crate) photons: u64,
