@@ -37,8 +37,8 @@ fn length(text: &[u8]) -> usize {
     }
 }
 
-/// The grammar is unambiguous: changed white space yields the same program; a removed space yields the same program or an
-/// error. The first line, which names the language, stays unchanged.
+/// The grammar is unambiguous: changed white space yields the same program; a removed space yields it or an error. The
+/// first line, which names the language, stays unchanged.
 ///
 /// `gaps` are spaces and comments; `choose` selects one gap for each boundary of tokens, and one boundary without a
 /// gap.

@@ -114,7 +114,7 @@ fn what_would_never_end_is_an_error_with_its_place() {
 /// Steps counted by hand.
 #[test]
 fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
-    // `mov`; three iterations of `rep`, three passes of `add` and `endrep`, and `endrep`; then `mov`.
+    // `mov`; outer `rep`; three times: inner `rep`, three passes of `add` and `endrep`, outer `endrep`; then `mov`.
     let steps = 1 + (1 + 3 * ((1 + 3 * 2) + 1)) + 1;
     let branches = "ps_2_a\nmov r0, c0\nif b0\nadd r0, r0, c0\nadd r0, r0, c0\nelse\nadd r0, r0, c0\nendif\nif b1\nadd \
                     r0, r0, c0\nelse\nadd r0, r0, c0\nendif\nmov oC0, r0";

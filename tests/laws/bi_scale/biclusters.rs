@@ -73,7 +73,7 @@ proptest! {
         let light: Vec<f64> = light[..matrix.columns()].iter().map(|&texel| f64::from(texel)).collect();
         let expected = by_rows(&matrix, &light);
         prop_assert_eq!(&paper::multiply(&found, &light), &expected);
-        // Sums of multiples of a quarter below 2^22 are exact also in f32.
+        // Sums of multiples of a quarter below 2^22 are also exact in f32.
         let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel as f32]).collect::<Vec<_>>());
         prop_assert_eq!(fast.into_iter().map(|[sum]| f64::from(sum)).collect::<Vec<f64>>(), expected);
     }

@@ -9,7 +9,7 @@ use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::brdf::ExitBasis;
 
-/// Exit radiance coefficients of all vertices, as red, green and blue rows, for half the radiance of a light of order 3.
+/// Exit radiance coefficients of all vertices for light of order 3 at half its radiance: red, green and blue rows.
 pub(crate) fn exits(clustering: &Clustering, light: &HarmonicLight) -> Vec<[Vec<f64>; 3]> {
     let mut matrix = vec![0.0; clustering.dimension()];
     let mut of_vertex = |vertex| {

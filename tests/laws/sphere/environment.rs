@@ -80,7 +80,7 @@ fn a_constant_picture_is_a_constant() {
     }
 }
 
-/// A light of order 3, painted at pixels' centers, is recovered.
+/// A light of order 3 is recovered from a picture that has its values at the pixels' centers.
 #[test]
 fn a_lat_long_picture_gives_back_the_light_that_it_was_painted_with() {
     let expected = [2.0, 0.3, -0.4, 0.5, 0.1, 0.2, -0.3, 0.2, 0.1];

@@ -6,7 +6,7 @@ use crossbar::geom::Mesh;
 use crossbar::subsurface::multipole::{ClusterId, SurfaceMoments};
 use crossbar::subsurface::{Coefficients, Dipole};
 
-/// A sphere of radius 1, with dents in proportion to `dents`: the sides of a cube, each of n x n squares, pushed outward.
+/// A sphere of radius 1, with dents in proportion to `dents`: the sides of a cube, n x n squares each, pushed outward.
 pub(crate) fn sphere(n: u32, dents: f64) -> Mesh {
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     for side in 0..6 {

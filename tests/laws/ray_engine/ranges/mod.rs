@@ -118,7 +118,7 @@ fn no_hit_in_no_doubt_is_lost_to_the_range_of_a_format() {
     }
 }
 
-/// With 16-bit directions the error of single rays has no bound, but values out of range would lose most hits.
+/// With 16-bit directions, single rays have no error bound, so the test counts: lost ranges would lose most hits.
 #[test]
 fn floats_keep_their_range_in_the_programs_for_fixed_point() {
     for format in ["e5m10", "e7m16", "e8m16", "e8m23"] {
