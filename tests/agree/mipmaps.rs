@@ -1,5 +1,5 @@
 //! Generated mip levels: a target with levels is drawn into, its levels are generated, and a second draw reads them
-//! with derivatives of its own (`TXD`), on every executor.
+//! with explicit derivatives (`TXD`), on every executor.
 
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};

@@ -156,8 +156,8 @@ fn the_first_fragment_that_needs_too_much_is_named() {
     }
     assert!(found.iter().all(|error| *error == found[0]), "{found:?}");
     let (ProgramPlace::Pixel { x, y }, instruction, _) = place(&found[0]) else { panic!("{found:?}") };
-    // From row 11 on, no lane breaks early. The first triangle is the upper right half, including the diagonal. Three
-    // iterations of eight steps after the first two, and four more.
+    // From row 11 on, no lane breaks early. The first triangle is the upper right half, including the diagonal. The
+    // budget is two steps, three iterations of eight, and four more.
     assert_eq!((x, y, instruction), (11, 11, 6));
 }
 

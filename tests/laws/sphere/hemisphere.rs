@@ -114,7 +114,7 @@ fn least_squares_is_the_best_of_all() {
                 assert!(best.worst <= error.worst + 1e-14 && best.average <= error.average + 1e-14, "{other:?}");
                 assert!(error.average <= error.worst && error.average >= 0.0, "{other:?} {error:?}");
             }
-            // Rounding of the integrals, divided by the root of the least eigenvalue.
+            // Rounding of the integrals, divided by the root of the smallest eigenvalue.
             let least = *Hemisphere::new(order).spectrum().values.last().expect("a value");
             let rounding = 32.0 * f64::EPSILON * f64::EPSILON / least;
             assert!(order < signal || best.worst < rounding, "{signal} {order}: {best:?}");

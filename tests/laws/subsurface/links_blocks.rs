@@ -26,7 +26,7 @@ fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64
     worst
 }
 
-/// By default only the smallest scale and the last medium.
+/// Links keep the tolerance; by default tests only the smallest scale, and the last medium.
 #[test]
 fn links_keep_their_tolerance() {
     let [fixed, adaptive] = [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 64 }];

@@ -48,7 +48,7 @@ fn keep_their_tolerance<const N: usize>(surface: &SurfaceMoments, dipoles: [Dipo
     }
 }
 
-/// By default only the smallest scale and the last medium.
+/// Factors keep the tolerance; by default tests only the smallest scale, and the last medium.
 #[test]
 fn factors_keep_their_tolerance() {
     let atlas = atlas(&sphere(6, 0.2), 32);

@@ -73,7 +73,7 @@ fn walsh(n: f64) -> f64 {
 fn means_of_fresnels_formula_are_those_of_the_closed_form() {
     for eta in [1.05, 1.2, 1.3, 1.5, 2.0, 3.0] {
         assert_abs_diff_eq!(mean_transmittance(eta), 1.0 - walsh(eta), epsilon = 2e-11);
-        // From inside, with all angles beyond the critical one reflected.
+        // From inside; light beyond the critical angle is reflected entirely.
         let critical = (1.0 - 1.0 / (eta * eta)).sqrt();
         let inside = 1.0
             - graded_integral(1.0 - critical, 60, |above| {

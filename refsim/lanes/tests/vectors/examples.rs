@@ -7,7 +7,7 @@ use super::table::{evaluate, format};
 
 use Unit::{Gt200, Gt200ZeroWins, Nv2x, Nv3x, Nv3xLegacy};
 
-/// An operation, the units that compute it alike, operands and result.
+/// An operation, the units that agree on it, operands and result.
 type Example = (Op, &'static [Unit], [u32; 3], u32);
 
 const ALL: &[Unit] = &[Nv2x, Nv3xLegacy, Nv3x];

@@ -97,7 +97,7 @@ fn products_are_those_of_the_approximated_rows() {
     }
 }
 
-/// Rows of a few patterns are represented exactly by as many vectors.
+/// Rows that are combinations of two patterns are represented exactly by two vectors.
 #[test]
 fn rows_of_low_rank_are_met() {
     let mut matrix = SparseMatrix::new(6144, 2).unwrap();
