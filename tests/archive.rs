@@ -1,4 +1,4 @@
-//! Archives of arrays with changed members: hostile files with valid checksums.
+//! Makes archives of arrays with changed members: hostile files with valid checksums.
 
 use std::io::{Cursor, Read as _, Write as _};
 
@@ -25,7 +25,7 @@ pub(crate) fn archive(members: &[(String, Vec<u8>)]) -> Vec<u8> {
     zip.finish().expect("written").into_inner()
 }
 
-/// The archive with the member of this name replaced; `change` gets the old contents.
+/// The archive with the member of this name replaced; `change` receives the old contents.
 pub(crate) fn with_member(bytes: &[u8], name: &str, change: impl FnOnce(&[u8]) -> Vec<u8>) -> Vec<u8> {
     let mut members = members(bytes);
     let member = members.iter_mut().find(|(other, _)| other == name).expect("a member of this name");

@@ -1,4 +1,4 @@
-//! docs/examples/foreign_intersector.md states the errors of other intersectors: this test computes its numbers again.
+//! docs/examples/foreign_intersector.md states the errors of other intersectors: this test recomputes its numbers.
 
 #[expect(dead_code, reason = "as an example it prints what the test compares")]
 #[path = "../docs/examples/foreign_intersector.rs"]
@@ -12,7 +12,7 @@ fn page() -> String {
     include_str!("../docs/examples/foreign_intersector.md").replace('\r', "")
 }
 
-// Their last bits come from SSE here, and may differ elsewhere.
+// The intersectors' last bits come from SSE here, and may differ on other processors.
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn the_page_says_what_is_measured() {
@@ -21,7 +21,7 @@ fn the_page_says_what_is_measured() {
     }
 }
 
-/// Rays in the planes of walls and cells: the signs of zeros change no hit, and none is lost.
+/// Rays in the planes of walls and cells: the signs of zeros change no hit, and no hit is lost.
 #[test]
 fn the_signs_of_zeros_do_not_show_in_ours() {
     let mesh: Mesh = walls();

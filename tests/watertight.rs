@@ -37,7 +37,7 @@ fn the_mesh_is_closed() {
     assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts()), (0, 0));
 }
 
-/// Sizes that are not powers of two of each other, so that corner coordinates are rounded differently.
+/// Sizes whose ratio is not a power of two, so that corner coordinates are rounded differently.
 #[test]
 fn a_watertight_test_passes() {
     for size in [1.0, 77.7] {
@@ -49,8 +49,8 @@ fn a_watertight_test_passes() {
 }
 
 /// Expects no leaks and no false hits. The oracle accepts triangles that tie at a vertex of the outline; otherwise 27
-/// of Woop's answers would be false hits at any `nearby_ulps`. Rays in the planes of triangles are left out: one of
-/// them misses the first surface, as beside an outline, and returns a neighbour of the second.
+/// of Woop's answers would be false hits at any `nearby_ulps`. Rays in the planes of triangles are omitted: one of them
+/// misses the first surface, as next to an outline, and returns a neighbor of the second.
 #[test]
 fn a_watertight_test_is_faithful() {
     for (size, each, seed) in [(SIZE, 984, 1), (77.7, 240, 3)] {
@@ -65,7 +65,7 @@ fn a_watertight_test_is_faithful() {
 }
 
 /// Checks each `touched_by` ray with the exact tracer: its first hit shares a corner with the triangle found or ties
-/// with it in depth, and its direction is within 9 epsilon of that of the ray examined.
+/// with it in depth, and its direction is within 9 epsilon of the examined ray's.
 #[test]
 fn touching_rays_prove_what_is_said() {
     let (mesh, _, report) = &*WOOP;
@@ -93,7 +93,7 @@ fn touching_rays_prove_what_is_said() {
     assert_eq!(report.count(DisagreementKind::FalseHit), 0, "{report}");
 }
 
-/// An intersector that enlarges triangles by a tenth leaves no leaks, and reports false hits beside outlines.
+/// An intersector that enlarges triangles by a tenth leaves no leaks, and reports false hits just outside outlines.
 #[test]
 fn blown_up_triangles_are_false_hits() {
     let mesh = closed_surface(SIZE);
@@ -146,7 +146,7 @@ fn leaks_of_another_test_are_holes() {
 }
 
 /// Checks each `right_for` ray with the exact tracer: the answer is right for it, and its direction is within 9 epsilon
-/// of that of the ray examined.
+/// of the examined ray's.
 #[test]
 fn nearby_rays_prove_what_is_said() {
     for (mesh, _, report) in [&*WOOP, &*MOELLER_TRUMBORE] {
@@ -165,7 +165,7 @@ fn nearby_rays_prove_what_is_said() {
     }
 }
 
-/// A miss through a hole in a tetrahedron is a leak, though every other triangle is a neighbour of the one missed.
+/// A miss through a hole in a tetrahedron is a leak, although every other triangle is a neighbor of the missed one.
 #[test]
 fn a_hole_is_a_hole_though_a_neighbour_shows_through() {
     let corners = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
@@ -185,7 +185,8 @@ fn a_hole_is_a_hole_though_a_neighbour_shows_through() {
     assert_eq!(miss(start), DisagreementKind::Start);
 }
 
-/// The page quotes all digits: they come from additions and multiplications in f32, equal on every CPU.
+/// The page quotes all digits, because they come from additions and multiplications in f32, which are equal on every
+/// CPU.
 #[test]
 fn the_page_says_what_is_measured() {
     let page = include_str!("../docs/examples/foreign_intersector.md").replace('\r', "");
@@ -193,7 +194,7 @@ fn the_page_says_what_is_measured() {
     assert!(page.contains(&tables), "docs/examples/foreign_intersector.md has other tables than\n{tables}");
 }
 
-/// The README's sentence on the two tests.
+/// Checks the README's sentence about the two tests.
 #[test]
 fn the_readme_says_what_is_measured() {
     let readme = include_str!("../README.md").replace(['\r', '\n'], " ");
@@ -211,7 +212,8 @@ fn facing(mesh: &Mesh, triangle: u32, wrong: &Disagreement) -> f64 {
     (b - a).cross(c - a).dot(wide(wrong.direction))
 }
 
-/// True if the two triangles of an edge face opposite ways, or the edge belongs to one triangle only.
+/// Returns `true` if the two triangles of an edge face in opposite directions, or the edge belongs to only one
+/// triangle.
 fn is_outline(mesh: &Mesh, triangles: &[u32], wrong: &Disagreement) -> bool {
     let [one, other] = triangles else { return true };
     facing(mesh, *one, wrong) * facing(mesh, *other, wrong) <= 0.0
@@ -221,7 +223,7 @@ fn missed_triangle(wrong: &Disagreement) -> u32 {
     wrong.expected.as_ref().expect("a surface was missed").triangles[0]
 }
 
-/// True if an edge at a corner of the missed triangle is on the outline.
+/// Returns `true` if an edge at a corner of the missed triangle is on the outline.
 fn passes_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> bool {
     let corners = mesh.triangles()[missed_triangle(wrong) as usize];
     let at_corner = |vertices: [u32; 2]| vertices.iter().any(|vertex| corners.contains(vertex));
@@ -229,7 +231,7 @@ fn passes_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> b
     edges.any(|edge| is_outline(mesh, &edge.triangles, wrong))
 }
 
-/// True if, of the missed triangle's three edges, the one nearest the ray is on the outline.
+/// Returns `true` if, of the missed triangle's three edges, the edge nearest to the ray is on the outline.
 fn aimed_edge_is_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> bool {
     let distance = |edge: u32| {
         let ends = adjacency.edges()[edge as usize].vertices;

@@ -77,7 +77,7 @@ fn adapters_are_picked_by_name_and_kind() {
     assert_eq!(choose(&known[..1], None), Ok(0));
     assert_eq!(choose(&known, Some("LLVMpipe")), Ok(0));
     assert_eq!(choose(&known, Some("9700")), Ok(2));
-    // A full name takes precedence over names that contain it.
+    // An exact name takes precedence over names that contain it.
     assert_eq!(choose(&known, Some("radeon")), Ok(3));
     assert_eq!(choose(&[], None), Err(GpuError::NoAdapter));
     assert_eq!(choose(&[], Some("x")), Err(GpuError::NoAdapter));

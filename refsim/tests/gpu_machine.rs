@@ -55,7 +55,7 @@ fn vertices(random: &mut Random, count: usize) -> Vec<Vertex> {
         .collect()
 }
 
-/// Two machines with the same memory.
+/// A scalar reference machine and a GPU machine, given the same resources and draws.
 struct Pair {
     reference: Machine,
     device: Machine,
@@ -116,7 +116,7 @@ fn copy(profile: &Profile) -> CheckedProgram {
     checked("ps_2_0\ndcl t0\nmov oC0, t0", profile)
 }
 
-/// Rules for products and sums, with every format of the list twice.
+/// Rules for products and sums, with each format of the list used twice.
 fn products_and_sums_agree(gpu: &Arc<Gpu>) {
     // Each draw has its own shader, which a driver compiles for seconds. Formats alternate.
     for seed in (0..24).step_by(by_form(5, 1)) {
@@ -127,7 +127,7 @@ fn products_and_sums_agree(gpu: &Arc<Gpu>) {
     }
 }
 
-/// Handles, clears, releases and read-back between draws.
+/// Tests handles, clears, releases and read-back between draws.
 fn memory_follows(gpu: &Arc<Gpu>) {
     let profile = ideal("fp32");
     let program = copy(&profile);
@@ -159,7 +159,7 @@ fn memory_follows(gpu: &Arc<Gpu>) {
     pair.same(&[second, third], None, "a new target");
 }
 
-/// A short comparison for drivers that compile slowly.
+/// Compares short programs, for drivers that compile slowly.
 fn short_programs_agree_on_any_driver(gpu: &Arc<Gpu>) {
     for (device, text) in [
         ("ideal-fp32", "ps_2_0\ndcl t0\nmad r0, t0, c0, c1\nmov oC0, r0"),
@@ -272,7 +272,7 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
     assert_eq!(traced(&pair.device), traced(&pair.reference));
 }
 
-/// The buffers of a trace give the first fragment of each pixel, in several dispatches if it takes long.
+/// The buffers of a trace yield the first fragment of each pixel, in several dispatches if the trace is long.
 fn buffers_of_a_trace_run_elsewhere(gpu: &Arc<Gpu>) {
     let profile = Profile::named("r300").unwrap();
     let reads = "texld r1, r0, s0\nmad r0, r1, c0, r0\n".repeat(3);

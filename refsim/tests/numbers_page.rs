@@ -33,7 +33,7 @@ use random::Random;
 
 const PAGE: &str = include_str!("../../docs/numbers.md");
 
-/// Number of probes of a test: fifty times as many in the full form.
+/// Number of probes of a test: `short`, or fifty times as many with `CROSSBAR_FULL=1`.
 fn probes(short: usize) -> usize {
     by_form(short, 50 * short)
 }

@@ -1,5 +1,5 @@
 //! Draws every row of `fixtures/special_cases/rules.csv`, the special-case rules of the specifications, with the scalar
-//! executor, in batches, and on an adapter. The table's README explains it.
+//! and the batch executor and on an adapter. The table's README explains it.
 
 #[path = "common/adapter.rs"]
 mod adapter;
@@ -33,7 +33,7 @@ struct Row {
     device: &'static str,
     opcode: &'static str,
     operands: Vec<&'static str>,
-    /// The project's expected result: the specification's, or the row's exception.
+    /// The project's expected result: the specification's result, or the row's exception.
     expected: &'static str,
 }
 
@@ -54,12 +54,12 @@ fn rows() -> Vec<Row> {
     lines.collect()
 }
 
-/// The number of a word; `nan` gives a NaN.
+/// Parses a word as a single-precision number; `nan` is a NaN.
 fn number(word: &str) -> u32 {
     word.parse::<f32>().unwrap_or_else(|e| panic!("{word}: {e}")).to_bits()
 }
 
-/// One number for all components, or four.
+/// Parses one number for all components, or four numbers.
 fn vector(text: &str) -> V {
     let numbers: Vec<u32> = text.split(' ').map(number).collect();
     match *numbers.as_slice() {
@@ -69,7 +69,7 @@ fn vector(text: &str) -> V {
     }
 }
 
-/// Returns `true` if a number satisfies a word.
+/// Returns `true` if a number satisfies the expectation `word`.
 fn agrees(found: u32, word: &str) -> bool {
     let value = f32::from_bits(found);
     match word {
@@ -94,20 +94,20 @@ fn the_table_is_sound() {
     assert!(counts.values().sum::<usize>() > 900 && counts.values().all(|&count| count > 40), "{counts:?}");
 }
 
-/// The device of a row with the measured unit of its vertex programs.
+/// The device of a row; vertex programs use the measured unit of the card.
 fn with_unit(row: &Row) -> Profile {
     let named = |name| Profile::named(name).unwrap();
     if row.language != "VP1.0" {
         return named(row.device);
     }
-    // The vertex unit, followed by pixels that pass every number on.
+    // The card's vertex unit, followed by a pixel stage that preserves every number.
     let (mut profile, card) = (named("ideal-fp32"), named(row.device));
     profile.rules.vertex_format = card.rules.vertex_format;
     profile.rules.vertex_zero_times_anything = card.rules.vertex_zero_times_anything;
     profile
 }
 
-/// The device of a row with vertex programs by the specifications: exact results, rounded once.
+/// The device of a row; vertex programs follow the specifications: exact results, rounded once.
 fn profile(row: &Row) -> Profile {
     let mut profile = with_unit(row);
     profile.rules.vertex_format = match (row.language, profile.rules.vertex_format.unit) {
@@ -165,7 +165,8 @@ fn programs(row: &Row) -> (Option<String>, String) {
     }
 }
 
-/// An image of one texel per face: 2, 3, 4 and 5, or of a cube 1 on the first face and 2 on the second.
+/// An image with one texel per face: (2, 3, 4, 5), or, for a cube map, the face's number from 1 to 6 in every
+/// component.
 fn texture(name: &str) -> Image {
     let texel = [2.0, 3.0, 4.0, 5.0].map(f32::to_bits);
     let (format, kind, values) = match name {
@@ -215,7 +216,7 @@ fn draw(machine: &mut Machine, row: &Row, programs: &(Option<CheckedProgram>, Ch
     [0, 32, 64, 96].map(|shift| (raw >> shift) as u32)
 }
 
-/// Draws all rows; returns a line for each unexpected result.
+/// Draws all rows; returns a line of text for each unexpected result.
 fn departures(profile: impl Fn(&Row) -> Profile, machine: impl Fn(&Profile) -> Machine) -> String {
     let (mut machines, mut assembled) = (BTreeMap::new(), BTreeMap::new());
     let mut wrong = String::new();
@@ -259,8 +260,8 @@ fn run(machine: impl Fn(&Profile) -> Machine) {
     assert!(wrong.is_empty(), "{} rows:\n{wrong}", wrong.lines().count());
 }
 
-/// Lines of the table on which the measured vertex units of NV20 and of NV30's family differ: 0 to the power 0, powers
-/// and logarithms from tables, NaN in comparisons, and signs of zeros.
+/// Lines of the table for which the measured vertex units of NV20 and of NV30's family differ from the expected
+/// results: 0 to the power 0, powers and logarithms from tables, NaN in comparisons, and signs of zeros.
 const MEASURED_OTHERWISE: &[usize] = &[
     576, 577, 578, 579, 583, 584, 597, 598, 604, 608, 609, 610, 624, 625, 626, 627, 631, 632, 645, 646, 652, 656, 657,
     658, 676, 677, 679, 682, 685, 686, 687, 693, 702, 703, 708, 709, 712, 715, 724, 728, 729, 732, 733, 739, 740,

@@ -1,4 +1,4 @@
-//! The texts of the pixel kernel and of the trace kernel are valid modules; images as words.
+//! Tests that the pixel kernel and the trace kernel are valid WGSL modules, and how images are packed into words.
 
 #[path = "common/valid_wgsl.rs"]
 mod valid_wgsl;

@@ -1,4 +1,4 @@
-//! Texture reads of the WGSL library compared with `refsim::texture`, bit for bit: every texel format, kind of texture,
+//! Compares texture reads of the WGSL library with `refsim::texture`, bit for bit: every texel format, kind of texture,
 //! filter, address mode and level of detail, with coordinates at and beyond every edge.
 
 #[path = "common/adapter.rs"]

@@ -61,9 +61,9 @@ pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
     differs(&expected, draw(case, &programs, executor), executor)
 }
 
-/// The seeds of a run, and further seeds to draw if these cover nothing. The short form takes half of a suite's seeds,
-/// the first or the second half by the suite's name, and all seeds of the project's files. The full form takes 105
-/// times as many seeds.
+/// The seeds of a run, and further seeds to draw if these cover nothing. By default, a suite draws the first or the
+/// second half of its seeds, depending on its name; a suite of the project's files draws all. `CROSSBAR_FULL=1` draws
+/// 105 times as many seeds.
 fn seeds_of(suite: &Suite) -> [Range<u64>; 2] {
     let all = seeds(suite.seeds, 105);
     if all != (0..suite.seeds) || matches!(suite.kind, Kind::Kernels | Kind::Shaders | Kind::Cases) {
@@ -74,7 +74,7 @@ fn seeds_of(suite: &Suite) -> [Range<u64>; 2] {
     if suite.turn(0).is_multiple_of(2) || last.is_empty() { [first, last] } else { [last, first] }
 }
 
-/// Runs a suite, by default in its short form.
+/// Runs a suite; draws further seeds if the first ones cover nothing.
 pub(crate) fn run(suite: &Suite) {
     let [seeds, others] = seeds_of(suite);
     let one = seeds.clone().count() == 1;

@@ -1,4 +1,4 @@
-//! All-frequency transfer: pictures by colors of vertices and by products per pixel, on every executor.
+//! Draws all-frequency transfer on every executor: pictures from vertex colors, and pictures from products per pixel.
 
 use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
@@ -14,7 +14,7 @@ use refsim::texture::TexelFormat;
 use crate::rules::profile;
 use crate::system::pictures_agree;
 
-/// Hills with made-up transferred radiance.
+/// A mesh of hills with artificial transferred radiance.
 struct Hills {
     vertices: Vertices,
     reflectance: Reflectance,

@@ -1,4 +1,4 @@
-//! Bi-scale transfer: light times biclusters, and pictures of bidirectional textures, on every executor.
+//! Runs bi-scale transfer on every executor: light times biclusters, and pictures of bidirectional textures.
 
 use crossbar::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crossbar::bi_scale::directions::LocalDirections;
@@ -38,7 +38,7 @@ fn products_are_the_same_everywhere_and_the_hosts() {
     ] {
         all_find(&format!("{device}, {format}"), |what, executor| {
             let mut profile = profile(device);
-            // Sums that continue from pass to pass.
+            // So few instructions that sums take several passes.
             profile.limits.instructions = Some(60);
             let mut card = GatherCard::new(profile, executor, &found, format).unwrap_or_else(|e| panic!("{what}: {e}"));
             let local = card.multiply(&light).unwrap_or_else(|e| panic!("{what}: {e}"));

@@ -15,7 +15,7 @@ pub(crate) struct Side<'a> {
     pub(crate) executor: &'a Executor,
 }
 
-/// One side followed through all pixels.
+/// The programs and traces of one side.
 struct Followed {
     programs: Programs,
     constants: ResolvedConstants,

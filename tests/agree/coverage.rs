@@ -1,5 +1,4 @@
-//! Coverage of the random cases: every feature of programs, devices and scenes occurs among the suites' own
-//! seeds.
+//! Coverage of the random cases: every feature of programs, devices and scenes occurs among the suites' seeds.
 
 use crate::generate::{self, Layout};
 use crate::random::Random;
@@ -242,7 +241,7 @@ fn wanted_state() -> Vec<String> {
     ];
     let mut out = each("state", kinds);
     out.extend(each("fog", FogMode::ALL.map(Some).into_iter().chain([None])));
-    // Executors treat a matrix row as any constant, so not all combinations of matrix, form and row must occur.
+    // Executors treat a matrix row like any constant, so not all combinations of matrix, form and row must occur.
     out.extend(each("matrix", ["ModelView", "Projection", "Mvp", "Texture", "Program"]));
     let forms = [MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans];
     out.extend(each("form", forms));

@@ -50,7 +50,7 @@ impl Options {
     }
 }
 
-/// A texture of random bytes, or of codes at the ends of their range.
+/// A texture of random bytes, or of codes at the limits of their range.
 fn image(format: TexelFormat, kind: TextureKind, profile: &Profile, r: &mut Random) -> Image {
     let size = |r: &mut Random| 1 + r.below(9) as u32;
     let (w, h) = (size(r), size(r));
@@ -103,7 +103,7 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
     }
 }
 
-/// OpenGL's state, from a separate random stream, so that the caller's stream does not depend on it.
+/// OpenGL's state, from a separate random stream: the caller's stream must not depend on it.
 fn state(mut r: Random) -> FixedFunctionState {
     let mut state = FixedFunctionState::default();
     let matrix = |r: &mut Random| std::array::from_fn(|_| r.vector());
@@ -127,7 +127,7 @@ fn state(mut r: Random) -> FixedFunctionState {
 
 pub(crate) fn constants(r: &mut Random) -> Constants {
     let mut float: Vec<[u32; 4]> = (0..12).map(|_| r.vector()).collect();
-    // `mad oPos, r0, c5, v0`: a small c5 keeps triangles in view; so do the rows c8 to c11, a matrix near the identity.
+    // `mad oPos, r0, c5, v0`: a small c5 keeps triangles in view; so does the near-identity matrix in c8 to c11.
     float[5] = [0x3a00_0000, 0x3a80_0000, 0, 0];
     let one = 0x3f80_0000;
     for (row, place) in (0..4).zip(8..) {
@@ -300,12 +300,12 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
     (scene, layout)
 }
 
-/// True if the device generates mip levels of a format.
+/// Returns `true` if the device can generate mip levels in this format.
 fn generates(profile: &Profile, format: TexelFormat) -> bool {
     !format.record().is_float() || profile.limits.float_mipmaps && profile.limits.float_filtering
 }
 
-/// Adds mip levels that the card generates: of textures, and of a target that is read.
+/// Adds mip levels that the card generates, for textures and for a target that is read.
 pub(crate) fn mipmaps(scene: &mut Scene, options: &Options, r: &mut Random) {
     (scene.generated, scene.levels) = (Vec::new(), None);
     for (slot, image, _) in &scene.textures {

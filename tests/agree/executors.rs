@@ -1,4 +1,4 @@
-//! THE list of executors that must agree. A new one is added here and nowhere else.
+//! The only list of executors that must agree; add new executors here.
 
 use refsim::device::Profile;
 use refsim::event::{SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
@@ -16,7 +16,7 @@ pub(crate) struct Executor {
     kind: ExecutorKind,
     threads: usize,
     simd: Option<SimdLevel>,
-    /// True if a texel observer is attached, which makes it draw in the order of the hardware.
+    /// True if a texel observer is attached, which forces draws in hardware order.
     watched: bool,
     /// Draws one case in this many: slow executors may skip cases.
     pub(crate) every: u64,
@@ -39,8 +39,8 @@ impl Executor {
         Ok(machine)
     }
 
-    /// True if the executor draws a case with this `turn` ([`crate::suite::Suite::turn`]); 0 is a case for all
-    /// executors.
+    /// Returns `true` if the executor draws a case with this `turn` ([`crate::suite::Suite::turn`]); all executors draw
+    /// a case with turn 0.
     pub(crate) fn draws(&self, _profile: &Profile, turn: u64) -> bool {
         turn.is_multiple_of(self.every)
     }
@@ -63,7 +63,7 @@ impl TexelObserver for Watcher {
     }
 }
 
-/// The reference, which is right by definition.
+/// The reference, which is correct by definition.
 pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
     name: "scalar".to_owned(),
     kind: ExecutorKind::Scalar,
@@ -77,7 +77,7 @@ pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
 pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     let mut all = Vec::new();
     for level in SimdLevel::available() {
-        // Threads divide tiles at every SIMD level: in the short form they draw one case in three.
+        // Threads divide tiles the same way at every SIMD level, so by default they draw one case in three.
         for (threads, every) in [(1, 1), (3, crate::environment::by_form(3, 1))] {
             let name = format!("batch/{}/{threads}", level.name());
             let kind = ExecutorKind::Batch;
@@ -97,7 +97,7 @@ fn on_gpu() -> Option<Executor> {
     Some(Executor { name: "wgpu".to_owned(), kind: ExecutorKind::Wgpu, every: every_gpu(), ..REFERENCE.clone() })
 }
 
-/// The GPU draws one case in this many: software drivers take milliseconds where the batch executor takes microseconds.
+/// The GPU draws one case in this many: software drivers take milliseconds, the batch executor microseconds.
 #[cfg(feature = "wgpu")]
 fn every_gpu() -> u64 {
     crate::environment::by_form(8, 4)

@@ -19,7 +19,7 @@ use refsim::texture::TextureKind;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// Ideal devices that programs are tried on, besides the cards.
+/// Ideal devices on which programs are tried, in addition to the cards.
 const IDEALS: [&str; 6] = ["ideal-s3.12", "ideal-fp16", "ideal-fp24", "ideal-fp32", "ideal-s7.16", "ideal-e8m10"];
 
 /// A program from a file, with the devices that accept it.
@@ -101,12 +101,12 @@ impl Programs {
         self.0.iter().map(|p| p.devices.len() as u64).sum()
     }
 
-    /// Number of pairs in the short form: every fourth pair, so that a program that four devices accept is included.
+    /// Number of pairs drawn by default: every fourth pair, so that a program that four devices accept is included.
     pub(crate) fn short(&self) -> u64 {
         self.pairs().div_ceil(4)
     }
 
-    /// Pair number `seed`, modulo their number: the pairs of the short form first.
+    /// Pair number `seed` modulo the number of pairs; the pairs drawn by default come first.
     fn pair(&self, seed: u64) -> (&Program, &str) {
         let number = seed % self.pairs().max(1);
         let others = |at: u64| 4 * (at / 3) + 1 + at % 3;
@@ -171,7 +171,7 @@ pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Ca
     Case { scene, pixel: program.lines.clone(), vertex }
 }
 
-/// A run case; after the last case, the cases again with other constants.
+/// Run case number `seed`; after the last case, the cases repeat with other constants.
 pub(crate) fn run_case(seed: u64, r: &mut Random) -> Case {
     let count = CASES.len() as u64;
     assert!(count > 0, "no run case among the fixtures can be read");

@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 
 /// Number of differences that are shrunk and printed; more are only counted.
 const REPORTS: usize = 10;
-/// The first seed, unless `CROSSBAR_SEED` names another. It lies beyond all seeds of the short and the full form.
+/// The first seed, unless `CROSSBAR_SEED` names another. It is larger than all seeds of the suites, including
+/// `CROSSBAR_FULL=1`.
 const FIRST: u64 = 1 << 32;
 
 /// Counts and reports of a run.
@@ -112,7 +113,7 @@ fn summary(counts: &Counts) -> String {
     text
 }
 
-/// Writes to standard error directly, because the test harness would hold the text back until the end.
+/// Writes to standard error directly, because the test harness would withhold the text until the end.
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

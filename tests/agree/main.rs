@@ -1,4 +1,4 @@
-//! Every executor gives the same bits.
+//! All executors produce bit-identical results.
 //!
 //! A suite draws cases from a seed: a program, a device, a scene. The scalar executor and every other executor, at
 //! every SIMD level and thread count, draw each case, and all targets, the depth buffer and every counter are compared.
@@ -50,7 +50,7 @@ macro_rules! suites {
     };
 }
 
-/// Families of formats in a version, each with every group of rules that it has.
+/// One module per family of formats, with a suite per group of rules.
 macro_rules! families {
     ($groups:tt $($family:ident)*) => {
         $(mod $family { suites! $groups })*
@@ -70,12 +70,12 @@ mod programs {
     versions! { { arithmetic together } vs_1_1 vs_2_0 }
 }
 
-/// Random programs whose instructions have formats of their own.
+/// Random programs whose instructions have their own formats.
 mod mixed {
     suites! { ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b fp_1_0 arbfp_1_0 vs_1_1 vs_2_0 }
 }
 
-/// Random programs on the cards, every switch at random.
+/// Random programs on the cards, with every switch set at random.
 #[rustfmt::skip]
 mod cards {
     mod nv20 { suites! { ps_1_1 vs_1_1 } }
@@ -96,7 +96,7 @@ mod textures {
     }
 }
 
-/// Every kind of texture beyond its edge.
+/// Every kind of texture, read beyond its edge.
 #[rustfmt::skip]
 mod addressing {
     mod d1 { suites! { wrap mirror clamp border } }

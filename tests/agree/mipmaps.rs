@@ -1,5 +1,5 @@
 //! Generated mip levels: a target with levels is drawn into, its levels are generated, and a second draw reads them
-//! with derivatives of its own (`TXD`), on every executor.
+//! with explicit derivatives (`TXD`), on every executor.
 
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
@@ -14,7 +14,7 @@ use refsim::machine::{DrawCall, Machine, MachineError, VertexSource};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, TexelFormat, TextureKind};
 
-/// Draws colours that change from pixel to pixel.
+/// Draws colors that change from pixel to pixel.
 const PAINT: &str = "!!FP1.0\nMULR R0, f[TEX0], f[TEX0].yxwz;\nFRCR R0, R0;\nMOVR o[COLR], R0;\nEND";
 /// Reads a texture at TEX0 with the derivatives of TEX1.
 const READ: &str = "!!FP1.0\nMOVR R1, f[TEX1];\nTXD R0, f[TEX0], R1, R1.zwxy, TEX0, 2D;\nMOVR o[COLR], R0;\nEND";
@@ -77,7 +77,7 @@ impl Fixture {
             let call = DrawCall::new(VertexSource::Transformed(vertices), Primitive::QuadList, program, &host, target);
             DrawCall { center: PixelCenter::OpenGl, ..call }
         };
-        // Twice: the second time, the levels are generated anew, after the card has read the first ones.
+        // Twice: the levels are generated again after the card has read the first ones.
         for vertices in [&self.painted, &self.read] {
             machine.draw(&call(vertices, &paint, map))?;
             machine.generate_mipmaps(map)?;
@@ -88,7 +88,7 @@ impl Fixture {
     }
 }
 
-/// The log without the details that only an observed draw records.
+/// The event log without the details that only observed draws record.
 fn log(machine: &mut Machine) -> Vec<Event> {
     let mut log = machine.take_log();
     for event in &mut log {

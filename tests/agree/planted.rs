@@ -13,7 +13,7 @@ use strum::VariantArray as _;
 /// Instructions of ps_2_0 that are or contain a `mad`.
 const WITH_MAD: [&str; 4] = ["mad", "lrp", "crs", "sincos"];
 
-/// The reference's outcome with this rounding of `mad`.
+/// Draws the case with this rounding of `mad` on the reference executor.
 fn drawn(case: &Case, mad: MadMode) -> Option<Outcome> {
     let case = with(case, mad);
     let programs = case.build().ok()?;
@@ -26,7 +26,7 @@ fn with(case: &Case, mad: MadMode) -> Case {
     case
 }
 
-/// True if the outcome depends on the rounding of `mad`.
+/// Returns `true` if the outcome depends on the rounding of `mad`.
 fn shows(case: &Case) -> bool {
     let (one, two) = (drawn(case, MadMode::Fused), drawn(case, MadMode::TwoRoundings));
     matches!((one, two), (Some(a), Some(b)) if a.difference(&b, "fused").is_some())

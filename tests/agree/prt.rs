@@ -1,5 +1,5 @@
-//! Compressed transfer: pictures of every kind of card on every executor. Other tests compare the vertex programs' sums
-//! with the host's.
+//! Draws compressed transfer with every kind of card on every executor. Other tests compare the sums of the vertex
+//! programs with sums of the host.
 
 use crossbar::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
@@ -12,7 +12,7 @@ use refsim::texture::TexelFormat;
 use crate::rules::profile;
 use crate::system::pictures_agree;
 
-/// Compressed transfer of hills, 4 coefficients of light.
+/// Compressed transfer of a mesh of hills, with 4 light coefficients.
 struct Hills {
     vertices: Vertices,
     clustering: Clustering,

@@ -13,7 +13,7 @@ use crate::system::{all_find, bits, executors, nv35};
 
 const LIMIT: usize = 4096;
 
-/// Form factors of a room that leaks a little, no two alike; reflectances below 1.
+/// Form factors, all different, of a room that loses a little light; reflectances below 1.
 fn room(size: usize, seed: u64) -> System {
     let mut random = Random::named("radiosity", seed);
     let mut number = || f64::from(random.below(1 << 20) as u32 + 1) / f64::from(1 << 20);
@@ -30,7 +30,7 @@ fn room(size: usize, seed: u64) -> System {
     System::new(factors, reflectance, colors(10.0)).expect("a system")
 }
 
-/// Two iterations on a card, pass by pass, against the host's.
+/// Two iterations on a card, pass by pass, compared with iterations on the host.
 fn passes_agree(name: &str, executor: &Executor, systems: &[CardSystem]) {
     let mut card = CardSolver::of(nv35(), executor, systems, Storage::Fp32).unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(card.passes(), systems[0].passes());
@@ -82,7 +82,7 @@ fn every_luminance_pass_is_the_hosts() {
     }
 }
 
-/// The paper's block: one short of it, just it, one and two beyond.
+/// Sizes around the paper's block of 254 patches: one less, equal, one and two more.
 #[test]
 fn full_blocks_are_the_hosts() {
     let fit = Fit::of(&nv35(), Packing::Rgb).expect("a fit");
@@ -100,7 +100,7 @@ fn full_blocks_are_the_hosts() {
     passes_agree("scalar", &ExecutorKind::Scalar.into(), &[rgb]);
 }
 
-/// The host has no loops for halves: the scalar executor is the reference.
+/// The host has no half-precision loops, so the scalar executor is the reference.
 #[test]
 fn every_pass_in_halves_is_the_scalar_executors() {
     for systems in [vec![CardSystem::rgb(&room(23, 7), 6, LIMIT).expect("it fits")], luminance(&room(26, 8), 4)] {

@@ -101,7 +101,7 @@ impl Group {
     }
 }
 
-/// A profile by name, read once.
+/// A profile by name; each is read only once.
 pub(crate) fn profile(name: &str) -> Profile {
     static READ: LazyLock<Mutex<BTreeMap<String, Profile>>> = LazyLock::new(Mutex::default);
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
@@ -117,7 +117,7 @@ fn format(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
-/// An ideal device in a format of the family, chosen by the seed, with random rules of the group.
+/// An ideal device with random rules of the group; the seed selects a format of the family.
 pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> Profile {
     let mut profile = profile("ideal-fp32");
     let formats = family.formats();

@@ -1,4 +1,4 @@
-//! A draw and its state as data, and the way an executor draws it.
+//! A draw and its state as data, and how an executor draws it.
 
 use crate::executors::Executor;
 use refsim::check;
@@ -50,7 +50,7 @@ pub(crate) struct Scene {
     pub(crate) draws: usize,
     /// True if a last draw reads the first target as texture 0 and fills other targets.
     pub(crate) second_pass: bool,
-    /// Sampler state of that draw, if the target has mip levels, which are generated before it.
+    /// Sampler state of that draw if the target has mip levels; they are generated before the draw.
     pub(crate) levels: Option<SamplerState>,
 }
 
@@ -76,7 +76,7 @@ pub(crate) struct Outcome {
     pub(crate) targets: Vec<(TexelFormat, u32, Vec<u8>)>,
     pub(crate) depth: Vec<u32>,
     pub(crate) events: Vec<DrawEvents>,
-    /// The machine's log, without entries that only an attached texel observer causes.
+    /// The machine's log, without details that are recorded only for an attached texel observer.
     pub(crate) log: Vec<Event>,
 }
 
@@ -87,7 +87,7 @@ pub(crate) fn build(lines: &[String], profile: &Profile) -> Result<CheckedProgra
 }
 
 impl Case {
-    /// Both programs, if they are legal.
+    /// Builds both programs; `Err` if one is illegal.
     pub(crate) fn build(&self) -> Result<Programs, String> {
         let profile = &self.scene.profile;
         let vertex = self.vertex.as_ref().map(|lines| build(lines, profile)).transpose()?;

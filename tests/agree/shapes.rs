@@ -1,4 +1,4 @@
-//! Random geometry: ordinary and extreme inputs of rasterisers.
+//! Random geometry: ordinary and extreme inputs for the rasterizer.
 
 use crate::random::Random;
 use crate::scene::Scene;
@@ -20,7 +20,7 @@ pub(crate) enum Shape {
     Clipped,
     /// Coordinates far beyond the view.
     Huge,
-    /// No area, next to none, or edges through pixel centres.
+    /// No or almost no area, or edges through pixel centers.
     Degenerate,
     /// Positions and values that are NaN or infinite.
     Special,
@@ -40,7 +40,7 @@ pub(crate) fn ordinary(r: &mut Random) -> Shape {
     if r.one_in(3) { r.of(Shape::VARIANTS) } else { Shape::Ordinary }
 }
 
-/// Width and height of the targets: some within a tile, some over several, some of one row of quads.
+/// Width and height of the targets: some fit in a tile, some span several, some have one row of quads.
 pub(crate) fn size(shape: Shape, r: &mut Random) -> [u32; 2] {
     if r.one_in(12) {
         return [1 + r.below(530), 1 + r.below(2)];
@@ -89,8 +89,8 @@ pub(crate) fn geometry(shape: Shape, size: [u32; 2], r: &mut Random) -> Geometry
     Geometry { vertices, indices, primitive }
 }
 
-/// Vertices of 10 to 120 primitives of a few pixels each, some far larger. Some share everything that they do not vary
-/// with the previous primitives; some vary only their position.
+/// Vertices of 10 to 120 primitives of a few pixels each, some far larger. Some reuse the constant components of the
+/// previous primitive; some vary only their position.
 fn fine(size: [u32; 2], each: usize, r: &mut Random) -> Vec<Vertex> {
     let (flat, plane) = (r.one_in(2), r.one_in(2));
     let mut shared = Vertex::default();
@@ -148,7 +148,7 @@ fn group(shape: Shape, size: [u32; 2], each: usize, r: &mut Random, out: &mut Ve
             }
             v.colors = [r.vector(), r.vector()];
         } else if whole && r.one_in(2) {
-            // As in a crossbar: one set identifies the pixel, all others are constant.
+            // As in a crossbar: one coordinate set identifies the pixel, all others are constant.
             let (x, y) = CORNERS[corner % 4];
             v.texcoords[0] = [(x * 0.5 + 0.5).to_bits(), (y * -0.5 + 0.5).to_bits(), 0, 0x3f80_0000];
         }
@@ -184,7 +184,7 @@ fn position(shape: Shape, size: [u32; 2], plane: bool, r: &mut Random) -> [u32; 
             [x, y, r.below(1000) as f32 / 1000.0 * w, w].map(f32::to_bits)
         }
         Shape::Degenerate => {
-            // On the grid of half pixels, or within a tiny place.
+            // On the grid of half pixels, or within a tiny area.
             let tiny = r.one_in(4);
             let place = |r: &mut Random, n: u32| match tiny {
                 true => thousandth(r, 10) * 0.01,

@@ -19,7 +19,7 @@ pub(crate) fn shrink(case: &Case, shows: impl Fn(&Case) -> bool) -> Case {
     while again {
         again = false;
         let mut n = 0;
-        // After a successful step, candidate `n` of the smaller case is a new one.
+        // After a successful step, candidate `n` of the smaller case is a different one.
         while let Some(smaller) = candidate(&best, n) {
             if Instant::now() > end {
                 return best;
@@ -40,7 +40,7 @@ fn differs(a: &Case, b: &Case) -> bool {
     describe(&a.scene) != describe(&b.scene) || a.scene.textures.len() != b.scene.textures.len()
 }
 
-/// Candidate `n`: parts of the scene first, then instructions from the last on, then their dependencies.
+/// Candidate `n`: parts of the scene first, then instructions, last first, then their dependencies.
 fn candidate(case: &Case, n: usize) -> Option<Case> {
     let mut out = case.clone();
     let parts = PARTS.len();
@@ -71,7 +71,7 @@ fn candidate(case: &Case, n: usize) -> Option<Case> {
     None
 }
 
-/// Candidate `n` of fewer lines: without one line (of a block, its two ends), or with one line simplified.
+/// Candidate `n`: removes one line (or the opening and closing line of a block), or simplifies one line.
 fn fewer(lines: &[String], n: usize) -> Option<Vec<String>> {
     let mut out = lines.to_vec();
     let places = lines.len() - 1;
@@ -92,7 +92,7 @@ fn fewer(lines: &[String], n: usize) -> Option<Vec<String>> {
     Some(out)
 }
 
-/// The line that closes the block which line `at` opens.
+/// Index of the line that closes the block opened by line `at`.
 fn end_of(lines: &[String], at: usize) -> Option<usize> {
     let opens = |l: &str| l.starts_with("if") || l.starts_with("rep ") || l.starts_with("loop ");
     if !opens(&lines[at]) {
@@ -127,7 +127,7 @@ fn without(scene: &mut Scene, first: usize, count: usize) {
     scene.vertex_count = scene.vertex_count.min(scene.vertices.len());
 }
 
-/// Simplifications of a scene; the first goes with dropping the vertex program.
+/// Simplifications of a scene; the first is used when the vertex program is dropped.
 const PARTS: [fn(&mut Scene); 28] = [
     |s| s.instances = 1,
     |s| s.second_pass = false,

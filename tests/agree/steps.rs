@@ -6,7 +6,7 @@ use crate::scene::{Case, Outcome, Programs};
 use crate::suite;
 use refsim::machine::MachineError;
 
-/// The programs: most with flow control.
+/// Prefixes of suites, most of them with flow control.
 const SUITES: [&str; 7] = [
     "geometry::fine",
     "programs::ps_2_a::",

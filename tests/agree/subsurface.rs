@@ -16,7 +16,7 @@ use crate::system::{bits, executors, nv35};
 
 const SIDE: u32 = 16;
 
-/// An octahedron whose corners are not all alike.
+/// An irregular octahedron.
 fn model() -> CardModel {
     let corners =
         vec![[1.0, 0.0, 0.0], [-1.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.2, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -0.8]];
@@ -72,8 +72,8 @@ fn view(kernel: ViewKernel, format: TexelFormat) -> View {
     View { kernel, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, ..scattered }
 }
 
-/// Compares maps and pictures of every executor with the scalar executor's. In the short form a GPU draws one case in
-/// five; every option that the tests vary occurs among these.
+/// Compares maps and pictures of every executor with the scalar executor's. By default a GPU draws one case in five;
+/// these cases cover every option that the tests vary.
 fn agrees(
     case: usize,
     name: &str,
@@ -153,7 +153,7 @@ fn adaptive_links_are_the_same_everywhere() {
     }
 }
 
-/// More lights than a pass takes: by vertex and by texel, in every map.
+/// More lights than a pass accepts: per vertex and per texel, in every map.
 #[test]
 fn many_lights_are_the_same_everywhere() {
     let links = links(Some(2), false, 16);

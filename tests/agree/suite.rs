@@ -14,12 +14,12 @@ use refsim::output::{BlendOp, CompareFunction, DepthFormat};
 use refsim::texture::{AddressMode, TexelFormat, TextureKind};
 use strum::VariantArray as _;
 
-/// The kind of cases of a suite: the properties that are fixed.
+/// The kind of cases of a suite, with the properties that are fixed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
     /// Random programs of a version, in a family of formats, with random rules of a group.
     Program(Version, Family, Group),
-    /// Random programs of a version whose instructions have random formats of their own.
+    /// Random programs of a version whose instructions have their own random formats.
     Mixed(Version),
     /// Random programs of a version on a card, with random switches.
     Card(&'static str, Version),
@@ -61,7 +61,7 @@ impl Suite {
         Self { name: name.into(), kind, seeds }
     }
 
-    /// A random number by which executors that skip cases choose theirs, evenly over suites and seeds.
+    /// A random number from which executors that skip cases select theirs, evenly over suites and seeds.
     pub(crate) fn turn(&self, seed: u64) -> u64 {
         Random::named(&self.name, seed).next()
     }
@@ -149,7 +149,7 @@ fn legal(version: Version, layout: &Layout, sizes: usize, profile: &Profile, r: 
     panic!("no legal {version} program for {} in 1000 tries; the last is\n{last}", profile.name)
 }
 
-/// A random pixel program in a random scene; some scenes are drawn as instances by a pass-through vertex program.
+/// A random pixel program in a random scene; some scenes are instanced and use a pass-through vertex program.
 fn pixel_case(profile: Profile, options: &Options, sizes: usize, r: &mut Random) -> Case {
     let (mut scene, layout) = dice::scene(profile, options, r);
     let pixel = legal(options.version, &layout, sizes, &scene.profile, r);
@@ -158,7 +158,8 @@ fn pixel_case(profile: Profile, options: &Options, sizes: usize, r: &mut Random)
     Case { scene, pixel, vertex }
 }
 
-/// Turns the scene's vertices into instances: positions per vertex, all else per instance; returns the vertex program.
+/// Turns the scene's vertices into instances: positions per vertex, all other attributes per instance; returns the
+/// vertex program.
 pub(crate) fn pass_through(scene: &mut Scene, r: &mut Random) -> Vec<String> {
     scene.instances = 1 + r.below(6);
     scene.streams = vec![(0, StepRate::Vertex, scene.vertices.iter().map(|v| v.position).collect())];
@@ -193,8 +194,8 @@ fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
     Case { scene, pixel, vertex: Some(vertex) }
 }
 
-/// The case with separate formats for two in three instructions of the program of this version, and for a third of the
-/// storages and accumulators of pixel programs.
+/// Gives two in three instructions of this version's program their own formats, and in pixel programs also a third of
+/// the storages and accumulators.
 fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     let any = |r: &mut Random| {
         let formats = r.of(Family::VARIANTS).formats();
@@ -202,7 +203,7 @@ fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     };
     for storage in Storage::ALL.into_iter().filter(|_| version.stage() == Stage::Pixel) {
         if r.one_in(3) {
-            // Several tries, as registers of most formats cannot hold every format.
+            // Several tries, because registers of most formats cannot hold every other format.
             let _ = (0..8).any(|_| case.scene.profile.set_storage_format(storage, Some(any(r))).is_ok());
         }
     }
@@ -221,7 +222,7 @@ fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     case
 }
 
-/// A pixel program whose result depends on every coordinate set and colour.
+/// A pixel program whose result depends on every coordinate set and color.
 pub(crate) fn shows_all(profile: &Profile, targets: usize) -> Vec<String> {
     let mut lines;
     if profile.supports(Version::Ps2_0) {

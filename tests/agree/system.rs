@@ -1,4 +1,4 @@
-//! Shared by the suites of the systems: the card, all executors, and texels as bits.
+//! Helpers of the systems' suites: the card, all executors, and texels as bits.
 
 use crossbar::card::{CardError, MeshView, Texels};
 use crossbar::scene::Camera;
@@ -8,7 +8,7 @@ use refsim::exec::gpu::testing;
 use refsim::machine::{Executor, ExecutorKind};
 use refsim::texture::TexelFormat;
 
-/// The card of both systems.
+/// The card that all suites of systems use.
 pub(crate) fn nv35() -> Profile {
     Profile::named("nv35").expect("a card")
 }
@@ -21,7 +21,7 @@ pub(crate) fn executors() -> Vec<(&'static str, Executor)> {
     all
 }
 
-/// The adapter; `None` without one, panics where a missing adapter counts as a failure.
+/// The adapter; `None` if there is none; panics if a missing adapter counts as a failure.
 #[cfg(feature = "wgpu")]
 fn on_gpu() -> Option<(&'static str, Executor)> {
     let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
@@ -45,8 +45,8 @@ pub(crate) fn all_find<T: PartialEq>(what: &str, mut found: impl FnMut(&str, Exe
     }
 }
 
-/// Compares lit pictures of all executors' cards, from above and at a grazing angle, where hills hide each other and
-/// reads of maps cross their edge.
+/// Compares lit pictures of all executors' cards, from above and at a grazing angle, where hills occlude each other and
+/// texture reads cross the edges of the maps.
 pub(crate) fn pictures_agree<C>(
     what: &str,
     format: TexelFormat,

@@ -1,4 +1,4 @@
-//! Traces: for random programs and draws, a GPU's trace of every pixel equals the scalar executor's step by step, and
+//! Traces: for random programs and draws, a GPU's trace of every pixel equals the scalar executor's, step by step, and
 //! the last fragment of a trace is what every executor draws.
 
 use crate::environment::seeds;
@@ -16,7 +16,7 @@ fn without_flags(mut traces: Vec<Vec<FragmentTrace>>) -> Vec<Vec<FragmentTrace>>
     traces
 }
 
-/// Case number `n`: over the suites of random pixel programs in turn, drawn once, with all pixels traced.
+/// Case number `n`: the suites of random pixel programs in turn, each case drawn once.
 fn case(n: u64) -> Case {
     let suites = suite::all();
     let is_pixel = |name: &str| name.starts_with("programs::") && !name.starts_with("programs::vs_");

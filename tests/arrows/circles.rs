@@ -1,4 +1,5 @@
-//! No circular dependencies of files within a room: if two files need each other, a type is in the wrong file.
+//! Tests that files within a room have no circular dependencies: if two files need each other, a type is in the wrong
+//! file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -11,7 +12,7 @@ pub(crate) fn room(file: &Path) -> String {
     file.with_extension("").iter().next().expect("a component").to_string_lossy().into_owned()
 }
 
-/// Per file: the files of its room that it needs, with the names.
+/// For each file, the files of its room that it needs, each with the names that it uses.
 fn graph(source: &Crate) -> Graph {
     let mut graph = Graph::new();
     for (module, it) in source.modules.iter().filter(|(_, it)| !it.is_test) {
@@ -38,7 +39,7 @@ fn reachable<'a>(graph: &'a Graph, from: &'a Path) -> BTreeSet<&'a Path> {
     found
 }
 
-/// The circular dependencies of a crate: their files, each with the names that it needs of the others.
+/// The circular dependencies of a crate: the files of each, with the names that each file needs from the others.
 fn circles(source: &Crate) -> Vec<String> {
     let graph = graph(source);
     let reached: BTreeMap<&Path, BTreeSet<&Path>> =

@@ -95,7 +95,8 @@ const CROSSBAR: Law = (
     ],
 );
 
-/// The executors: `scalar` is separate; the others share `lower`. Files of `exec` itself precede all of them.
+/// The executors: `scalar` uses none of the others; `batch` and `wgsl` share `lower`. Files of `exec` itself precede
+/// all of them.
 const EXEC: Law =
     ("refsim/src", &["exec"], &[("scalar", ""), ("lower", ""), ("batch", "lower"), ("wgsl", "lower"), ("gpu", "wgsl")]);
 
@@ -113,7 +114,7 @@ const BATCH: Law = (
     ],
 );
 
-/// Rooms of the root package that may use the emulator; the shared ground knows nothing of cards.
+/// Rooms of the root package that may use the emulator; the other shared rooms know nothing of cards.
 const SPEAKS_REFSIM: &str = "card tracer case compare shader radiosity subsurface clustering transfer cpca all_frequency bi_scale \
      ray_engine study cli renderer";
 
@@ -187,7 +188,7 @@ fn the_emulator_depends_on_nothing_heavy() {
     for banned in ["crossbar", "nalgebra", "image", "clap"] {
         assert!(!dependencies.contains(banned), "refsim depends on `{banned}`");
     }
-    // Only the feature `wgpu` brings the dependency on GPU drivers.
+    // Only the feature `wgpu` adds the dependency on GPU drivers.
     let gpu = dependencies.lines().find(|line| line.starts_with("wgpu = {")).expect("wgpu, by feature");
     assert!(gpu.contains("optional = true"), "refsim depends on `wgpu` without being asked");
     assert!(!dependencies.contains("default = ["), "refsim has default features");
@@ -203,7 +204,7 @@ fn only_linalg_names_nalgebra() {
     let manifests = ["", "src/base/", "src/ground/", "src/systems/", "src/studies/"];
     for manifest in manifests.map(|folder| root().join(folder).join("Cargo.toml")) {
         let text = fs::read_to_string(manifest).expect("a manifest");
-        // Dependencies of the program only; the root's profiles name crates of the benches.
+        // Only the program's dependencies; the root's profiles also name crates of the benches.
         let dependencies = text.split("[profile.").next().unwrap_or_default();
         for comparison in ["bvh", "parry3d", "obvhs"] {
             assert!(!dependencies.contains(comparison), "`{comparison}` belongs into benches/Cargo.toml");

@@ -1,4 +1,4 @@
-//! Names: no type name in more than two rooms.
+//! Tests that no type name is defined in more than two rooms.
 
 use std::collections::{BTreeMap, BTreeSet};
 

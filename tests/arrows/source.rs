@@ -9,7 +9,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{Item, UseTree};
 
-/// Names joined by `::`: a module from the crate's root, or a path as the code writes it.
+/// Segments that `::` joins: of a module's path from the crate's root, or of a path as the code writes it.
 pub(crate) type Names = Vec<String>;
 
 /// A path that a module names: a leaf of a `use`, or one inside code.
@@ -25,7 +25,7 @@ struct Named {
 #[derive(Default)]
 pub(crate) struct Module {
     pub(crate) file: PathBuf,
-    /// True if it is compiled for tests only.
+    /// True if the module is compiled only for tests.
     pub(crate) is_test: bool,
     named: Vec<Named>,
     /// Names of all items.
@@ -36,13 +36,13 @@ pub(crate) struct Module {
     words: BTreeSet<String>,
 }
 
-/// A crate by its modules.
+/// A crate as the set of its modules.
 pub(crate) struct Crate {
     pub(crate) modules: BTreeMap<Names, Module>,
 }
 
-/// The members of the workspace below `src`, from the lowest: each is a folder of rooms and a crate. Their sources count
-/// as those of one crate.
+/// The members of the workspace below `src`, from the lowest: each is a folder of rooms and a crate. Their sources
+/// count as one crate.
 const MEMBERS: [&str; 4] = ["base", "ground", "systems", "studies"];
 
 /// The folders of the crates: the lower part of the emulator, the emulator, and the members' sources as one crate.
@@ -108,7 +108,7 @@ impl Crate {
         Self { modules }
     }
 
-    /// The absolute form of a path in `module`; `None` for a path of another crate, or of no module.
+    /// The absolute form of a path in `module`; `None` for a path into another crate, or to no module.
     fn absolute(&self, module: &[String], path: &[String], depth: usize) -> Option<Names> {
         let (first, rest) = path.split_first()?;
         match first.as_str() {

@@ -31,7 +31,7 @@ fn the_examples_are_made_by_the_commands() {
     }
 }
 
-/// An interrupted compression resumes and writes the same file; finished segments are reused for the same work only.
+/// An interrupted compression resumes and writes the same file; finished segments are reused only for the same work.
 #[test]
 fn finished_segments_are_kept() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -40,7 +40,7 @@ fn finished_segments_are_kept() {
         format!("all-frequency compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --resume {kept}");
     let in_all = document(&format!("{options} --out {out}"));
     assert_eq!(in_all["segments_kept"], 0);
-    // As after an interruption before segment 9: missing segments are computed, existing ones are read.
+    // Same as after an interruption before segment 9: missing segments are computed, existing ones are read.
     for segment in 9..24 {
         fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.part"))).expect("a finished segment");
     }
@@ -64,7 +64,7 @@ fn finished_segments_are_kept() {
     assert_eq!(fs::read(&out).expect("written"), fs::read(CODED).expect("an example"));
 }
 
-/// `error` recomputes the error that `compress` reports, and the picture differs from the original's within bounds.
+/// `error` recomputes the error that `compress` reports, and the picture differs from the original's picture by little.
 #[test]
 fn errors_are_those_of_compression() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -82,7 +82,7 @@ fn errors_are_those_of_compression() {
     assert!(fs::metadata(folder.path().join("page/index.html")).is_ok());
 }
 
-/// Glossy transfer by factors that another command wrote; all terms of the rank versus few terms.
+/// Glossy transfer from factors that another command wrote; compares all terms of the rank with few terms.
 #[test]
 fn factors_go_from_one_command_to_the_next() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -101,7 +101,7 @@ fn factors_go_from_one_command_to_the_next() {
     assert!(number(&drawn["multiplies"]["vertices"]) > 0.0);
 }
 
-/// A ground is precomputed, compressed and drawn with its model; each lights the other.
+/// A ground is precomputed, compressed and drawn with its model; each receives light from the other.
 #[test]
 fn a_model_stands_on_a_ground() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -146,7 +146,7 @@ fn a_model_stands_on_a_ground() {
     assert_eq!(other.code, Some(2), "its model is beside a ground's file: {}", other.stderr);
 }
 
-/// Decomposition of light: its energy is the sum over kept and dropped coefficients.
+/// Decomposes light: its energy is the sum over kept and dropped coefficients.
 #[test]
 fn light_is_taken_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -162,7 +162,7 @@ fn light_is_taken_apart() {
 }
 
 /// Light truncated on six faces has negative texels, and is drawn: the picture differs by the dropped part, and its red
-/// is the table's.
+/// channel is the table's.
 #[test]
 fn truncated_light_is_drawn() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -182,7 +182,7 @@ fn truncated_light_is_drawn() {
     let apart = squares(&mut whole.as_flattened().iter().zip(of_six.as_flattened()).map(|(a, b)| a - b));
     let share = (apart / squares(&mut whole.as_flattened().iter().copied())).sqrt();
     assert!(share > 1e-4 && share < 0.2, "{share}");
-    // All coefficients in 24 segments are equal light.
+    // All coefficients in 24 segments represent the same light.
     assert_eq!(picture(&light, "--keep 6144"), of_six);
 }
 

@@ -11,7 +11,7 @@ const MODEL: &str = "docs/examples/step.obj";
 const SIGHT: &str = "docs/examples/step_all.npz";
 const CODED: &str = "docs/examples/step_all_small.npz";
 
-/// Files of visibility and code of the model with ten glossy terms.
+/// Writes the model's visibility and its transfer compressed with ten glossy terms; returns both paths.
 fn glossy(folder: &Path) -> [String; 2] {
     let [factors, sight, coded] = ["factors", "sight.npz", "coded.npz"].map(|name| place(folder, name));
     let of_factors = ["--brdf", "cook-torrance", "--side", "16", "--terms", "10"];
@@ -41,7 +41,7 @@ fn cards_draw_what_the_host_draws() {
     let [_, coded] = glossy(folder.path());
     let ideal = drawn(&coded, &out, &["--device", "ideal-fp32"]);
     let r350 = drawn(&coded, &out, &[]);
-    // Half a 255th of the target, evenly distributed, has an RMS of 0.29.
+    // Rounding errors of the target, uniform up to half a 255th, have an RMS of 0.29.
     for found in [&ideal, &r350] {
         assert!(rms(found) > 0.1 && rms(found) < 0.35, "{}", rms(found));
     }
@@ -65,7 +65,7 @@ fn cards_draw_what_the_host_draws() {
         let row = rows.iter().find(|row| row["step"].as_str().is_some_and(|step| step.contains(what)));
         number(&row.unwrap_or_else(|| panic!("{what}"))["rms_255ths"])
     };
-    // Both methods lose highlights between vertices equally: this step compares equal pictures.
+    // Both methods lose the same highlights between vertices, so this step compares equal pictures.
     assert_eq!(step(&colors, "interpolated, not products"), step(&r350, "interpolated, not products"));
     assert!(step(&r350, "single precision") < 1e-3);
     let diffuse = drawn(CODED, &out, &["--original", SIGHT, "--keep", "40"]);
@@ -101,12 +101,12 @@ fn a_sweep_says_what_shows() {
     for name in ["index.html", "precision.csv", "blame.csv", "card.exr", "timeline.json", "card.png"] {
         assert!(folder.path().join("out").join(name).exists(), "{name}");
     }
-    // Raw transfer is drawn too; there is no code to quantise.
+    // Raw transfer is drawn too; there are no weights to quantize.
     let raw = drawn(&sight, &out, &["--sweep"]);
     assert!(raw["precision"].as_array().expect("a sweep").iter().all(|row| row["what"] != "weights"));
 }
 
-/// Options that conflict, or fit no card, are refused with advice, and nothing is written.
+/// Conflicting options, and options that suit no card, are refused with advice, and nothing is written.
 #[test]
 fn what_no_card_takes_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

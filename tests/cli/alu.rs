@@ -1,4 +1,4 @@
-//! `crossbar alu`: streams and verdicts.
+//! Tests `crossbar alu`: streams of operands, and verification of results.
 
 use crate::answers::refused;
 use crate::{ProgramOutput, crossbar};
@@ -38,7 +38,7 @@ fn suffixes_choose_rounding_and_overflow() {
     assert_eq!(results("add --format s3.12 --flags", "7FFF 0001"), ["7FFF 05"]);
 }
 
-/// 448, 464 and the next single; special values of formats without them.
+/// Converts 448, 464, the next single and infinity to formats without infinity.
 #[test]
 fn floats_without_infinity() {
     let numbers = "43E00000\n43E80000\n43E80001\n7F800000";
@@ -75,11 +75,11 @@ fn lines_of_many_numbers() {
     let back = results("dequantize --format fp32 --block mxfp4 --json --flags", block);
     assert_eq!(back, [r#"{"flags":"00","results":["00000000","80000000","42C00000","42000000"]}"#]);
     let terms = "6800 3C00 3C00 3C00 3C00 3C00\n\n3C00 3C00";
-    // 2048 + 1 + 1 in fp16: each 1, half a step, is lost; in single precision neither is.
+    // 2048 + 1 + 1: fp16 loses each 1, which is half a step; single precision loses neither.
     assert_eq!(results("dot --format fp16 --flags", terms), ["6800 01", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --accumulator fp32 --flags", terms), ["6801 00", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --summation exact", terms), ["6801", "3C00"]);
-    // With ten bits below 2048 the last is 2, with eleven 1.
+    // With ten bits the last bit below 2048 is 2, with eleven it is 1.
     assert_eq!(results("dot --format fp16 --summation aligned:10 --flags", terms), ["6800 01", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --summation aligned:11 --flags", terms), ["6801 00", "3C00 00"]);
     let many = "0 ".repeat(33);
@@ -108,7 +108,7 @@ fn lines_of_many_numbers() {
 
 #[test]
 fn units_of_cards() {
-    // Truncated, and aligned to the largest addend; two zeros and an overflow.
+    // Sums are aligned to the largest addend and truncated; products are zeros and an overflow.
     assert_eq!(results("add --device nv20", "c0151eb8 c2c80000\n3f800000,b3800000"), ["C2CCA8F5", "3F7FFFFF"]);
     let products = "80000000, 7f800000\n7f000000 c0000000";
     assert_eq!(results("mul --device nv25", products), ["00000000", "FF7FFFFF"]);
@@ -139,7 +139,7 @@ fn devices_without_a_measured_unit_compute_by_their_rules() {
     assert_eq!(results("sge --format fp16", "3C00 3C00\n7E00 3C00"), ["3C00", "0000"]);
     assert_eq!(results("sne --format fp16", "3C00 3C00\n7E00 3C00"), ["0000", "3C00"]);
     assert_eq!(results("dph --format fp16", "3C00 0 0 7C00 3C00 0 0 3C00"), ["4000"]);
-    // NV20's pixel stage is in fixed point.
+    // NV20's pixel stage computes in fixed point.
     assert_eq!(results("mov --device nv20 --stage pixel", "0FF"), ["0FF"]);
     for (arguments, expected) in [
         ("ex2 --device nv20", "the vertex unit of NV20 and NV25 has no `ex2`"),
@@ -196,7 +196,7 @@ fn json_lines() {
     );
 }
 
-/// Known answers, in the form in which TestFloat writes them: operands, result, flags.
+/// Known answers, in TestFloat's format: operands, result, flags.
 #[test]
 fn known_vectors_pass() {
     let vectors = [
@@ -281,7 +281,7 @@ fn a_bad_line_comes_after_the_results_before_it() {
     assert!(ran.stderr.contains("line 10001"), "{}", ran.stderr);
 }
 
-/// A reader that closes the pipe early ends the program quietly; a verdict is still reached.
+/// A reader that closes the pipe early ends the program quietly; with `--verify` it still reports its verdict.
 #[test]
 #[cfg(unix)]
 fn a_closed_pipe_is_no_error() {
@@ -298,7 +298,7 @@ fn a_closed_pipe_is_no_error() {
         drop(child.stdout.take());
         let mut stdin = child.stdin.take().expect("a pipe was asked for");
         let input = line.repeat(100_000);
-        // The program may be gone before it has read everything.
+        // The program may end before it has read everything.
         std::io::Write::write_all(&mut stdin, input.as_bytes()).ok();
         drop(stdin);
         let output = child.wait_with_output().expect("the program runs to its end");

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::{ProgramOutput, crossbar, crossbar_in};
 
-/// Text as one line of words, without line breaks and frames.
+/// Joins a text into one line of words, without line breaks and table frames.
 pub(crate) fn words(text: &str) -> String {
     text.replace(['|', '│'], " ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -17,14 +17,14 @@ pub(crate) fn place(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().expect("a name in UTF-8").to_owned()
 }
 
-/// Document of a run in the project's folder, which succeeds without a message.
+/// JSON document of a run in the project's folder, which must succeed without a message.
 pub(crate) fn document(arguments: &[&str]) -> Value {
     let ran = crossbar(&[arguments, &["--json"]].concat(), "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
     serde_json::from_str(&ran.stdout).expect("one JSON document")
 }
 
-/// Document of a run with arguments in one line, without spaces in them.
+/// JSON document of a run; the arguments are separated by spaces.
 pub(crate) fn document_of(line: &str) -> Value {
     document(&line.split_whitespace().collect::<Vec<_>>())
 }
@@ -39,24 +39,24 @@ pub(crate) fn number(value: &Value) -> f64 {
 }
 
 impl ProgramOutput {
-    /// Words of the message of a run with `arguments` that was refused: exit code 2, and nothing on standard output.
+    /// Words of the message of a refused run with `arguments`: exit code 2, and nothing on standard output.
     pub(crate) fn refusal(&self, arguments: impl Debug) -> String {
         assert_eq!((self.code, self.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", self.stderr);
         words(&self.stderr)
     }
 }
 
-/// Words of the message of a run in the project's folder that is refused.
+/// Words of the message of a refused run in the project's folder.
 pub(crate) fn refused(arguments: &[&str]) -> String {
     crossbar(arguments, "").refusal(arguments)
 }
 
-/// Words of the message of a run with arguments in one line, which is refused.
+/// Words of the message of a refused run; the arguments are separated by spaces.
 pub(crate) fn refused_line(line: &str) -> String {
     refused(&line.split_whitespace().collect::<Vec<_>>())
 }
 
-/// Words of the message of a run that is refused in a folder, in which it leaves nothing.
+/// Words of the message of a refused run in `folder`, where it must leave nothing.
 pub(crate) fn refused_in(folder: &Path, arguments: &[&str]) -> String {
     let entries = || std::fs::read_dir(folder).expect("a folder").count();
     let before = entries();

@@ -21,8 +21,8 @@ fn values(path: &str) -> Vec<[f64; 3]> {
     text.lines().skip(1).map(row).collect()
 }
 
-/// From the model to the light in its local directions: by rows, by rows read from text, by biclusters; identical bits
-/// with any number of threads.
+/// Computes local light from the model in three ways: by rows, by rows read from text, by biclusters. The bits do not
+/// depend on the number of threads.
 #[test]
 fn light_takes_every_way() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -56,7 +56,8 @@ fn light_takes_every_way() {
     }
 }
 
-/// Numbers without a unit whose residuals are not rounded: the biclusters' file gives back the matrix.
+/// Numbers that are not multiples of a unit, with unrounded residuals: the matrix is recovered from the biclusters'
+/// file.
 #[test]
 fn any_numbers_come_back_from_files() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -124,7 +125,7 @@ fn picture(folder: &str, name: &str) -> Vec<[f32; 3]> {
     crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
 }
 
-/// The example files of the pictures.
+/// The commands reproduce the example files that the pictures use.
 #[test]
 fn the_court_has_its_transfer() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -133,7 +134,7 @@ fn the_court_has_its_transfer() {
     document(&format!("bi-scale precompute {COURT} {options} --out {matrix}"));
     document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
     hold_bytes(COURT_BICLUSTERS.as_ref(), &fs::read(&biclusters).expect("written"));
-    // The matrix and its biclusters give equal pictures, up to single precision.
+    // The matrix and its biclusters produce the same picture, up to single precision.
     let [one, other] = [&matrix, COURT_BICLUSTERS].map(|file| {
         let out = place(folder.path(), "p");
         let options = "--texture mail --texture-size 8 --texture-views 3 --repeat 2 --size 24x18";
@@ -145,8 +146,8 @@ fn the_court_has_its_transfer() {
     }
 }
 
-/// From a patch to a file to a picture: equal to the picture with the patch itself; identical bits with any number of
-/// threads.
+/// A picture with a texture file equals the picture with the patch from which the file was made; the bits do not depend
+/// on the number of threads.
 #[test]
 fn textures_take_every_way() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -177,8 +178,8 @@ fn textures_take_every_way() {
     assert!((20..200).contains(&changed), "{changed}");
 }
 
-/// Under uniform light, the light's texels and single precision cause no error; more views and texels of a texture have
-/// a smaller error than few; the last step is the difference of both pictures.
+/// Under uniform light, the light's texels and single precision cause no error; a texture with more views and texels
+/// has a smaller error; the last step is the difference of both pictures.
 #[test]
 fn errors_are_told_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -192,7 +193,7 @@ fn errors_are_told_apart() {
     let causes = causes("--texture-size 32 --texture-views 12");
     assert_eq!((causes.len(), of_coarse.len()), (7, 7));
     let step = |cause: &Value| number(&cause["step_percent"]);
-    // Uniform light does not depend on texels.
+    // Uniform light does not depend on the number of texels.
     assert!(step(&causes[0]) < 1e-6 && step(&causes[6]) < 1e-3, "{causes:?}");
     for at in [3, 4] {
         assert!(step(&causes[at]) < 0.6 * step(&of_coarse[at]), "{causes:?}, {of_coarse:?}");
@@ -257,8 +258,8 @@ fn textures_that_do_not_fit_are_refused() {
     }
 }
 
-/// The card's picture equals the host's except for the rounding of its target; coarser formats have a larger error, and
-/// other kinds of transfer do not accept them.
+/// The card's picture equals the host's picture except for the rounding of its target; coarser formats have a larger
+/// error, and other kinds of transfer do not accept them.
 #[test]
 fn the_card_draws_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -274,7 +275,7 @@ fn the_card_draws_what_the_host_draws() {
     let fine = on_card("--device ideal-fp32");
     assert!(rms(&fine) < 2.0 && fine["time"].is_null(), "{}", rms(&fine));
     let with_one = picture(&out, "card");
-    // The floor has its own texture, in the host's picture too.
+    // The floor has its own texture, also in the host's picture.
     let both = on_card("--texture floor=mail --device ideal-fp32");
     assert!(rms(&both) < 2.0, "{}", rms(&both));
     assert!(number(&both["sizes"][4]["number"]) == 2.0, "{}", both["sizes"]);
@@ -299,7 +300,8 @@ fn the_card_draws_what_the_host_draws() {
     }
 }
 
-/// A crease angle below a right angle separates the vertices of floor and wall; a picture needs the same angle.
+/// A crease angle below a right angle separates the vertices of floor and wall; a picture must be drawn with the same
+/// angle.
 #[test]
 fn creases_keep_vertices_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -1,4 +1,4 @@
-//! `crossbar run`: the example cases, and messages about bad ones.
+//! `crossbar run`: the example cases, and messages about bad cases.
 
 use std::{fs, path::Path};
 
@@ -127,7 +127,7 @@ fn both_executors_write_the_same_bytes() {
                 .map(|entry| (entry.file_name(), fs::read(entry.path()).expect("a file")))
                 .collect();
             files.sort();
-            // The counts are the same too; only the names of the files differ.
+            // The counts are also equal; only the names of the files differ.
             let counts: Vec<String> =
                 ran.stdout.lines().filter(|line| line.starts_with('|')).map(str::to_owned).collect();
             (files, counts)
@@ -269,7 +269,7 @@ fn bad_cases() {
 }
 
 /// A program that reads a value that the case never set runs on Direct3D's default, zeros, with a warning; so does one
-/// whose constants are clamped. The warnings come once, and change no exit code.
+/// whose constants are clamped. Each warning is printed once and does not change the exit code.
 #[test]
 fn warnings() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -321,7 +321,7 @@ fn the_documentation_describes_every_field() {
     let schema = include_str!("../../src/studies/case/schema.rs");
     let fields = schema.lines().filter_map(|line| line.trim().strip_prefix("pub ")?.split_once(": "));
     for (field, _) in fields.filter(|(field, _)| !field.contains(' ')) {
-        // The parts of a case have headings of their own.
+        // The parts of a case have their own headings.
         if ["pixel", "vertex", "texture", "bump", "geometry", "target", "alpha", "blend", "probe"].contains(&field) {
             assert!(page.contains(&format!("[{field}]")), "docs/cases.md says nothing of [{field}]");
             continue;
@@ -341,8 +341,8 @@ fn the_example_of_the_documentation_runs() {
     assert_eq!(crossbar(&["run", "--help"], "").code, Some(0));
 }
 
-/// Four loops of 255 passes, one in the other: the run ends with the place, on every executor, in traces and
-/// comparisons.
+/// Four nested loops of 255 passes: runs, traces and comparisons end with an error that names the instruction, on every
+/// executor.
 #[test]
 fn a_program_that_runs_too_long_is_an_error() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -4,7 +4,7 @@ use std::fs;
 
 use crate::{ProgramOutput, crossbar, crossbar_in};
 
-/// Checks `text` as `shader.psa` in a folder of its own.
+/// Checks `text` as `shader.psa` in a new folder.
 fn check(text: &[u8], arguments: &[&str]) -> ProgramOutput {
     let folder = tempfile::tempdir().expect("a folder for the test");
     fs::write(folder.path().join("shader.psa"), text).expect("a file");
@@ -43,7 +43,7 @@ fn violations_for_machines() {
     assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
 }
 
-/// The runtime clamps constants beyond -1 to 1: a warning, and exit code 0.
+/// The runtime clamps constants outside [-1, 1]: a warning, and exit code 0.
 #[test]
 fn warnings() {
     let clamped = b"ps_1_4\ndef c2, -0.5, 1.25, 2, 1\nmov r0, c2\n";

@@ -14,14 +14,14 @@ use crossbar::transfer::file::parse_prt;
 
 use crate::archive::{members, text_of, with_member, with_metadata};
 
-/// Set in the process with a limited address space.
+/// Environment variable that is set in the process with a limited address space.
 const LIMITED: &str = "CROSSBAR_TEST_LIMITED";
-/// Bytes at the head of a binary file of which each is replaced in turn.
+/// Number of bytes at the start of a binary file that are replaced in turn.
 const HEAD: usize = 320;
 /// The largest number of 32 bits.
 const CLAIM: &str = "4294967295";
 
-/// A reader, and a good file for it.
+/// A valid file, and the reader for it.
 struct GoodFile {
     name: &'static str,
     bytes: Vec<u8>,
@@ -52,7 +52,7 @@ fn read_claims(good: &GoodFile) {
     }
 }
 
-/// The file with each of its numbers in turn replaced by a large one, with valid checksums.
+/// Copies of the file, each with one number replaced by a large one; checksums are valid.
 fn claims(good: &[u8]) -> Vec<Vec<u8>> {
     if let Some(text) = std::str::from_utf8(good).ok().filter(|text| !text.contains('\0')) {
         return text_claims(text).into_iter().map(String::into_bytes).collect();

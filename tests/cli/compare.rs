@@ -1,4 +1,4 @@
-//! `crossbar compare` and `crossbar run --trace`: equal sides, differences worked out by hand, and bad input.
+//! `crossbar compare` and `crossbar run --trace`: equal sides, differences derived by hand, and bad input.
 
 use std::fs;
 
@@ -7,14 +7,14 @@ use serde_json::{Value, json};
 use crate::answers::listed;
 use crate::{ProgramOutput, case::CASES, case::example, crossbar_in};
 
-/// Runs the program on `text` as `case.toml` in a folder of its own.
+/// Runs the program on `text` as `case.toml` in a new folder.
 fn on(text: &str, arguments: &[&str]) -> ProgramOutput {
     let folder = tempfile::tempdir().expect("a folder for the test");
     fs::write(folder.path().join("case.toml"), text).expect("a file");
     crossbar_in(folder.path(), arguments, "")
 }
 
-/// The report for machines of a comparison that differs.
+/// The JSON report of a comparison that finds a difference.
 fn difference(text: &str, arguments: &[&str]) -> Value {
     let ran = on(text, &[&["compare", "case.toml", "--json"], arguments].concat());
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(1), ""), "{}", ran.stdout);
@@ -46,7 +46,7 @@ fn fixtures() -> std::path::PathBuf {
     std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/cases")
 }
 
-/// A pixel program on a 4x4 target of singles; tests replace parts of it.
+/// A pixel program on a 4x4 single-precision target; tests replace parts of it.
 const PLAIN: &str = r#"title = "plain"
 shader_model = "ps_2_a"
 format = "fp32"
@@ -96,7 +96,7 @@ fn an_operand_that_differs_already() {
     let text = PLAIN.replace("PROGRAM", "mov r0, t0\nadd r0, r0, c0\nmov oC0, r0");
     let first = difference(&text, &["--left-format", "fp16", "--right-format", "s3.12"]);
     let found = &first["difference"];
-    // t0 goes in steps of 1/4: both formats hold it.
+    // t0 is a multiple of 1/4, which both formats can hold.
     assert_eq!((&found["stage"], &found["instruction"]["index"]), (&json!("instruction"), &json!(1)));
     assert_eq!((&found["operands"][0]["differs"], &found["operands"][1]["differs"]), (&json!(false), &json!(true)));
     let constant = &found["operands"][1]["values"][0];
@@ -147,8 +147,8 @@ fn the_alpha_test() {
     assert_eq!(found["values"][0]["name"], "target 0 red");
 }
 
-/// The coordinate is rounded when it enters a register: the stage says so, and the instruction that reads it is named
-/// too.
+/// The coordinate is rounded when it enters a register: the stage says so, and the report also names the instruction
+/// that reads it.
 #[test]
 fn an_input_register() {
     let text =
@@ -161,7 +161,7 @@ fn an_input_register() {
     assert_eq!(later["operands"][0]["differs"], true);
 }
 
-/// Half of full red lies between two codes, a quarter of full depth between two others.
+/// Red 0.5 lies between two codes of the target, and depth 0.25 between two codes of the depth buffer.
 #[test]
 fn the_output_merge() {
     let folder = fixtures();
@@ -183,8 +183,8 @@ fn the_output_merge() {
     assert_eq!(found["values"][0]["right_bits"], "0x3fffff");
 }
 
-/// An edge at column 3.02: a grid of sixteenths rounds it to 3, so the centre of column 3 lies on it, to the right of
-/// the quad; on a grid of 256ths the centre lies inside.
+/// An edge at column 3.02: a grid of sixteenths rounds it to 3, so the center of column 3 lies on it, to the right of
+/// the quad; on a grid of 256ths the center lies inside.
 #[test]
 fn the_coverage() {
     let text = r#"device = "r300"
@@ -245,8 +245,8 @@ fn a_trace() {
     insta::assert_snapshot!(trace);
 }
 
-/// 2 * 0.7 in s3.12: 0.7 is 2867 parts of 4096, its double 5734; c1 is an eighth, and the product of 716.75 parts
-/// rounds to 717.
+/// 2 * 0.7 in s3.12: 0.7 is 2867 / 4096, and doubled 5734 / 4096; c1 is an eighth, and the product, 716.75 / 4096,
+/// rounds to 717 / 4096.
 #[test]
 fn a_trace_for_machines() {
     let text = r#"shader_model = "ps_1_4"

@@ -20,7 +20,7 @@ fn scripts_for_five_shells_name_every_command() {
     assert_eq!(crossbar(&["completions", "abacus"], "").code, Some(2));
 }
 
-/// A shell completes by the script; `program` is the program under test.
+/// A shell uses the completion script; `program` is the program under test.
 #[cfg(target_os = "linux")]
 #[test]
 fn bash_completes() {

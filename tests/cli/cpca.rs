@@ -51,7 +51,7 @@ fn what_does_not_go_together_is_refused() {
     }
 }
 
-/// The card's picture is the host's up to rounding: almost equal on an ideal device, less on real cards.
+/// The card's picture equals the host's up to rounding: almost exactly on an ideal device, less exactly on real cards.
 #[test]
 fn a_card_draws_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -125,8 +125,8 @@ fn pictures_that_are_no_lights_are_refused() {
     }
 }
 
-/// A square whose first texture coordinate grows with y: the anisotropic material follows it, the file stores the
-/// tangents, and commands that read the file need no option for them.
+/// A square whose first texture coordinate grows with y: the anisotropic material's tangents follow it. The file stores
+/// the tangents, and commands that read the file need no option for them.
 #[test]
 fn tangents_come_from_the_texture_and_stay_with_the_file() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -153,12 +153,12 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
     for words in ["expected transfer of a mesh with 4 vertices", "tangents from texture coordinates", "along 0,1,0"] {
         assert!(said.contains(words), "{words}: {said}");
     }
-    // A square without texture coordinates is another mesh.
+    // A square without texture coordinates is a different mesh and is refused.
     let square = ["cpca", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
     refused(&square);
 }
 
-/// A NumPy array and a table with equal numbers are one signal.
+/// A NumPy array and a table with equal numbers are the same signal.
 #[test]
 fn arrays_of_numpy_are_compressed() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -182,8 +182,8 @@ fn arrays_of_numpy_are_compressed() {
     assert!(said.to_lowercase().contains("fortran"), "{said}");
 }
 
-/// Reclassification draws fewer triangles within its budget; superclusters add no error; the file records both, and the
-/// card draws accordingly.
+/// Reclassification draws fewer triangles within its error budget; superclusters add no error; the file records both,
+/// and the card draws accordingly.
 #[test]
 fn clusters_are_made_coherent_on_their_mesh() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -1,4 +1,4 @@
-//! `crossbar devices`: every figure with its source.
+//! `crossbar devices`: every figure is printed with its source.
 
 use refsim::device::Confidence;
 use serde_json::Value;

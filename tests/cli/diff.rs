@@ -7,13 +7,13 @@ use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
 use crate::answers::listed;
 use crate::{ProgramOutput, crossbar_in};
 
-/// A slope of 16 x 12 pixels.
+/// A color gradient of 16 x 12 pixels.
 fn slope(red: f32) -> Picture {
     let pixels: Vec<[f32; 3]> = (0..192).map(|at| [red, (at % 16) as f32 / 15.0, (at / 16) as f32 / 11.0]).collect();
     Picture::rgb(16, 12, &pixels)
 }
 
-/// The slope with ids and depths, a NaN among them.
+/// The gradient with channels of ids and depths, among them a NaN.
 fn layers(id: u32, depth: f32) -> Picture {
     let (mut ids, mut depths) = (vec![3; 192], vec![2.0; 192]);
     (ids[17], depths[40]) = (id, depth);
@@ -116,7 +116,7 @@ fn maps_and_numbers_are_written() {
     assert!(numbers.floats("R").expect("red").1.iter().all(|&difference| difference == 0.25));
     assert!(numbers.floats("G").expect("green").1.iter().all(|&difference| difference == 0.0));
     assert_eq!(numbers.floats("FLIP").expect("FLIP").1.len(), 192);
-    // 12 rows, a gap, and a bar of two.
+    // 12 rows, a gap of one row, and a color bar of two.
     assert_eq!(Picture::decode(&read("difference.png")).expect("our own PNG").height(), 15);
     for name in ["flip.png", "first.png", "second.png", "index.html", "study.json", "channels.csv"] {
         assert!(!read(name).is_empty(), "{name}");

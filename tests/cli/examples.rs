@@ -1,4 +1,4 @@
-//! docs/examples: the files that documentation and help name equal the library's output.
+//! docs/examples: the files that documentation and help texts name equal the library's output.
 
 use crate::environment::writes_files;
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples")
 }
 
-/// 8 x 8 eye rays at the teapot.
+/// A table of 8 x 8 eye rays toward the teapot.
 fn rays() -> String {
     let mut text = "ox,oy,oz,dx,dy,dz\n".to_owned();
     for (row, column) in (0..8).flat_map(|row| (0..8).map(move |column| (row, column))) {
@@ -30,7 +30,7 @@ fn rays() -> String {
     text
 }
 
-/// Reflectance times cosine on maps of 4 x 4 texels.
+/// A table of reflectance times cosine on maps of 4 x 4 texels.
 fn reflectance() -> String {
     let sampling = FactorSampling { side: 4, ..FactorSampling::default() };
     let table = sampling.table(&Lobe::cook_torrance(0.5, 0.5), &mut |_, _| ()).expect("a table");
@@ -39,7 +39,7 @@ fn reflectance() -> String {
     table.values().rows().map(line).collect()
 }
 
-/// A sparse matrix of quarters in blocks, with some values changed.
+/// A sparse matrix of quarters in blocks, with some values off.
 fn quarters() -> String {
     let value = |row: usize, column: usize| {
         let in_block = (7 * (row / 8) + 3 * column) % 5 < 2;
@@ -96,8 +96,8 @@ fn examples_are_what_the_library_makes() {
     }
 }
 
-/// The pictures of the examples of `diff` equal those that `render` makes of the example scenes, except for their
-/// metadata.
+/// The pictures of the examples of `diff` equal the pictures that `render` makes of the example scenes, except for
+/// their metadata.
 #[test]
 fn example_pictures_are_what_the_program_draws() {
     let teapot = "docs/examples/teapot.obj --eye 0,-10,4 --target 0,0,1 --size 96x96";

@@ -14,7 +14,7 @@ fn document(arguments: &[&str]) -> Value {
     crate::answers::document(&[&["all-frequency", "factor"], arguments].concat())
 }
 
-/// All files exist, with the same contents on any number of threads.
+/// All files exist; their contents do not depend on the number of threads.
 #[test]
 fn a_table_is_factored_into_files() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -51,7 +51,7 @@ fn the_tables_are_these() {
     insta::assert_snapshot!("factor_tables", ran.stdout);
 }
 
-/// Bad input: the messages, word for word, and nothing is written.
+/// Bad input: checks the messages word for word; nothing is written.
 #[test]
 fn bad_input_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -7,7 +7,7 @@ pub(crate) const COMMANDS: &str = "all-frequency alu atlas bi-scale check compar
                         intersect leaky-teapot man materials matmul measure merge page precision radiosity render \
                         reproduce run scene subsurface timeline tour units";
 
-/// The verbs of all commands.
+/// All subcommands that consist of a command and a verb.
 fn verbs() -> Vec<String> {
     tree::commands().into_iter().map(|(name, _)| name).filter(|name| name.contains(' ')).collect()
 }
@@ -50,7 +50,7 @@ fn every_command_has_an_example_and_speaks_json() {
     }
 }
 
-/// The commit, unless the program is a development build, and the features.
+/// `--version` prints the commit, unless the program is a development build, and the features.
 #[test]
 fn version() {
     let ran = crossbar(&["--version"], "");
@@ -91,7 +91,7 @@ fn without_arguments_there_are_three_things_to_try() {
     let tries: Vec<&str> = ran.stderr.lines().filter_map(|line| line.strip_prefix("  crossbar ")).collect();
     assert_eq!(tries.len(), 3, "{}", ran.stderr);
     for line in tries {
-        // The command ends before two spaces or at the end of the line.
+        // Two spaces or the end of the line end the command.
         let command = line.split("  ").next().unwrap_or_default();
         let words: Vec<&str> = command.split(' ').chain(["--help"]).collect();
         assert_eq!(crossbar(&words, "").code, Some(0), "{command}");

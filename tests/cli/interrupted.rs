@@ -1,4 +1,4 @@
-//! A program that receives a signal leaves nothing half-written.
+//! Tests that a program that receives a signal leaves nothing half-written.
 #![cfg(unix)]
 
 use std::fs;
@@ -30,7 +30,7 @@ fn staging(folder: &Path) -> usize {
     entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(".crossbar-")).count()
 }
 
-/// Waits until the long work has begun, which is after its staging folder exists.
+/// Waits until the work has begun, that is, until its staging folder exists.
 fn begun(child: &mut Child, folder: &Path) {
     let start = Instant::now();
     while staging(folder) == 0 {
@@ -45,7 +45,7 @@ fn signal(child: &Child, name: &str) {
     assert!(sent.success());
 }
 
-/// Work of minutes, which every test here interrupts early.
+/// Arguments of a command that takes minutes; every test here interrupts it early.
 const LONG: &[&str] = &["render", "white-box", "--renderer", "path", "--samples", "100000", "--size", "64x64"];
 
 #[test]
@@ -68,7 +68,7 @@ fn signals_leave_nothing_behind() {
     }
 }
 
-/// The last message says that nothing was written and that work starts from the beginning, as text or as JSON.
+/// The last message says that nothing was written and that the work starts from the beginning, as text or as JSON.
 #[test]
 fn what_is_lost_is_said() {
     for (more, expected) in [(None, "Error: crossbar::interrupted"), (Some("--json"), "{\"")] {
@@ -155,7 +155,7 @@ fn shells_see_130_and_143() {
     }
 }
 
-/// `nohup` ignores SIGHUP on behalf of its program.
+/// `nohup` makes its program ignore SIGHUP.
 #[test]
 #[cfg(target_os = "linux")]
 fn what_is_ignored_stays_ignored() {

@@ -1,4 +1,4 @@
-//! The program as a user meets it: arguments in; text, exit code and files out.
+//! Tests the program as a user runs it: arguments in; text, exit code and files out.
 
 mod all_frequency;
 mod all_frequency_card;

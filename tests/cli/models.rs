@@ -1,4 +1,5 @@
-//! Model files of all kinds, for every command that reads them: repairs are reported, and options change the reading.
+//! Model files of all kinds, for every command that reads them: repairs are reported, and options change how a file is
+//! read.
 
 use std::fs;
 use std::path::Path;
@@ -21,7 +22,7 @@ fn run(folder: &Path, line: &str) -> ProgramOutput {
     crossbar_in(folder, &line.split(' ').collect::<Vec<_>>(), "")
 }
 
-/// Every command that reads a model reports its defects, in the same words.
+/// Every command that reads a model reports its repaired defects in the same words.
 #[test]
 fn what_is_mended_is_said_by_every_command() {
     let folder = folder();
@@ -81,7 +82,7 @@ fn faces_with_a_fault_are_said() {
     }
 }
 
-/// 2^33 over 2^-100 is 2^133.
+/// The distance is 2^33 / 2^-100 = 2^133.
 #[test]
 fn a_hit_beyond_f32_has_its_distance() {
     let folder = folder();
@@ -99,7 +100,7 @@ fn a_hit_beyond_f32_has_its_distance() {
     }
 }
 
-/// Leaks of a user's model and rays, with verdicts, map and page as for the teapot.
+/// `crossbar leaks` accepts any model and rays, and writes verdicts, map and page as for the teapot.
 #[test]
 fn leaks_of_any_model() {
     let folder = folder();
@@ -131,7 +132,8 @@ fn leaks_of_any_model() {
     }
 }
 
-/// Rays with separate origins at small triangles leave no significant bits of t on a 16-bit card; the program says so.
+/// Rays with separate origins at small triangles leave no significant bits of t on a 16-bit card; the program warns
+/// about it.
 #[test]
 fn a_format_without_bits_is_said() {
     let folder = folder();

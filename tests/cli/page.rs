@@ -1,4 +1,4 @@
-//! `crossbar page`: the file is self-contained. `tests/page` opens it in Chromium.
+//! Tests that the page of `crossbar page` is self-contained. `tests/page` opens it in Chromium.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -29,7 +29,7 @@ fn the_page_stands_alone() {
     assert_eq!(data["version"], env!("CARGO_PKG_VERSION"));
     let cells = data["arithmetic"]["expected"].as_array().expect("a table");
     assert!(cells.len() == 17 && cells.iter().all(|row| row.as_array().is_some_and(|row| row.len() == 8)));
-    // s3.12 leaks where fp24 does not: the pictures are of different formats.
+    // s3.12 leaks and fp24 does not, so the pictures of the formats differ.
     let digests: Vec<&Value> = ["s3.12", "e5m10", "e7m16"]
         .iter()
         .enumerate()

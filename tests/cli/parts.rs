@@ -10,7 +10,7 @@ use crate::commands::copy_of_the_repository;
 use crate::random::Random;
 use crate::{crossbar_in, start};
 
-/// Commands that split, on small input. The result goes to `out`, with an extension if it is a file.
+/// Commands that can be split into parts, on small input. The result goes to `out`, with an extension if it is a file.
 const COMMANDS: &[&str] = &[
     "cpca precompute docs/examples/court.obj --order 3 --out out.npz",
     "cpca precompute docs/examples/step.obj --kind glossy --rows 9 --order 2 --degree 18 --brdf phong:0.2,0.6,9 \
@@ -45,7 +45,7 @@ fn run(folder: &Path, words: &[&str]) -> String {
     ran.stdout
 }
 
-/// The command with another `--out`, and `--part`.
+/// The command with `--part` and a different `--out`.
 fn part(command: &str, part: &str, out: &str) -> String {
     let (command, _) = command.split_once(" --out ").expect("an output");
     format!("{command} --part {part} --out {out}")
@@ -80,7 +80,7 @@ fn without_times(said: &str) -> String {
     said.split_inclusive('\n').filter(|line| !line.starts_with("time ")).collect()
 }
 
-/// Any number of parts, more than items among them, in any order, on any number of threads.
+/// Any number of parts, even more than items, in any order, on any number of threads.
 #[test]
 fn merged_parts_are_the_files_of_one_run() {
     let mut random = Random::new(47);
@@ -113,7 +113,7 @@ fn merged_parts_are_the_files_of_one_run() {
     }
 }
 
-/// Parts that are killed at any moment leave a complete file or none, and are computed again.
+/// Parts that are killed at any moment leave a complete file or none, and can be computed again.
 #[test]
 fn parts_that_were_killed_are_made_again() {
     let mut random = Random::new(11);

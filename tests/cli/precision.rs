@@ -1,4 +1,4 @@
-//! `crossbar precision`: its device of mixed formats is one that other commands take, and messages.
+//! `crossbar precision`: other commands accept its device of mixed formats; and its messages.
 
 use std::fs;
 
@@ -35,7 +35,7 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
     let said = |case: &str| run(&["run", case, "--out", "drawn"]).stderr;
     assert_eq!(said("same.toml"), "");
     assert!(said("changed.toml").contains("which the case does not run"), "{}", said("changed.toml"));
-    // So do formats of storages that it does not use.
+    // Neither have formats of storages that the program does not use.
     let device = "device = \"ideal-fp32\"\n[storage]\nconstants = \"e5m2\"\ncolors = \"e5m2\"\n";
     fs::write(root.path().join("storing.toml"), device).expect("a file");
     fs::write(root.path().join("stored.toml"), case.replace("\"nv25\"", "\"storing.toml\"")).expect("a file");
@@ -101,7 +101,7 @@ fn expressions_are_studied_listed_and_refused() {
     insta::assert_snapshot!(messages.map(|message| message.transcript()).join("\n"));
 }
 
-/// The shader with expressions in f16 differs from the exact one as the study states: by one code.
+/// The shader with expressions in f16 differs from the exact one by one code, as the study states.
 #[cfg(feature = "wgsl")]
 #[test]
 fn the_rewritten_shader_draws_what_the_study_states() {

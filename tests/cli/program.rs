@@ -24,14 +24,15 @@ pub(crate) struct ProgramOutput {
 }
 
 impl ProgramOutput {
-    /// Exit code and both streams as one text, for snapshots.
+    /// Exit code and both output streams as one text, for snapshots.
     pub(crate) fn transcript(&self) -> String {
         let code = self.code.map_or_else(|| "none".to_owned(), |code| code.to_string());
         format!("exit code: {code}\n--- stdout\n{}--- stderr\n{}", self.stdout, self.stderr)
     }
 }
 
-/// Runs the program in `folder` with `input` on standard input; environment variables cannot change its output's style.
+/// Runs the program in `folder` with `input` on standard input; environment variables cannot affect the style of its
+/// output.
 pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> ProgramOutput {
     let mut child = Command::new(path())
         .args(arguments)
@@ -47,7 +48,8 @@ pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Pro
         .expect("the program under test");
     let mut stdin = child.stdin.take().expect("a pipe was asked for");
     let input = input.to_owned();
-    // The program may write before it has read everything, or never read: neither must block or fail the test.
+    // The program may write before it has read everything, or may never read; neither must block the test or make it
+    // fail.
     let writer = std::thread::spawn(move || stdin.write_all(input.as_bytes()).ok());
     let output = child.wait_with_output().expect("the program runs to its end");
     writer.join().expect("writing does not panic");

@@ -38,7 +38,7 @@ fn what_it_says_and_writes() {
     );
 }
 
-/// Radiosities at the model's vertices, by vertex number, each a mean over its patches.
+/// The file of radiosities lists the model's vertices by number; each value is a mean over the vertex's patches.
 #[test]
 fn vertices_have_radiosities() {
     let (ran, folder) = radiosity(&["white-box", "--patches", "24", "--size", "8x8", "--solver", "direct"]);
@@ -113,7 +113,8 @@ fn a_document_for_machines() {
     assert_eq!(found["provenance"]["profiles"][0], "nv35");
 }
 
-/// Truncation makes half floats darker, and more patches make both darker; files for programs have a row per setting.
+/// Truncation makes half floats darker, and more patches make both settings darker; files for programs have a row per
+/// setting.
 #[test]
 fn a_sweep_over_patches_and_switches() {
     let run = |switch: &[&str]| {
@@ -156,7 +157,7 @@ fn a_sweep_over_patches_and_switches() {
     assert!(dark(&turned, many, "as it is") > 1.5 * dark(&turned, few, "as it is"), "{turned:?}");
 }
 
-/// An open sheet, a sheet with a triangle without area, a triangle that is too thin, a mirror, and nothing.
+/// An open sheet, a sheet with a triangle without area, a triangle that is too thin, a mirror, and an empty model.
 const FILES: [(&str, &str); 9] = [
     ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
     ("flat.obj", "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nusemtl lamp\nf 1 2 4\nf 1 2 3\n"),
@@ -207,7 +208,7 @@ fn bad_input() {
     insta::assert_snapshot!(said);
 }
 
-/// Every command takes a model with a triangle without area, and reports their number.
+/// Every command accepts a model with triangles without area, and reports their number.
 #[test]
 fn a_triangle_without_area_is_no_patch() {
     let folder = tempfile::tempdir().expect("a folder for the test");

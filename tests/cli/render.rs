@@ -10,13 +10,13 @@ fn render(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     (crossbar_in(folder.path(), &all, ""), folder)
 }
 
-/// A square that the default camera sees nearly head on.
+/// A square that the default camera sees nearly from the front.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
 
 /// A scene file with a misspelt field.
 const FIELD: &str = "mesh = \"square.obj\"\n[[point_ligth]]\nposition = [0, 0, 1]\nintensity = [1, 1, 1]\n";
 
-/// A model whose face names a vertex that is not there.
+/// A model whose face names a vertex that does not exist.
 const BROKEN: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
                       element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n";
 
@@ -39,7 +39,7 @@ fn every_renderer_makes_the_same_picture_twice() {
     }
 }
 
-/// A long box far from the origin, wide, high or deep, touches an edge of its picture and is not cut off.
+/// A long box far from the origin (wide, high or deep) touches an edge of its picture and is not cut off.
 #[test]
 fn a_model_fills_the_picture() {
     for (axis, size) in [(0, [256, 256]), (1, [256, 256]), (2, [256, 256]), (0, [120, 360]), (2, [480, 160])] {

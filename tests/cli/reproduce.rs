@@ -17,7 +17,7 @@ fn an_unknown_entry_is_refused_before_anything_is_written() {
     assert!(slip.stderr.contains("did you mean `cpca-figure-7`?"), "{}", slip.stderr);
 }
 
-/// Snapshot of the figures, which shows a change of the model.
+/// Snapshot of the figures, which reveals changes of the model.
 #[test]
 fn the_rows_are_these() {
     let folder = tempfile::tempdir().expect("a folder");

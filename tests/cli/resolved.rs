@@ -1,4 +1,4 @@
-//! The command line in findings: with defaults, without options that have no effect.
+//! The command line that findings state: it includes defaults and omits options without effect.
 
 use crate::commands::copy_of_the_repository;
 use crate::crossbar_in;

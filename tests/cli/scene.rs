@@ -25,7 +25,7 @@ fn files_are_written_together() {
     assert_eq!(Some(scene), crossbar::scene::built::build("cornell-box"));
 }
 
-/// Messages for scene files with a mistake.
+/// Snapshots of the messages about faulty scene files.
 #[test]
 fn bad_scenes() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes/bad");

@@ -1,4 +1,4 @@
-//! External text on a terminal: no control sequences, no endless lines, no endless lists.
+//! External text as shown on a terminal: no control sequences, no endless lines, no endless lists.
 
 use std::fs;
 use std::path::Path;
@@ -92,7 +92,7 @@ fn nothing_from_outside_acts_on_the_terminal() {
     nothing_hidden(&crossbar(&["alu", "sqrt", "--format", "fp16"], &format!("{HOSTILE}\n")), "standard input");
 }
 
-/// A program of `count` lines that each break a rule.
+/// A program of `count` lines, each of which breaks a rule.
 fn bad_lines(count: usize) -> String {
     format!("ps_1_4\n{}", "mov r0, c9\n".repeat(count))
 }
@@ -117,8 +117,8 @@ fn lists_of_errors_are_cut_but_for_machines() {
     assert!(ran.stderr.ends_with("... and 10 more: `--json` has every one\n"), "{}", ran.stderr);
 }
 
-/// Processor time of the program alone, so that other load does not matter: eight times the errors may take eight times
-/// the time; a renderer that scans the text for each error would take 64 times.
+/// Measures the program's processor time, which does not depend on other load. Eight times the errors may take eight
+/// times as long; a renderer that scans the text for each error would take 64 times as long.
 #[test]
 fn a_report_costs_as_much_as_its_errors() {
     let seconds = |count: usize, more: &[&str]| {

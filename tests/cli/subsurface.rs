@@ -72,7 +72,7 @@ fn the_same_bytes_for_every_executor_and_thread_count() {
     }
 }
 
-/// A table of the study, by heading, without its comments.
+/// Rows of one of the study's tables, as cells by heading; comments are skipped.
 fn table(folder: &tempfile::TempDir, name: &str) -> Vec<BTreeMap<String, String>> {
     let text = std::fs::read_to_string(folder.path().join("out/subsurface").join(name)).expect("a table");
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
@@ -91,14 +91,14 @@ fn refused(more: &[&str], expected: &str) {
     assert!(!folder.path().join("out/subsurface").exists(), "nothing is left behind");
 }
 
-/// The page's command on a sphere.
+/// The command on a sphere that the page names.
 fn angles() -> &'static str {
     "subsurface docs/examples/sphere.obj --material skin1 --mm-per-unit 10 --atlas 32 --choice fixed --choice adaptive \
      --links 64 --link-format fp32 --map fp32 --light directional:0,0,1:1,1,1 --all-pairs yes"
 }
 
-/// docs/studies/subsurface.md states for each choice of links at which angles from the light it is more accurate: its
-/// table and sentence are the study's, and this test runs the command that the page names.
+/// docs/studies/subsurface.md states for each choice of links at which angles from the light it is more accurate. The
+/// test runs the command that the page names; the page's table and sentence must match the study's.
 #[test]
 fn the_page_says_where_each_choice_of_links_is_nearer() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -143,7 +143,8 @@ fn the_page_says_where_each_choice_of_links_is_nearer() {
     hold_on_page("angles", angles(), &expected);
 }
 
-/// Checks that docs/studies/subsurface.md names the command, and has its results between the markers; or writes them.
+/// Checks that docs/studies/subsurface.md names the command and has its results between the markers, or writes the
+/// results.
 fn hold_on_page(name: &str, command: &str, expected: &str) {
     // Tests that write the page do so one after another.
     static PAGE: Mutex<()> = Mutex::new(());
@@ -159,7 +160,7 @@ fn hold_on_page(name: &str, command: &str, expected: &str) {
     hold(&page, &filled(&text, "subsurface", block));
 }
 
-/// Errors of links by the size of the model.
+/// The page's errors of links for each size of the model match the study's.
 #[test]
 fn the_page_says_how_errors_grow_with_the_model() {
     let command = |radius: &str| {
@@ -206,7 +207,7 @@ fn the_page_says_how_errors_grow_with_the_model() {
     hold_on_page("sizes", &command("4"), &format!("{text}\n"));
 }
 
-/// The text in lines of at most 120 characters.
+/// Wraps the text into lines of at most 120 characters.
 fn wrapped(text: &str) -> String {
     let mut lines: Vec<String> = vec![String::new()];
     for word in text.split(' ') {
@@ -230,7 +231,8 @@ fn flat_tetrahedron() -> String {
     places + &normals + "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 1//3 4//3 3//3\nf 2//4 3//4 4//4\n"
 }
 
-/// A uniform map is a sky, for a convex body; a map with a dark half is not. A map beside other lights is refused.
+/// On a convex body, a uniform map equals a sky; a map with a dark half does not. A map together with other lights is
+/// refused.
 #[test]
 fn environment_maps_shine() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -247,7 +249,7 @@ fn environment_maps_shine() {
         assert!((map / sky - 1.0).abs() < 5e-3, "E {map}, of a sky {sky}");
         assert!((b_map / b - 1.0).abs() < 2e-2, "B on the card {b_map}, of a sky {b}");
     }
-    // The sides see half of the disk, grazing; the slanted face none of it.
+    // The sides see half of the disk at a grazing angle; the slanted face sees none of it.
     assert!(disk[0][0] > 0.05 && disk[1][0] < 0.1 * disk[0][0] && disk[3][0] == 0.0, "from below: {disk:?}");
     assert!(disk[3][1] > 0.0, "light comes through from behind");
     refused(&["--light", "constant", "--light", "ambient:1,1,1"], "expected one environment map alone");
@@ -271,7 +273,7 @@ fn all_pairs_are_gathered_up_to_the_side_that_help_and_page_say() {
     }
 }
 
-/// A tetrahedron whose slanted face is listed twice, the second time starting at another corner.
+/// A tetrahedron whose slanted face is listed twice, the second time starting at a different corner.
 #[test]
 fn a_face_that_stands_twice_is_said() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -287,7 +289,7 @@ fn a_face_that_stands_twice_is_said() {
     assert!(text.contains(said), "{text}");
 }
 
-/// A corner at 1e12 makes texels whose areas differ by 1e20: factors over such ratios overflow half precision.
+/// A corner at 1e12 makes texels whose areas differ by 1e20: factors with such ratios overflow half precision.
 #[test]
 fn factors_beyond_their_format_are_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

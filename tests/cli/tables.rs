@@ -50,7 +50,7 @@ fn tables_fit_the_terminal() {
     }
 }
 
-/// Commands without a page print titled tables, and a line per written file; JSON names the same files.
+/// Commands without a page print titled tables, and one line per written file; JSON names the same files.
 #[test]
 fn findings_without_a_page_are_text_or_fields() {
     type Fields<'a> = &'a [(&'a str, Option<&'a str>)];
@@ -79,7 +79,7 @@ fn findings_without_a_page_are_text_or_fields() {
     }
 }
 
-/// The main study folds switches that change nothing, on its page too; CSV and JSON have every row.
+/// `leaky-teapot` folds rows of switches that change nothing, also on its page; CSV and JSON have every row.
 #[test]
 fn rows_of_the_same_bits_are_folded() {
     let folder = tempfile::tempdir().expect("a folder for the test");

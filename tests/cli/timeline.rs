@@ -20,7 +20,7 @@ fn sum(list: &Value, field: &str) -> u64 {
     list.as_array().expect("a list").iter().map(|entry| number(&entry[field])).sum()
 }
 
-/// Relations between the figures of a document.
+/// Checks relations between the figures of a document.
 fn check(document: &Value, models: &[&str]) {
     let found: Vec<&str> =
         document["models"].as_array().expect("models").iter().map(|m| m["model"].as_str().expect("a name")).collect();
@@ -42,7 +42,7 @@ fn check(document: &Value, models: &[&str]) {
 
 #[test]
 fn a_case_by_its_rates() {
-    // The rates model reads no guess: its tables change with the tables of the device, not with a guess.
+    // The rates model uses no guessed figure, so scaling a guess does not change its tables.
     let ran = crossbar(&["timeline", "fixtures/cases/modulate.toml", "--timing", "rates", "--sensitivity"], "");
     insta::assert_snapshot!(ran.transcript());
 }
@@ -63,7 +63,7 @@ fn buckets_follow_one_another_on_one_card() {
     let timed = document(RAYS);
     check(&timed, &["rates", "pipeline"]);
     assert_eq!((&timed["rays"], &timed["device"]), (&Value::from(48 * 40), &Value::from("r200")));
-    // 32 x 32 rays per bucket, cut at the edges: four buckets.
+    // 32 x 32 rays per bucket, fewer at the edges: four buckets.
     assert_eq!(timed["models"][0]["draws"].as_array().map(Vec::len), Some(4));
     assert_eq!(document(&[RAYS, &["--threads", "3"]].concat()), timed, "the same for any number of threads");
 }
@@ -93,7 +93,7 @@ fn guesses_are_halved_and_doubled() {
     let total = number(&model["total_ps"]);
     let rows = model["sensitivity"].as_array().expect("rows");
     let row = |key: &str| rows.iter().find(|row| row["guess"] == key).unwrap_or_else(|| panic!("no guess {key}"));
-    // With four pixels the host needs longer to submit the draw than the card to execute it.
+    // With four pixels, the host takes longer to submit the draw than the card to execute it.
     let draw = row("queue.draw_ps");
     assert!(number(&draw["halved_ps"]) < total && total < number(&draw["doubled_ps"]), "{draw}");
     let unused = row("queue.finish_fence_ps");

@@ -1,6 +1,6 @@
 //! A strict reader of the trace event format in its JSON object form, as far as Crossbar writes it: complete events,
-//! metadata and flows. Anything unknown to the format, or dropped by viewers, is an error. Like Perfetto, it rounds
-//! starts and durations to nanoseconds separately, and requires slices that still do not overlap.
+//! metadata and flows. Anything that the format does not define, or that viewers drop, is an error. Like Perfetto, it
+//! rounds starts and durations to nanoseconds separately, and requires slices that still do not overlap.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -58,7 +58,7 @@ pub(crate) enum MetadataName {
     ThreadSortIndex,
 }
 
-/// Binding of a flow's end: to the enclosing slice, not to the next one.
+/// Binding of a flow's end to the enclosing slice, not to the next one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 pub(crate) enum BindingPoint {
     #[serde(rename = "e")]
@@ -80,7 +80,7 @@ fn nanoseconds(microseconds: f64) -> u64 {
     (microseconds * 1e3).round() as u64
 }
 
-/// The trace as a viewer shows it: threads by name, in their order, with their slices.
+/// The trace as a viewer shows it: threads by name, in display order, with their slices.
 #[derive(Debug)]
 pub(crate) struct Shown {
     pub(crate) process: String,
@@ -90,7 +90,7 @@ pub(crate) struct Shown {
 }
 
 /// Reads a trace and checks the requirements of viewers: one named process, named and ordered threads, slices of each
-/// in order without overlap, flows in pairs whose ends lie in slices.
+/// thread in order without overlap, flows in pairs whose ends lie in slices.
 pub(crate) fn read(text: &str) -> Result<Shown, String> {
     let file: TraceFile = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let (mut processes, mut names, mut places) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());

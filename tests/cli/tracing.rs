@@ -54,7 +54,7 @@ fn casting_is_timed_apart_from_building() {
     }
 }
 
-/// A Ray Engine in single precision casts the rays of every command with the host's answers.
+/// For every command that casts rays, a Ray Engine in single precision finds the same hits as the host.
 #[test]
 fn the_engine_in_single_precision_computes_what_the_host_does() {
     let (step, court) = (in_project("docs/examples/step.obj"), in_project("docs/examples/court.obj"));
@@ -74,7 +74,7 @@ fn the_engine_in_single_precision_computes_what_the_host_does() {
     }
 }
 
-/// Rays in fixed point leak into the form factors of a room, in single precision none does.
+/// Rays in fixed point leak and change the form factors of a room; in single precision no ray leaks.
 #[test]
 fn short_formats_leak_into_the_room() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -127,7 +127,7 @@ fn the_wrong_option_is_named() {
     let mesh = in_project("fixtures/models/square.obj");
     let ran = crossbar_in(folder.path(), &["render", &mesh, "--tan-half-height", "0"], "");
     assert_eq!(ran.code, Some(2), "{}", ran.transcript());
-    // The eye derived from the tangent is infinite, but was not given by the user.
+    // The eye that is derived from the tangent is infinite, but the user did not give it.
     assert!(ran.stderr.contains("tangent") && !ran.stderr.contains("eye"), "{}", ran.stderr);
 }
 
@@ -180,7 +180,7 @@ fn leaky_teapot_writes_everything_it_promises() {
     assert_eq!(fs::read_to_string(out.join("index.html")).expect("the page"), page, "and the same page");
 }
 
-/// Two device files that differ in their rounding alone keep it in another format.
+/// Two device files that differ only in their rounding keep it in another format.
 #[test]
 fn a_format_keeps_the_rounding_of_device_files() {
     let folder = tempfile::tempdir().expect("a folder");

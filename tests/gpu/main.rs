@@ -1,4 +1,4 @@
-//! Tests that need a GPU adapter, besides the emulator's own (`refsim/tests/gpu_*`, `wgsl_*`): bits must equal the
+//! Tests that need a GPU adapter, in addition to the emulator's (`refsim/tests/gpu_*`, `wgsl_*`): bits must equal the
 //! batch executor's. Without an adapter every test here is counted as ignored.
 //!
 //! `tests/agree` also draws one case in four on the adapter, if there is one.

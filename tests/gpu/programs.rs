@@ -1,4 +1,4 @@
-//! The program on the adapter: the list of adapters, cases compared with the other executors.
+//! Tests the program with an adapter: the list of adapters, and cases compared with the other executors.
 
 use std::fs;
 use std::path::Path;

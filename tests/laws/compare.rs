@@ -1,4 +1,4 @@
-//! Laws of `crossbar::compare`: ULPs are a metric, and every change to a trace is found at its place.
+//! Laws of `crossbar::compare`: ULPs are a metric, and every change to a trace is found where it was made.
 
 use std::path::Path;
 
@@ -47,7 +47,8 @@ proptest! {
     fn the_next_number_is_one_ulp_away(format in format(), bits in any::<u32>()) {
         let bits = bits & format.mask();
         let (a, b) = (Number { format, bits }, Number { format, bits: (bits + 1) & format.mask() });
-        // Excludes steps to infinity or NaN, and from the largest number of one sign to the zero of the other.
+        // Excludes steps to infinity or NaN, and steps from the largest number of one sign to the zero of the other
+        // sign.
         prop_assume!(format.is_finite(a.bits) && format.is_finite(b.bits));
         prop_assume!(format.is_negative(a.bits) == format.is_negative(b.bits));
         prop_assert_eq!(ulps(&a, &b).0, Some(1.0));
@@ -120,7 +121,8 @@ type Change = fn(&mut Vec<FragmentTrace>);
 #[test]
 fn every_stage_in_its_order() {
     let setup = example("two_triangles.toml");
-    // Each change alone, from the latest stage to the earliest, and together with all later ones, which it must hide.
+    // Each change alone, from the latest stage to the earliest, and together with all changes of later stages, which it
+    // must hide.
     let changes: [(&str, Change); 7] = [
         ("merge", |t| t[1].after.colors[0] = Some(7)),
         ("test", |t| t[1].shading.fate = FragmentFate::AlphaFailed),
@@ -168,7 +170,7 @@ fn every_stage_in_its_order() {
 }
 
 /// A matrix entry that a short format rounds from 1.06 to 1: the right edge moves from column 3.06 to 3, and no longer
-/// covers the centre of column 3.
+/// covers the center of column 3.
 #[test]
 fn vertices_come_before_what_they_cause() {
     let mut setup = example("transform.toml");
@@ -192,7 +194,7 @@ fn a_mask_is_a_difference() {
 }
 
 /// Operand values are recovered from earlier writes: across `phase`, which loses alpha, and for both instructions of a
-/// co-issued pair from before the pair.
+/// co-issued pair from the writes before the pair.
 #[test]
 fn operands_are_what_was_read() {
     let text = r#"shader_model = "ps_1_4"
@@ -223,7 +225,7 @@ format = "rgba16f"
         let operand = found.and_then(|found| found.operands.into_iter().nth(operand)).expect("an operand");
         operand.values.into_iter().map(|v| format!("{} {}", v.name, v.left)).collect::<Vec<_>>()
     };
-    // The coordinate as interpolated: pixel (1, 2) of 4 x 4, with its centre at whole coordinates.
+    // The coordinate as interpolated: pixel (1, 2) of 4 x 4, with its center at integer coordinates.
     assert_eq!(read(0, 0), ["t0.x 0.25", "t0.y 0.5", "t0.z 0", "t0.w 1"]);
     assert_eq!(read(1, 0), ["c0.x 0.5", "c0.y 0.25", "c0.z 0.125", "c0.w 0.75"]);
     let before_the_pair = ["r1.x 0.5", "r1.y 0.25", "r1.z 0.125", "r1.w 0"];

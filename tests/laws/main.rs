@@ -1,4 +1,4 @@
-//! Laws: properties of every input, by property tests and by formulas.
+//! Laws: properties that every input must have, checked by property tests and formulas.
 
 mod all_frequency;
 #[path = "../archive.rs"]

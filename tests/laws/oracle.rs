@@ -112,7 +112,7 @@ fn the_report_reads_well() {
     assert_eq!((leaks.leaks(), leaks.disagreements().len()), (2, 2));
 }
 
-/// A report's text of a ray can be pasted into a test: the same bits, and the aim of the ray.
+/// The text for a ray in a report can be pasted into a test: it has the same bits, and states the aim of the ray.
 #[test]
 fn disagreements_can_be_pasted() {
     let mesh = teapot(2).expect("a teapot");
@@ -129,7 +129,7 @@ fn disagreements_can_be_pasted() {
             .collect();
         let triangle = wrong.expected.as_ref().expect("a surface").triangles[0];
         let corners = mesh.corners(triangle).expect("a triangle");
-        // The type `[[f32; 3]; 3]` contributes two numbers of its own.
+        // The type `[[f32; 3]; 3]` contributes two numbers itself.
         let expected = [wrong.origin, wrong.direction].into_iter().flatten().chain([3.0, 3.0]);
         let expected: Vec<u32> = expected.chain(corners.into_iter().flatten()).map(f32::to_bits).collect();
         assert_eq!(numbers, expected, "{literal}");

@@ -21,7 +21,7 @@ pub(crate) fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// Result of work on `threads` threads.
+/// Runs `work` on `threads` threads; returns its result.
 pub(crate) fn in_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }
@@ -35,13 +35,13 @@ pub(crate) fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found}, expected {expected} to {tolerance:e}");
 }
 
-/// A mesh of triangles that keep their own corners, three in a row.
+/// A mesh of unconnected triangles, given by three consecutive corners each.
 pub(crate) fn soup(corners: Vec<[f32; 3]>) -> Mesh {
     let triangles = (0..corners.len() as u32 / 3).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
     Mesh::new(corners, triangles).expect("a mesh")
 }
 
-/// A mesh of triangles that keep their own corners, with the normals of the triangles.
+/// A mesh of unconnected triangles with flat normals.
 pub(crate) fn flat(corners: Vec<[f32; 3]>) -> Mesh {
     let normals = corners.chunks(3).flat_map(|triangle| {
         let [a, b, c] = [0, 1, 2].map(|at| wide(triangle[at]));
@@ -65,7 +65,7 @@ pub(crate) fn cuboid(low: [f32; 3], high: [f32; 3]) -> Mesh {
     Mesh::new((0..8).map(corner).collect(), triangles).expect("a box")
 }
 
-/// Affine clusters, with as many iterations of both kinds, from start points by the seed.
+/// Options for affine clusters, with the same number of both kinds of iterations, and start points chosen by the seed.
 pub(crate) fn cluster_options(clusters: usize, vectors: usize, iterations: usize, seed: u64) -> CpcaOptions {
     CpcaOptions {
         clusters,
@@ -78,8 +78,8 @@ pub(crate) fn cluster_options(clusters: usize, vectors: usize, iterations: usize
     }
 }
 
-/// A truncated file is refused; a flipped bit, one per byte or more, is refused or changes nothing that a reader uses,
-/// such as the date of a member.
+/// A truncated file is refused; a flipped bit is refused, or changes only something that readers ignore, such as the
+/// date of a member.
 pub(crate) fn damage_is_seen<T: PartialEq>(
     file: &T,
     whole: &[u8],
@@ -96,7 +96,8 @@ pub(crate) fn damage_is_seen<T: PartialEq>(
     }
 }
 
-/// A byte of a member is changed and its checksum corrected: the file is refused, or read, written and read again.
+/// Changes a byte of a member and corrects its checksum: the file must be refused, or survive reading, writing and
+/// reading again.
 pub(crate) fn forgery_does_no_harm<T: PartialEq + Debug>(
     whole: &[u8],
     (which, at, byte): (Index, Index, u8),

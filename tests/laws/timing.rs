@@ -1,4 +1,5 @@
-//! Time and values are separate: no clock changes a pixel. (`tests/agree` checks that the log depends on no executor.)
+//! Time and values are separate: no clock changes a pixel. (`tests/agree` checks that the log does not depend on the
+//! executor.)
 
 use crate::support::file;
 use crossbar::case::{self, Setup};
@@ -16,7 +17,7 @@ fn cases() -> Vec<(PathBuf, Setup)> {
     paths.into_iter().map(|p| (p.clone(), Setup::read(&p).unwrap_or_else(|e| panic!("{}: {e}", p.display())))).collect()
 }
 
-/// The device with every figure of the timing model a thousand times as large, or as small.
+/// The device with every figure of the timing model multiplied or divided by a thousand.
 fn absurd(profile: &Profile, up: bool) -> Profile {
     let mut out = profile.clone();
     for row in profile.figures() {

@@ -1,5 +1,5 @@
 //! Checks that pages quote the program's figures on the leaky teapot: this test generates the blocks between marks.
-//! `INSTA_UPDATE=always` writes them.
+//! `INSTA_UPDATE=always` updates the pages.
 
 use crate::environment::{is_full, writes_files};
 use crate::pages;
@@ -18,7 +18,7 @@ use super::teapot_study::{formats, parameters, study};
 
 const END: &str = "<!-- /leaky-teapot -->";
 
-/// Pages with blocks; the study's comes first.
+/// Pages with blocks; the study's page comes first.
 const PAGES: [&str; 4] = ["docs/studies/leaky_teapot.md", "README.md", "docs/devices.md", "docs/papers/ray_engine.md"];
 
 fn file(page: &str) -> PathBuf {
@@ -30,7 +30,7 @@ fn read(page: &str) -> String {
     std::fs::read_to_string(file(page)).expect("the page").replace('\r', "")
 }
 
-/// Number of rules of a Radeon 8500 that no source states.
+/// The number, in words, of the Radeon 8500's rules that are guesses.
 fn guesses() -> String {
     let figures = Profile::named("r200").expect("a card").figures();
     let rules: Vec<_> = figures.iter().filter(|row| row.key.starts_with("rules.")).collect();
@@ -44,7 +44,7 @@ fn block<'a>(text: &'a str, name: &str) -> &'a str {
     rest.split_once(END).expect("its end").0
 }
 
-/// The rows of the program when run without options.
+/// Configurations of the rows that the program computes without options.
 fn defaults() -> Vec<Configuration> {
     let mut all = Configuration::device_under_each_switch("r200").expect("a card");
     all.extend(formats(&["fp16", "fp24", "fp32"]));
@@ -55,16 +55,16 @@ fn switch(configuration: &Configuration) -> String {
     configuration.switch.as_ref().map(|(name, value)| format!("`{name}={value}`")).unwrap_or_default()
 }
 
-/// True if the rows have the same hits, bit for bit, and the same counts of aimed rays.
+/// Returns `true` if the rows have the same hits, bit for bit, and the same counts of aimed rays.
 fn alike(a: &TeapotRow, b: &TeapotRow) -> bool {
     let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
     (&a.triangle, a.edges, a.vertices) == (&b.triangle, b.edges, b.vertices) && bits(a) == bits(b)
 }
 
-/// The rows that the program also runs with shared edges when run without options.
+/// Rows that the program, run without options, also computes with shared edges.
 const CURED: [&str; 5] = ["r200", "r200-rounding-rne", "fp16", "fp24", "fp32"];
 
-/// A configuration with both programs: leaks inside the surface, and what an intersection costs.
+/// A table row for one configuration and edge rule: leaks inside the surface, and the cost of an intersection.
 fn program(row: &TeapotRow) -> String {
     let [eye, edges, vertices] = row.holes;
     let rule = match row.edge_rule {
@@ -120,7 +120,7 @@ fn row(row: &TeapotRow) -> String {
     )
 }
 
-/// The page with every block generated again. `same` lists the switches that change nothing.
+/// The page with every block regenerated. `same` lists the switches that change nothing.
 fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
     let named = |label: &str| outcome.rows.iter().find(|row| row.configuration.label == label).expect("a row");
     let (r200, fp24, fp32) = (named("r200"), named("fp24"), named("fp32"));
@@ -156,7 +156,7 @@ fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
 }
 
 /// The figures at full size. Rows that the page lists as bit-identical to the first are checked on a smaller picture;
-/// in the full form, and when the page is written, they are computed at full size too.
+/// with `CROSSBAR_FULL=1`, and when the page is written, they are also computed at full size.
 #[test]
 fn the_pages_say_what_the_program_prints() {
     let text = read(PAGES[0]);
@@ -193,13 +193,13 @@ fn the_pages_say_what_the_program_prints() {
     }
 }
 
-/// Every figure of README.md is checked: its numbers are between marks, or they are years, names, or in this list, each
-/// with its test.
+/// Every figure of README.md is checked: a number is between marks, or a year, a name, or in this list of numbers that
+/// other tests check.
 #[test]
 fn every_figure_of_the_front_page_is_held() {
     let years_and_names = ["2002", "2003", "2004", "2011", "4", "8500"];
     let widths_in_bits_and_texels = ["8", "16", "16-bit", "32"];
-    // `tests/watertight.rs` holds the first two, `.ci/run` the third.
+    // `tests/watertight.rs` checks the first two, `.ci/run` the third.
     let figures = ["115", "5,880", "25", env!("CARGO_PKG_RUST_VERSION")];
     let known = [&years_and_names[..], &widths_in_bits_and_texels, &figures].concat();
     let text: String = read("README.md").split("```").step_by(2).collect();

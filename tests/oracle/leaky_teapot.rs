@@ -8,7 +8,7 @@ use refsim::machine::ExecutorKind;
 
 use super::teapot_study::{assert_same, formats, parameters, small_study, study};
 
-/// Size and tessellation: small for everyday runs, the program's defaults for the full form.
+/// Size and tessellation: small by default, the program's defaults with `CROSSBAR_FULL=1`.
 fn scale() -> (u32, u32) {
     by_form((128, 6), (512, 8))
 }
@@ -93,7 +93,7 @@ fn buckets_lose_nothing_that_the_whole_crossbar_finds() {
     assert_eq!(buckets, digest(&study(&parameters)), "the same triangles and the same t, to the bit");
 }
 
-/// FNV-1a over the results of a run per pixel.
+/// FNV-1a hash of a run's results at every pixel.
 fn digest(outcome: &TeapotOutcome) -> u64 {
     let mut h = 0xcbf2_9ce4_8422_2325_u64;
     for row in &outcome.rows {
@@ -106,8 +106,8 @@ fn digest(outcome: &TeapotOutcome) -> u64 {
     h
 }
 
-/// Golden bits: equal in debug and release, on every CPU. If a change of the arithmetic is intended, say why in the
-/// commit and replace the number by the one that the failing test prints.
+/// Golden bits: equal in debug and release builds and on every CPU. If a change of the arithmetic is intended, give the
+/// reason in the commit, and replace the number with the one that the failing test prints.
 #[test]
 fn golden_bits_whatever_the_number_of_threads() {
     let mut configurations = Configuration::device_under_each_switch("r200").expect("a card");

@@ -1,5 +1,5 @@
-//! Bits of the factorisations. CI runs this with and without nalgebra's `std` feature, which other crates enable in
-//! builds of the whole workspace: its kernels, chosen by the processor, must not affect results.
+//! Pins the bits of the factorizations. CI runs this test with and without nalgebra's `std` feature, which other crates
+//! enable in builds of the whole workspace: its kernels, chosen by the processor, must not affect results.
 
 use crossbar::geom::random::CounterRng;
 use crossbar::linalg::{Lu, Matrix, SymmetricEigen, dot};
@@ -25,7 +25,7 @@ fn largest_difference(a: &Matrix, b: &Matrix) -> f64 {
     a.rows().flatten().zip(b.rows().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// Each row times its factor.
+/// Multiplies each row by its factor.
 fn scaled(mut matrix: Matrix, factors: &[f64]) -> Matrix {
     for (i, factor) in factors.iter().enumerate() {
         matrix.row_mut(i).iter_mut().for_each(|value| *value *= factor);

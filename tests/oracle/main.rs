@@ -1,4 +1,4 @@
-//! Stored bits: these tests fail when they change.
+//! Tests with stored bits, which fail if the bits change.
 
 #[path = "../../refsim/tests/common/environment.rs"]
 mod environment;

@@ -1,4 +1,4 @@
-//! fixtures/probes: operations of pixel programs, with their colours on real cards or in documents.
+//! fixtures/probes: operations of pixel programs, with the colors that real cards draw or documents state.
 
 use std::{fmt::Write as _, path::Path};
 
@@ -21,11 +21,11 @@ struct Probe {
     devices: Vec<String>,
     /// The case without device, target and probes.
     case: String,
-    /// Colours `rrggbb`, row by row.
+    /// Colors as `rrggbb`, row by row.
     expected: Vec<Vec<String>>,
     /// Allowed error of a channel.
     slop: u8,
-    /// Width and height of a colour's cell, in pixels.
+    /// Width and height of a color's cell, in pixels.
     #[serde(default = "one")]
     cell: u32,
     #[serde(default)]
@@ -106,8 +106,8 @@ fn cards_make_the_colours_of_the_table() {
     assert!(wrong.is_empty(), "{} colours are off:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// GL_NV_texture_shader gives 1.0 of a combiner register as code 255, but a unit of 1/256 is not 1/255: compares the
-/// products of all pairs of 8-bit texels with exact products of 255ths rounded once.
+/// According to GL_NV_texture_shader, 1.0 in a combiner register is code 255, but a unit of 1/256 is not 1/255:
+/// compares the products of all pairs of 8-bit texels with exact products of 255ths rounded once.
 #[test]
 fn units_of_256_cost_products_one_code_at_most() {
     use refsim::num::{Format, from_ratio, ops};
@@ -116,7 +116,7 @@ fn units_of_256_cost_products_one_code_at_most() {
     for a in 0..=255_u32 {
         for b in 0..=255_u32 {
             let [x, y] = [a, b].map(|code| from_ratio(format, false, code.into(), 255).bits);
-            // Converts the register as targets round: to the nearest 255th, halves up.
+            // Converts the register as stores to targets do: to the nearest 255th, ties up.
             let found = (ops::mul(format, x, y).bits * 255 * 2 + 256) / 512;
             let exact = (a * b * 2 + 255) / 510;
             off += u32::from(found != exact);

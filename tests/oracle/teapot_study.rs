@@ -1,4 +1,4 @@
-//! The leaky teapot small enough for every executor, for tests of bits here and on a GPU (tests/gpu).
+//! A leaky teapot that is small enough for every executor, for tests of identical bits here and on a GPU (tests/gpu).
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::teapot::teapot;

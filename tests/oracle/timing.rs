@@ -1,4 +1,4 @@
-//! Golden clocks: the cost of every kernel on every card that runs it. Changed figures and formulas fail here first.
+//! Pins the cost in clocks of every kernel on every card that runs it. Changes of figures and formulas fail here first.
 
 use crate::pages::hold;
 use crossbar::ray_engine::kernels;
@@ -36,12 +36,12 @@ fn machine(profile: &Profile) -> Machine {
     machine
 }
 
-/// The first of some formats that the device has.
+/// The first of the wanted formats that the device supports.
 fn format(profile: &Profile, wanted: &[TexelFormat]) -> TexelFormat {
     *wanted.iter().find(|format| profile.limits.texture_formats.contains(format)).expect("a format of the card")
 }
 
-/// The state of every draw: depth tested and written, alpha tested.
+/// Sets the state of every draw (depth test and write, alpha test), draws, and returns the record.
 fn finish(mut call: DrawCall<'_>, machine: &mut Machine) -> DrawRecord {
     call.center = PixelCenter::OpenGl;
     call.alpha_test = Some(AlphaTest { function: CompareFunction::GreaterEqual, reference: 0 });
@@ -56,7 +56,7 @@ fn target(machine: &mut Machine) -> TextureId {
     machine.create_target(TexelFormat::Bgra8, SIDE, SIDE).expect("a target")
 }
 
-/// A pixel kernel over some screen-filling quads, all textures bound.
+/// Draws screen-filling quads with a pixel kernel and all textures bound.
 fn pixel(profile: &Profile, program: &CheckedProgram) -> DrawRecord {
     let mut machine = machine(profile);
     let kind: &[TexelFormat] = match program.version.is_ps_2() {
@@ -81,7 +81,7 @@ fn pixel(profile: &Profile, program: &CheckedProgram) -> DrawRecord {
     finish(call, &mut machine)
 }
 
-/// A vertex kernel that draws as many quads, with a minimal pixel program.
+/// Draws the same number of quads with a vertex kernel and a minimal pixel program.
 fn vertex(profile: &Profile, program: &CheckedProgram) -> DrawRecord {
     let mut machine = machine(profile);
     let plain = check(assemble(kernels::ID.text).expect("assembles"), profile).expect("every card runs it");

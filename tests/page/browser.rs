@@ -1,4 +1,4 @@
-//! Chromium without a window, driven through its debugging pipe: JSON messages that end with a zero byte.
+//! Drives a Chromium without a window through its debugging pipe, with JSON messages that end with a zero byte.
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-/// Maximum time to wait for the page's next step.
+/// Maximum time without a change on the page.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// The program's possible names.
@@ -20,7 +20,7 @@ pub(crate) struct Browser {
     from: BufReader<ChildStdout>,
     session: String,
     last_id: u64,
-    /// Events that came before awaited answers.
+    /// Events that arrived before the awaited answers.
     pub(crate) events: Vec<Value>,
     // Deleted with the browser.
     _profile: tempfile::TempDir,
@@ -94,7 +94,7 @@ impl Browser {
         result["result"]["value"].take()
     }
 
-    /// Waits until an expression holds, as long as the page continues to report something new.
+    /// Waits until an expression holds, as long as the page continues to report changes.
     pub(crate) fn wait(&mut self, expression: &str) {
         let mut start = Instant::now();
         let mut last = Value::Null;
@@ -113,7 +113,7 @@ impl Browser {
         self.wait("document.readyState === 'complete'");
     }
 
-    /// Presses a key on an element, by keyboard alone.
+    /// Focuses an element and presses a key.
     pub(crate) fn press(&mut self, id: &str, key: &str, code: u32) {
         self.value(&format!("document.getElementById('{id}').focus()"));
         for kind in ["keyDown", "keyUp"] {

@@ -1,6 +1,6 @@
-//! The page of `crossbar page` in Chromium, whose WebGPU runs on SwiftShader: all bits are the emulator's, controls
-//! work, and without WebGPU the page shows its stored pictures. Without Chromium the tests count as ignored; where `CI`
-//! is set, that is a failure.
+//! The page of `crossbar page` in Chromium, whose WebGPU runs on SwiftShader: all bits equal the emulator's, controls
+//! work, and without WebGPU the page shows its stored pictures. Without Chromium the tests count as ignored, or as
+//! failed if `CI` is set.
 
 mod browser;
 #[path = "../../refsim/tests/common/environment.rs"]
@@ -75,7 +75,7 @@ fn drawn(browser: &mut Browser) -> String {
     browser.value("document.getElementById('view').dataset.drawn").as_str().unwrap_or_default().to_owned()
 }
 
-/// Does something, and waits for another live picture.
+/// Performs an action, and waits until the live picture is redrawn.
 fn redrawn(browser: &mut Browser, act: impl FnOnce(&mut Browser)) -> (String, String) {
     let before = drawn(browser);
     act(browser);
@@ -83,8 +83,8 @@ fn redrawn(browser: &mut Browser, act: impl FnOnce(&mut Browser)) -> (String, St
     (before, drawn(browser))
 }
 
-/// The short form draws one of the six fixed pictures (ten seconds each on SwiftShader), runs four of fifteen traces,
-/// and changes the live view by its format alone.
+/// By default the test draws one of the six fixed pictures (ten seconds each on SwiftShader), runs four of fifteen
+/// traces, and changes only the format of the live view.
 fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     let (pictures, traces, page) = if is_full() { (6, 5 * 3, file.to_owned()) } else { (1, 1 + 3, shortened(file)) };
     let mut browser = Browser::start(name, true);
@@ -110,7 +110,7 @@ fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     assert!(programs.iter().all(|line| line["steps"].as_u64() > Some(8)));
     stepping_by_keys(&mut browser);
 
-    // The live view shows the first fixed view in s3.12, then what the keyboard chooses.
+    // The live view shows the first fixed view in s3.12, then what is chosen with the keyboard.
     let first = format!("s3.12 {}", list("teapot")[0]["expected"].as_str().unwrap_or_default());
     assert_eq!(drawn(&mut browser), first);
     let (before, after) = redrawn(&mut browser, |browser| browser.press("fractions-of", "ArrowLeft", 37));
@@ -119,7 +119,7 @@ fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
         let (before, after) = redrawn(&mut browser, |browser| browser.press("view", "ArrowLeft", 37));
         assert_ne!(before, after, "the camera moves");
     }
-    // Exact hits of the first camera are in the page; others are judged as they are drawn.
+    // The page has exact hits for the first camera; other views are judged while they are drawn.
     let judge = if is_full() { "double precision" } else { "exact arithmetic" };
     let told = browser.value("document.getElementById('told').textContent").to_string();
     assert!(told.contains("leak") && told.contains(judge), "{told}");
@@ -153,7 +153,8 @@ fn stepping_by_keys(browser: &mut Browser) {
     assert!(now(browser).1.contains("+cmp r0.a"), "{:?}", now(browser));
     browser.press("stepper", "Home", 36);
     assert_eq!(now(browser), ("0".to_owned(), String::new()), "an input register");
-    // Written values are there three times: the emulator's, the GPU's, and the GPU's own floats.
+    // Written values are listed three times: from the emulator, from the emulation on the GPU, and in the GPU's own
+    // floats.
     let cells =
         browser.value("[...document.querySelectorAll('#written tr:first-child > *')].map((cell) => cell.textContent)");
     let cells: Vec<&str> = cells.as_array().into_iter().flatten().filter_map(Value::as_str).collect();
@@ -170,7 +171,7 @@ fn stepping_by_keys(browser: &mut Browser) {
     browser.wait("document.getElementById('written-caption').textContent.endsWith('e5m10')");
 }
 
-/// Writes the page again under another name, with its data changed.
+/// Writes a copy of the page with changed data under another name.
 fn changed(file: &Path, name: &str, change: impl FnOnce(&mut Value)) -> PathBuf {
     const START: &str = "type=\"application/json\">";
     let page = std::fs::read_to_string(file).expect("the page");
@@ -187,7 +188,7 @@ fn pictures(data: &mut Value, view: usize) -> &mut Vec<Value> {
     data["teapot"]["views"][view]["pictures"].as_array_mut().expect("pictures")
 }
 
-/// One picture, in fixed point. For the first program one format, for the second all.
+/// A copy of the page with one picture, in fixed point, and two programs: the first in one format, the second in all.
 fn shortened(file: &Path) -> PathBuf {
     changed(file, "short.html", |data| {
         let programs = data["programs"]["programs"].as_array_mut().expect("programs");
@@ -205,10 +206,12 @@ fn flip(data: &mut Value, byte: usize) {
     *data = json!(STANDARD.encode(bytes));
 }
 
-/// A page that carries one wrong result and one wrong hit shows both: the comparison can fail. Full form.
+/// A page with one wrong result and one wrong hit reports both, so the comparison can fail. Runs only with
+/// `CROSSBAR_FULL=1`.
 fn a_wrong_bit_is_found_and_named(name: &str, file: &Path) {
     const PIXEL: usize = 39 * 128 + 8;
-    // The first result of `add` in s3.12, of two bytes; t of a pixel of the first picture, which stays alone.
+    // Changes the first result of `add` in s3.12 (two bytes), and t of one pixel of the first picture; removes the
+    // other pictures.
     let changed = changed(file, "changed.html", |data| {
         flip(&mut data["arithmetic"]["expected"][0][0], 0);
         data["teapot"]["views"].as_array_mut().expect("views").truncate(1);
@@ -238,7 +241,8 @@ fn a_wrong_bit_is_found_and_named(name: &str, file: &Path) {
     assert!(picture.contains("pixel (8, 39)"), "{picture}");
 }
 
-/// A stored trace with one wrong bit is red, at its pixel and line. The page has little else, so that this is short.
+/// A stored trace with one wrong bit is marked at its pixel and line. The page has little else, so that the test is
+/// short.
 fn a_wrong_step_is_marked(name: &str, file: &Path) {
     /// The pixel that is chosen at first.
     const PIXEL: usize = 8 * 16 + 8;
@@ -277,7 +281,7 @@ fn a_wrong_step_is_marked(name: &str, file: &Path) {
     let marked =
         "[...document.querySelectorAll('#source > li')].findIndex((item) => item.classList.contains('wrong')) + 1";
     assert_eq!(browser.value(marked), json!(line));
-    // Two steps before the last one is the wrong one.
+    // The wrong step is two steps before the last.
     browser.press("stepper", "End", 35);
     assert_eq!(browser.value("document.querySelectorAll('#written .wrong').length"), json!(0));
     browser.press("stepper", "ArrowLeft", 37);
@@ -301,7 +305,8 @@ fn emulator() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("target/web/refsim_web.wasm")
 }
 
-/// The emulator in the page answers as it does natively (`refsim/web/answers.txt`): pictures and traces, to the letter.
+/// The emulator in the page gives the same answers as natively (`refsim/web/answers.txt`): identical pictures and
+/// traces.
 fn the_emulator_in_the_page_has_the_native_bits(name: &str, file: &Path) {
     let folder = file.with_file_name("emulator");
     let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
@@ -315,7 +320,7 @@ fn the_emulator_in_the_page_has_the_native_bits(name: &str, file: &Path) {
         let value = browser.value(&format!("document.getElementById('playground').parentElement.dataset.{name}"));
         value.as_str().expect("text").to_owned()
     };
-    // From the last example to the first, so that each is a change.
+    // From the last example to the first, so that each choice changes the selection.
     let list: Vec<&str> = include_str!("../../refsim/web/answers.txt").lines().collect();
     for (example, golden) in list.into_iter().enumerate().rev() {
         let (digest, title) = golden.split_once(' ').expect("a digest and a title");
@@ -330,7 +335,7 @@ fn the_emulator_in_the_page_has_the_native_bits(name: &str, file: &Path) {
         let answer = dataset(&mut browser, "answer");
         assert_eq!(format!("{:08x}", crc32fast::hash(answer.as_bytes())), digest, "{title}: {answer}");
     }
-    // A mistake is told at its place, and the link carries the program.
+    // A mistake is reported with its line and column, and the link contains the program.
     let text = "document.getElementById('program-text')";
     browser.value(&format!("{text}.value = 'ps_1_4\nmull r0, r0, r0\n'; {text}.dispatchEvent(new Event('input'))"));
     browser.wait("document.querySelector('#remarks button')?.textContent === 'line 2, column 1'");

@@ -1,11 +1,12 @@
-//! The appendix of "Clustered Principal Components" (2003): every printed digit, and the exact fractions.
+//! Checks every printed digit of the appendix of "Clustered Principal Components" (2003), and the exact fractions.
 
 use crossbar::linalg::SymmetricEigen;
 use crossbar::sphere::{
     Hemisphere, HemisphereProjection as Projection, ProjectionErrors, function_count, function_index,
 };
 
-/// Returns `true` if a number, written in scientific notation with as many digits as were printed, is the printed one.
+/// Returns `true` if a number, written in scientific notation with as many digits as were printed, equals the printed
+/// number.
 fn prints_as(value: f64, printed: &str) -> bool {
     let digits = printed.split_once('e').expect("scientific notation").0.len().saturating_sub(2);
     format!("{value:.digits$e}") == printed
@@ -32,7 +33,7 @@ fn the_spectrum_of_order_5() {
     assert!(near(values[0] / values[24], 151_695.0, 1e-5), "the condition: {}", values[0] / values[24]);
 }
 
-/// The printed singular values from A itself, by another algorithm.
+/// Computes the printed singular values from A with another algorithm.
 #[test]
 fn the_spectrum_of_the_gram_matrix() {
     for order in 1..=10 {
@@ -54,7 +55,7 @@ fn linear_in_z_is_the_cheapest_function_to_drop() {
     assert!(near(costs[linear], 1.0 / 67_712.0, 1e-13), "{:e}", costs[linear]);
     let largest = hemisphere.inverse().rows().flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
     assert!(near(largest, 67_712.0, 1e-13), "{largest}");
-    // The quotient of determinants with and without the function, from two other spectra.
+    // Equals the quotient of the determinants with and without the function, computed from two other spectra.
     let product = |hemisphere: &Hemisphere| hemisphere.spectrum().values.iter().product::<f64>();
     let without = Hemisphere::without(5, &[linear]).expect("24 functions");
     assert_eq!(without.functions().len(), 24);
@@ -95,7 +96,7 @@ fn reflections_have_the_printed_errors() {
     }
 }
 
-/// The paper's ranking of the projections. As printed, with "odd" and "even" exchanged, it would be wrong.
+/// The paper's ranking of the projections. The printed ranking, with "odd" and "even" exchanged, is wrong.
 #[test]
 fn even_reflection_is_best_and_odd_reflection_worst() {
     let [zero, odd] = [error(Projection::ZeroHemisphere, 5), error(Projection::OddReflection, 8)];

@@ -5,7 +5,7 @@ use crossbar::radiosity::solve::{Options, Solver};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
 use crossbar::scene::Material;
 
-/// The unit cube in the Cornell box's colours, `n` patches per side, light from the middle of the ceiling.
+/// The unit cube in the Cornell box's colors, with `n` patches per side and light from the middle of the ceiling.
 fn closed_box(n: u32) -> System {
     let paint = |name: &str, albedo| Material::diffuse(name, albedo);
     let [white, red, green] = [[0.725, 0.71, 0.68], [0.63, 0.065, 0.05], [0.14, 0.45, 0.091]];
@@ -23,7 +23,7 @@ fn closed_box(n: u32) -> System {
     System::new(factors, patches.reflectances(), emittance).expect("a system")
 }
 
-/// Figure 3 is a semilog plot; both curves are straight lines in it.
+/// Figure 3 is a semilog plot, in which both curves are straight lines.
 #[test]
 fn residuals_fall_by_the_same_factor_each_time() {
     let system = closed_box(6);

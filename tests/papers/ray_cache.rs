@@ -41,7 +41,7 @@ fn engine<'a>(mesh: &'a Mesh, device: &str, parameters: EngineParameters) -> Ray
     RayEngine::new(mesh, profile, ExecutorKind::Batch, parameters).expect("an engine")
 }
 
-/// Fill of a tree, at its fullest and over time.
+/// Bucket occupancy of a ray tree, at its fullest and over time.
 struct Cache {
     /// The mean fill of the tree's buckets, in [0, 1], with all rays in it.
     full: f64,

@@ -43,7 +43,7 @@ fn equation_8_as_printed_has_the_wrong_sign() {
     assert!((8_000..12_000).contains(&front), "about half of them face the origin, found {front}");
 }
 
-/// On integers of this size f64 is exact, so the identities hold to the bit or not at all.
+/// For integers of this size f64 is exact, so the identities hold exactly or not at all.
 #[test]
 fn the_three_areas_add_up_so_the_second_cross_product_can_go() {
     let random = CounterRng::new(9);

@@ -1,4 +1,4 @@
-//! The published media: totals from their coefficients against the printed diffuse reflectances.
+//! The published media: compares totals computed from their coefficients with the printed diffuse reflectances.
 
 use crossbar::subsurface::materials::{FigureConfidence, MATERIALS, PublishedMaterial};
 use crossbar::subsurface::{Coefficients, Dipole};
@@ -6,7 +6,7 @@ use crossbar::subsurface::{Coefficients, Dipole};
 /// Half a unit of the last digit of a printed reflectance.
 const HALF_A_UNIT: f64 = 0.005;
 
-/// Channels whose printed reflectance is not the rounded total, with the total.
+/// Channels whose printed reflectance differs from the rounded total: name, printed reflectance, total.
 const DIFFERENT: &[&str] = &[
     "Chicken1 green 0.15 0.1558",
     "Chicken1 blue 0.10 0.1264",
@@ -60,7 +60,7 @@ fn half_a_unit(value: f64, digits: i32) -> f64 {
 
 #[test]
 fn rounded_coefficients_explain_no_more_than_these_differences() {
-    // Two digits of each coefficient are reliable; the others change the total by this much.
+    // Only two digits of each coefficient are reliable; the others may change the total by this much.
     let mut unexplained = Vec::new();
     for material in MATERIALS.iter().filter(|material| material.reflectance.is_some()) {
         for (c, s, a, printed, _) in channels(material) {

@@ -1,10 +1,10 @@
-//! Sums of products and quotients by fused multiply-adds (short formats that round to nearest, at the wider SIMD
+//! Tests sums of products and quotients by fused multiply-adds (short formats that round to nearest, at the wider SIMD
 //! level), compared with integer arithmetic at the narrowest level; and formats that must not be fused.
 
 use refsim_lanes::num::{Format, NumberOperation};
 use refsim_lanes::{AnyLane, LANES, LaneCode, LaneOp, LaneRow, OPERANDS, SimdLevel, Slots, run};
 
-/// Formats, and the step between operands.
+/// Formats, each with the step between its operands.
 const FORMATS: [(&str, usize); 23] = [
     ("s3.12", 397),
     ("s0.15", 397),
@@ -31,14 +31,14 @@ const FORMATS: [(&str, usize); 23] = [
     ("s3.12:wrap", 397),
 ];
 
-/// Operands of a format: both ends, zero, their neighbors, and a spread between.
+/// Operands of a format: both limits, zero, their neighbors, and evenly spaced values between.
 fn operands(f: &Format, step: usize) -> Vec<i32> {
     let end = 1i32 << (f.width() - 1);
     let near = [-end, 0, end - 1].into_iter().flat_map(|x| x - 3..=x + 3);
     near.chain((-end..end).step_by(step)).filter(|x| (-end..end).contains(x)).collect()
 }
 
-/// Sums of one to four products and a quotient, of a uniform value in slot 0 and rows in slots 1 to 3.
+/// Sums of one to four products, and a quotient. Slot 0 has a uniform value, slots 1 to 3 rows.
 fn operations() -> [LaneOp; 6] {
     let sum = [0, 1, 2, 3, 3, 2, 1, 0];
     let op = |code, to, args: [u16; OPERANDS]| LaneOp { code, to, args, zero_wins: false };

@@ -1,4 +1,4 @@
-//! Matrix units: results of models and of GPUs, and laws of sums.
+//! Tests matrix units against results of models and GPUs, and laws of sums.
 
 use refsim_lanes::num::matrix::{Element, MatrixUnit, Operand, ResultFormat, Rule, UNITS};
 use refsim_lanes::num::{Format, Rounding, from_f64, power_of_two, random_word};
@@ -67,7 +67,8 @@ fn units_give_the_results_that_were_measured_on_gpus() {
     assert!(wrong.is_empty(), "{}: {}", wrong.len(), wrong[0]);
 }
 
-/// Random codes of ordinary numbers: exponents near the middle, so that nothing overflows, even where they are scaled.
+/// Random codes of ordinary numbers: exponents near the middle, so that nothing overflows, even if the numbers are
+/// scaled.
 fn ordinary(element: Element, count: usize, seed: u64) -> Vec<u64> {
     let (exponent_bits, fraction_bits) = element.fields();
     let fraction = fraction_bits + element.ignored_bits;
@@ -81,7 +82,7 @@ fn ordinary(element: Element, count: usize, seed: u64) -> Vec<u64> {
     (0..count).map(code).collect()
 }
 
-/// Units without scales, with random operands of 64 products.
+/// Checks a law for each unit without scales, with random operands of 64 products.
 fn each_unit(mut law: impl FnMut(&MatrixUnit, Element, &[u64], &[u64])) {
     for unit in UNITS.iter().filter(|unit| unit.scaling.is_none()) {
         for seed in 0..20 {
@@ -117,7 +118,7 @@ fn order_within_a_block_does_not_show_but_that_of_blocks_does() {
 fn negation_negates_but_on_cdna3() {
     let mut asymmetric = 0;
     each_unit(|unit, element, a, b| {
-        // The smallest addend: CDNA3 rounds a negative one down, however small.
+        // The smallest addend; CDNA3 rounds a negative addend down, however small it is.
         let [sign, minus] = [unit.result.element, element].map(|of| 1 << (of.width() - 1));
         let both = |a: &[u64], b: &[u64]| {
             let negated: Vec<u64> = a.iter().map(|code| code ^ minus).collect();
@@ -191,7 +192,7 @@ fn padding_and_bad_operands() {
     assert!(MatrixUnit::find("pascal").is_err() && unit.with_bits(61).is_none());
 }
 
-/// Random patterns, by the seed: arbitrary, ordinary, or mostly zero.
+/// Random patterns; the seed decides whether they are arbitrary, ordinary, or mostly zero.
 fn drawn(element: Element, count: usize, seed: u64) -> Vec<u64> {
     let any = |k: usize| {
         let [high, low] = [0, 1].map(|half| u64::from(random_word(seed, (2 * k + half) as u64)));
@@ -200,7 +201,7 @@ fn drawn(element: Element, count: usize, seed: u64) -> Vec<u64> {
     match seed % 4 {
         0 => (0..count).map(any).collect(),
         1 => (0..count).map(|k| if k.is_multiple_of(7) { any(k) } else { 0 }).collect(),
-        // No exponent at its end: neither infinities nor NaN.
+        // No exponent has its maximum, so there are no infinities or NaNs.
         2 => (0..count).map(|k| any(k) & !(3 << (element.width() - 3))).collect(),
         _ => ordinary(element, count, seed),
     }
@@ -226,7 +227,7 @@ fn columns_at_once_give_what_the_definition_gives() {
             let columns = MatrixColumns::new(*unit, &b);
             for row in 0..2 {
                 let start = if row == 0 { 0 } else { unit.block };
-                // Both rows at once, or one.
+                // Multiplies both rows at once, or only one.
                 let twice = [&c[..], &c[..]].concat();
                 let sums = match row {
                     0 => columns.multiply(&a, 0..2, start, length - start, &twice)[..19].to_vec(),

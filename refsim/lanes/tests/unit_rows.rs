@@ -1,4 +1,4 @@
-//! Rows of the units of cards against the definition, bit for bit, at each level of vector instructions: numbers,
+//! Compares rows in the units of cards with the definition, bit for bit, at each SIMD level: numbers,
 //! special words, and the operands of the test vectors.
 
 use refsim_lanes::num::{DotOrder, Format, NumberOperation as Op, ops};
@@ -17,7 +17,7 @@ const FORMATS: [&str; 8] = [
     "e8m23:ftz",
 ];
 
-/// Operations on numbers that lanes have. Sines are computed by the definition.
+/// Operations on numbers that lanes support. Sines are computed by the definition.
 const OPERATIONS: [Op; 36] = [
     Op::Add,
     Op::Sub,
@@ -117,14 +117,14 @@ impl Words {
         if shape >> 20 & 15 == 0 { w & 1 << 31 } else { w & 1 << 31 | field << 23 | mantissa }
     }
 
-    /// A row of a kind; low kinds are ordinary numbers, high kinds rarer numbers.
+    /// A row of operands: low values of `kind` mean ordinary numbers, high values rarer numbers.
     fn row(&mut self, kind: usize, other: &LaneRow) -> LaneRow {
         let mut row = [0; LANES];
         for (i, word) in row.iter_mut().enumerate() {
             *word = match kind {
                 0 => self.number(127, 6),
                 1 => self.number(127, 40),
-                // Ends of the range of loops of vector code, and of the format.
+                // Limits of the range that vector loops handle, and of the format.
                 2 => self.number(64, 10),
                 3 => self.number(251, 8),
                 4 => self.number(64, 126),
@@ -166,7 +166,7 @@ fn defined(f: Format, code: LaneCode, x: &[u32; OPERANDS]) -> u32 {
     }
 }
 
-/// Returns `true` if a format has an operation.
+/// Returns `true` if a format supports an operation.
 fn has(f: Format, code: LaneCode) -> bool {
     !matches!(code, LaneCode::Plain(operation) if operation.evaluate(f, [0; 3]).is_none())
 }
@@ -226,7 +226,7 @@ fn rows_are_as_defined() {
     }
 }
 
-/// Rows in which every second pair cancels except for the bits that the alignment cuts.
+/// Rows in which every second pair cancels except for the bits that the alignment cuts off.
 #[test]
 fn sums_that_cancel_are_as_defined() {
     let mut words = Words(2);
@@ -293,7 +293,7 @@ fn rows_of_powers_of_two_are_as_defined() {
     FORMATS.iter().for_each(|format| compare(format, &[powers; OPERANDS], &codes, "powers of two"));
 }
 
-/// One operation on many operands equals that on rows.
+/// Operations on single operands equal the operations on rows.
 #[test]
 fn single_operations_are_as_defined() {
     let mut words = Words(3);

@@ -1,5 +1,5 @@
-//! Operations on arrays against `num`: doubles of any size and patterns, in every layout under every rule, for arrays
-//! whose length is no multiple of a row.
+//! Tests array operations against `num`: doubles of any size and bit pattern, in every layout under every rule, in
+//! arrays whose length is not a multiple of a row's.
 
 use crate::lanes::{layout, variants};
 use crate::random::Random;
@@ -10,7 +10,8 @@ const LAYOUTS: &str = "s3.12 s0.1 s0.15 s31.0 s0.31 s15.16 n3.8 n0.8 n2.7 e5m10 
                        e4m3fn e2m1fn e2m3fn e5m2fnuz e7m23fn e7m16fnuz";
 
 impl Random {
-    /// A double: any bits, near the ends of the format, at a tie or one bit beside it, or of ordinary size.
+    /// A random double: arbitrary bits; within two ULPs of a limit of the format or of a tie; a value of the format; a
+    /// special value; or between -4 and 4.
     fn double(&mut self, f: &Format) -> f64 {
         let (kind, bits, near) = (self.next() >> 8 & 7, self.next(), self.next() >> 8 & 3);
         let number = num::to_f64(f, (bits >> 11) as u32 & f.mask());
@@ -29,7 +30,7 @@ impl Random {
     }
 }
 
-/// Returns `true` if two doubles are equal; all NaNs are.
+/// Returns `true` if two doubles are equal; all NaNs count as equal.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }

@@ -1,4 +1,4 @@
-//! Rows with lanes that leave the range of their format, or start at its ends: compares the batch executor, which
+//! Rows with lanes that leave the range of their format, or start at its limits: compares the batch executor, which
 //! computes whole rows without checks and then repairs infinite results, with the scalar one.
 
 use crate::random::Random;
@@ -11,7 +11,7 @@ use refsim::num::{Format, ops};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Lanes of a row, as a square of fragments.
+/// Side of a square of fragments, whose 256 pixels fill one row of lanes.
 const SIDE: u32 = 16;
 
 /// Operations on `r0` and `r1`: single ones, and combinations that rows compute in one pass.
@@ -52,7 +52,7 @@ const FORMATS: [&str; 20] = [
     "s3.12:wrap",
 ];
 
-/// Texels of ordinary numbers, with occasional ones from the ends of the range.
+/// Texels of ordinary numbers, with occasional numbers from the limits of the range.
 fn texels(f: Format, random: &mut Random) -> Vec<[u32; 4]> {
     let ends = [0, 1, 2, f.one(), f.max_finite(), f.max_finite() - 1, f.max_finite() / 2, f.min_finite()];
     let mut number = || {

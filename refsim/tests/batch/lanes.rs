@@ -3,7 +3,7 @@
 //!
 //! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule,
 //! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` covers the
-//! whole range, the short form a part of it.
+//! whole range; by default the tests cover a part of it.
 
 use crate::environment::{by_form, is_full};
 use crate::random::Random;
@@ -203,7 +203,7 @@ fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
     }
 }
 
-/// All pairs of NV2x register values in the full form; every thirteenth first operand in the short one.
+/// All pairs of NV2x register values with `CROSSBAR_FULL=1`; by default every thirteenth first operand.
 #[test]
 fn normalized_registers_agree_on_pairs() {
     let step = by_form(13, 1);
@@ -219,7 +219,7 @@ fn normalized_registers_agree_on_pairs() {
     }
 }
 
-/// Sums and products of all pairs of fp16; the short form takes every 997th first and every 61st second operand.
+/// Sums and products of all pairs of fp16; by default every 997th first and every 61st second operand.
 fn fp16_agrees_on_pairs(rules: &str) {
     let f = layout(&format!("fp16:{rules}"));
     let (first, second) = by_form((997, 61), (1, 1));
@@ -263,8 +263,8 @@ fn fp16_agrees_on_quotients() {
     }
 }
 
-/// Patterns at the edges of a float format: of its range, of its subnormals, and mantissas that cause ties, at
-/// exponents whose products are near those edges; infinities and NaN with several payloads.
+/// Patterns at the limits of a float format: limits of its range and of its subnormals; mantissas that cause ties, at
+/// exponents whose products are near those limits; infinities and NaN with several payloads.
 fn edges(exp_bits: u32, man_bits: u32) -> Vec<u32> {
     let (top, bias) = ((1u32 << exp_bits) - 1, (1u32 << (exp_bits - 1)) - 1);
     let (half, all) = (1u32 << (man_bits - 1), (1u32 << man_bits) - 1);
@@ -282,7 +282,7 @@ fn edges(exp_bits: u32, man_bits: u32) -> Vec<u32> {
     patterns
 }
 
-/// The short form takes every fifth second operand, with a different start for each rule.
+/// By default, every fifth second operand, with a different start for each rule.
 #[test]
 fn wide_floats_agree_at_their_edges() {
     for (exp_bits, man_bits) in [(8, 23), (7, 16), (8, 10), (8, 7), (7, 22), (6, 10), (8, 22), (5, 10)] {

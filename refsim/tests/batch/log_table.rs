@@ -8,8 +8,8 @@ use table::LogTable;
 
 use crate::environment::by_form;
 
-/// Compares with `texture`: derivatives of every magnitude, along the only axis of a one-texel texture. Squares of
-/// singles reach few singles; the next test covers every significand.
+/// Compares with `texture`: derivatives of every magnitude, along the only axis of a one-texel texture. The squares
+/// cover few single-precision significands; the next test covers all.
 #[test]
 fn levels_are_those_of_the_texture_room() {
     let image = Image::new(TexelFormat::L8, TextureKind::D1, [1, 1, 1], 1).unwrap();
@@ -23,7 +23,7 @@ fn levels_are_those_of_the_texture_room() {
     }
 }
 
-/// Compares with squaring in integers with 62 bits kept, for all significands (one in eleven in the short form).
+/// Compares with squaring in integers with 62 bits kept, for all significands (by default for one in eleven).
 #[test]
 fn every_significand_has_its_logarithm() {
     let step = by_form(11, 1);

@@ -1,5 +1,5 @@
-//! The batch executor's arithmetic against `num`; rows that leave a format's range and large textures against the scalar
-//! executor.
+//! Tests the batch executor: its arithmetic against `num`; rows that leave a format's range and large textures against
+//! the scalar executor.
 
 mod array_operation;
 #[path = "../common/environment.rs"]

@@ -1,4 +1,4 @@
-//! Pieces of a draw, which workers take from both ends.
+//! Tests how a draw is divided into pieces, which workers take from both ends.
 
 #[path = "../../src/exec/batch/tile/pieces.rs"]
 mod division;

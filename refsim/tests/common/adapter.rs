@@ -31,7 +31,7 @@ pub(crate) fn on_adapter(name: &'static str, test: fn(&std::sync::Arc<refsim::ex
     })
 }
 
-/// Tests by path, which is also their name: `trials![on_host: valid::modules_are_valid]`.
+/// Lists tests by path, which is also the test's name: `trials![on_host: valid::modules_are_valid]`.
 macro_rules! trials {
     ($kind:ident: $($test:path),* $(,)?) => {
         vec![$($crate::adapter::$kind(stringify!($test), $test)),*]

@@ -1,4 +1,4 @@
-//! Random programs of valid shape: everything that can be written in assembly, legal or not.
+//! Random programs that can be written in assembly, legal or not.
 //!
 //! The strategies are separate, so that a test can use a part: [`program`] (any version), [`program_of`],
 //! [`instruction`], [`source`], [`destination`], [`register`].
@@ -34,7 +34,7 @@ pub(crate) fn register() -> impl Strategy<Value = Register> {
     })
 }
 
-/// Any swizzle, the identity often.
+/// Any swizzle, often the identity.
 pub(crate) fn swizzle() -> impl Strategy<Value = Swizzle> {
     prop_oneof![
         Just(Swizzle::IDENTITY),
@@ -135,7 +135,7 @@ fn declaration() -> impl Strategy<Value = Declaration> {
     })
 }
 
-/// `count` positions in ascending order, most of them at the front.
+/// `count` positions in ascending order, most of them 0.
 fn positions(count: usize, last: usize) -> impl Strategy<Value = Vec<usize>> {
     vec(prop_oneof![3 => Just(0), 1 => 0..=last], count).prop_map(|mut positions| {
         positions.sort_unstable();

@@ -9,7 +9,7 @@ use refsim::raster::FragmentInput;
 
 pub(crate) const PS_2: [Version; 3] = [Version::Ps2_0, Version::Ps2A, Version::Ps2B];
 
-/// Formats whose numbers all exist in fp32.
+/// Formats whose numbers are all representable in fp32.
 pub(crate) const WITHIN_FP32: [&str; 8] =
     ["fp16:rup", "e5m2", "e4m3fn:sat", "fp24:ftz", "s3.12:rup", "s0.7:wrap", "e2m1fn", "e5m2fnuz"];
 

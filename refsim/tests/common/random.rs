@@ -3,13 +3,13 @@
 
 use std::fmt::Debug;
 
-/// The stream of a seed, equal on every machine: the splitmix64 recurrence, as in `fixtures/formats/make_tables.py`.
+/// Random numbers from a seed, equal on every host: the splitmix64 recurrence, as in `fixtures/formats/make_tables.py`.
 #[derive(Clone)]
 pub(crate) struct Random {
     state: u64,
-    /// [`Self::number`] gives numbers of ordinary size, without special values.
+    /// [`Self::number`] returns numbers of ordinary size, without special values.
     pub(crate) tame: bool,
-    /// [`Self::number`] also gives numbers beyond the range of short fixed-point formats, even if `tame`.
+    /// [`Self::number`] also returns numbers beyond the range of short fixed-point formats, even if `tame`.
     pub(crate) wide: bool,
 }
 
@@ -70,12 +70,12 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
-    /// A byte of a texel: one time in four at an end of the range of a code.
+    /// A byte of a texel: one time in four 0, 0x7f, 0x80 or 0xff.
     pub(crate) fn code(&mut self) -> u8 {
         if self.below(4) == 0 { self.of(&[0, 0x7f, 0x80, 0xff]) } else { self.next() as u8 }
     }
 
-    /// A number of ordinary size, at times special, as the bits of an f32.
+    /// A number, mostly of ordinary size and sometimes special, as the bits of an f32.
     pub(crate) fn number(&mut self) -> u32 {
         let r = self.next();
         if self.tame {

@@ -9,7 +9,7 @@ use refsim::isa::Program;
 use refsim::num::{Format, ops};
 use refsim::raster::FragmentInput;
 
-/// Assembles and checks a program; panics with all errors.
+/// Assembles and checks a program; panics with all errors if it fails.
 pub(crate) fn checked(text: &str, profile: &Profile) -> CheckedProgram {
     let program = assemble(text).unwrap_or_else(|e| panic!("{text}\n{e:?}"));
     ready(program, profile).unwrap_or_else(|e| panic!("{text}\n{e}"))
@@ -29,7 +29,7 @@ pub(crate) fn bits(v: [f32; 4]) -> [u32; 4] {
     v.map(f32::to_bits)
 }
 
-/// A single precision vector in a format.
+/// Converts a single-precision vector to a format.
 pub(crate) fn into(format: Format, v: [f32; 4]) -> [u32; 4] {
     bits(v).map(|x| ops::convert(&Format::FP32, format, x).bits)
 }
@@ -78,7 +78,7 @@ pub(crate) fn run_program(
     QuadRun { results, steps: trace.steps, fetches }
 }
 
-/// Runs a pixel program that reads constants only.
+/// Runs a pixel program that reads only constants.
 pub(crate) fn run(text: &str, profile: &Profile, values: &[[f32; 4]]) -> QuadRun {
     let constants = constants(values);
     run_quad(text, profile, &PixelBindings::new(&constants), &[FragmentInput::default(); 4])

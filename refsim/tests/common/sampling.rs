@@ -2,7 +2,7 @@
 
 use refsim::texture::{BorderStorage, FilterArithmetic, MissingChannels, TexelValues, WeightRounding};
 
-/// The sampling rules with two values each, chosen by the bits of a number.
+/// The sampling rules that have two values each; each bit of `number` selects the value of one rule.
 pub(crate) fn switched(number: u32) -> (WeightRounding, FilterArithmetic, TexelValues, MissingChannels, BorderStorage) {
     fn of<T: Copy>(all: &[T], bit: u32) -> T {
         all[bit as usize & 1]

@@ -1,8 +1,8 @@
-//! The words of a program's text, with changed spaces between them.
+//! Changes the white space between the tokens of a program's text.
 
 use refsim::asm::assemble;
 
-/// Words, numbers and marks of a line.
+/// Splits a line into words, numbers and punctuation marks.
 fn pieces(line: &str) -> Vec<&str> {
     let mut pieces = Vec::new();
     let mut rest = line.trim_start();
@@ -14,7 +14,7 @@ fn pieces(line: &str) -> Vec<&str> {
     pieces
 }
 
-/// Length of the first piece of a text of ASCII characters.
+/// Length of the first token of an ASCII text.
 fn length(text: &[u8]) -> usize {
     let at = |i: usize| text.get(i).copied().unwrap_or(0);
     let count = |from: usize, wanted: fn(u8) -> bool| (from..).take_while(|&i| wanted(at(i))).count();
@@ -37,10 +37,11 @@ fn length(text: &[u8]) -> usize {
     }
 }
 
-/// The grammar is unambiguous: changed white space gives the same program; a removed space gives the same program or an
-/// error. The first line, which names the language, stays unchanged.
+/// The grammar is unambiguous: changed white space yields the same program; a removed space yields it or an error. The
+/// first line, which names the language, stays unchanged.
 ///
-/// `gaps` are spaces and comments; `choose` selects a gap per place, and one place without a gap.
+/// `gaps` are spaces and comments; `choose` selects one gap for each boundary of tokens, and one boundary without a
+/// gap.
 pub(crate) fn has_one_reading(text: &str, gaps: &[&str], mut choose: impl FnMut(usize) -> usize) {
     let expected = assemble(text).unwrap_or_else(|errors| panic!("{text}\n{errors:?}"));
     let (header, body) = text.split_once('\n').unwrap_or((text, ""));

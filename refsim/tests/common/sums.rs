@@ -9,7 +9,7 @@ use refsim::num::{DotOrder, Format, Rounding};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Pixels per row and per column.
+/// Width and height of the target, in pixels.
 const SIDE: u32 = 24;
 
 const FORMATS: [&str; 12] = [
@@ -27,7 +27,7 @@ const FORMATS: [&str; 12] = [
     "n3.8:rna",
 ];
 
-/// A device with random rules for products and sums; formats by turns.
+/// A device with random rules for products and sums; the seed selects the format in turn.
 pub(crate) fn profile(seed: u64) -> Profile {
     let mut random = Random::new(seed);
     let mut profile = ideal(FORMATS[seed as usize % FORMATS.len()]);
@@ -62,7 +62,7 @@ fn numbers(random: &mut Random) -> Vec<[u32; 4]> {
     (0..SIDE * SIDE).map(|_| [0; 4].map(|_: u32| number())).collect()
 }
 
-/// The results of the programs for three vectors, all components of `r3`.
+/// Program bodies that compute all components of `r3` from three vectors.
 const BODIES: [&str; 5] = [
     "mad r3, r0, r1, r2",
     "dp4 r3.x, r0, r1\ndp3 r3.y, r0, r2\ndp2add r3.z, r0, r1, r2.x\ndp4 r3.w, r0, -r1",
@@ -71,7 +71,7 @@ const BODIES: [&str; 5] = [
     "crs r3.xyz, r0, r1\nnrm r4, r2\nmov r3.w, r4.x",
 ];
 
-/// The pixels that the programs draw, program by program.
+/// Draws every program; returns the pixels in the order of the programs.
 pub(crate) fn drawn(mut machine: Machine, profile: &Profile, seed: u64) -> Vec<u8> {
     let mut random = Random::new(seed ^ 0x5eed);
     let textures = [0; 3].map(|_: u32| numbers(&mut random));
@@ -80,7 +80,7 @@ pub(crate) fn drawn(mut machine: Machine, profile: &Profile, seed: u64) -> Vec<u
     BODIES.into_iter().flat_map(draw).collect()
 }
 
-/// The pixels that a program draws on a square of textures of single precision, pixel by pixel.
+/// Draws a square with a program that reads single-precision textures, one texel per pixel; returns the pixels.
 pub(crate) fn pixels(machine: &mut Machine, profile: &Profile, text: &str, textures: &[Vec<[u32; 4]>]) -> Vec<u8> {
     let side = textures[0].len().isqrt() as u32;
     let program = checked(text, profile);

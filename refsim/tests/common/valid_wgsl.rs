@@ -1,4 +1,4 @@
-//! Validity of WGSL by naga.
+//! Validates WGSL with naga.
 
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};

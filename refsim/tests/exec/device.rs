@@ -35,7 +35,7 @@ fn every_profile_loads_and_every_value_of_every_switch_can_be_set() {
     }
 }
 
-/// A card is found by the words of its title; words that several cards share find none.
+/// A word of a card's title finds the card; a word that several titles share finds none.
 #[test]
 fn cards_are_found_by_the_names_that_people_know() {
     for (name, card) in [
@@ -70,8 +70,8 @@ fn every_figure_has_a_source() {
     }
 }
 
-/// Every word is the confidence of some figure. NV2A is a sibling of two cards only: for all other cards, its
-/// measurements are at most those of kin.
+/// Every confidence word is used by some figure. NV2A is a sibling of two cards only: for all other cards, its
+/// measurements count at most as measurements on kin.
 #[test]
 fn words_of_confidence_say_on_which_chip() {
     let mut words = BTreeSet::new();
@@ -92,7 +92,7 @@ fn words_of_confidence_say_on_which_chip() {
     assert_eq!(open.collect::<Vec<_>>(), ["kin", "state", "report", "guess"]);
 }
 
-/// ROUND_PREC of R200 has sixteenths and coarser grids; R300 has twelfths, too.
+/// ROUND_PREC of R200 offers subpixel grids of 1/16 and coarser; R300 also offers 1/12.
 #[test]
 fn the_radeons_have_the_grids_of_their_registers() {
     let mut r200 = Profile::named("r200").unwrap();
@@ -218,7 +218,8 @@ fn nv2x_clamps_results_and_not_sums() {
     }
 }
 
-/// Measurements on a sibling apply to NV2x, with their counts. Kin take some of them; other cards keep their own rules.
+/// Measurements on a sibling apply to NV2x, with their counts. Kin adopt some of them; other cards keep their own
+/// rules.
 #[test]
 fn nv2x_obeys_what_nv2a_drew() {
     for name in ["nv20", "nv25"] {
@@ -266,7 +267,7 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }
 
-/// So tests of a card's arithmetic need not be repeated for its variants.
+/// Tests of a card's arithmetic therefore need not be repeated for its variants.
 #[test]
 fn variants_differ_from_their_card_in_rates_alone() {
     let variants = Profile::variant_names();

@@ -1,4 +1,4 @@
-//! Tests the log of a machine: its contents, and that it costs nothing unless enabled.
+//! Tests the event log of a machine: its contents, and that nothing is recorded unless it is enabled.
 
 use crate::running::{bits, checked};
 use refsim::asm::assemble;
@@ -187,7 +187,7 @@ fn registers_of_opengl_programs_weigh_two_halves_or_one() {
     assert_eq!(live("MOVR R0, f[TEX0];\nMOVR o[COLR], R0;"), 2);
     assert_eq!(live("MOVR H0, f[TEX0];\nMOVR o[COLH], H0;"), 1, "the register counts, not the suffix");
     assert_eq!(live("MOVR R0, f[TEX0];\nMOVH H0, p[0];\nADDR R1, R0, H0;\nMOVR o[COLR], R1;"), 3);
-    // R2 is never written, but it is readable: zero.
+    // R2 is never written, but it can be read and is zero.
     assert_eq!(live("MOVR R0, f[TEX0];\nADDR o[COLR], R0, R2;"), 4);
     // A conditional write also reads the register's old value.
     assert_eq!(live("MOVR R1, p[0];\nMOVRC R0, f[TEX0];\nMOVR R1 (GT), R0;\nMOVR o[COLR], R1;"), 4);
@@ -200,6 +200,6 @@ fn fixed_point_is_told_apart() {
     let program =
         work("!!FP1.0\nMULX H0, f[COL0], p[0];\nMULX H1, f[TEX0], p[0];\nADDH o[COLH], H0, H1;\nEND", &[], &[]);
     let fixed: Vec<bool> = program.phases[0].arithmetic.iter().map(|slot| slot.fixed).collect();
-    // Coordinates force full precision with any suffix.
+    // Reading coordinates forces full precision, whatever the suffix.
     assert_eq!(fixed, [true, false, false]);
 }

@@ -1,4 +1,4 @@
-//! Formats of single instructions: laws over random programs, facts, and device files.
+//! Formats of single instructions: laws over random programs, examples, and device files.
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
 use crate::running::run_with_coordinates;
@@ -17,7 +17,7 @@ fn assign(profile: &mut Profile, program: &Program, format: Format) {
     }
 }
 
-/// A line of a program, or a move in place of a texture read, or nothing in place of a kill.
+/// Replaces a texture read by a move and removes a kill; returns other lines unchanged.
 fn without_texture(line: &str) -> String {
     match line.split_once(' ') {
         Some(("texkill", _)) => String::new(),
@@ -31,7 +31,7 @@ fn without_texture(line: &str) -> String {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 600, ..ProptestConfig::default() })]
 
-    /// `_pp` on every instruction equals the format of `_pp` on every instruction.
+    /// `_pp` on every instruction equals setting the format of `_pp` for every instruction.
     #[test]
     fn a_format_of_its_own_is_that_of_the_hint(
         version in select(&PS_2[..]),
@@ -57,7 +57,8 @@ proptest! {
         }
     }
 
-    /// One format for all instructions, on registers that hold all its numbers, equals a device of that format.
+    /// If all instructions have one format, and the registers hold all its numbers, the results equal a device of that
+    /// format.
     #[test]
     fn one_format_for_all_is_the_device_of_that_format(
         version in select(&PS_2[..]),
@@ -66,7 +67,7 @@ proptest! {
         constants in vectors(8),
         own in select(WITHIN_FP32.to_vec()),
     ) {
-        // Texture results are rounded twice; kills and comparisons of flow control read unrounded inputs.
+        // Texture results are rounded twice; kills and flow-control comparisons read unrounded inputs.
         let text: String = generate::legal(version, seed).lines().map(without_texture).collect();
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e}")))?;
         prop_assume!(!program.instructions.iter().any(|i| matches!(i.opcode, Opcode::IfC | Opcode::BreakC)));
@@ -130,10 +131,10 @@ fn each_instruction_rounds_to_its_own_format() {
     let x = 1.1f32;
     let run = |profile: &Profile| run_with_coordinates(text, profile, &[[x; 4]]).value(1)[0];
     assert_eq!(run(&profile), (x * x + x).to_bits());
-    // Operands and result in e8m2: 1.1 is 1, so the product is 1 and the sum, in fp32, 2.1.
+    // Operands and result are rounded to e8m2: 1.1 becomes 1, so the product is 1 and the sum, in fp32, is 2.1.
     assert!(profile.set_instruction_format(&program, 0, Some("e8m2".parse().unwrap())));
     assert_eq!(run(&profile), (1.0 + x).to_bits());
-    // The sum of 1 and 1.1 in s3.2: 1 and 1.
+    // The sum of 1 and 1.1 in s3.2: both operands are 1.
     assert!(profile.set_instruction_format(&program, 1, Some("s3.2".parse().unwrap())));
     assert_eq!(run(&profile), 2f32.to_bits());
     assert!(profile.set_instruction_format(&program, 0, None));
@@ -204,7 +205,7 @@ fn formats_of_a_program_are_replaced_together() {
     assert_eq!(together, running::ideal("fp32"));
 }
 
-/// Reports formats of a device file that apply to no program of a case.
+/// Formats in a device file that apply to no program of the case are reported.
 #[test]
 fn formats_that_change_nothing_are_found() {
     let program = assemble("ps_2_0\ndcl t0\ntexkill t0\nmov oC0, t0").unwrap();

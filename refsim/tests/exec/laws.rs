@@ -67,7 +67,8 @@ fn inputs(data: &[[u32; 4]]) -> [FragmentInput; 4] {
     out
 }
 
-/// Checks a result: no bits above the width, and only the canonical NaN. Units of cards pass words unchanged.
+/// Checks a result: no bits above the width, and only the canonical NaN. The units of cards pass NaN payloads
+/// unchanged.
 fn well_formed(format: Format, value: [u32; 4]) -> bool {
     let any_nan = format.unit.is_card();
     value
@@ -152,7 +153,7 @@ proptest! {
         let text = generate::legal(version, seed);
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e:?}")))?;
         let Ok(program) = running::ready(program, profile) else {
-            // A limit of this device rejects it; an ideal device accepts all, as tested below.
+            // A limit of this device rejects it; an ideal device accepts all programs, as tested below.
             return Ok(());
         };
         let host = Constants { float: constants, int: vec![[2, 0, 1, 0]; 16], boolean: vec![true, false], ..Constants::default() };

@@ -16,9 +16,10 @@ use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFor
 use refsim::raster::{Primitive, Vertex};
 use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Corners of a quad over a whole target of `n` x `n` pixels whose coordinates hit texel centres of an n x n texture.
+/// Corners of a quad that covers a target of `n` x `n` pixels; its coordinates hit the texel centers of an n x n
+/// texture.
 fn screen(n: u32) -> Vec<Vertex> {
-    // Shifted up and left by half a pixel, because Direct3D 9 has pixel centres at integers.
+    // Shifted up and left by half a pixel, because Direct3D 9 has pixel centers at integers.
     let step = 1.0 / n as f32;
     let corner = |x: f32, y: f32, u: f32, v: f32| Vertex {
         position: bits([x - step, y + step, 0.5, 1.0]),
@@ -85,7 +86,7 @@ fn ps_1_4_and_ps_2_0_copy_a_texture_through_a_full_screen_quad() {
     }
 }
 
-/// More live values than sixteen bits can index.
+/// The program has more live values than sixteen bits can index.
 #[test]
 fn programs_of_any_length_agree() {
     let steps = "mul r0,r0,t0\nmad r1,r0,v0,r1\n".repeat(17_000);
@@ -107,7 +108,7 @@ fn programs_of_any_length_agree() {
     assert_eq!(bytes[0], bytes[1]);
 }
 
-/// Random small quads with random colours and depths.
+/// Random small quads with random colors and depths.
 fn random_quads(count: usize) -> Vec<Vertex> {
     let mut random = Random::new(7);
     let mut next = || random.unit();
@@ -191,7 +192,7 @@ fn the_crossbar_draws_instances_in_order() {
     let depth = machine.create_depth(DepthFormat::Float32, 20, 20).unwrap();
     let corners =
         [[-1.05, 1.05, 0.0, 1.0], [0.95, 1.05, 0.0, 1.0], [0.95, -0.95, 0.0, 1.0], [-1.05, -0.95, 0.0, 1.0]].map(bits);
-    // The depth decreases and increases again; instance 9000 of 12,000 is the nearest, and the last of equal depths
+    // The depth decreases and increases again; instance 9000 of 12,000 is the nearest, and of equal depths the last
     // wins.
     let count = 12_000;
     let colors: Vec<[u32; 4]> = (0..count)

@@ -61,7 +61,7 @@ fn source_modifiers_round_each_step_and_negate_last() {
     // The replicate selector is applied before the modifier.
     let ran = run("ps_1_4\nmov r0, c0\nmov r1, 1-r0.g\nmov r0, r1", &r200(), &c);
     assert_eq!(ran.value(1), s([0.25; 4]));
-    // -(-8) does not exist: it saturates.
+    // -(-8) is not representable and saturates.
     let text = "ps_1_4\nmov_x8 r0, c0\nmov r1, -r0\nmov r0, r1";
     let ran = run(text, &r200(), &[[-1.0; 4]]);
     assert_eq!((ran.value(0), ran.value(1)), ([0x8000; 4], [0x7fff; 4]));
@@ -199,8 +199,8 @@ fn projection_divides_in_single_precision_with_one_for_a_zero_divisor() {
     assert_eq!(at([1.0, 3.0, 9.0, 0.0]), [0x1000, 0x1000]);
 }
 
-/// `max(min(result, 1), -1)` after the shift, also for texture instructions; `_sat` precedes the clamp. A clamp raises
-/// overflow.
+/// `max(min(result, 1), -1)` after the shift, also for texture instructions; `_sat` precedes the clamp. The clamp
+/// raises the overflow flag.
 #[test]
 fn results_of_nv2x_are_clamped_to_one() {
     let nv25 = Profile::named("nv25").unwrap();

@@ -114,7 +114,7 @@ fn what_would_never_end_is_an_error_with_its_place() {
 /// Steps counted by hand.
 #[test]
 fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
-    // `mov`; three times `rep`, three passes of `add` and `endrep`, and `endrep`; `mov`.
+    // `mov`; outer `rep`; three times: inner `rep`, three passes of `add` and `endrep`, outer `endrep`; then `mov`.
     let steps = 1 + (1 + 3 * ((1 + 3 * 2) + 1)) + 1;
     let branches = "ps_2_a\nmov r0, c0\nif b0\nadd r0, r0, c0\nadd r0, r0, c0\nelse\nadd r0, r0, c0\nendif\nif b1\nadd \
                     r0, r0, c0\nelse\nadd r0, r0, c0\nendif\nmov oC0, r0";
@@ -127,7 +127,7 @@ fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
         (branches.to_owned(), 1 + 4 + 3 + 1),
         // Three passes of `call`, `add`, `callnz`, `ret`, `endrep`; the loop without passes is one step.
         (calls.to_owned(), 1 + 1 + 3 * 5 + 1 + 1 + 1),
-        // A pair is one step, `phase` is none.
+        // A co-issued pair is one step; `phase` is not a step.
         (straight.to_owned(), 4),
     ];
     for (text, steps) in cases {
@@ -143,7 +143,7 @@ fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
 }
 
 /// Fragments further down and to the right need more steps: the first one that exceeds the budget is reported, in
-/// whichever order the executor meets them.
+/// whatever order the executor reaches them.
 #[test]
 fn the_first_fragment_that_needs_too_much_is_named() {
     let text = "ps_2_a\ndef c1, 1, 0, 0, 0\ndef c2, 6, 11, 0, 0\ndcl t0\nmov r0, c1.y\nrep i0\nif_gt t0.x, c2.x\nif_gt \
@@ -156,8 +156,8 @@ fn the_first_fragment_that_needs_too_much_is_named() {
     }
     assert!(found.iter().all(|error| *error == found[0]), "{found:?}");
     let (ProgramPlace::Pixel { x, y }, instruction, _) = place(&found[0]) else { panic!("{found:?}") };
-    // From row 11 on no lane breaks early. The first triangle is the upper right half, including the diagonal. Three
-    // iterations of eight steps after the first two, and four more.
+    // From row 11 on, no lane breaks early. The first triangle is the upper right half, including the diagonal. The
+    // budget is two steps, three iterations of eight, and four more.
     assert_eq!((x, y, instruction), (11, 11, 6));
 }
 

@@ -1,5 +1,5 @@
-//! Formats of storages and of sums: laws over random programs, expressed by formats of instructions and rounded inputs;
-//! dot products of the executors against `num`; refusals.
+//! Formats of storages and of sums. Laws over random programs express them as formats of instructions and rounded
+//! inputs; further tests compare the executors' dot products with `num`, and check refusals.
 
 use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
 use crate::random::Random;
@@ -17,13 +17,13 @@ fn format(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
-/// A pattern of single precision, rounded to a format and back.
+/// Single-precision bits converted to a format and back.
 fn rounded(format: Format, bits: u32) -> u32 {
     let narrowed = ops::convert(&Format::FP32, format, bits).bits;
     ops::convert(&format, Format::FP32, narrowed).bits
 }
 
-/// An ideal device in single precision with a format of a storage.
+/// An ideal single-precision device whose `storage` has its own format.
 fn storing(storage: Storage, format: Format) -> Profile {
     let mut profile = running::ideal("fp32");
     profile.rules.color_iterator = ColorIterator::Full;
@@ -31,7 +31,7 @@ fn storing(storage: Storage, format: Format) -> Profile {
     profile
 }
 
-/// The line of a program after which a register is rounded by a move: one that writes a temporary.
+/// Returns a move that rounds the register which the line writes; `None` if the line writes no temporary.
 fn rounding_move(line: &str) -> Option<String> {
     let (_, rest) = line.split_once(") ").filter(|_| line.starts_with('(')).unwrap_or(("", line));
     let (mnemonic, operands) = rest.split_once(' ')?;
@@ -44,7 +44,7 @@ fn rounding_move(line: &str) -> Option<String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// A format of temporaries equals a move in that format after every instruction that writes one.
+    /// A format for temporaries equals a move in that format after every instruction that writes a temporary.
     #[test]
     fn temporaries_are_rounded_when_they_are_written(
         version in select(&PS_2[..]),
@@ -82,7 +82,7 @@ proptest! {
         }
     }
 
-    /// Formats of outputs and texels equal formats of the instructions that write a color or read a texture.
+    /// Formats of outputs and texels equal the same formats for the instructions that write a color or read a texture.
     #[test]
     fn outputs_and_texels_are_rounded_by_their_instructions(
         version in select(&PS_2[..]),
@@ -135,7 +135,7 @@ proptest! {
                 _ => {}
             }
         }
-        // -1 wraps; no color is negative.
+        // -1 would wrap, but no color is negative.
         prop_assume!(storage != Storage::Colors || !own.ends_with(":wrap"));
         if storage == Storage::Constants {
             host.float.iter_mut().for_each(|constant| *constant = constant.map(round));
@@ -172,11 +172,11 @@ proptest! {
     }
 }
 
-/// Pixels per row and per column.
+/// Width and height of the target, in pixels.
 const SIDE: u32 = 32;
 
-/// Numbers in single precision whose products lie near the midpoint of two numbers of an accumulator, or at the ends of
-/// the ranges.
+/// Numbers in single precision whose products lie near the midpoint of two numbers of an accumulator, or near the
+/// limits of the ranges.
 fn factors(seed: u64) -> Vec<[u32; 4]> {
     let mut random = Random::new(seed);
     let mut number = || {
@@ -195,7 +195,7 @@ fn factors(seed: u64) -> Vec<[u32; 4]> {
     (0..SIDE * SIDE).map(|_| [0; 4].map(|_: u32| number())).collect()
 }
 
-/// The dot products of two textures of single precision, pixel by pixel.
+/// Dot products of corresponding texels of two single-precision textures.
 fn dots(profile: &Profile, kind: ExecutorKind, textures: &[Vec<[u32; 4]>; 2]) -> Vec<u8> {
     let text = "ps_2_0\ndcl t0\ndcl_2d s0\ndcl_2d s1\ntexld r0, t0, s0\ntexld r1, t0, s1\ndp4 r2.x, r0, r1\n\
                 dp3 r2.y, r0, r1\ndp2add r2.z, r0, r1, r0.z\ndp4 r2.w, r0, -r1\nmov oC0, r2";
@@ -268,7 +268,8 @@ fn formats_that_do_not_fit_are_refused() {
     }
 }
 
-/// A format, of at most 8 bits, holds another exactly if conversion there and back changes none of its numbers.
+/// Among formats of at most 8 bits, one holds another exactly if the round trip through it changes none of the other's
+/// numbers.
 #[test]
 fn a_format_holds_what_conversion_there_and_back_keeps() {
     let texts = [

@@ -59,7 +59,7 @@ fn enough_bits_are_rounded_sums() {
     assert!(scalar(&plain, 5) != scalar(&aligned, 5));
 }
 
-/// The first product is the midpoint of two numbers.
+/// The first product is the midpoint of two representable numbers.
 #[test]
 fn every_rule_shows_in_pixels_and_in_pixels_alone() {
     let (a, b) = ([1.5, 1.000_122_1, 3.0, 0.0], [1.000_015_3, 1.000_122_1, -0.333_251_95, 0.0]);
@@ -111,7 +111,7 @@ fn rules_of_exponents_are_refused_for_fixed_point() {
             assert!(matches!(&error, DeviceError::NeedsFloats { switch: name, .. } if name == switch), "{error}");
             assert_eq!(profile, before);
         }
-        // Replacing the format does not drop settings silently either.
+        // Nor does replacing the format drop settings silently.
         let mut profile = ideal("fp24");
         profile.set_switch(switch, value).unwrap();
         assert!(matches!(profile.replace_format("s3.12"), Err(DeviceError::NeedsFloats { .. })), "{switch}");

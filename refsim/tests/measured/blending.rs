@@ -58,7 +58,7 @@ fn corners<'a>(rows: impl Iterator<Item = (usize, &'a Row)>, column: &str) -> Ve
     rows.flat_map(|(i, row)| colored(i, row.hex(column).to_be_bytes())).collect()
 }
 
-/// Draws a cell per row: its ground, then its source blended over it.
+/// Draws a cell per row: its background color, then its source blended over it.
 fn redraw(profile: &Profile, executor: &Executor) -> Values {
     let rows_of_file = table("nv2a/a_blend.csv");
     let (program, constants) = (color_program(profile), Constants::default());
@@ -77,7 +77,7 @@ fn redraw(profile: &Profile, executor: &Executor) -> Values {
     let mut values = Values::default();
     for (i, row) in numbered {
         let drawn = codes(image, i);
-        // The possible code nearest to the drawn one.
+        // The code within the measured bounds that is nearest to the drawn one.
         let nearest: [u8; 4] = std::array::from_fn(|channel| {
             let [low, high] = ["lo", "hi"].map(|end| format!("{}_{end}", ["r", "g", "b", "a"][channel]));
             let known = !row.text(&low).is_empty();

@@ -18,7 +18,7 @@ pub(crate) const GRADIENTS: &str = "nv2a/a_colour.csv";
 const ALPHA: &str = "nv2a/a_alpha_test.csv";
 const ONE: u32 = 0x3f80_0000;
 
-/// Ends of gradients that the chip draws as a gradient from 0 to 1: infinity, the largest number, 8.
+/// End values of gradients that the chip draws as a gradient from 0 to 1: with infinities, the largest numbers, and 8.
 const BEYOND: [[u32; 2]; 5] =
     [[0xbf80_0000, ONE], [0xc100_0000, ONE], [0, 0x4100_0000], [0xff7f_ffff, 0x7f7f_ffff], [0xff80_0000, 0x7f80_0000]];
 
@@ -110,7 +110,7 @@ fn ends(profile: &Profile, executor: &Executor) -> Values {
     by_program(profile, executor, &table(ENDS))
 }
 
-/// The measured codes beside the red of the rows' cells.
+/// Pairs each row's measured code with the red channel of the row's cell.
 fn compared(table: &[Row], image: &Image) -> Values {
     let mut values = Values::default();
     for (i, row) in table.iter().enumerate() {
@@ -148,7 +148,7 @@ fn streams<'a>(positions: &'a [[u32; 4]], colors: &'a [[u32; 4]]) -> VertexStrea
     }
 }
 
-/// The quad of a gradient: first column and row, the ones past the last, and whether it runs to the right.
+/// The quad of a gradient: its left, top, right and bottom edges, and whether the gradient runs to the right.
 pub(crate) fn gradient_quad(picture: &str) -> ([f32; 4], bool) {
     match picture {
         "0_1" => ([128.0, 144.0, 179.2, 432.0], false),
@@ -171,7 +171,7 @@ fn gradients(profile: &Profile, executor: &Executor, slop: u8) -> Values {
     values
 }
 
-/// Pixels of the vertical gradient: equal within a row, in the file and as drawn.
+/// Pixels of the vertical gradient: equal within a row, both measured and drawn.
 fn undithered(profile: &Profile, executor: &Executor) -> Values {
     let rows: Vec<Row> = table(GRADIENTS).into_iter().filter(|row| row.text("picture") == "0_1").collect();
     let found = drawn(profile, executor, [0, ONE], &rows);
@@ -198,7 +198,7 @@ pub(crate) fn is_falling(row: &Row) -> bool {
     row.text("triangle") == "alpha falling"
 }
 
-/// Gradients between ends beyond 0 and 1, by a vertex program: their codes equal those of the gradient from 0 to 1.
+/// Gradients between ends beyond 0 and 1, by a vertex program: their codes equal the codes of the gradient from 0 to 1.
 fn gradients_beyond(profile: &Profile, executor: &Executor) -> Values {
     let table = table(GRADIENTS);
     let rows: Vec<Row> = table.into_iter().filter(|row| row.text("picture") == "0_1").collect();
@@ -233,7 +233,7 @@ fn drawn(profile: &Profile, executor: &Executor, [from, to]: [u32; 2], rows: &[R
     rows.iter().map(|row| image.raw(0, 0, row_number(row), row.number("column")) as u8).collect()
 }
 
-/// Draws a cell per row, whose alpha is compared.
+/// Draws a cell per row, with the alpha test on.
 fn alpha_test(profile: &Profile, executor: &Executor) -> Values {
     let table = table(ALPHA);
     let (program, constants) = (color_program(profile), Constants::default());

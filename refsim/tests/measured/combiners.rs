@@ -57,7 +57,8 @@ fn grey(index: usize, [first, second]: [u8; 2]) -> [Vertex; 4] {
     cell(index).map(|corner| Vertex { colors, ..corner })
 }
 
-/// Draws cells with a program, colors v0 and v1, and a constant c0, all grey; returns the colors of the cells.
+/// Draws one cell per entry of `cells`: a program body, grey colors v0 and v1, and a grey constant c0; returns the
+/// colors of the cells.
 fn shown(device: &Profile, executor: &Executor, cells: &[(String, [u8; 2], u8)]) -> Vec<u8> {
     let mut machine = executor.machine(device.clone()).expect("a machine");
     let target = machine.create_target(TexelFormat::Bgra8, COLUMNS, rows(cells.len())).expect("a target");
@@ -99,7 +100,7 @@ fn lerps(device: &Profile, executor: &Executor) -> Values {
     values
 }
 
-/// Single operations of a combiner, by their names in assembly.
+/// Single operations of a combiner, each as an assembly instruction.
 fn operations(device: &Profile, executor: &Executor) -> Values {
     let rows = table(OPERATIONS);
     let body = |row: &Row| match row.text("operation") {

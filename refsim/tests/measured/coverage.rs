@@ -12,7 +12,7 @@ use refsim::texture::{Region, TexelFormat};
 
 const FILE: &str = "nv2a/a_coverage.csv";
 
-/// Columns and rows of the target, which holds all shapes.
+/// Width and height of the target, which holds all shapes.
 const SIZE: u32 = 640;
 
 pub(crate) fn rules() -> Vec<Rule> {
@@ -44,7 +44,7 @@ fn corners(row: &Row) -> Vec<Vertex> {
     row.text("vertices_x_y").split(';').map(corner).collect()
 }
 
-/// Draws each shape alone; all pixels of its rows and columns must equal the file's.
+/// Draws each shape alone; all pixels of its rows and columns must equal the pixels in the file.
 fn redraw(profile: &Profile, executor: &Executor) -> Values {
     let (program, constants) = (color_program(profile), Constants::default());
     let mut machine = executor.machine(profile.clone()).expect("a machine");
@@ -73,7 +73,7 @@ fn redraw(profile: &Profile, executor: &Executor) -> Values {
                 drawn.extend(columns.clone().map(|x| image.raw(0, 0, y, x) != 0));
             }
         }
-        // The page shows a shape by the number of its pixels.
+        // The page shows a shape as the number of its pixels, in grey.
         let pixels = |covered: &[bool]| covered.iter().filter(|covered| **covered).count() as u8;
         values.add_grey(pixels(&expected), pixels(&drawn), expected == drawn);
     }

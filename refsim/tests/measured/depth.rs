@@ -40,13 +40,13 @@ fn is_flat(row: &Row) -> bool {
     row.text("shape").starts_with("Tri")
 }
 
-/// `true` if the exact depth is not so near to a code that the error of a plane decides.
+/// `true` if the exact depth is far enough from a code that the error of the plane cannot change the result.
 fn is_between_codes(row: &Row) -> bool {
     let exact: f64 = row.number("exact_plane");
     (0.02..=0.98).contains(&exact.fract())
 }
 
-/// Draws the triangles of each shape into each buffer and compares the rows that `choose` takes.
+/// Draws the triangles of each shape into each buffer and compares the rows for which `choose` returns `true`.
 fn redraw(profile: &Profile, executor: &Executor, choose: fn(&Row) -> bool) -> Values {
     let (program, constants) = (color_program(profile), Constants::default());
     let shapes = table("nv2a/a_depth_shapes.csv");
@@ -77,7 +77,7 @@ fn redraw(profile: &Profile, executor: &Executor, choose: fn(&Row) -> bool) -> V
         for row in rows.iter().filter(|row| choose(row)) {
             let [x, y] = ["column", "row"].map(|name| row.number::<usize>(name));
             let (measured, drawn): (u32, u32) = (row.number("stored_code"), depths[y * 640 + x]);
-            // The page shows the last byte of codes.
+            // The page shows the low byte of each code.
             values.add_grey(measured as u8, drawn as u8, measured == drawn);
         }
     }

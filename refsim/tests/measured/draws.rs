@@ -37,7 +37,7 @@ pub(crate) fn rows(cells: usize) -> u32 {
     (cells as u32).div_ceil(COLUMNS).max(1)
 }
 
-/// A draw of quads in window positions, pixel centers at one half, as the hardware has them.
+/// A draw of quads in window positions, with pixel centers at one half as in the hardware.
 pub(crate) fn quads<'a>(
     vertices: VertexSource<'a>,
     program: &'a CheckedProgram,
@@ -55,7 +55,7 @@ pub(crate) fn color_program(profile: &Profile) -> CheckedProgram {
     super::running::checked("ps_1_1\nmov r0, v0", profile)
 }
 
-/// The codes of cell `index` in a target of BGRA with 8 bits: red, green, blue, alpha.
+/// The codes of cell `index` in a target of 8-bit BGRA: red, green, blue, alpha.
 pub(crate) fn codes(image: &Image, index: usize) -> [u8; 4] {
     assert_eq!(image.kind(), TextureKind::D2);
     let (x, y) = (index as u32 % COLUMNS, index as u32 / COLUMNS);

@@ -56,7 +56,7 @@ pub(crate) fn rules() -> Vec<Rule> {
 const LINEAR: SamplerState =
     SamplerState { min: Filter::Linear, mag: Filter::Linear, mip: MipFilter::Linear, ..SamplerState::NEAREST_CLAMP };
 
-/// Checkerboards of 4 texels; each level has its own color, and dark.
+/// Checkerboards of 4 texels; each level has its own color, next to dark texels.
 fn checked_levels() -> Image {
     const COLORS: [u32; 6] = [0xff_0000, 0xff_ffff, 0x00_ffff, 0xff_00ff, 0xff_ff00, 0x80_8080];
     let extents = [TEXELS, TEXELS, 1];
@@ -99,13 +99,13 @@ fn checks(profile: &Profile, executor: &Executor, wanted: impl Fn(i32) -> bool) 
     values
 }
 
-/// Red of a pixel that is dimmed by a byte and blended over a ground.
+/// Red of a pixel that is dimmed by a byte and blended over the background.
 fn dimmed(byte: i32) -> i32 {
     let shade = 254 * (7 * byte.rem_euclid(256) + 3 * 255) / 2550;
     (2 * (127 * shade + 128 * 32) + 255) / 510
 }
 
-/// Draws a cell per row that reads between two texels. A signed byte k arrives as 2k / 255, or as 1 for -128 negated.
+/// Draws a cell per row that reads between two texels. A signed byte k reads as 2k / 255; -128 negated reads as 1.
 fn fractions(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_filter_fraction.csv");
     let programs = ["t0", "-t0"].map(|value| checked(&format!("ps_1_1\ntex t0\nmov r0, {value}"), profile));
@@ -132,7 +132,7 @@ fn fractions(profile: &Profile, executor: &Executor) -> Values {
             (0..alike.len()).map(|i| i32::from(codes(image, i)[0])).collect::<Vec<_>>()
         });
         for (row, (above, below)) in alike.iter().zip(above.into_iter().zip(below)) {
-            // Half of the register's code; -255 is the code of -128.
+            // Half of the register's code; the code of -128 is -255.
             let byte = if signed { (above - below).div_euclid(2) } else { above };
             let (measured, drawn): (i32, i32) = (row.number("red8"), dimmed(byte));
             values.add_grey(measured as u8, drawn as u8, measured == drawn);

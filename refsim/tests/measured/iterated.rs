@@ -1,12 +1,13 @@
-//! Roundings of interpolated colors that no device has, applied to the exact planes of the measured gradients.
+//! Rounding hypotheses for interpolated colors that no emulated device implements, applied to the exact planes of the
+//! measured gradients.
 
 use super::colors::{GRADIENTS, gradient_quad, is_falling};
 use super::rule::Redraw;
 use super::table::{Row, table};
 use super::values::Values;
 
-/// Hypotheses of how the card rounds an interpolated color, by name. v0 to v2 are a triangle's vertices in the order of
-/// a quad's corners 0 to 3: its triangles are (0, 1, 2) and (0, 2, 3).
+/// Hypotheses about how the card rounds an interpolated color, by name. v0 to v2 are a triangle's vertices in the order
+/// of a quad's corners 0 to 3: its triangles are (0, 1, 2) and (0, 2, 3).
 pub(crate) const WAYS: &[(&str, Redraw)] = &[
     ("256ths toward 128, -1 where v1 = 0", |_, _| each(|p| p.toward_128(1 - p.colors[1]))),
     ("256ths toward 128, -1 where v0 = 1", |_, _| each(|p| p.toward_128(p.colors[0]))),
@@ -21,7 +22,7 @@ pub(crate) const WAYS: &[(&str, Redraw)] = &[
     ("255ths, to nearest", |_, _| each(|p| (510 * p.color + p.whole).div_euclid(2 * p.whole))),
 ];
 
-/// A pixel of a gradient. Positions are in 16ths of a pixel, truncated as the card does.
+/// A pixel of a gradient. Positions are in 16ths of a pixel, truncated as on the card.
 struct Pixel {
     corners: [[i64; 2]; 3],
     /// Colors at the corners, 0 or 1.
@@ -63,12 +64,12 @@ impl Pixel {
         Self { corners, colors, color, whole, code: row.number("code") }
     }
 
-    /// 256ths, minus `less` of them, rounded toward 128.
+    /// The color in 256ths, minus `less`, rounded toward 128.
     fn toward_128(&self, less: i64) -> i64 {
         128 + (256 * self.color - (128 + less) * self.whole) / self.whole
     }
 
-    /// Color of the vertex with a coordinate along this axis that no other vertex has.
+    /// Color of the vertex that shares its coordinate on this axis with no other vertex.
     fn alone(&self, axis: usize) -> i64 {
         let shared = |i: usize| self.corners.iter().filter(|corner| corner[axis] == self.corners[i][axis]).count();
         self.colors[(0..3).min_by_key(|&i| shared(i)).expect("three vertices")]

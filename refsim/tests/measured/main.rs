@@ -27,7 +27,7 @@ mod values;
 
 use rule::Rule;
 
-/// The siblings of NV2A. The first one tries the hypotheses.
+/// The siblings of NV2A. The hypotheses are tried on the first.
 const CARDS: [&str; 2] = ["nv20", "nv25"];
 
 /// Rules of all topics, in the order of the page.

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 const TABLE: [&str; 2] = ["<!-- measured -->\n", "<!-- end -->"];
 const PICTURES: [&str; 2] = ["<!-- pictures -->\n", "<!-- end of pictures -->"];
 
-/// Every rule is counted and compared on every executor ([`Measured::of`]), and the page has these counts.
+/// Every rule is drawn on every executor and its counts compared ([`Measured::of`]), and the page states these counts.
 pub(crate) fn the_page_has_the_counts() {
     let measured: Vec<Measured> = super::topics().into_iter().map(Measured::of).collect();
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../docs/measured.md");
@@ -26,7 +26,7 @@ pub(crate) fn the_page_has_the_counts() {
     assert!(made == text, "INSTA_UPDATE=always cargo test -p refsim --test measured writes the page; expected\n{made}");
 }
 
-/// The page with new text between two marks.
+/// Replaces the text between two marks of the page.
 fn replaced(page: &str, marks: [&str; 2], text: &str) -> String {
     let (head, rest) = page.split_once(marks[0]).expect("the mark where it begins");
     let (_, tail) = rest.split_once(marks[1]).expect("the mark where it ends");

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Values that a strip shows.
+/// Number of values that a strip shows.
 const SHOWN: usize = 96;
 /// Sizes in pixels: the labels, the strips, a strip of colors, the bars below it, an answer with the space below it.
 const LEFT: usize = 380;
@@ -15,7 +15,7 @@ const WIDTH: usize = 564;
 const COLORS: usize = 18;
 const BARS: usize = 17;
 const ROW: usize = 44;
-/// The longest bar, and its growth for each code.
+/// Maximum height of a bar, and its height per code of difference.
 const LONGEST: usize = 8;
 const PER_CODE: usize = 3;
 
@@ -28,7 +28,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pictures/measured")
 }
 
-/// File of a rule's picture, from the first words of its name.
+/// File name of a rule's picture, made of the first words of the rule's name.
 fn file(measured: &Measured) -> String {
     let words = measured.rule.name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let words: Vec<String> = words.take(6).map(str::to_lowercase).collect();
@@ -43,7 +43,7 @@ pub(crate) fn section(all: &[Measured]) -> String {
     all.iter().map(picture).collect::<Vec<_>>().join("\n")
 }
 
-/// Writes all pictures, or compares those that there are, and leaves no other file in their folder.
+/// Writes all pictures, or compares the existing files; the folder contains no other files.
 pub(crate) fn hold(all: &[Measured], write: bool) {
     if write {
         fs::create_dir_all(folder()).expect("a folder");
@@ -103,7 +103,7 @@ fn row(out: &mut String, top: usize, label: &str, colors: &[String]) {
     strip(out, top, COLORS, &colors.iter().map(|color| Some((color.as_str(), 0, COLORS))).collect::<Vec<_>>());
 }
 
-/// A column for each value, filled with a color from a row downward; equal neighbours are one rectangle.
+/// Draws a column per value, filled with a color from a row downward; equal neighbors form one rectangle.
 fn strip(out: &mut String, top: usize, height: usize, columns: &[Option<(&str, usize, usize)>]) {
     let count = columns.len();
     let _ = writeln!(
@@ -127,8 +127,8 @@ fn color([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Positions of the values that are shown: of those about which the same answers are right as many as of any others,
-/// evenly chosen.
+/// Indices of the shown values: values for which the same answers are right form a group, and each group gets the same
+/// number, evenly chosen.
 fn shown(hypotheses: &[(String, Values)]) -> Vec<usize> {
     let mut alike: BTreeMap<Vec<bool>, Vec<usize>> = BTreeMap::new();
     for i in 0..hypotheses[0].1.all() {
@@ -146,8 +146,8 @@ fn shown(hypotheses: &[(String, Values)]) -> Vec<usize> {
     chosen
 }
 
-/// The bar of a wrong value, upward if more was drawn than measured, by the component that is most off: its color, its
-/// first row and the count of its rows.
+/// The bar of a wrong value, for the component with the largest difference: color, first row and number of rows. It
+/// points upward if the drawn code is larger.
 fn bar(value: Value) -> Option<(&'static str, usize, usize)> {
     let off = |i: usize| isize::from(value.drawn[i]) - isize::from(value.measured[i]);
     let most = [0, 1, 2].map(off).into_iter().max_by_key(|off| off.unsigned_abs())?;

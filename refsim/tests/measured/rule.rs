@@ -10,7 +10,7 @@ use refsim::machine::{Executor, ExecutorKind};
 pub(crate) struct Rule {
     /// Name of the rule, as the page shows it.
     pub(crate) name: &'static str,
-    /// The files with the measured values, in `fixtures/measured`.
+    /// Files with the measured values, in `fixtures/measured`.
     pub(crate) data: &'static str,
     /// One measured value, in the singular: "swatch".
     pub(crate) unit: &'static str,
@@ -52,13 +52,13 @@ pub(crate) struct Measured {
 }
 
 impl Rule {
-    /// The chip, by the folder of the files.
+    /// The chip: the folder name of the files, in capitals.
     fn chip(&self) -> String {
         self.data.split('/').next().unwrap_or_default().to_uppercase()
     }
 
-    /// Names of the hypotheses, each with a card that has it and the function that draws the values; the card's own
-    /// first.
+    /// Names of the hypotheses, each with a card that has this setting and the function that draws the values; the
+    /// card's own hypothesis is first.
     fn ways(&self, card: &Profile) -> Vec<(String, Profile, Redraw)> {
         match self.hypotheses {
             Hypotheses::Switch(name) => {
@@ -120,7 +120,7 @@ impl Measured {
         Self { values, rule }
     }
 
-    /// The cards' own setting, and the number of values.
+    /// Name of the cards' own setting, and the number of values.
     pub(crate) fn own(&self) -> (&str, usize) {
         let (name, values) = &self.values[0];
         (name, values.all())

@@ -47,7 +47,7 @@ pub(crate) fn rules() -> Vec<Rule> {
     vec![bytes, signed, border]
 }
 
-/// A cell whose corners read one place, so that its coordinates are not interpolated.
+/// A cell whose corners have the same texture coordinates, so that interpolation does not change them.
 pub(crate) fn reading(index: usize, place: [f32; 2]) -> [Vertex; 4] {
     cell(index).map(|mut corner| {
         corner.texcoords[0] = bits([place[0], place[1], 0.0, 1.0]);
@@ -55,7 +55,7 @@ pub(crate) fn reading(index: usize, place: [f32; 2]) -> [Vertex; 4] {
     })
 }
 
-/// Draws the texels, a cell each, unfiltered: red, green, blue and alpha in 8 bits.
+/// Draws the texels unfiltered, one cell per texel: red, green, blue and alpha in 8 bits.
 fn drawn(profile: &Profile, executor: &Executor, format: TexelFormat, texels: &[u32]) -> Vec<[u8; 4]> {
     let height = rows(texels.len());
     let mut image = Image::new_2d(format, COLUMNS, height).expect("an image");
@@ -86,12 +86,12 @@ fn sampled(
     (0..cells).map(|i| codes(image, i)).collect()
 }
 
-/// Position of a row's channel in red, green, blue and alpha.
+/// Index of a row's channel in the order red, green, blue, alpha.
 fn channel(row: &Row) -> usize {
     "rgba".find(row.text("channel")).expect("a channel")
 }
 
-/// Draws a texel per row; R6G5B5's blue is read at bgra5551's position.
+/// Draws a texel per row; the blue of R6G5B5 is read as the blue of bgra5551.
 fn narrow_channels(profile: &Profile, executor: &Executor) -> Values {
     let all = table("nv2a/b_texel_codes.csv");
     let mut values = Values::default();
@@ -124,7 +124,7 @@ fn signed_bytes(profile: &Profile, executor: &Executor) -> Values {
     values
 }
 
-/// A pixel outside a texture of each format that the emulator has.
+/// Reads the border color outside a texture, in each format that the emulator supports.
 fn borders(profile: &Profile, executor: &Executor) -> Values {
     let mut values = Values::default();
     for row in table("nv2a/b_border.csv").iter().filter(|row| !row.text("ours").is_empty()) {

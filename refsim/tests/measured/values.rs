@@ -1,4 +1,4 @@
-//! Measured values and drawn ones.
+//! Measured values and the drawn values that are compared with them.
 
 /// A measured value and the drawn one, as colors: red, green and blue.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -28,7 +28,7 @@ impl Values {
         self.add([measured; 3], [drawn; 3], right);
     }
 
-    /// Adds a yes or no, shown as white or black.
+    /// Adds a yes-or-no value, shown as white or black.
     pub(crate) fn add_verdict(&mut self, measured: bool, drawn: bool) {
         let color = |verdict| if verdict { 255 } else { 0 };
         self.add_code(color(measured), color(drawn));
@@ -39,7 +39,7 @@ impl Values {
         self.0.len()
     }
 
-    /// Number of values that were drawn as measured.
+    /// Number of drawn values that equal the measured ones.
     pub(crate) fn right(&self) -> usize {
         self.0.iter().filter(|value| value.right).count()
     }

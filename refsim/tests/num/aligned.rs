@@ -1,4 +1,4 @@
-//! Sums of an adder that aligns, and the multiply-add that truncates its product, against exact fractions.
+//! Tests sums of an aligning adder, and the multiply-add that truncates its product, against exact fractions.
 
 use rayon::prelude::*;
 use refsim::num::{Denormals, DotOrder, Format, Outcome, Overflow, Rounding, Tininess, ops};
@@ -34,7 +34,7 @@ fn cut(q: Q, e: i32) -> Q {
     Q::scaled(q.mul(Q::scaled(1, -e)).floor(), e)
 }
 
-/// The numbers of patterns, with their signs; `None` if one is an infinity or NaN.
+/// Values of bit patterns, with their signs; `None` if one is an infinity or NaN.
 fn numbers(f: &Format, addends: &[u32]) -> Option<Vec<(bool, Q)>> {
     let number = |bits: &u32| match decode(f, *bits) {
         Val::Num(negative, q) => Some((negative, q)),
@@ -43,7 +43,7 @@ fn numbers(f: &Format, addends: &[u32]) -> Option<Vec<(bool, Q)>> {
     addends.iter().map(number).collect()
 }
 
-/// The definition of [`ops::sum_aligned`] of finite numbers.
+/// Computes [`ops::sum_aligned`] of finite numbers by its definition.
 fn by_definition(r: &Reference, bits: u8, numbers: &[(bool, Q)]) -> u32 {
     let nonzero: Vec<(bool, Q)> = numbers.iter().copied().filter(|(_, q)| q.n != 0).collect();
     let Some(top) = nonzero.iter().map(|&(_, q)| exponent(q)).max() else {
@@ -166,7 +166,7 @@ fn examples_of_cut_bits() {
     // The largest two cancel, the third lies 2^25 below them.
     assert_eq!(sum(17, &["33554432", "-33554432", "1"]), Outcome::new(0, refsim::num::Flags::INEXACT));
     assert_eq!(sum(25, &["33554432", "-33554432", "1"]).bits, n("1"));
-    // More bits than the adder has count as all of its bits.
+    // A larger number of bits than the adder's means all of its bits.
     assert_eq!(sum(255, &["1", "2"]), sum(28, &["1", "2"]));
     // Fixed point has no exponents.
     let fixed = Format::S3_12;

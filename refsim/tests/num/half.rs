@@ -50,7 +50,7 @@ pub(crate) fn agree<F: Float>(f: &Format, ours: Outcome, theirs: StatusAnd<F>) -
 type Ours = fn(Format, u32, u32) -> Outcome;
 type Theirs = fn(Half, Half, Round) -> StatusAnd<Half>;
 
-/// First operands of the short form: every n-th pattern, and the ends of every range.
+/// All first operands with `CROSSBAR_FULL=1`, otherwise every n-th pattern and the limits of every range.
 fn first_operands() -> Vec<u32> {
     if is_full() {
         return (0..=0xffff).collect();

@@ -58,7 +58,7 @@ fn le(f: &Format, a: u32, b: u32) -> bool {
     ops::le_quiet(f, a, b).bits == 1
 }
 
-/// A value passed through a select: NaN becomes canonical, subnormals are flushed where the format flushes.
+/// A value passed through `cmp`: NaN becomes canonical, and subnormals are flushed if the format flushes them.
 fn moved(f: Format, a: u32) -> u32 {
     ops::cmp(f, 0, a, a).bits
 }
@@ -113,7 +113,7 @@ proptest! {
         prop_assert_eq!(ops::mul(f, a, b), ops::mul(f, b, a));
     }
 
-    /// A larger operand never gives a smaller result, in any rounding.
+    /// A larger operand never yields a smaller result, under any rounding.
     #[test]
     fn rounding_is_monotone(f in format().prop_filter("wraps", not_wrapping), a in pattern(), b in pattern(), c in pattern()) {
         if le(&f, a, b) {
@@ -172,7 +172,7 @@ proptest! {
         }
     }
 
-    /// The standard library's parser and printer are correctly rounded and shortest too.
+    /// The standard library's parser rounds correctly and its printer writes the shortest text, as ours do.
     #[test]
     fn decimals_of_fp32_agree_with_the_library(a in any::<u32>(), text in "[-]?[0-9]{1,30}([.][0-9]{0,30})?(e[-+]?[0-9]{1,2})?") {
         let x = f32::from_bits(a);

@@ -1,4 +1,5 @@
-//! Normalized integers by their definition: the code is the exact fraction times `2^F - 1`, rounded to an integer.
+//! Tests normalized integers against their definition: the code is the exact fraction times `2^F - 1`, rounded to an
+//! integer.
 
 use rayon::prelude::*;
 use refsim::num::{DotOrder, Flags, Format, Outcome, Overflow, Rounding, Unpacked, ops, unpack};
@@ -6,7 +7,7 @@ use refsim::num::{DotOrder, Flags, Format, Outcome, Overflow, Rounding, Unpacked
 use crate::environment::by_form;
 use crate::random::Random;
 
-/// A format with its unit, computed separately from `Format`'s.
+/// A format with its unit, computed independently of `Format`.
 struct Reference {
     f: Format,
     bits: u32,
@@ -47,7 +48,7 @@ impl Reference {
         Outcome::new(code.rem_euclid(2 * half) as u32, flags)
     }
 
-    /// All operations on a pair, and those on three operands with `c`.
+    /// Checks all operations on the pair `a` and `b`, and the three-operand operations with `c`.
     fn check(&self, a: u32, b: u32, c: u32) {
         let (f, d) = (self.f, self.unit);
         let [x, y, z] = [a, b, c].map(|bits| self.code(bits));
@@ -69,8 +70,8 @@ impl Reference {
     }
 }
 
-/// Full form: all pairs of operands in the format of a combiner's registers and in its 9-bit format, each pair with a
-/// third operand. Short form: part of the first operands.
+/// All pairs of operands in the format of a combiner's registers and in its 9-bit format, each pair with a third
+/// operand; by default only some of the first operands.
 #[test]
 fn every_pair() {
     for (int_bits, frac_bits, step) in [(0, 8, 1), (3, 8, 67), (7, 8, 16_411), (1, 5, 1)] {

@@ -1,4 +1,4 @@
-//! Rounding by its definition: finds the neighbours of an exact value among all numbers of a short format.
+//! Rounding by its definition: finds the neighbors of an exact value among all numbers of a short format.
 //!
 //! Uses no shifts, sticky bits or significands. The exact value is given by its comparison with any fraction, so square
 //! roots work like quotients.
@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 
 use refsim::num::{Denormals, Encoding, Flags, Format, FormatKind, Outcome, Overflow, Rounding, Tininess};
 
-/// A fraction `n / d` with `d > 0`, reduced by twos only.
+/// A fraction `n / d` with `d > 0`, reduced by factors of two only.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Q {
     pub(crate) n: i128,
@@ -70,7 +70,7 @@ pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     }
 }
 
-/// Returns `true` if a value between two neighbours rounds to the upper one. `against` compares the value with a
+/// Returns `true` if a value between two neighbors rounds to the upper one. `against` compares the value with a
 /// fraction.
 fn up(rounding: Rounding, negative: bool, low: Q, high: Q, low_even: bool, against: &impl Fn(Q) -> Ordering) -> bool {
     match rounding {
@@ -87,7 +87,7 @@ fn up(rounding: Rounding, negative: bool, low: Q, high: Q, low_even: bool, again
     }
 }
 
-/// The last index below `end` whose magnitude is not above the value.
+/// The last index below `end` whose magnitude does not exceed the value.
 fn below(f: &Format, end: u64, against: &impl Fn(Q) -> Ordering) -> u64 {
     let (mut low, mut high) = (0, end);
     while high - low > 1 {
@@ -106,7 +106,7 @@ pub(crate) fn round(f: &Format, tininess: Tininess, negative: bool, against: imp
     if f.is_fixed() { round_fixed(f, negative, &against) } else { round_float(f, tininess, negative, &against) }
 }
 
-/// `steps` steps of fixed point, within its range or beyond.
+/// `steps` fixed-point steps, within the range or beyond.
 fn unit(f: &Format, steps: u64) -> Q {
     Q::new(steps.into(), 1).mul(magnitude(f, 1))
 }
@@ -139,7 +139,7 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
 fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn(Q) -> Ordering) -> Outcome {
     let FormatKind::Float { exp_bits, man_bits } = f.kind else { unreachable!("a float") };
     let sign = if negative { f.sign_bit() } else { 0 };
-    // Number of patterns per sign that are numbers, and of those in whole exponent fields.
+    // Number of patterns per sign that are numbers, and the number of them in complete exponent fields.
     let (numbers, fields) = match f.encoding {
         Encoding::Ieee => (((1 << exp_bits) - 1) << man_bits, ((1 << exp_bits) - 1) << man_bits),
         Encoding::Finite if 1 + exp_bits + man_bits > 6 => {
@@ -182,7 +182,7 @@ fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn
     Outcome::new(sign | rounded, flags)
 }
 
-/// The conversion of an infinity to a float: itself, NaN, or the largest number.
+/// Bits of an infinity converted to the format: infinity, NaN, or the largest number.
 pub(crate) fn unbounded(f: &Format, negative: bool) -> u32 {
     let sign = if negative { f.sign_bit() } else { 0 };
     match f.encoding {

@@ -46,7 +46,7 @@ fn formats() -> Vec<Format> {
     all
 }
 
-/// For floats one reference per tininess rule.
+/// References for a format; for floats, one per tininess rule.
 fn references(f: Format) -> Vec<Reference> {
     let both = [Tininess::After, Tininess::Before];
     both[..if f.is_fixed() { 1 } else { 2 }].iter().map(|&tininess| Reference { f, tininess }).collect()
@@ -118,7 +118,8 @@ fn binary_operations() {
     });
 }
 
-/// `pow` consists of three operations; the references of its steps are slow, so the short form takes only some bases.
+/// `pow` consists of three operations; the references of its steps are slow, so by default the test takes only some
+/// bases.
 #[test]
 fn powers() {
     let step = by_form(7, 1);
@@ -131,7 +132,7 @@ fn powers() {
     });
 }
 
-/// All triples in the full form, a sample in the short one.
+/// All triples with `CROSSBAR_FULL=1`, otherwise a sample.
 #[test]
 fn multiply_add() {
     let step = by_form(61, 1);
@@ -199,7 +200,7 @@ fn accumulated_dot_products() {
     });
 }
 
-/// From every format with default rules, with and without subnormals, to every format with all rules.
+/// Converts from every format with default rules, with and without subnormals, to every format with all rules.
 #[test]
 fn conversions() {
     let from: Vec<Format> = formats()

@@ -206,7 +206,7 @@ impl Reference {
             Num(x, q) if q.n == 0 => self.pole(x && !self.magnitudes()),
             Num(true, _) | Inf(true) if !self.magnitudes() => self.invalid(),
             Inf(_) => self.zero(false),
-            // Compares 1/sqrt(q) with c as 1 with q c^2.
+            // Compares 1/sqrt(q) with c by comparing 1 with q c^2.
             Num(_, q) => rational::round(&self.f, self.tininess, false, |c| ONE.cmp(q.mul(c.mul(c)))),
         }
     }

@@ -1,4 +1,4 @@
-//! Short formats compared with ml_dtypes and gfloat, by the tables of `fixtures/formats` (its README explains the
+//! Tests short formats against ml_dtypes and gfloat, using the tables of `fixtures/formats` (its README explains the
 //! lines): every value, every pair of operands, every fp16 number converted with every rounding, MX blocks.
 
 use refsim::num::{Format, Outcome, Rounding, block::BlockFormat, ops, random_word, to_f64};
@@ -7,7 +7,7 @@ use crate::random::Random;
 
 const TABLES: &str = include_str!("../../../fixtures/formats/tables.txt");
 
-/// The lines that begin with a word, each as its remaining words.
+/// The lines that begin with the word `kind`, each split into its remaining words.
 fn lines(kind: &str) -> Vec<Vec<&'static str>> {
     let words = TABLES.lines().map(|line| line.split(' ').collect::<Vec<_>>());
     words.filter(|words| words[0] == kind).map(|words| words[1..].to_vec()).collect()
@@ -33,7 +33,7 @@ fn every_value() {
         for (code, text) in (0u32..).zip(&line[1..]) {
             let single = f32::from_bits(u32::from_str_radix(text, 16).expect("a pattern"));
             let found = to_f64(&f, code);
-            // Compares bits, so that -0 differs from 0, and all NaNs as one.
+            // Compares bits, so that -0 differs from 0, and treats all NaNs as equal.
             let same = if single.is_nan() { found.is_nan() } else { found.to_bits() == f64::from(single).to_bits() };
             assert!(same, "{f} {code:#x}: found {found}, expected {single}");
             if !single.is_nan() {
@@ -81,7 +81,7 @@ fn every_half_in_every_rounding() {
     }
 }
 
-/// Number i of the list is rounded by word i from the seed 2002.
+/// Number i of the list is rounded with random word i of seed 2002.
 #[test]
 fn every_half_by_chance() {
     let lines = lines("stochastic");
@@ -101,7 +101,8 @@ fn every_half_by_chance() {
     }
 }
 
-/// A fraction of 2^-k is rounded up by a share of 2^-k of all words: sums, products, quotients, roots, fixed point.
+/// A remainder of 2^-k units is rounded up by the fraction 2^-k of all random words: sums, products, quotients, roots,
+/// fixed point.
 #[test]
 fn chance_is_the_fraction() {
     let ups = |format: Format, operation: &dyn Fn(Format) -> u32, exact: u32| {
@@ -111,9 +112,9 @@ fn chance_is_the_fraction() {
     let (half, single) = (Format::FP16, Format::FP32);
     // 1 + 2^-12: a quarter of a unit in the last place.
     assert_eq!(ups(half, &|f| ops::add(f, 0x3c00, 0x0c00).bits, 0x3c00), 64);
-    // (1 + 2^-10)^2 = 1 + 2^-9 + 2^-20: 2^-10 of a unit, which here one word of 256 rounds up.
+    // (1 + 2^-10)^2 = 1 + 2^-9 + 2^-20: a remainder of 2^-10 units, which one of the 256 words rounds up.
     assert_eq!(ups(half, &|f| ops::mul(f, 0x3c01, 0x3c01).bits, 0x3c02), 1);
-    // 1 / 3 ends in ...01|01 01: a third of a unit, also in s3.12.
+    // 1 / 3 ends in ...01|01 01: a remainder of a third of a unit, also in s3.12.
     assert_eq!(ups(half, &|f| ops::div(f, 0x3c00, 0x4200).bits, 0x3555), 86);
     assert_eq!(ups(Format::S3_12, &|f| ops::div(f, 0x1000, 0x3000).bits, 0x0555), 86);
     assert_eq!(ups(single, &|f| ops::div(f, 0x3f80_0000, 0x4040_0000).bits, 0x3eaa_aaaa), 171);
@@ -125,7 +126,7 @@ fn chance_is_the_fraction() {
     assert_eq!(ups(single, &|f| ops::add(f, 0x3f80_0000, 0x3f80_0000).bits, 0x4000_0000), 0);
 }
 
-/// Blocks of 32 finite singles: an exponent of the block, lowered by up to 15 for each number, or zero.
+/// Blocks of 32 finite singles: each number is zero, or has the block's exponent lowered by up to 15.
 fn blocks() -> Vec<Vec<u32>> {
     let mut cases = Random::new(1);
     let mut block = || {
@@ -150,7 +151,8 @@ fn blocks_with_a_scale() {
             let block = mx.quantize(&Format::FP32, numbers);
             let found = digest(std::iter::once(block.scale).chain(block.elements.iter().copied()));
             assert_eq!(found, **expected, "{mx}: {numbers:x?} gives {block:x?}");
-            // Back: a power of two times a short number is exact in doubles, and in singles except for the smallest.
+            // Dequantized: a power of two times a short number is exact in doubles, and in singles except for the
+            // smallest.
             let back = mx.dequantize(Format::FP32, block.scale, &block.elements);
             let scale = to_f64(&Format::E8M0, block.scale);
             for (outcome, &element) in back.iter().zip(&block.elements) {
@@ -161,7 +163,7 @@ fn blocks_with_a_scale() {
     }
 }
 
-/// Cases that the tables leave out: the ends of scales, blocks without numbers, and names.
+/// Cases that the tables omit: the limits of scales, blocks without numbers, and names.
 #[test]
 fn ends_of_scales_and_blocks() {
     use refsim::num::Flags;
@@ -187,7 +189,7 @@ fn ends_of_scales_and_blocks() {
     assert_eq!(mx.dequantize(Format::FP32, 255, &[0x38])[0], Outcome::exact(0x7fc0_0000));
     assert_eq!(mx.dequantize(Format::S3_12, 255, &[0x38])[0], Outcome::new(0, Flags::INVALID));
     assert_eq!(mx.dequantize(Format::FP32, 127, &[0x7f])[0], Outcome::exact(0x7fc0_0000));
-    // A third over 255 units is exact there.
+    // A third is 85 of 255 units, so it is exact there.
     let thirds = mx.quantize(&format("n3.8"), &[85, 170]);
     assert_eq!(to_f64(&mx.element(), thirds.elements[0]) * 2.0, to_f64(&mx.element(), thirds.elements[1]));
     let unknown = "mxfp5".parse::<BlockFormat>().expect_err("no format").to_string();

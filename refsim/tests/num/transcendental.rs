@@ -1,5 +1,5 @@
 //! `exp2` and `log2` compared with independent computations: products of repeated square roots of two, and the series
-//! of the inverse hyperbolic tangent, both with 320 places.
+//! of the inverse hyperbolic tangent, both with 320 fraction bits.
 
 use num_bigint::BigInt;
 use num_traits::One;
@@ -86,7 +86,7 @@ fn check(f: &Format, name: &str, x: u32, bits: u32, exact: &BigInt) {
     assert!(low <= magnitude && magnitude < high, "{f} {name} {x:#x}: {bits:#x} is not the rounded value");
 }
 
-/// Operands of a format: all of a short one, else a sample.
+/// Operands of a format: all patterns of a short format, otherwise a sample.
 fn operands(f: &Format, exp_bits: u32, man_bits: u32) -> Vec<u32> {
     if f.width() <= 16 {
         let step = by_form(7, 1);
@@ -169,7 +169,7 @@ fn log2_is_correctly_rounded() {
     }
 }
 
-/// Cases that no enclosure in machine words decides: results very close to a number of the format.
+/// Cases that an enclosure in machine words cannot decide: results very close to a number of the format.
 #[test]
 fn hard_cases() {
     let down = Format::FP32.with_rounding(Rounding::Down);

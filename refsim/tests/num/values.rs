@@ -107,7 +107,7 @@ fn format_strings() {
     );
 }
 
-/// Formats are strings in data files.
+/// Data files store formats as strings.
 #[test]
 fn formats_in_files() {
     let table: std::collections::BTreeMap<String, Format> =

@@ -1,4 +1,4 @@
-//! fp24 compared with double precision, fp32 with the host, fused fp32 with rustc_apfloat.
+//! Tests fp24 against double precision, fp32 against the host, fused fp32 against rustc_apfloat.
 
 use rayon::prelude::*;
 use refsim::num::{Format, Rounding, from_ratio, ops};
@@ -114,7 +114,7 @@ fn fp24_equals_double() {
                 let expected = narrow(exact, rounding);
                 assert!(Some(found) == expected, "{f} {name} {a:#x} {b:#x}: found {found:#x}, expected {expected:x?}");
             };
-            // The sign of a cancelling sum depends on the rounding, unlike on the host.
+            // Unlike on the host, the sign of a sum that cancels depends on the rounding.
             let sum = ops::add(f, a, b).bits;
             if !(zero(sum) && rounding == Rounding::Down) {
                 check("add", sum, add_to_odd(x, y));

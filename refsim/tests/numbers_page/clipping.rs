@@ -85,7 +85,7 @@ fn area([a, b, c]: [Snapped; 3]) -> i64 {
     (b.0 - a.0) * (c.1 - a.1) - (c.0 - a.0) * (b.1 - a.1)
 }
 
-/// Returns `true` if the bounding box of a part contains a pixel centre of the viewport, which is the whole target.
+/// Returns `true` if the bounding box of a part contains a pixel center of the viewport, which is the whole target.
 fn has_pixels(part: [Snapped; 3], state: &RasterState, lines: u32) -> bool {
     let center = if state.center == PixelCenter::OpenGl { 0.5 } else { 0.0 };
     let span = |values: [i64; 3], size: u32| {
@@ -97,7 +97,7 @@ fn has_pixels(part: [Snapped; 3], state: &RasterState, lines: u32) -> bool {
     span(part.map(|c| c.0), v.width) && span(part.map(|c| c.1), v.height)
 }
 
-/// The parts of a triangle: snapped corners and the component at each.
+/// The parts of a triangle: the snapped corners of each part, and the component at each corner.
 fn parts(triangle: [Corner; 3], state: &RasterState, grid: Grid) -> Vec<[(Snapped, f32); 3]> {
     let opengl = state.clip_space == ClipSpace::OpenGl;
     if triangle.iter().flat_map(|c| c.position).any(|p| !p.is_finite()) {

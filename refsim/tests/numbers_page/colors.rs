@@ -19,7 +19,7 @@ fn clamped(clamp: ColorClamp, by_program: bool, x: f32) -> Option<f32> {
     }
 }
 
-/// The middle of three corner colors, at the pixel's center, to within one code of 8 bits.
+/// The color at the pixel's center, compared to within one 8-bit code.
 #[test]
 fn vertex_colors_are_clamped_where_the_page_says() {
     let mut r = Random::new(31);
@@ -38,7 +38,7 @@ fn vertex_colors_are_clamped_where_the_page_says() {
                 let x = f32::from_bits(bits);
                 clamped(clamp, by_program, x).unwrap_or(x)
             });
-            // Pixel (0, 0) of four by four: its center is at the first corner, up to half a pixel.
+            // Pixel (0, 0) of four by four: its center is within half a pixel of the first corner.
             let bits: Vec<[u32; 4]> = colors.map(|color| [color; 4]).to_vec();
             let corners = [0, 1, 2].map(|i| Vertex { position: place[i], colors: [bits[i]; 2], ..Vertex::default() });
             let stream = |register, data| AttributeStream { register, step: StepRate::Vertex, data };

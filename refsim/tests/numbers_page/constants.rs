@@ -7,7 +7,7 @@ use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
 use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
 use refsim::texture::TexelFormat;
 
-/// A constant as the page states it, in registers of FP32.
+/// The value of a constant as docs/numbers.md states it, for FP32 registers.
 fn stored(storage: ConstantStorage, before_2_0: bool, x: f32) -> f32 {
     let x = if before_2_0 && !x.is_nan() { x.clamp(-1.0, 1.0) } else { x };
     let magnitude = x.abs().min(1.0);

@@ -1,4 +1,4 @@
-//! "Bytes", missing components, filters of bytes and borders.
+//! Tests of the section "Bytes": missing components, filters of bytes, and borders.
 
 use super::texels::{Channel, Class, component, table};
 use super::{Random, probes};
@@ -22,7 +22,7 @@ struct Case<'a> {
 }
 
 impl Case<'_> {
-    /// Byte of a stored channel: bits repeated from the highest; of 16 bits the upper byte.
+    /// Byte of a stored channel: its bits repeated from the highest; the upper byte of 16 bits.
     fn channel(&self, channel: &Channel, raw: u128) -> Byte {
         let (code, bits) = (channel.code(raw), i64::from(channel.bits));
         let bit = |place: i64| code >> (bits - 1 - place % bits) & 1;

@@ -1,4 +1,4 @@
-//! "Formats": the value of every pattern and single rounding, in exact doubles.
+//! "Formats": the value of every pattern, and rounding once, in exact doubles.
 
 use super::{Random, power, probes};
 use refsim::num::{Flags, Format, ops};
@@ -57,7 +57,7 @@ impl Words {
         }
     }
 
-    /// The pattern of NaN; for formats without infinity that have NaN, any NaN is this pattern.
+    /// The pattern of NaN; a format with NaN but no infinity has only this NaN.
     fn nan(&self) -> Option<u32> {
         let (a, b) = self.layout;
         match self.encoding {
@@ -90,7 +90,7 @@ impl Words {
         self.round_quotient(x, 1.0)
     }
 
-    /// Rounds `x / d` once, where `d` is the denominator of a format's numbers: only whole quotients are exact.
+    /// Rounds `x / d` once, where `d` is the denominator of a format's numbers: only integer quotients are exact.
     fn round_quotient(&self, x: f64, d: f64) -> (u32, Flags) {
         let (a, b) = self.layout;
         if self.fixed {
@@ -170,7 +170,7 @@ impl Words {
         (sign | (field as u32) << b | mantissa as u32, flags)
     }
 
-    /// The denominator of numbers of the format.
+    /// The denominator of the format's numbers.
     fn divisor(&self) -> f64 {
         if self.normalized { power(self.layout.1) - 1.0 } else { 1.0 }
     }
@@ -236,7 +236,7 @@ fn one_rounding_into_every_format() {
     }
 }
 
-/// Sums, products and quotients of singles: the page's rules for zeros, infinities and NaN match the host's.
+/// Sums, products and quotients of singles: the page's rules for zeros, infinities and NaN match the host's arithmetic.
 #[test]
 fn special_values_are_those_of_the_page() {
     let mut r = Random::new(2);

@@ -10,7 +10,7 @@ use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, Te
 
 /// Extents of the texture.
 const SIZE: [u32; 2] = [64, 32];
-/// Levels of the texture; the texels of each hold its number.
+/// Number of levels of the texture; each texel holds the number of its level.
 const LEVELS: u32 = 7;
 
 fn image() -> Image {
@@ -24,7 +24,7 @@ fn image() -> Image {
     image
 }
 
-/// Half the logarithm of a positive single, on a grid of `bits` fraction bits, by repeated squaring.
+/// Half the logarithm of a positive single, rounded to `bits` fraction bits, by repeated squaring.
 fn half_logarithm(x: f32, bits: u32) -> f32 {
     match x {
         _ if x.is_nan() => return 0.0,

@@ -10,7 +10,7 @@ use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{ClipSpace, Primitive, Vertex, Viewport};
 use refsim::texture::{TargetRounding, TexelFormat};
 
-/// An ideal device of the format, with either rounding into targets.
+/// An ideal device of the format; stores to targets truncate or round to nearest.
 fn profile(format: &str, truncate: bool) -> Profile {
     let mut profile = Profile::named(&format!("ideal-{format}")).unwrap();
     profile.rules.target_rounding = if truncate { TargetRounding::Truncate } else { TargetRounding::Nearest };

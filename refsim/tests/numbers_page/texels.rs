@@ -15,7 +15,7 @@ pub(crate) enum Class {
     Float(i32, i32),
 }
 
-/// A channel: `r`, `g`, `b`, `a` or `l`.
+/// A channel; its letter is `r`, `g`, `b`, `a` or `l`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Channel {
     pub(crate) class: Class,
@@ -25,7 +25,7 @@ pub(crate) struct Channel {
 }
 
 impl Channel {
-    /// Component that is stored in it.
+    /// Index of the component that the channel stores.
     pub(crate) fn component(&self) -> usize {
         "rgbal".find(self.letter).expect("a letter") % 4
     }
@@ -111,7 +111,7 @@ pub(crate) fn component(channels: &[Channel], component: usize) -> Result<&Chann
     if let Some(found) = has(['r', 'g', 'b', 'a'][component]).or_else(|| has('l').filter(|_| component < 3)) {
         return Ok(found);
     }
-    // Alpha-only formats have colour 0; all other missing components are 1.
+    // Alpha-only formats have color 0; all other missing components are 1.
     Err(i64::from(!channels.iter().all(|c| c.letter == 'a')))
 }
 

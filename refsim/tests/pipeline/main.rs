@@ -1,4 +1,4 @@
-//! Stages without programs: texture reads, rasteriser, and output.
+//! Tests pipeline stages that run no program: texture reads, the rasterizer, and output.
 
 mod output;
 #[path = "../common/random.rs"]

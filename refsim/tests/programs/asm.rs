@@ -82,7 +82,7 @@ fn spans_of_the_fixtures_hold_what_they_name() {
             assert!(whole.contains(i.opcode.info().mnemonic), "{name}: {whole}");
             for span in i.sources.iter().map(|s| s.span).chain(i.destination.map(|d| d.span)) {
                 assert!(span.start >= i.span.start && span.end <= i.span.end, "{name}: {whole}");
-                // An operand's text, assembled alone, gives that operand.
+                // The text of an operand's span must assemble alone.
                 let alone = format!("ps_1_4\nmov r0, {}", slice(&text, span));
                 good(&alone);
             }

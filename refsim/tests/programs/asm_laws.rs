@@ -1,4 +1,4 @@
-//! Properties of the assembler: it reads back what it prints, and never panics.
+//! Properties of the assembler: it parses what it prints, and never panics.
 
 use crate::{programs, spacing};
 use proptest::prelude::*;
@@ -17,7 +17,7 @@ fn good_texts() -> Vec<String> {
     paths.into_iter().map(read).collect()
 }
 
-/// Checks the properties of any text.
+/// Checks the properties that hold for any text.
 pub(crate) fn survives(text: &str) {
     match assemble(text) {
         Ok(program) => {

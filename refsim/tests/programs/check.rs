@@ -130,7 +130,7 @@ mov r0.rgb, v0
 ";
     verdict(text, "r200").unwrap();
     verdict(text, "ideal-fp32").unwrap();
-    // All of r5 in use, tested and spent.
+    // All components of r5 are read, tested and no longer needed.
     let text = "ps_1_4
 texcrd r5.rgb, t0
 mul r5.rgb, r5, c0
@@ -174,7 +174,7 @@ fn every_violation_is_reported_in_one_go() {
 
 #[test]
 fn period_programs_are_not_turned_away_for_the_rules_of_this_house() {
-    // The kernels are legal. The assembler's fixtures only exceed limits and violate these rules: a constant beyond 1,
+    // The kernels are legal. Apart from limits, the assembler's fixtures violate only these rules: a constant beyond 1,
     // components never written, a cmp onto itself.
     let careless = [RuleId::MisplacedDefinition, RuleId::UnwrittenRead, RuleId::CmpOrDp4];
     let mut seen = 0;

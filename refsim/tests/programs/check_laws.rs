@@ -99,7 +99,8 @@ proptest! {
         prop_assert_eq!(is_safe(&checked, checked.facts()), Ok(()));
     }
 
-    /// With a line removed or doubled, a program still gets a verdict, and accepted programs are safe.
+    /// A program with one line removed or duplicated is accepted or rejected without a panic, and accepted programs are
+    /// safe.
     #[test]
     fn broken_blocks_are_judged(body in block(), at in any::<prop::sample::Index>(), double in any::<bool>()) {
         let mut lines: Vec<&str> = body.iter().flat_map(|b| b.split_inclusive('\n')).collect();

@@ -1,4 +1,4 @@
-//! Texts of shader programs and the rules that they keep: assembler, printer and checker for each version, and OpenGL's
+//! Tests of shader text and its rules: assembler, printer and checker for each version, and OpenGL's
 //! fragment programs.
 
 mod asm;

@@ -1,4 +1,4 @@
-//! Tests the texture cache against an independent simulator, and on observed draws.
+//! Tests the texture cache against an independent simulator, and on draws whose texture reads are observed.
 
 use crate::running::{bits, checked};
 use proptest::prelude::*;
@@ -70,7 +70,7 @@ proptest! {
         }
     }
 
-    /// Inclusion property: of two fully associative caches the larger contains all lines of the smaller.
+    /// Inclusion property: the larger of two fully associative caches contains all lines of the smaller.
     #[test]
     fn a_larger_cache_never_misses_more(walk in addresses(), small in 1_u64..20, more in 0_u64..20) {
         let full = |lines: u64| misses(&walk, lines * 32, 32, lines);
@@ -134,7 +134,7 @@ fn draw(
     }
     let id = machine.create_texture(texture.clone()).unwrap();
     let other = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
-    // Another texture: lines fetched through one sampler hit through another sampler of the same texture.
+    // A separate texture, because lines fetched through one sampler hit through another sampler of the same texture.
     let third = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
     let target = machine.create_target(TexelFormat::Bgra8, 64, 64).unwrap();
     let (vertices, host) = (screen(scale), Constants::default());
@@ -188,7 +188,7 @@ fn a_copy_moves_the_texture_once() {
     assert!(seen.misses[1] <= seen.distinct + 64, "{seen:?}");
     // Unfiltered, a fetch touches one texel.
     let linear = SamplerState { min: Filter::Linear, mag: Filter::Linear, ..SamplerState::NEAREST_CLAMP };
-    // At texel centres the neighbours have no weight; between centres four texels have.
+    // At texel centers the neighbors have no weight; between centers four texels have weights.
     assert_eq!(traffic(&draw(ExecutorKind::Scalar, 1, true, (&texture, linear), 1.0))[0].accesses, 64 * 64);
     let between = traffic(&draw(ExecutorKind::Scalar, 1, true, (&texture, linear), 0.5))[0];
     assert_eq!(between.accesses, 4 * 64 * 64);

@@ -1,4 +1,4 @@
-//! Time: the cache, the pipeline model, the command queue, and laws of all.
+//! Tests of modelled time: the cache, the pipeline model, the command queue, and laws of all of them.
 
 mod cache;
 mod laws;

@@ -20,7 +20,7 @@ fn screen() -> [Vertex; 4] {
     })
 }
 
-/// A quad over an n x n target with depth test and write; the program's first samplers are bound to n x n textures.
+/// Draws a quad over an n x n target with depth test and write; the first `samplers` samplers read n x n textures.
 fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) -> DrawRecord {
     let profile = Profile::named(device).unwrap();
     let program = checked(text, &profile);
@@ -46,8 +46,8 @@ fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) 
 
 const DUAL: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1";
 
-/// 20 bytes per pixel (two texels, a colour, a depth read and written) exceed what the pipelines can hide: 368 Mpixel/s
-/// versus the printed 390 on the GeForce3, 520 versus the implied 527 on the GeForce4.
+/// 20 bytes per pixel (two texels, a color, a depth read and written) take longer than the pipelines' work: 368
+/// Mpixel/s versus the printed 390 on the GeForce3, 520 versus the implied 527 on the GeForce4.
 #[test]
 fn dual_texturing_is_bound_by_memory() {
     for (device, expected, printed) in [("nv20", 368_000_000, 390.0), ("nv25", 520_000_000, 527.3)] {
@@ -101,18 +101,19 @@ fn the_units_count_what_the_program_says() {
         let clocks = model(device).fragment(&record.pixel);
         (clocks.arithmetic.0, clocks.textures.0, clocks.total().0)
     };
-    // Two phases: two pairs and one instruction; two texture instructions and one, at two per clock.
+    // Two phases: two pairs and one instruction; two texture instructions and one, at two texture instructions per
+    // clock.
     let two = "ps_1_4\ntexld r0, t0\ntexcrd r1.rgb, t1\nmul r0.rgb, r0, r1\n+mov r0.a, r0.a\nadd r0, r0, r0\nphase\n\
                texld r1, r0\nmul r0.rgb, r0, r1\n+mov r0.a, r1.a";
     assert_eq!(fragment("r200", two), (3, 2, 3));
-    // NV30 alternates on the same program: the dependent read runs at one per clock, and there are two more registers
-    // than run at full speed.
+    // NV30 alternates on the same program: the dependent read runs at one per clock, and the program uses two registers
+    // more than run at full speed.
     assert_eq!(fragment("nv30", two), (3, 2, 5));
     // An independent vec3 and scalar: one slot on r300, two on nv30.
     let split = "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmul r1.xyz, r0, r0\nmov r1.w, r0.w\nmov oC0, r1";
     assert_eq!(fragment("r300", split), (2, 1, 2));
     assert_eq!(fragment("nv30", split), (3, 1, 4));
-    // Six live registers are two steps beyond two: each step adds half the clocks.
+    // Six live registers exceed two by two steps; each step adds half the clocks.
     let wide = "ps_2_0\ndcl t0\ndcl t1\nmov r0, t0\nmov r1, t1\nmul r2, r0, r1\nmul r3, r0, r2\nmul r4, r1, r3\nmul r5, r2, r4\n\
                 mad r0, r0, r1, r2\nmad r0, r0, r3, r4\nadd r0, r0, r5\nmov oC0, r0";
     assert_eq!(fragment("nv30", wide).0, 20);
@@ -179,7 +180,7 @@ fn nv30_does_three_operations_or_five_multiplications_in_fixed_point_a_clock() {
     assert_eq!([16, 17, 21, 22].map(|n| behind("MULX H0, H0, p[0]", n)), [4, 5, 5, 6]);
 }
 
-/// Levels of a 1024 x 1024 map with 8 bits.
+/// Generates the mip levels of a 1024 x 1024 map with 8-bit channels.
 #[test]
 fn mip_levels_are_drawn_one_after_the_other() {
     let mut machine = Machine::new(Profile::named("nv35").unwrap(), ExecutorKind::Batch);
@@ -202,7 +203,7 @@ fn mip_levels_are_drawn_one_after_the_other() {
 
 const TRANSFORM: &str = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmul r0, v0, c1\nmov oD0, c2";
 
-/// Indexed triangles, each vertex used three times in a row or far apart; constants c0 to c2.
+/// The event log of a draw of indexed triangles with the constants from c0 on.
 fn indexed(order: &[u32], constants: &[[f32; 4]]) -> Vec<Event> {
     let profile = Profile::named("r300").unwrap();
     let (vertex, pixel) = (checked(TRANSFORM, &profile), checked("ps_2_0\ndcl v0\nmov oC0, v0", &profile));
@@ -225,7 +226,8 @@ fn only_draw(log: &[Event]) -> &DrawRecord {
     log.iter().find_map(|e| if let Event::Draw(draw) = e { Some(&**draw) } else { None }).expect("one draw")
 }
 
-/// Three instructions and 16 bytes per processed vertex: once each along a strip, and again after 16 others.
+/// Three instructions and 16 bytes per processed vertex: a strip processes each vertex once; a vertex is processed
+/// again after 16 others.
 #[test]
 fn vertices_that_left_the_cache_are_run_again() {
     let strip: Vec<u32> = (0..38).flat_map(|n| [n, n + 1, n + 2]).collect();
@@ -248,7 +250,7 @@ fn vertices_that_left_the_cache_are_run_again() {
     assert_eq!(model.clocks(only_draw(&log)).vertices, Clocks(9));
 }
 
-/// Only constants that change are sent; they start at 0. Four clocks each, or their bytes over the bus.
+/// Only changed constants are sent; all start at 0. Each takes four clocks or the time of its bytes on the bus.
 #[test]
 fn constants_are_sent_where_they_differ() {
     let changed = |constants: &[[f32; 4]]| match indexed(&[0, 1, 2], constants).first() {
@@ -258,7 +260,7 @@ fn constants_are_sent_where_they_differ() {
     assert_eq!(changed(&[[0.0; 4], [1.0; 4], [0.0, 0.0, 0.0, 2.0]]), 2);
     assert_eq!(changed(&[]), 0);
     let model = Model::new(Level::Pipeline, &Profile::named("r300").unwrap()).unwrap();
-    // 325 MHz: 100 constants are 400 clocks, 1.23 us; their 1,600 bytes at 2.112 GB/s take 0.76 us.
+    // 325 MHz: 100 constants take 400 clocks, 1.23 us; their 1,600 bytes at 2.112 GB/s take 0.76 us.
     assert_eq!(model.state_change(0, 100), Picoseconds((400_u64 * 1_000_000).div_ceil(325)));
     assert_eq!(model.state_change(0, 0), Picoseconds::ZERO);
 }

@@ -1,4 +1,4 @@
-//! The command queue: worked examples, exact to the picosecond, and properties of every list of commands.
+//! Tests the command queue: worked examples, exact to the picosecond, and properties of every list of commands.
 
 mod examples;
 mod host;
@@ -25,7 +25,7 @@ fn free() -> QueueFigures {
     QueueFigures::default().without_overhead()
 }
 
-/// The spans of a unit, as start and end.
+/// Spans of a unit, as pairs of start and end.
 fn spans(timeline: &Timeline, unit: Unit) -> Vec<(u64, u64)> {
     timeline.spans().iter().filter(|span| span.unit == unit).map(|span| (span.start.0, span.end.0)).collect()
 }
@@ -61,7 +61,7 @@ impl Command {
         }
     }
 
-    /// The command on an infinitely fast card, with unchanged buses and host.
+    /// The command on an infinitely fast card; times of the buses and the host are unchanged.
     fn on_infinitely_fast_card(&self) -> Self {
         match self {
             Self::State(_) | Self::Clear(..) | Self::Draw { .. } => self.scaled(0),

@@ -1,12 +1,12 @@
 //! Functions within the accuracy that WGSL demands: the tables of section 15.7.4.1 of its specification ("Accuracy of
-//! Concrete Floating Point Expressions", gpuweb 000adac), for drawn operands in f32 and f16. Bounds are computed in
+//! Concrete Floating Point Expressions", gpuweb 000adac), for random operands in f32 and f16. Bounds are computed in
 //! doubles, in which sums and products of the operands are exact.
 
 #![expect(clippy::disallowed_methods, reason = "doubles of the host have 29 bits more than what they judge")]
 
 use super::drawn::{Inputs, drawn_of, texels};
 
-/// Numbers from the first to the second.
+/// The numbers from the first to the second, both included.
 type Interval = [f64; 2];
 
 /// f32 or f16.
@@ -21,7 +21,7 @@ fn hull(values: impl IntoIterator<Item = f64>) -> Interval {
 }
 
 impl Kind {
-    /// The smaller distance of neighbors around a number.
+    /// The smaller of a number's distances to its two neighbors.
     fn ulp(self, x: f64) -> f64 {
         let exponent = if x == 0.0 { self.least } else { (x.abs().log2().floor() as i32).max(self.least) };
         let is_power = x.abs() == 2f64.powi(exponent) && exponent > self.least;
@@ -32,14 +32,14 @@ impl Kind {
         self.digits == 10
     }
 
-    /// Correctly rounded: up or down.
+    /// The values rounded down and up; WGSL calls either result correctly rounded.
     fn rounded(self, of: impl IntoIterator<Item = f64>) -> Interval {
         let [low, high] = hull(of);
         let [down, up] = [self.ulp(low), self.ulp(high)];
         [(low / down).floor() * down, (high / up).ceil() * up]
     }
 
-    /// So many units in the last place around values.
+    /// An interval of `ulps` units in the last place around the values.
     fn within(self, ulps: f64, values: impl IntoIterator<Item = f64>) -> Interval {
         hull(values.into_iter().flat_map(|x| [x - ulps * self.ulp(x), x + ulps * self.ulp(x)]))
     }
@@ -101,7 +101,7 @@ impl Kind {
         [of(a[0]) - error, of(a[0]) + error]
     }
 
-    /// A number of the text.
+    /// A literal of the text, correctly rounded.
     fn number(self, x: f64) -> Interval {
         self.rounded([x])
     }
@@ -133,7 +133,8 @@ impl Kind {
     }
 }
 
-/// An expression of a, b, c and d, and where its value may lie. `T` is the type, `V2` and `V3` are its vectors.
+/// An expression of a, b, c and d, and the interval in which its value may lie. `T` is the type, `V2` and `V3` are its
+/// vectors.
 type Row = (&'static str, fn(Kind, [Interval; 4]) -> Interval);
 
 #[rustfmt::skip]
@@ -185,12 +186,12 @@ const ROWS: &[Row] = &[
     ("smoothstep(-b, b, a)", |k, [a, b, ..]| k.smoothstep([-b[0]; 2], b, a)),
 ];
 
-/// Holds every row for 256 operands: a from -4 to 4, b from 1/4 to 4, c from 0 to 1, d from -3 to 3.
+/// Checks every row for 256 operands: a from -4 to 4, b from 1/4 to 4, c from 0 to 1, d from -3 to 3.
 fn hold(kind: Kind, name: &str, bits: u32) {
     for (at, (expression, allowed)) in (0..).zip(ROWS) {
         let texels = texels(at, bits, |[a, b, c, d]| {
             [a * 8.0 - 4.0, b * 3.75 + 0.25, c, d * 6.0 - 3.0].map(|x| {
-                // Of as many bits as the type has.
+                // Rounded to the precision of the type.
                 let unit = kind.ulp(f64::from(x)) as f32;
                 (x / unit).round_ties_even() * unit
             })

@@ -1,4 +1,4 @@
-//! Functions and statements against doubles of the host.
+//! Tests functions and statements against doubles of the host.
 
 #![expect(
     clippy::disallowed_methods,
@@ -17,7 +17,7 @@ fn inputs(index: usize) -> [f64; 2] {
     [u * 4.0 - 2.0, v * 2.75 + 0.25]
 }
 
-/// A shader whose red is an expression of `a` and `b`.
+/// A shader whose red channel is an expression of `a` and `b`.
 fn shader(before: &str, expression: &str) -> String {
     format!(
         "{before}\n@fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {{\n\
@@ -25,7 +25,8 @@ fn shader(before: &str, expression: &str) -> String {
     )
 }
 
-/// Holds an expression against doubles, within so many steps of 2^-24 of the largest of 1 and the value.
+/// Compares an expression with doubles; the error may be `steps` times 2^-24 of the larger of 1 and the value's
+/// magnitude.
 fn holds(text: &str, name: &str, steps: f64, expected: impl Fn(f64, f64) -> f64) {
     for (index, pixel) in drawn(text, &[]).iter().enumerate() {
         let [a, b] = inputs(index);
@@ -36,7 +37,7 @@ fn holds(text: &str, name: &str, steps: f64, expected: impl Fn(f64, f64) -> f64)
     }
 }
 
-/// What [`super::accuracy`] has no row for.
+/// Tests the functions for which [`super::accuracy`] has no row.
 pub(crate) fn functions_compute_their_formulas() {
     type Row = (&'static str, f64, Value);
     let table: &[Row] = &[

@@ -1,4 +1,4 @@
-//! A shader drawn over a square of floats, its `@location(0)` going from (0, 0) in the first row to (1, 1).
+//! Draws a shader over a square float target; its `@location(0)` goes from (0, 0) in the first row to (1, 1).
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use refsim::num::Format;
 use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
 use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Pixels a side, and texels of the texture of slot 0.
+/// Width and height of the target, in pixels, and of the texture in slot 0, in texels.
 pub(crate) const SIDE: u32 = 16;
 
 /// Uniforms by name.
@@ -22,13 +22,13 @@ pub(crate) type Uniforms<'a> = &'a [(&'a str, [f32; 4])];
 #[derive(Clone, Copy)]
 pub(crate) struct Inputs<'a> {
     pub(crate) uniforms: Uniforms<'a>,
-    /// Texels of slot 0, row by row, of which the nearest is read.
+    /// Texels of slot 0, row by row; the nearest one is read.
     pub(crate) texels: &'a [[f32; 4]],
-    /// Instructions in a float of 5 and 10 bits.
+    /// Selects the instructions that compute in a float with 5 exponent and 10 fraction bits.
     pub(crate) half: &'a dyn Fn(&Program) -> Vec<usize>,
 }
 
-/// Numbers in [0, 1) that a counter draws, with so many bits.
+/// Random numbers in [0, 1) with `bits` bits.
 pub(crate) fn draw(seed: u32, bits: u32) -> impl FnMut() -> f32 {
     let mut state = u64::from(seed) << 32 | 0x9e37_79b9;
     move || {
@@ -37,7 +37,7 @@ pub(crate) fn draw(seed: u32, bits: u32) -> impl FnMut() -> f32 {
     }
 }
 
-/// Texels of four drawn numbers.
+/// Texels computed by `of` from four random numbers in [0, 1) each.
 pub(crate) fn texels(seed: u32, bits: u32, of: impl Fn([f32; 4]) -> [f32; 4]) -> Vec<[f32; 4]> {
     let mut number = draw(seed, bits);
     (0..SIDE * SIDE).map(|_| of([(); 4].map(|()| number()))).collect()
@@ -71,7 +71,7 @@ pub(crate) fn drawn_with(executor: impl Into<Executor>, text: &str, inputs: &Inp
     card.read_back(target).expect("the target").pixels().map(|pixel| pixel.rgba).collect()
 }
 
-/// Pixels that both executors of the host draw alike.
+/// The pixels; asserts that both executors of the host draw the same ones.
 pub(crate) fn drawn_of(text: &str, inputs: &Inputs<'_>) -> Vec<[f64; 4]> {
     let [scalar, batch] = [ExecutorKind::Scalar, ExecutorKind::Batch].map(|kind| drawn_with(kind, text, inputs));
     let bits = |pixels: &[[f64; 4]]| -> Vec<[u64; 4]> { pixels.iter().map(|pixel| pixel.map(f64::to_bits)).collect() };
@@ -79,7 +79,7 @@ pub(crate) fn drawn_of(text: &str, inputs: &Inputs<'_>) -> Vec<[f64; 4]> {
     scalar
 }
 
-/// As [`drawn_of`], of texels from 0 to 1.
+/// Same as [`drawn_of`], with random texels from 0 to 1.
 pub(crate) fn drawn(text: &str, uniforms: Uniforms<'_>) -> Vec<[f64; 4]> {
     drawn_of(text, &Inputs { uniforms, texels: &texels(0, 24, |texel| texel), half: &|_| Vec::new() })
 }

@@ -1,4 +1,5 @@
-//! f16: the text with operations in f16 against the program with formats, and programs against a plain evaluation.
+//! Tests f16: text with operations in f16 against the program with instruction formats, and programs against a plain
+//! evaluation.
 
 use refsim::front::{WgslOperation, wgsl_operations};
 use refsim::isa::{Opcode, Program};
@@ -9,7 +10,7 @@ use super::drawn::{Inputs, draw, drawn_of, texels};
 use super::rows::rows;
 use super::texts::EXAMPLES;
 
-/// The instructions of operations: moves between them compute nothing.
+/// Indices of the operations' instructions, without moves, which compute nothing.
 fn instructions(program: &Program, operations: &[&WgslOperation]) -> Vec<usize> {
     let is_move = |at: usize| {
         let instruction = &program.instructions[at];
@@ -22,7 +23,8 @@ fn instructions(program: &Program, operations: &[&WgslOperation]) -> Vec<usize> 
     (0..program.instructions.len()).filter(|at| !is_move(*at) && is_of(*at)).collect()
 }
 
-/// The rewritten text computes what the program computes with the same operations in a format of 5 and 10 bits.
+/// The rewritten text computes what the program computes with the same operations in a format with 5 exponent and 10
+/// fraction bits.
 pub(crate) fn rewritten_texts_have_the_bits_of_formats() {
     let texels = texels(1, 24, |texel| texel);
     for (seed, row) in (0..).zip(rows()) {
@@ -30,7 +32,8 @@ pub(crate) fn rewritten_texts_have_the_bits_of_formats() {
         let operations = wgsl_operations(&text).expect("a translation");
         assert!(operations.len() > 3, "{}: {operations:?}", row.name);
         let mut number = draw(seed, 24);
-        // The first time all, except derivatives: `fwidth` rounds within, and WGSL has it in f32 alone.
+        // The first round takes all operations except derivatives: `fwidth` rounds internally, and WGSL has it only in
+        // f32.
         for share in [1.0, 0.4] {
             let is_chosen = |operation: &&WgslOperation| {
                 !text[operation.span.start as usize..].starts_with("fwidth") && number() < share
@@ -54,7 +57,7 @@ pub(crate) fn rewritten_texts_as_they_are() {
     }
 }
 
-/// A value of a program in f16.
+/// Converts a program's value to f16.
 fn to_half(x: f32) -> Half {
     Single::from_bits(x.to_bits().into()).convert(&mut false).value
 }
@@ -64,7 +67,7 @@ fn to_f64(x: Half) -> f64 {
     f64::from(f32::from_bits(single.to_bits() as u32))
 }
 
-/// Random programs of one line after the other: each instruction rounds once, to nearest even.
+/// Random programs without branches: each instruction rounds once, to nearest even.
 pub(crate) fn straight_programs_compute_what_ieee_half_computes() {
     type Operation = (&'static str, fn(Half, Half) -> Half);
     let operations: [Operation; 8] = [
@@ -102,7 +105,7 @@ pub(crate) fn straight_programs_compute_what_ieee_half_computes() {
         for (pixel, texel) in pixels.iter().zip(&texels) {
             let mut values = texel.map(to_half).to_vec();
             steps.iter().for_each(|(of, a, b)| values.push(of(values[*a], values[*b])));
-            // Beyond, cards and IEEE differ in what overflows; subnormal numbers may be flushed.
+            // Beyond 60,000, cards and IEEE 754 differ in what overflows; subnormal numbers may be flushed.
             if values.iter().any(|x| to_f64(*x).is_nan() || to_f64(*x).abs() >= 60_000.0) {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! Shaders with parts removed, doubled and exchanged.
+//! Tests shaders with parts removed, doubled and exchanged.
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -7,12 +7,12 @@ use refsim::front::translate_wgsl;
 
 use super::texts::EXAMPLES;
 
-/// Words and marks of a text.
+/// Words and punctuation marks of a text.
 fn pieces(text: &str) -> Vec<&str> {
     text.split_inclusive(|c: char| !c.is_alphanumeric() && c != '_').collect()
 }
 
-/// The front end recurses for each term.
+/// The front end recurses for each term of an expression.
 pub(crate) fn long_expressions_have_an_end() {
     let terms = vec!["uv.x"; 40_000].join("-");
     let text = format!("@fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {{ return vec4f({terms}); }}");

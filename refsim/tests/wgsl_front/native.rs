@@ -1,4 +1,4 @@
-//! The example shaders on an adapter: translated and run by each executor, and run by its driver.
+//! Example shaders: translated and run by each executor, and run natively by an adapter's driver.
 
 use std::sync::Arc;
 
@@ -8,20 +8,21 @@ use refsim::machine::Executor;
 use super::drawn::{Inputs, SIDE, drawn_of, drawn_with, texels};
 use super::rows::{Row, rows};
 
-/// How far a component may be off. What WGSL allows differs by function and argument; of these shaders GGX, whose
-/// quotient of small numbers is bright, has the largest difference on lavapipe: 2e-5. Noise multiplies a sine, of which
-/// a unit in the last place is 2^-24, by 43,758.
+/// Maximum difference of a component. The errors that WGSL allows depend on function and argument; of these shaders,
+/// GGX, which divides small numbers, has the largest difference on lavapipe: 2e-5. Noise multiplies a sine, whose unit
+/// in the last place is 2^-24, by 43,758.
 fn tolerance(name: &str) -> f64 {
     if name == "noise" { 43_758.547 / f64::from(1 << 24) } else { 1e-4 }
 }
 
-/// The type of a uniform of the text that is no structure, and its line.
+/// The type of a uniform that is not a structure, and the line that declares it.
 fn declaration<'t>(text: &'t str, name: &str) -> Option<(&'t str, &'t str)> {
     let line = text.lines().find(|line| line.contains(&format!("var<uniform> {name}: ")))?;
     Some((line.rsplit_once(": ")?.1.strip_suffix(';')?, line))
 }
 
-/// The shader as a compute shader, whose entry point calls what was the fragment's; texels are elements of a buffer.
+/// Rewrites the shader as a compute shader whose entry point calls the former fragment entry point; texels are read
+/// from a buffer.
 fn native_text(row: &Row) -> String {
     let mut text =
         row.text().replace("@fragment\nfn main(", "fn shade(").replace(") -> @location(0) vec4f {", ") -> vec4f {");

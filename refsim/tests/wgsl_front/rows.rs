@@ -1,4 +1,4 @@
-//! Shaders with values for their uniforms: those of docs/examples/wgsl, and small ones.
+//! Shaders with values for their uniforms: the shaders of docs/examples/wgsl, and small ones.
 
 use super::drawn::Uniforms;
 use super::texts::EXAMPLES;
@@ -7,9 +7,9 @@ use super::texts::EXAMPLES;
 pub(crate) struct Row {
     pub(crate) name: &'static str,
     pub(crate) uniforms: Uniforms<'static>,
-    /// What stands for structures of uniforms, and for derivatives, in the native text.
+    /// Replacements, as old and new text, for uniform structures and derivatives in the native text.
     pub(crate) native: &'static [(&'static str, &'static str)],
-    /// The body of a small shader of `uv`; of an example the text is in its file.
+    /// Body of a small shader of `uv`; empty for an example, whose text is in its file.
     body: &'static str,
 }
 
@@ -41,7 +41,7 @@ fn examples() -> [Row; 12] {
             ..example("rounded_box", &[("box.half_size", [24.0, 16.0, 0.0, 0.0]), ("box.radius", [6.0, 0.0, 0.0, 0.0])])
         },
         Row {
-            // Compute shaders have no derivatives: that of a plane over 16 pixels.
+            // Compute shaders have no derivatives; the replacement is the derivative of a plane over 16 pixels.
             native: &[("fwidth(depth)", "0.4 / 16.0")],
             ..example("shadow", &[("bias", [0.3, 0.0, 0.0, 0.0]), ("texels", [4.0, 0.0, 0.0, 0.0])])
         },
@@ -66,7 +66,7 @@ fn examples() -> [Row; 12] {
     ]
 }
 
-/// Techniques of a few lines: bodies of functions of `uv`, each behind its name.
+/// Short techniques: bodies of functions of `uv`, each after a comment with its name.
 fn small() -> impl Iterator<Item = Row> {
     let parts = include_str!("small.wgsl").split("// ").skip(1);
     parts.filter_map(|part| part.split_once('\n')).map(|(name, body)| Row { body, ..example(name, &[]) })

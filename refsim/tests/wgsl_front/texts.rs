@@ -95,7 +95,7 @@ pub(crate) fn what_is_refused_says_where_and_why() {
     }
 }
 
-/// What WGSL accepts although a condition is near.
+/// Derivatives next to a condition, which WGSL accepts.
 pub(crate) fn derivatives_in_uniform_control_flow_are_translated() {
     let text = |before: &str, inside: &str| {
         format!("{before} @fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {{ {inside} }}")

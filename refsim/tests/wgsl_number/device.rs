@@ -15,10 +15,10 @@ use crate::operands::{cards, edges, formats, pattern};
 use crate::random::Random;
 use crate::reference::reference;
 
-/// Format of the operands of step operations, for any format of the result.
+/// Format of the operands of step operations, whatever the format of the result.
 const SINGLE: Format = Format::FP32;
 
-/// The library, extended by a text with the given entry point.
+/// The library, extended by the text `more`, which contains the entry point.
 pub(crate) fn text(more: &str, entry: &str) -> String {
     Parts::all().of(&(library() + more), entry)
 }
@@ -60,8 +60,8 @@ impl Item {
     }
 }
 
-/// The parts that an item needs, and no more: drivers compile units of cards and groups of operations faster one by one
-/// than together.
+/// Only the parts that an item needs: drivers compile units of cards and groups of operations faster separately than
+/// together.
 fn parts(formats: &[Format], item: &Item) -> Parts {
     let converts = item.operation == NumberOperation::Convert;
     let both = [formats[item.format], formats[if converts { item.source } else { item.format }]];
@@ -137,7 +137,7 @@ fn random_item(
             if operation != NumberOperation::JoinPattern {
                 operands[1] = packed_number(words);
             }
-            // The word's bits at the position are zero.
+            // The bits of the word at this position must be zero.
             operands[2] = place(words, matches!(operation, NumberOperation::JoinPattern | NumberOperation::JoinShort));
             operands[0] = words.bits() & !(0xffff << operands[2]);
         }
@@ -168,7 +168,7 @@ fn angle(words: &mut Random, format: &Format) -> u32 {
     if words.coin() { bits } else { ops::neg(format, bits).bits }
 }
 
-/// A single-precision number near the steps of packed ones.
+/// A single-precision number near the steps of a packed format.
 fn packed_number(words: &mut Random) -> u32 {
     if words.coin() {
         return pattern(words, &SINGLE, &edges(&SINGLE));
@@ -184,7 +184,7 @@ fn exhausted(o: NumberOperation) -> bool {
     tried(o) && o.operands() < 3 && o != NumberOperation::Steps && !(o.has_immediate() && o != NumberOperation::Scale)
 }
 
-/// Operands of the vectors that were measured on cards: the first cells of each row.
+/// Operands of the vectors that were measured on cards: the first three cells of each row.
 fn rows_of_cards() -> Vec<[u32; 3]> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("lanes/tests/vectors");
     let mut rows = Vec::new();

@@ -1,4 +1,4 @@
-//! Functions besides `n_alu`: exact dot products, conversions, rounding of parts, single precision.
+//! Tests functions other than `n_alu`: exact dot products, conversions, rounding of parts, single precision.
 
 use refsim::exec::gpu::Gpu;
 use refsim::exec::wgsl::number::format_words;
@@ -22,7 +22,7 @@ impl Call {
         let function = [2, 3, 4, 5, 7, 8][words.below(6)];
         let mut places = [words.below(all.len()), words.below(all.len())];
         if function == 5 {
-            // `n_term` does not support units of cards, whose results are normalized before.
+            // `n_term` does not support units of cards, whose results are normalized earlier.
             let ideal = all.iter().filter(|f| !f.unit.is_card()).count();
             places = [words.below(ideal), words.below(ideal)];
         }
@@ -47,7 +47,7 @@ impl Call {
                 let [high, low] = [words.bits() >> words.below(32), words.bits()];
                 operands[0] = low;
                 operands[1] = if words.coin() { 0 } else { high };
-                // With a sticky bit, the unit must be small enough for a determined result.
+                // With a sticky bit, the unit must be so small that the result is determined.
                 operands[2] = words.below(2) as u32;
                 operands[3] = (words.around(150) - 50).cast_unsigned();
             }

@@ -10,7 +10,7 @@ impl Random {
     }
 }
 
-/// Boundary patterns: zeros, ends, ones, halves, infinities, NaN, and their neighbours.
+/// Boundary patterns: zeros, limits, ones, halves, infinities, NaN, and their neighbors.
 pub(crate) fn edges(format: &Format) -> Vec<u32> {
     let mut bits =
         vec![0, 1, format.one(), format.max_finite(), format.min_finite(), format.one() / 2, format.sign_bit()];
@@ -33,7 +33,7 @@ pub(crate) fn edges(format: &Format) -> Vec<u32> {
     all
 }
 
-/// A pattern: any, near one, small, or an edge.
+/// A random pattern: arbitrary, near 1, small, or a boundary pattern.
 pub(crate) fn pattern(words: &mut Random, format: &Format, edges: &[u32]) -> u32 {
     let word = words.bits();
     let bits = match words.below(8) {

@@ -4,7 +4,7 @@ use refsim::exec::unorm_steps;
 use refsim::num::{Format, FormatKind, NumberOperation, Unpacked, from_ratio, ops, unpack};
 
 /// The operation on bit patterns of `format`, as a bit pattern; masks and addresses in the shader's representation.
-/// `None` for operations that are not on numbers.
+/// `None` for operations whose operands are not numbers.
 pub(crate) fn reference(operation: NumberOperation, format: &Format, a: u32, b: u32, c: u32) -> Option<u32> {
     use NumberOperation as Op;
     let plain = operation.evaluate(format, [a, b, c]).map(|outcome| outcome.bits);
@@ -32,14 +32,14 @@ pub(crate) fn reference(operation: NumberOperation, format: &Format, a: u32, b: 
     })
 }
 
-/// `128 + 127 x` to the nearest, halves up, for x from -128/127 to 1; 128 for NaN. The product is exact in double
+/// `128 + 127 x` to the nearest, ties up, for x from -128/127 to 1; 128 for NaN. The product is exact in double
 /// precision, and so is the sum near an integer.
 fn signed_byte(bits: u32) -> u32 {
     let x = f64::from(f32::from_bits(bits));
     if x.is_nan() { 128 } else { (128.0 + (127.0 * x).clamp(-128.0, 127.0) + 0.5).floor() as u32 }
 }
 
-/// Truncates a number to an `i32`, saturating; NaN gives 0.
+/// Truncates a number to an `i32`, saturating; NaN becomes 0.
 fn integer(format: &Format, bits: u32) -> u32 {
     match unpack(format, bits) {
         Unpacked::Nan { .. } => 0,

@@ -79,7 +79,7 @@ pub(crate) fn files(profile: &Profile) -> Vec<(String, CheckedProgram)> {
     out
 }
 
-/// A random legal program of size class `size` (0 to 3) or less.
+/// A random legal program of at most size class `size` (0 to 3).
 pub(crate) fn random(version: Version, size: usize, profile: &Profile, r: &mut Random) -> (String, CheckedProgram) {
     let samplers = [TextureKind::D2, TextureKind::Cube, TextureKind::D2, TextureKind::Volume];
     let layout = Layout {

@@ -1,4 +1,4 @@
-//! Programs as words of the GPU's machine: the project's programs, fixtures and random ones.
+//! Tests programs encoded as words for the interpreter on the GPU: the project's programs, fixtures and random ones.
 
 mod cases;
 #[path = "../common/environment.rs"]

@@ -37,7 +37,7 @@ fn length(name: &str, word: usize) -> Option<usize> {
     })
 }
 
-/// Walks the words like the machine; returns a description of the first error.
+/// Walks the words as the machine does; returns a description of the first error.
 fn fault(code: &Microcode) -> Option<String> {
     let names = operation_names();
     let w = |at: usize| code.words.get(at).copied().unwrap_or(u32::MAX) as usize;

@@ -19,7 +19,7 @@ const READING: &str = "
 var<private> t_at: u32;
 var<private> t_to: u32;
 fn texture_operand(number: u32, lane: u32) -> u32 {
-    // Coordinates, a bias, gradients; a word each for detail, sampler and lanes precedes the gradients.
+    // Coordinates, bias, gradients; three words (detail, sampler, lanes) precede the gradients.
     let gradient = select(24u + 4u * (number - 4u), 16u, reads[t_at + 21u] != DETAIL_GRADIENTS);
     return reads[t_at + select(gradient, 4u * number, number < 4u) + lane];
 }

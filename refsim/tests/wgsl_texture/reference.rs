@@ -7,7 +7,7 @@ use refsim::texture::{
     unbound,
 };
 
-/// Components of one lane, raw.
+/// Components of one lane, as raw values of the shader.
 pub(crate) fn texel(case: &Case, read: &Read, lane: usize) -> [u32; 4] {
     let format = case.rules.format;
     let Some(binding) = case.binding() else { return unbound(format).map(|x| raw(format, x)) };
@@ -34,7 +34,7 @@ pub(crate) fn stored(format: TexelFormat, raw: u128, rules: &SampleRules) -> [u3
     fetch_nearest(&image, &SamplerState::NEAREST_CLAMP, rules, [0; 4])
 }
 
-/// Converts a pattern to a raw value.
+/// Converts a bit pattern to the shader's raw value.
 pub(crate) fn raw(format: Format, bits: u32) -> u32 {
     if format.is_fixed() {
         let spare = 32 - format.width();

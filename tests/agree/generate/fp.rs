@@ -219,7 +219,7 @@ impl Writer<'_> {
         };
         let is_texture = texture(&&s);
         if s.opcode == Opcode::Kil {
-            // Kill instructions are rare, or no fragments are left.
+            // Kill instructions must be rare; otherwise no fragments are left.
             if !self.r.one_in(4) {
                 return format!("MOV R0, R{};", self.r.below(self.temps));
             }

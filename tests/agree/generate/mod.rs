@@ -1,4 +1,4 @@
-//! Random programs of every version, legal by construction where that is easy; the checker rejects the rest.
+//! Random programs of every version, mostly legal by construction; the checker rejects the others.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 mod flow;
@@ -21,15 +21,15 @@ use std::fmt::Write as _;
 pub(crate) struct Layout {
     /// The samplers in use (in ps_1_x: stages), each with its texture kind.
     pub(crate) samplers: Vec<(usize, TextureKind)>,
-    /// Number of colour targets.
+    /// Number of color targets.
     pub(crate) targets: usize,
-    /// True if the version's own limits hold; otherwise only the emulator's.
+    /// True if the version's own limits hold; otherwise only the emulator's limits.
     pub(crate) limited: bool,
     /// True if most of the program reads textures.
     pub(crate) sampling: bool,
 }
 
-/// A program's text, one line per instruction, the version first. `size` is 0 (shortest) to 3 (longest).
+/// A program's text, one line per instruction, after a line with the version. `size` is 0 (shortest) to 3 (longest).
 pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Random) -> Vec<String> {
     let mut lines = vec![version.token().to_owned()];
     match version {
@@ -56,7 +56,7 @@ pub(crate) fn legal(version: Version, seed: u64) -> String {
     texts.find(is_legal).unwrap_or_else(|| panic!("no legal {version} program in 1000 tries"))
 }
 
-/// Four values of a `def`, within `range` of 0; if `range` exceeds 1, special values too, by their bits.
+/// Four values of a `def`, within `range` of 0; if `range` exceeds 1, also special values, written as bits.
 fn values(r: &mut Random, range: f32) -> String {
     let mut text = String::new();
     for i in 0..4 {
@@ -78,7 +78,7 @@ fn component(r: &mut Random) -> &'static str {
     r.of(&["x", "y", "z", "w"])
 }
 
-/// A swizzle with its point, or nothing; with `any` one of all 256, otherwise one that ps_2_0 has.
+/// A swizzle with its dot, or nothing; any of the 256 if `any`, otherwise one that ps_2_0 supports.
 fn swizzle(r: &mut Random, any: bool) -> String {
     match r.below(8) {
         0 | 1 => format!(".{}", component(r)),
@@ -88,7 +88,7 @@ fn swizzle(r: &mut Random, any: bool) -> String {
     }
 }
 
-/// A write mask with its point, or nothing; one of all fifteen.
+/// One of the fifteen write masks with its dot, or nothing.
 fn mask(r: &mut Random) -> String {
     if r.one_in(3) {
         return String::new();

@@ -160,7 +160,7 @@ impl Writer<'_> {
             9 => format!("cnd{shift}{sat} {to}{mask}, r0.a, {a}, {b}"),
             10 if later && self.cmps > 0 => {
                 self.cmps -= 1;
-                // The destination must not be a source: it is the other temporary, or no source is a temporary.
+                // The destination must not be a source, so a source that names it is replaced by v0.
                 let free = |s: &str| !s.contains(&to);
                 let or = |s: String| if free(&s) { s } else { "v0".to_owned() };
                 format!("cmp{shift}{sat} {to}{mask}, {}, {}, {}", or(a), or(b), or(c))

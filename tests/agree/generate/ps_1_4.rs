@@ -4,7 +4,7 @@ use super::ps_1::MODIFIERS;
 use super::{Layout, values};
 use crate::random::Random;
 
-/// Registers with written components: red to blue, or all four.
+/// For each register, whether red, green and blue are written, and whether all four components are.
 #[derive(Clone, Copy, Default)]
 struct Written {
     rgb: [bool; 6],

@@ -156,7 +156,7 @@ impl Writer<'_> {
         format!("{negate}{register}{}", swizzle(self.r, any))
     }
 
-    /// A temporary that is not among these.
+    /// A temporary that is not in `not`.
     fn other(&mut self, not: &[&str]) -> String {
         for _ in 0..20 {
             let temp = self.temp();

@@ -124,7 +124,7 @@ impl Writer<'_> {
         (0..self.temps).map(|n| format!("r{n}")).find(|t| !not.contains(&t.as_str())).unwrap_or_default()
     }
 
-    /// A destination: a temporary, at times an output other than the position.
+    /// A destination: a temporary, or sometimes an output other than the position.
     fn destination(&mut self) -> String {
         match self.r.below(12) {
             0 => format!("oT{}{}", self.r.below(8), mask(self.r)),

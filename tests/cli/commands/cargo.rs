@@ -20,7 +20,7 @@ static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {
     metadata["packages"].as_array().expect("a list").clone()
 });
 
-/// Held by tests that may write docs/dependency.md.
+/// Lock of the tests that may write docs/dependency.md.
 static DEPENDENCY_PAGE: Mutex<()> = Mutex::new(());
 
 /// The packages that a command selects: the one named `asked`, or all.
@@ -37,7 +37,7 @@ fn target(packages: &[&Value], kind: &str, name: &str) -> Option<String> {
     targets.into_iter().find(is)?["src_path"].as_str().map(str::to_owned)
 }
 
-/// True if `word` occurs in a source file of the target whose root is `source`.
+/// Returns `true` if `word` occurs in a source file of the target whose root is `source`.
 fn mentions(source: &Path, word: &str) -> bool {
     fn within(folder: &Path, word: &str) -> bool {
         std::fs::read_dir(folder).into_iter().flatten().flatten().any(|entry| {
@@ -83,13 +83,13 @@ pub(crate) fn fault(command: &CargoCommand) -> Option<String> {
             return say(format!("no feature `{feature}`"));
         }
     }
-    // Names of tests: words that are neither options nor their values, before and after `--`.
+    // Test names are words, before and after `--`, that are neither options nor values of options.
     let is_value = |index: usize| index > 0 && own[index - 1].starts_with('-') && !is_flag(&own[index - 1]);
     let before = own.iter().enumerate().skip(1).filter(|(index, _)| !is_value(*index)).map(|(_, word)| word);
     let names = before.chain(handed_on.iter().skip(1)).filter(|word| !word.starts_with('-'));
     if own.first().is_some_and(|command| command == "test") {
         for name in names {
-            // A suite's name is assembled by macros, so its parts are looked for in the source.
+            // A suite's name is assembled by macros, so the source is searched for the parts of the name.
             let found = sources.iter().any(|source| name.split("::").all(|part| mentions(Path::new(source), part)));
             if !found {
                 return say(format!("no test `{name}`"));
@@ -99,14 +99,14 @@ pub(crate) fn fault(command: &CargoCommand) -> Option<String> {
     None
 }
 
-/// True for cargo options without a value.
+/// Returns `true` for cargo options without a value.
 fn is_flag(option: &str) -> bool {
     let flags =
         ["--release", "--workspace", "--all-features", "--no-default-features", "--all-targets", "--lib", "--doc"];
     flags.contains(&option)
 }
 
-/// The dependencies that pages show resolve, in a crate beside a clone.
+/// The dependencies that pages show resolve in a crate next to a clone of the repository.
 #[test]
 fn dependencies_on_pages_resolve() {
     let (mut shown, folder) = (0, tempfile::tempdir().expect("a folder for the test"));
@@ -133,7 +133,7 @@ fn dependencies_on_pages_resolve() {
     );
 }
 
-/// The address of the repository is the one of Cargo.toml. `INSTA_UPDATE=always` writes it.
+/// All pages have the repository address of Cargo.toml. `INSTA_UPDATE=always` updates the pages.
 #[test]
 fn the_address_is_that_of_the_manifest() {
     let (root, address) = (Path::new(env!("CARGO_MANIFEST_DIR")), env!("CARGO_PKG_REPOSITORY"));
@@ -155,7 +155,8 @@ fn the_address_is_that_of_the_manifest() {
     hold(&path, &text.replace(line, format!("{unset}repository-code: {address}").trim_end()));
 }
 
-/// docs/dependency.md counts the crates of each feature as cargo does. `INSTA_UPDATE=always` writes them.
+/// docs/dependency.md states the number of crates per feature that cargo counts. `INSTA_UPDATE=always` updates the
+/// page.
 #[test]
 fn crates_are_counted() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,9 +1,9 @@
 //! Every command in README.md, docs and the help texts, run as a reader would type it at the root of the repository.
 //!
-//! Commands of the program run on copies of `fixtures` and `docs/examples`, and must end with 0 or with the exit code
-//! that `# exit code N` behind them states. [`CUT`] shortens long work: it changes sizes and counts, never the set of
-//! options. Commands that cannot run here are listed in [`NOT_RUN`] with the reason, and their options are still
-//! parsed. Commands of cargo must name packages, targets, features and tests that exist.
+//! Commands of the program run on copies of `fixtures` and `docs/examples`, and must exit with 0, or with N if `# exit
+//! code N` follows the command. [`CUT`] shortens long work: it changes sizes and counts, never the set of options.
+//! [`NOT_RUN`] lists commands that cannot run here, with the reason; their options are still parsed. Commands of cargo
+//! must name packages, targets, features and tests that exist.
 
 mod cargo;
 mod prose;
@@ -19,7 +19,7 @@ use crate::generated::hold;
 use crate::{ProgramOutput, crossbar_in};
 use texts::Command;
 
-/// Reduced sizes and counts of long work: command, option and the value that replaces the one in the text. Where
+/// Reduced sizes and counts of long work: command, option and the value that replaces the value in the text. Where
 /// `always` is true, the option is added if the text does not have it.
 const CUT: &[(&str, &str, &str, bool)] = &[
     ("atlas", "--size", "8x8", true),
@@ -42,7 +42,7 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("tour", "--coarser", "8", true),
 ];
 
-/// Commands that do not run here: their beginning, and the reason.
+/// Commands that do not run here: how they begin, and the reason.
 const NOT_RUN: &[(&str, &str)] = &[
     ("alu mulAdd", "reads what TestFloat writes, which is not part of the repository"),
     ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
@@ -110,8 +110,8 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
     crossbar_in(folder, &words, input)
 }
 
-/// A message if the command does not end as its text states; `None` if it does. A program of `CROSSBAR_PROGRAM` without
-/// the features `wgpu` and `wgsl` may refuse what the text builds with them, but must name the feature.
+/// A message if the command does not end as its text states; otherwise `None`. If the program in `CROSSBAR_PROGRAM`
+/// lacks the features `wgpu` and `wgsl`, it may refuse commands that need them, but must name the feature.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();
     let (arguments, expected) = match exemption(&command.arguments) {
@@ -156,7 +156,8 @@ fn every_command_of_cargo_names_what_exists() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// Outputs on pages, behind `<!-- output of: COMMAND -->`, equal the command's. `INSTA_UPDATE=always` writes them.
+/// Each output quoted on a page after `<!-- output of: COMMAND -->` equals what the command prints.
+/// `INSTA_UPDATE=always` updates the pages.
 #[test]
 fn outputs_on_pages_are_those_of_the_program() {
     let root = copy_of_the_repository();

@@ -1,4 +1,4 @@
-//! Everything that texts mention in passing exists: commands and options of the program, source files.
+//! Tests that everything mentioned in prose exists: commands and options of the program, source files.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use super::texts::pages;
 use crate::answers::words;
 use crate::{crossbar, help};
 
-/// The quotes of code, outside of fenced blocks.
+/// Text in backquotes, outside of fenced blocks.
 fn quoted(text: &str) -> Vec<String> {
     let sentences: String = text.split("```").step_by(2).collect();
     sentences.split('`').skip(1).step_by(2).map(words).collect()
@@ -52,7 +52,7 @@ fn commands_in_sentences_exist() {
     }
 }
 
-/// Files of the source that pages name by a path, from the root or from a folder below it.
+/// Source files exist that pages name by a path, from the root or from a folder below it.
 #[test]
 fn source_files_on_pages_exist() {
     let git = Command::new("git").args(["ls-files"]).current_dir(env!("CARGO_MANIFEST_DIR")).output().expect("git");

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::crossbar;
 
-/// A command of the program: its standard input, its arguments, the expected exit code, and its place in the text.
+/// A command of the program: its standard input, its arguments, the expected exit code, and its location in the text.
 pub(crate) struct Command {
     pub(crate) place: String,
     pub(crate) input: String,
@@ -15,7 +15,7 @@ pub(crate) struct Command {
     pub(crate) with_wgpu: bool,
 }
 
-/// A command of cargo: its arguments, and its place in the text.
+/// A command of cargo: its arguments, and its location in the text.
 pub(crate) struct CargoCommand {
     pub(crate) place: String,
     pub(crate) arguments: Vec<String>,
@@ -39,7 +39,7 @@ struct Line {
 }
 
 impl Line {
-    /// `None` for a line without a command of ours, such as printed output.
+    /// `None` for a line without a `crossbar` or `cargo` command, such as printed output.
     fn new(place: String, text: &str) -> Option<Self> {
         if !["crossbar ", "cargo "].iter().any(|program| text.contains(program)) {
             return None;
@@ -84,7 +84,7 @@ impl Line {
     }
 }
 
-/// README.md, the READMEs of the other crates, and docs without the decisions, which are history.
+/// README.md, the READMEs of the other crates, and docs, except for the decisions, which are history.
 pub(super) fn pages() -> Vec<(String, String)> {
     fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in fs::read_dir(folder).expect("a folder").flatten() {

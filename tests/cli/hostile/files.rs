@@ -1,4 +1,4 @@
-//! Files of other kinds, claims of huge sizes, and places that cannot be written.
+//! Files of other kinds, files that claim huge sizes, and output paths that cannot be written.
 
 use std::ffi::OsString;
 
@@ -88,7 +88,7 @@ fn claims_of_size() {
     }
 }
 
-/// A file without biclusters that claims a matrix of this size.
+/// A bi-scale file without biclusters that claims a matrix of this size.
 fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
     let metadata = format!(
         r#"{{"kind":"bi-scale","version":1,"meaning":null,"shape":{{"rows":{rows},"columns":{columns},"fraction_bits":0}},
@@ -115,8 +115,8 @@ fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
     [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(&header), chunk(&noise), chunk(b"IEND")].concat()
 }
 
-/// A picture with too many pixels for the program, the command or its file's size is refused by its header, whatever
-/// its contents.
+/// A picture with too many pixels for the program, the command or its file's size is refused because of its header,
+/// whatever its contents.
 #[test]
 fn large_pictures_are_refused_by_their_headers() {
     let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));
@@ -133,7 +133,7 @@ fn large_pictures_are_refused_by_their_headers() {
     }
 }
 
-/// A scene without light sources is refused before the work, which would take minutes here.
+/// A scene without light sources is refused before the computation, which would take minutes here.
 #[test]
 fn a_dark_scene_is_refused_before_the_work() {
     let side = 40;
@@ -151,7 +151,7 @@ fn a_dark_scene_is_refused_before_the_work() {
     assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
 }
 
-/// Every option for an output path with every kind of path that cannot be written.
+/// Gives every option for an output path every kind of path that cannot be written.
 #[test]
 fn hostile_places_for_results() {
     let files: [(&str, &[u8]); 3] = [

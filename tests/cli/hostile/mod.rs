@@ -1,5 +1,5 @@
 //! Hostile and careless values for every option of every subcommand: exit code 2, one message, no files left behind.
-//! `files`: the same for input files and places for results.
+//! `files` does the same for input files and output paths.
 
 mod files;
 
@@ -29,8 +29,8 @@ const LONG: &[&str] = &[
     "\u{1b}[2J",
 ];
 
-/// Each command with arguments that fail before any work, with any options: the messages and remaining files are
-/// tested.
+/// Each command, with arguments that fail before any computation, whatever the options; the tests check messages and
+/// leftover files.
 const COMMANDS: &[&str] = &[
     "all-frequency card nowhere.npz --model nowhere.obj",
     "all-frequency compress nowhere.npz --model nowhere.obj --out y.npz",
@@ -101,7 +101,7 @@ fn said(folder: &Path, arguments: &[OsString]) -> Said {
     Said { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
 }
 
-/// Requires one complete message that repeats nothing and has no control characters, and no other output.
+/// Asserts that the program prints one complete message, without repetitions and control characters, and nothing else.
 fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     let folder = tempfile::tempdir().expect("a folder for the test");
     for (name, bytes) in files {
@@ -110,7 +110,7 @@ fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     let Said { code, stdout, stderr } = said(folder.path(), arguments);
     assert_eq!((code, stdout.as_str()), (Some(2), ""), "{arguments:?}: {stderr}");
     let errors = stderr.lines().filter(|line| line.to_lowercase().starts_with("error:")).count();
-    // A shader's errors are listed under one that counts them.
+    // A shader's errors are listed under an error that counts them.
     let one = errors == 1 || (errors > 1 && stderr.starts_with("Error: asm::syntax"));
     assert!(one, "{arguments:?}: one error, not {errors}:\n{stderr}");
     assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
@@ -124,7 +124,7 @@ fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     stderr
 }
 
-/// A cause, printed behind an arrow, that repeats the words of the message before it.
+/// A cause, printed after an arrow, that repeats the words of the message before it.
 fn twice(stderr: &str) -> Option<String> {
     let (_, rest) = stderr.split_once("  x ")?;
     let (message, causes) = rest.split_once("-> ")?;
@@ -164,7 +164,7 @@ fn every_command_is_here() {
 #[test]
 fn hostile_values() {
     let mut runs: Vec<Vec<OsString>> = Vec::new();
-    // In the short form each option gets a sixth of the values, a different one than its neighbours.
+    // By default each option gets one sixth of the values, a different sixth than its neighbors.
     let full = is_full();
     for (number, (base, option)) in all_options().into_iter().enumerate() {
         let base = || base.iter().map(OsString::from).chain([OsString::from(&option)]);
@@ -275,7 +275,7 @@ fn what_is_wrong_is_said() {
     }
 }
 
-/// No error repeats its cause in its own message: printing the chain of causes would print it twice.
+/// No error repeats its cause in its own message: otherwise printing the chain of causes would print it twice.
 #[test]
 fn no_error_says_its_cause_twice() {
     fn sources(folder: &Path, found: &mut Vec<String>) {

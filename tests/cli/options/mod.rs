@@ -1,9 +1,9 @@
 //! Every option of every command changes the output or is refused: none is accepted and ignored.
 //!
-//! The table has command lines, and options with values; a new option that is not in it fails the test. Each option is
-//! added to each command line. The compared output is the exit code, both streams and all files, except for parts that
-//! differ between two equal runs (times) and the provenance, which names the options. The short form tries a fixed
-//! choice of one in eighteen pairs of a line and an option; `CROSSBAR_FULL=1` tries all.
+//! The table contains command lines and options with values; an option that is missing from it fails the test. Each
+//! option is added to each command line. The compared output is the exit code, both streams and all files, except for
+//! parts that differ between two equal runs (times) and the provenance, which names the options. By default the test
+//! tries a fixed selection of one in eighteen pairs of a line and an option; `CROSSBAR_FULL=1` tries all.
 
 mod table;
 
@@ -34,7 +34,7 @@ const NEVER_ACCEPTED: [&str; 6] = ["--emulator", "--model", "--model-up", "--str
 struct TriedOption {
     name: &'static str,
     value: Option<&'static str>,
-    /// The indices of the command lines that it is tried on; `None` for all.
+    /// Indices of the command lines on which the option is tried; `None` for all.
     only: Option<Vec<usize>>,
     is_same: bool,
 }
@@ -196,7 +196,7 @@ fn leaves(key: String, value: &Value, put: &mut impl FnMut(String, &str)) {
     }
 }
 
-/// Files by name and digest; pages, which name the options, by name only.
+/// Files by name and digest; pages only by name, because they name the options.
 fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let name = format!("{under}/{}", entry.file_name().to_string_lossy());
@@ -207,8 +207,8 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
         let is_page = ["index.html", "study.json"].iter().any(|page| name.ends_with(page));
         let bytes = if is_page { Vec::new() } else { fs::read(entry.path()).expect("a file") };
         let bytes = without_provenance(bytes);
-        // A CRC would be equal for all files that end with their own CRC. Only the channels of pictures count, which
-        // name the options too.
+        // A CRC would be equal for all files that end with their own CRC. Only the channels of pictures count, because
+        // picture files name the options, too.
         let mut digest = DefaultHasher::new();
         match Picture::decode(&bytes) {
             Ok(picture) => format!("{:?}", picture.channels()).hash(&mut digest),
@@ -218,7 +218,7 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
     }
 }
 
-/// A file of transfer without its history; other files unchanged.
+/// Removes the provenance from a transfer file; returns other files unchanged.
 fn without_provenance(bytes: Vec<u8>) -> Vec<u8> {
     match parse_prt(&bytes, Path::new("a.npz")) {
         Ok(file) => {
@@ -230,7 +230,7 @@ fn without_provenance(bytes: Vec<u8>) -> Vec<u8> {
     }
 }
 
-/// A folder with the inputs of the command lines: the examples, and small files made for them.
+/// A folder with the inputs of the command lines: the repository's examples, and small files made here.
 fn inputs() -> &'static Path {
     static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {

@@ -1,12 +1,12 @@
-//! The command lines and option values of the options test.
+//! Command lines and option values for the test of all options.
 
 /// A command: lines to which its options are added, and its options with values.
 pub(super) struct Tried {
     /// Command lines without the program's name; ` < ` precedes standard input, in which `;` ends a line.
     pub(super) bases: &'static [&'static str],
     /// Options as `--name=value` or `--name`, each tried on every base that succeeds; `@0,2` restricts it to these
-    /// bases, where the others rightly ignore it. With `same:` in front, the result must be the same: the option
-    /// selects who computes, not what.
+    /// bases if the others rightly ignore it. The prefix `same:` requires the same result: the option selects an
+    /// executor, not what is computed.
     pub(super) options: &'static str,
 }
 
@@ -31,7 +31,7 @@ macro_rules! card {
     };
 }
 
-/// The options of a ray caster: of the first base, and of the last, which has a Ray Engine with rates.
+/// The options of a ray caster, for the first base, and for the last, which uses a Ray Engine with rates.
 macro_rules! caster {
     ($engine:literal) => {
         concat!(

@@ -1,4 +1,4 @@
-//! Impossible lights and transfer: errors with the place and the cause.
+//! Impossible lights and transfer: errors that name the location and the cause.
 
 use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::error::InputError;
@@ -80,8 +80,8 @@ fn what_is_no_transfer_is_refused() {
 }
 
 proptest! {
-    /// Lines of any bytes, and good tables with a byte changed: read or refused, never a panic; accepted tables are
-    /// written and read again.
+    /// Arbitrary bytes, and valid tables with a byte changed, are read or refused without a panic; accepted tables are
+    /// written and read back.
     #[test]
     fn tables_of_light_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200), at in 0_usize..200, byte: u8) {
         let name = Path::new("l.csv");

@@ -1,4 +1,4 @@
-//! The methods of Figure 1: against the reference, closed forms, and each other.
+//! Compares the methods of Figure 1 with the reference, closed forms, and each other.
 
 use std::f64::consts::PI;
 
@@ -104,8 +104,8 @@ fn harmonics_of_a_furnace_are_the_albedo() {
         let baseline = HarmonicTransfer::new(open.subject(&lambert), order);
         let light = baseline.light(white.texels());
         close(light[0][0], (4.0 * PI).sqrt(), 1e-9, "the first harmonic of a furnace");
-        // Up to l = 3 the cube's symmetry makes the sums over its directions 0; beyond, the rule has an error of the
-        // square of a fine texel's width, 1/64 of a face.
+        // Up to l = 3 the cube's symmetry makes the sums over its directions 0; beyond that, the rule's error is of the
+        // order of the square of a fine texel's width, 1/64 of a face.
         let (symmetric, others) = light[1..].split_at(light.len().min(16) - 1);
         assert!(symmetric.iter().flatten().all(|value| value.abs() < 1e-9), "{light:?}");
         assert!(others.iter().flatten().all(|value| value.abs() < 1.0 / (64.0 * 64.0)), "{light:?}");
@@ -116,8 +116,8 @@ fn harmonics_of_a_furnace_are_the_albedo() {
     }
 }
 
-/// Higher orders are nearer to the exact picture, and none is as near as the complete light at a fixed view; with a
-/// fixed view, more kept coefficients are nearer.
+/// Higher orders are closer to the exact picture, but none is as close as the complete light at a fixed view. At a
+/// fixed view, more kept coefficients are closer.
 #[test]
 fn more_is_nearer() {
     let lobe = Lobe::cook_torrance(0.4, 0.5);

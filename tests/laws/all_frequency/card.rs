@@ -25,7 +25,7 @@ use refsim::timing::{Level, Model};
 
 const SIZE: [u32; 2] = [48, 40];
 
-/// From above, so that no hill hides another.
+/// A camera above the hills, so that no hill hides another.
 fn camera() -> Camera {
     Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
 }
@@ -54,7 +54,7 @@ impl Hills {
     }
 }
 
-/// The point of a pixel's weights lies on the pixel's ray, to the subpixel precision of vertices.
+/// The point that a pixel's barycentric weights give lies on the pixel's ray, to the subpixel precision of vertices.
 #[test]
 fn pixels_show_what_their_rays_meet() {
     let hills = Hills::new();
@@ -76,7 +76,7 @@ fn pixels_show_what_their_rays_meet() {
     assert!(seen.iter().flatten().count() > 700);
 }
 
-/// Each two bits fewer quadruple the error; fp24 is nearer to f64 than fp16, 16 bits nearer than 8 on each card.
+/// Two bits less quadruple the error; on each card, fp24 is closer to f64 than fp16, and 16 bits are closer than 8.
 #[test]
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
@@ -108,7 +108,7 @@ fn what_is_coarser_is_farther_off() {
     assert!(products.all(|way| way.below_zero > Some(0)), "truncated factors have negative lobes");
 }
 
-/// One host rate fits six models.
+/// One rate of the host fits the paper's times for six models.
 #[test]
 fn the_host_is_that_of_table_1() {
     let bunny = TABLE_1[0].multiplies();
@@ -145,7 +145,7 @@ fn a_frame_is_counted_and_timed() {
         let model = Model::new(Level::Pipeline, &r350).expect("a model");
         assert_eq!(time.uploads, model.upload(bytes as u64 * vertices));
         assert!(time.frame >= time.host && time.host >= time.products, "{time:?}");
-        // From sizes alone: host and vertices take equal time, and only the pixels' time is missing.
+        // Estimated from sizes alone, the host and the vertices take the same time; only the pixels' time is missing.
         let run_per_triangle = time.vertices_run as f64 / time.triangles as f64;
         let frame = FactoredFrame { vertices, triangles, terms: 10, host: steps, run_per_triangle };
         let estimate = frame_time(&r350, &frame.log(&place), &host).expect("a time");

@@ -19,7 +19,7 @@ pub(super) fn segments(vertices: &Vertices, maps: &VisibilityMaps, reflectance: 
     transfer_of(vertices, maps, &hats, reflectance).segments().map(|segment| segment.expect("transfer")).collect()
 }
 
-/// All segments of the transfer of some maps, by clusters of 10 vertices.
+/// The segments of the transfer of some maps, compressed in clusters of 10 vertices.
 pub(super) fn compressed(
     vertices: &Vertices,
     maps: &VisibilityMaps,
@@ -63,7 +63,8 @@ fn as_many_vectors_as_members_leave_the_matrices_themselves() {
         let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
         assert!(most > 1.0);
         for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
-            // Eigenvalues of a cluster below 2^-44 of the largest count as rounding, which is 2^-22 of its length.
+            // Eigenvalues of a cluster below 2^-44 times the largest are treated as rounding: in length a factor of
+            // 2^-22.
             close(*found, *expected, 1e-5 * most, "radiance");
         }
     }
@@ -80,7 +81,7 @@ fn open_diffuse_vertices_under_light_1_give_back_pi() {
     let radiance = Shader::new(&coded).transferred(&light.singles()).expect("radiance");
     for vertex in 0..vertices.len() {
         let [red, green, blue] = radiance.of(vertex)[0].map(f64::from);
-        // 98,304 directions integrate the cosine to a thousandth, since the horizon cuts texels.
+        // The horizon cuts texels, so 98,304 directions integrate the cosine only to about a thousandth.
         close(red, std::f64::consts::PI, 3e-3 * std::f64::consts::PI, "albedo 1");
         close(green, 2.0 * red, 1e-6, "twice the light");
         assert_eq!(blue, 0.0);

@@ -1,4 +1,4 @@
-//! Files of all-frequency transfer: written files read back, damaged ones are refused.
+//! Files of all-frequency transfer: written files can be read back, damaged ones are refused.
 
 use std::path::Path;
 
@@ -38,7 +38,7 @@ fn whole() -> AllFrequencyFile {
     AllFrequencyFile { mesh, hats: BasisWidth::OneTexel, reflectance, visibility: Some(maps), coded: Some(coded) }
 }
 
-/// A small file with coded transfer alone.
+/// A small file with only coded transfer.
 fn small() -> AllFrequencyFile {
     let mesh = clutter(3, 1, 1.0);
     let vertices = vertices(&mesh);

@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::close;
 
-/// The least number of segments below the horizon, the mean and the largest, over the directions of a fine cube map.
+/// The smallest, mean and largest number of segments below the horizon, over the directions of a fine cube map.
 fn below(width: BasisWidth, side: usize) -> (u32, f64, u32) {
     let (hats, map) = (LinearBasis::new(width), CubeMap::new(side));
     let (mut least, mut most, mut sum, mut whole) = (24, 0, 0.0, 0.0);
@@ -27,7 +27,7 @@ fn below(width: BasisWidth, side: usize) -> (u32, f64, u32) {
 
 /// A segment lies below the horizon of a normal if its four corners do. Such normals form a convex polygon, whose area
 /// is 2 pi minus the segment's perimeter. On average that is 6.649 of 24 segments, not 8: omega is 0.723, not 2/3. The
-/// least is 6.
+/// smallest number is 6.
 #[test]
 fn on_average_6_65_segments_are_below_the_horizon() {
     let arc = |a: DVec3, b: DVec3| crossbar::elementary::acos(a.normalize().dot(b.normalize()));
@@ -36,12 +36,12 @@ fn on_average_6_65_segments_are_below_the_horizon() {
     let closed = 24.0 * (2.0 * PI - perimeter) / (4.0 * PI);
     close(closed, 6.649, 5e-4, "the closed form");
     let (least, mean, most) = below(BasisWidth::OneTexel, 64);
-    // Fine directions lie half a fine texel inside a segment's border, so slightly more segments are below.
+    // Fine directions lie at least half a fine texel inside a segment's border, so slightly more segments are below.
     assert!(mean > closed && mean < closed * 1.03, "{mean} {closed}");
     assert_eq!((least, most), (6, 8));
 }
 
-/// The linear basis of two texels reaches over the borders, so fewer segments are empty: 3 at least, 6.44 on average.
+/// The two-texel linear basis reaches over the borders, so fewer segments are empty: at least 3, on average 6.44.
 #[test]
 fn with_hats_that_reach_over_fewer_are() {
     let (least, mean, most) = below(BasisWidth::TwoTexels, 64);
@@ -49,8 +49,8 @@ fn with_hats_that_reach_over_fewer_are() {
     close(mean, 6.44, 0.02, "the mean");
 }
 
-/// Along an axis: the four segments of the face behind, and the segments of the sides that touch the horizon from
-/// below.
+/// For a normal along an axis: the four segments of the opposite face, and the side faces' segments that touch the
+/// horizon from below.
 #[test]
 fn along_an_axis_twelve_are_below_without_reach() {
     let [one, two] = [BasisWidth::OneTexel, BasisWidth::TwoTexels].map(LinearBasis::new);

@@ -25,19 +25,20 @@ fn lengths_and_products_stay_and_the_inverse_takes_back() {
             let [mut ha, mut hb] = [a.clone(), b.clone()];
             haar.forward(&mut ha);
             haar.forward(&mut hb);
-            // Sums of side^2 products of at most 1: one rounding per sum, and the roundings of the transform.
+            // Sums of side^2 products of at most 1: one rounding per addition, and the roundings of the transform.
             let bound = (side * side) as f64 * f64::EPSILON * (dot(&a, &a) + dot(&b, &b));
             close(dot(&ha, &ha), dot(&a, &a), bound, "Parseval");
             close(dot(&ha, &hb), dot(&a, &b), bound, "a product");
             haar.inverse(&mut ha);
-            // A level adds four numbers: two roundings of at most 4 each, halved; the inverse the same.
+            // A level adds four numbers: two roundings of values of at most 4, then halved; the inverse is bounded in
+            // the same way.
             let bound = 8.0 * f64::EPSILON * f64::from(side.ilog2()) * side as f64;
             assert!(ha.iter().zip(&a).all(|(found, a)| (found - a).abs() <= bound), "side {side}, seed {seed}");
         }
     }
 }
 
-/// Every pair of basis functions of 16 x 16: products of 0 and 1, exactly, since all values are powers of two.
+/// Inner products of all pairs of the 16 x 16 basis functions are exactly 0 or 1, since all values are powers of two.
 #[test]
 fn the_basis_is_orthonormal() {
     let mut haar = Haar::new(16);

@@ -51,7 +51,7 @@ fn a_constant_stays_a_constant() {
     }
 }
 
-/// Decimation by solid angle keeps the flux of the samples; the plain mean does not.
+/// Decimation by solid angle preserves the flux of the samples; the plain mean does not.
 #[test]
 fn a_disk_keeps_its_flux_however_small() {
     for (at, towards) in random_directions(3, 6).chain(DVec3::AXES).chain([DVec3::ONE]).enumerate() {
@@ -94,7 +94,7 @@ fn lights_turn_with_their_matrix() {
     }
 }
 
-/// The flux of pictures and generated lights equals that of their l = 0 harmonic, which is exact.
+/// The flux of pictures and generated lights equals the flux of their l = 0 harmonic, which is exact.
 #[test]
 fn generated_lights_have_the_flux_of_their_harmonics() {
     let flux = |light: &HarmonicLight| light.channels().each_ref().map(|channel| channel[0] * (4.0 * PI).sqrt());
@@ -151,7 +151,7 @@ fn truncation_keeps_what_was_asked_for() {
                 assert!((0..3).all(same));
                 close(truncated.kept_energy * truncated.energy, truncated.light.energy(), 1e-9, "kept energy");
             }
-            // No selection keeps more energy than that of the largest magnitudes.
+            // No selection keeps more energy than the selection of the largest magnitudes.
             assert!(kept.iter().all(|other| other.kept_energy <= kept[0].kept_energy + 1e-12), "{keep}");
             if keep >= haar.nonzero() {
                 assert!(kept.iter().all(|all| all.light == haar && all.kept_energy == 1.0));
@@ -162,7 +162,7 @@ fn truncation_keeps_what_was_asked_for() {
     }
 }
 
-/// Figure 6: coefficients chosen on six faces, drawn in 24 segments. The light does not change.
+/// Figure 6: coefficients selected on six faces and drawn in 24 segments represent the same light.
 #[test]
 fn a_truncated_light_is_reprojected_without_change() {
     let light = CubeLight::from_disks(&sources(), &turn(), Decimation::SolidAngle).expect("a light");
@@ -173,7 +173,7 @@ fn a_truncated_light_is_reprojected_without_change() {
     let pairs = reprojected.radiances().into_iter().zip(truncated.radiances());
     let off = pairs.flat_map(|(a, b)| [0, 1, 2].map(|k| (a[k] - b[k]).abs())).fold(0.0, f64::max);
     assert!(off < 1e-12, "{off:e}");
-    // A wavelet of a whole face becomes up to four of quarters: more coefficients for the same light.
+    // A wavelet of a whole face becomes up to four wavelets of quarters: more coefficients for the same light.
     assert!(reprojected.nonzero() >= truncated.nonzero());
     assert_eq!(faces.reprojected(Segmentation::Faces).segmentation(), Segmentation::Faces);
 }

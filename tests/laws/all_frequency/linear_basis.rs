@@ -22,7 +22,7 @@ fn direction(texel: usize, side: usize) -> DVec3 {
     CubeMap::new(side).direction(texel / (side * side), texel % side, texel / side % side)
 }
 
-/// Every fine direction: weights above 0 that sum to 1; its own texel has the largest.
+/// At every fine direction, the weights are positive and sum to 1, and the texel that contains it has the largest.
 #[test]
 fn hats_are_a_partition_of_unity() {
     for width in WIDTHS {
@@ -33,14 +33,14 @@ fn hats_are_a_partition_of_unity() {
             assert!((sum - 1.0).abs() <= f64::EPSILON, "{width} {fine}: {sum}");
             assert_eq!(found[0].0, light_texel(fine));
             assert!(found.iter().all(|(_, weight)| *weight > 0.0 && *weight <= found[0].1), "{width} {fine}");
-            // At most 7/8 of a texel in both directions, at the middle of a face.
+            // At most 7/8 of a texel along both axes; texels are largest at the middle of a face.
             let reach = 2.0_f64.sqrt() * 0.875 * 2.0 / LIGHT_SIDE as f64;
             let from = direction(fine, FINE_SIDE);
             let near = found.iter().all(|&(texel, _)| direction(texel, LIGHT_SIDE).distance(from) < reach);
             assert!(near, "{width} {fine}: texels around the direction");
             counts[found.len()] += 1;
         }
-        // 24 corners of faces, 2 x 2 fine directions at each: three texels.
+        // 2 x 2 fine directions at each of the 24 face corners have three texels; all others have four.
         let expected = if width == BasisWidth::OneTexel {
             [0, FINE_DIRECTIONS, 0, 0, 0]
         } else {
@@ -50,7 +50,7 @@ fn hats_are_a_partition_of_unity() {
     }
 }
 
-/// Symmetries of the cube map hats to hats, to the bit: three generators of the 48 symmetries.
+/// Symmetries of the cube map hat functions to hat functions, bit for bit; tests three generators of the 48 symmetries.
 #[test]
 fn hats_have_the_symmetry_of_the_cube() {
     let generators = [
@@ -97,7 +97,7 @@ fn hats_are_continuous_over_edges() {
     close(change(20 * 128 + 18, 20 * 128 + 19), 0.5, 1e-12, "within a face");
 }
 
-/// The directions of a segment, and, with hats of two texels, the directions beside it.
+/// A segment reaches its own directions and, with two-texel hats, also those just outside.
 #[test]
 fn segments_reach_half_a_texel_beyond_their_border() {
     let [one, two] = WIDTHS.map(LinearBasis::new);

@@ -26,7 +26,7 @@ use crossbar::transfer::visibility::VisibilityMaps;
 use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
-/// A triangle at the origin that faces along a normal, too small to matter: its first corner is vertex 0.
+/// A triangle at the origin with this normal, too small to affect visibility; its first corner is vertex 0.
 fn observer(normal: DVec3) -> [[f32; 3]; 3] {
     let x = normal.cross(if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y }).normalize() * 1e-4;
     let y = normal.cross(x);
@@ -64,7 +64,7 @@ fn trace(mesh: &Mesh, vertices: &Vertices, of: &[u32]) -> VisibilityMaps {
     VisibilityMaps::trace(vertices, of, &mut HostTracer::new(mesh, Sides::Both), &mut |_, _| ()).expect("traced")
 }
 
-/// The texel of a cube that contains a direction, by its largest component.
+/// The texel of a cube that contains a direction; the largest component selects the face.
 fn texel_of(direction: DVec3, side: usize) -> usize {
     let face = (0..6)
         .max_by(|&a, &b| {

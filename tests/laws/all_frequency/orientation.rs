@@ -12,7 +12,7 @@ use std::path::Path;
 
 use super::{all, flat, observer, trace, vertices};
 
-/// Face, segment of its upper left quarter, and the signs of x, y and z at its upper left corner.
+/// Face name, segment number of its upper left quarter, and the signs of x, y and z at its upper left corner.
 const UPPER_LEFT: [(&str, usize, [f64; 3]); 6] = [
     ("+x", 0, [1.0, 1.0, 1.0]),
     ("-x", 4, [-1.0, 1.0, -1.0]),
@@ -49,8 +49,8 @@ fn seen(light: &HaarLight, normal: DVec3) -> f64 {
     products.sum()
 }
 
-/// A bright texel at the middle of a face lights the normal along the face's axis most, and no other axis half as much
-/// (four texels meet in the middle).
+/// A bright texel at the middle of a face lights the normal along the face's axis most; no other axis gets half as
+/// much. (Four texels meet in the middle.)
 #[test]
 fn a_texel_shines_from_its_face() {
     let axes = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z];
@@ -71,7 +71,7 @@ fn upper_left_texels_lie_where_the_table_says() {
         assert_eq!(Segmentation::Quarters.place(texel), [segment, 0]);
         let direction = LIGHT_MAP.direction(face, 0, 0);
         assert_eq!(direction.to_array().map(f64::signum), signs, "{name}: {direction}");
-        // Right and down from there lie on the face: the largest component of the corner is the face's axis.
+        // The face extends to the right and down from the corner, whose largest component is the face's axis.
         let towards = DVec3::from(signs).normalize();
         let light = HaarLight::new(&one_texel(name, 0, 0), Segmentation::Quarters);
         let [with, against] = [towards, -towards].map(|normal| seen(&light, normal));
@@ -79,7 +79,7 @@ fn upper_left_texels_lie_where_the_table_says() {
     }
 }
 
-/// A picture's middle looks along +y, its right is +x, up is +z; its bright pixel lights the texel there.
+/// A picture's middle looks along +y, right is +x and up is +z; its bright pixel lights the texel in that direction.
 #[test]
 fn a_picture_lights_the_texel_that_its_pixel_shows() {
     for (width, height, pixel, face) in [

@@ -9,8 +9,8 @@ use glam::DVec3;
 
 use super::trace;
 
-/// The ground's vertices near the teapot are in shadow; far ones see all except the rim of the sky; a vertex below the
-/// teapot sees almost nothing.
+/// The ground's vertices near the teapot are in shadow; far vertices see all of the sky except its rim; a vertex below
+/// the teapot sees almost nothing.
 #[test]
 fn the_ground_receives_the_shadow_of_its_model() {
     let model = teapot(3).expect("a teapot");
@@ -32,7 +32,7 @@ fn the_ground_receives_the_shadow_of_its_model() {
     assert!(open(0) > 0.95, "far off: {}", open(0));
     assert!((0.5..0.95).contains(&open(1)), "beside it: {}", open(1));
     assert!(open(2) < 0.05, "below it: {}", open(2));
-    // All twelve segments below the ground are empty; with overlapping hats, only the four of the face below.
+    // All twelve segments below the ground are empty; with overlapping hats, only the four segments of the face below.
     let census = |width| SegmentCensus::new(&vertices, &maps, &LinearBasis::new(width));
     assert_eq!(census(BasisWidth::OneTexel).below_horizon, 3 * 12);
     assert_eq!(census(BasisWidth::TwoTexels).below_horizon, 3 * 4);

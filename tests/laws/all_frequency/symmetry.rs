@@ -1,4 +1,5 @@
-//! Rotating mesh, light and frames together by a symmetry of the cube permutes directions: bits move, radiance stays.
+//! Rotating mesh, light and frames together by a symmetry of the cube permutes directions: visibility bits are
+//! permuted, radiance is unchanged.
 
 use crate::environment::by_form;
 use std::collections::BTreeMap;
@@ -37,7 +38,7 @@ fn places(turn: &DMat3, side: usize) -> Vec<usize> {
     (0..map.len()).map(|at| texel_of(*turn * direction(at), side)).collect()
 }
 
-/// M L of every vertex, with F of three components that depend on the tangent.
+/// The product M L at every vertex, for a response of three components that depend on the tangent.
 fn radiance(vertices: &Vertices, maps: &VisibilityMaps, light: &CubeLight) -> BTreeMap<u32, [f64; 3]> {
     let (hats, light) = (LinearBasis::new(BasisWidth::TwoTexels), HaarLight::new(light, Segmentation::Quarters));
     let response = |s: DVec3, into: &mut [f64]| into.copy_from_slice(&[s.z, s.z * s.x, s.z * s.y * s.y]);
@@ -55,7 +56,8 @@ fn radiance(vertices: &Vertices, maps: &VisibilityMaps, light: &CubeLight) -> BT
     sums
 }
 
-/// The short form has every fourth of the 24 rotations: none, quarters and halves about axes, thirds about diagonals.
+/// By default every fourth of the 24 rotations: identity, quarter and half turns about axes, third turns about
+/// diagonals.
 #[test]
 fn turns_of_the_cube_permute_bits_and_keep_radiance() {
     let mesh = clutter(5, 10, 1.5);
@@ -88,7 +90,7 @@ fn turns_of_the_cube_permute_bits_and_keep_radiance() {
         let found = radiance(&turned_vertices, &found, &CubeLight::new(moved).expect("a light"));
         for (vertex, expected) in &expected {
             for (found, expected) in found[vertex].iter().zip(expected) {
-                // f32 transfer: 2^-24 of a sum of magnitudes below 10 pi 10.
+                // Transfer is rounded to f32: 2^-24 times a sum of magnitudes below 10 pi 10.
                 assert!((found - expected).abs() < 2e-5, "{turn}, vertex {vertex}: {found} {expected}");
             }
         }

@@ -33,7 +33,7 @@ fn glossy(s: DVec3, into: &mut [f64]) {
     into.iter_mut().zip(VIEWS).for_each(|(value, view)| *value = product(view, s));
 }
 
-/// M L of vertex 0, all rows, and the sum of the magnitudes of its terms.
+/// All rows of the product M L at a vertex, each with the sum of the magnitudes of its terms.
 fn radiance(segments: &[TransferSegment], light: &HaarLight, vertex: u32, rows: usize) -> Vec<[f64; 2]> {
     let mut sums = vec![[0.0; 2]; rows];
     for segment in segments {
@@ -61,8 +61,8 @@ fn segments(
 }
 
 /// An open white Lambert vertex under light 1 has radiance 1: the error of the quadrature, over normals of all kinds.
-/// Directions are centers of fine texels, so a texel cut by the horizon counts wholly or not at all; but the cosine is
-/// small there: the error is at most 2.0e-5 of the albedo, over these normals.
+/// Directions are centers of fine texels, so a texel cut by the horizon counts entirely or not at all. But the cosine
+/// is small there: over these normals, the error is at most 2.0e-5 of the albedo.
 #[test]
 fn an_open_vertex_in_a_furnace_shows_its_albedo() {
     let fine = FineDirections::get();
@@ -86,11 +86,11 @@ fn an_open_vertex_in_a_furnace_shows_its_albedo() {
     }
 }
 
-/// The furnace's error, rounded up.
+/// Bound on the furnace's error.
 const FURNACE: f64 = 2.2e-5;
 
 /// A square that faces the vertex from above blocks its form factor: 4/pi (x / sqrt(1 + x^2) atan(x / sqrt(1 + x^2)))
-/// for half side over height x, vertex below its middle.
+/// with x = half side / height, for a vertex below the square's center.
 #[test]
 fn a_square_overhead_shadows_its_form_factor() {
     let light = HaarLight::new(&CubeLight::constant([1.0; 3]).expect("a light"), Segmentation::Quarters);
@@ -103,8 +103,8 @@ fn a_square_overhead_shadows_its_form_factor() {
         let found = radiance(&segments(&vertices, &mesh, BasisWidth::TwoTexels, 1, cosine), &light, 0, 1)[0][0] / PI;
         let root = (1.0 + x * x).sqrt();
         let factor = 4.0 / PI * x / root * atan2(x, root);
-        // Fine texels along the rim count wholly or not: their number is below 4 sides of 128 (1 + |tan|) / x, a random
-        // walk of halves of their form factor, which is at most 1 / (pi 64^2). Eight standard deviations.
+        // Fine texels along the rim count entirely or not at all: their number is below 4 sides of 128 (1 + |tan|) / x,
+        // a random walk of halves of their form factor, which is at most 1 / (pi 64^2). Eight standard deviations.
         let texels: f64 = 4.0 * FINE_SIDE as f64 * 1.5 * x.max(1.0);
         let tolerance = 8.0 * texels.sqrt() * 0.3 / (PI * 64.0 * 64.0) + FURNACE;
         close(found, 1.0 - factor, tolerance, &format!("half side {x}"));
@@ -152,7 +152,8 @@ fn bits_do_not_depend_on_threads() {
     assert!(of(2) == expected && of(5) == expected);
 }
 
-/// Segments hold the vertices that see any of them, others are left out, and the transform is applied to raw transfer.
+/// A segment contains the vertices that see any part of it and omits the others; the transform is applied to raw
+/// transfer.
 #[test]
 fn empty_segments_are_left_out_and_counted() {
     let mesh = clutter(6, 12, 2.5);
@@ -193,7 +194,7 @@ fn empty_segments_are_left_out_and_counted() {
     assert!(none.segment(0).is_err_and(|error| error.to_string().contains("at least 1 for the number of rows")));
 }
 
-/// The average response, by plain loops over all vertices.
+/// The mean response equals plain loops over all vertices.
 #[test]
 fn mean_responses_are_means_of_magnitudes() {
     let mesh = clutter(6, 12, 2.5);

@@ -1,4 +1,4 @@
-//! Visibility maps: by rays, by the reference's triangles.
+//! Compares visibility maps traced by rays with the reference's triangle tests.
 
 use crossbar::all_frequency::paper::AllFrequencyReference;
 use crossbar::geom::teapot::teapot;
@@ -36,7 +36,7 @@ fn pixels_to_edge(mesh: &Mesh, eye: DVec3, fine: usize) -> f64 {
             }
             let line = a.cross(b);
             if a.z > 0.0 && b.z > 0.0 {
-                // The part of the edge between the two cut points.
+                // Only the part of the edge between the two cut points counts.
                 let [p, q] = [a, b].map(|point| half * point.truncate() / point.z);
                 let at = pixel.truncate();
                 let along = ((at - p).dot(q - p) / (q - p).length_squared()).clamp(0.0, 1.0);
@@ -65,8 +65,8 @@ fn some(vertices: &Vertices) -> Vec<u32> {
     all(vertices).into_iter().filter(|vertex| vertices.len() < 40 || vertex % 13 == 0).collect()
 }
 
-/// Directions that are not cast are unblocked, with fewer directions too; any number of threads gives identical bits.
-/// Without the vertex normal's plane as horizon, vertices see more, and nothing else changes. The short form has one
+/// Directions that are not cast are unblocked, also with fewer directions; the bits do not depend on the number of
+/// threads. Without the vertex normal's plane as horizon, vertices see more, and nothing else changes. By default, one
 /// random mesh per size.
 #[test]
 fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
@@ -108,8 +108,8 @@ fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
     }
 }
 
-/// Bits differ from those of the reference, which tests triangle by triangle in f64, only where an edge passes within a
-/// hundredth of a pixel.
+/// Bits differ from the reference, which tests triangle by triangle in f64, only if an edge passes within a hundredth
+/// of a pixel.
 #[test]
 fn rays_see_what_the_reference_sees() {
     let (mut compared, mut differ) = (0, 0);

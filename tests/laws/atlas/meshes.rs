@@ -17,7 +17,7 @@ pub(super) struct Sample {
 
 type Shape = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
-/// A grid of `columns` x `rows` quads; each direction may wrap around. `place` maps grid to position.
+/// A grid of `columns` x `rows` quads; each direction may wrap around. `place` maps grid coordinates to a position.
 fn grid([columns, rows]: [u32; 2], wrapped: [bool; 2], place: impl Fn(f64, f64) -> [f64; 3]) -> Shape {
     let across = columns + u32::from(!wrapped[0]);
     let down = rows + u32::from(!wrapped[1]);
@@ -73,7 +73,7 @@ fn torus(size: [u32; 2], thin: f64) -> Shape {
     })
 }
 
-/// Triangles between random vertices: many share edges, some are degenerate, some repeat.
+/// Random triangles between random vertices: many share edges, some are degenerate, some are repeated.
 fn soup(vertices: u32, faces: u32, seed: u64) -> Shape {
     let random = CounterRng::new(seed);
     let position = |vertex: u32| [0, 1, 2].map(|axis| (random.unit(vertex.into(), 0, axis) * 4.0).floor() as f32 / 2.0);
@@ -105,7 +105,7 @@ fn sheet(size: [u32; 2], seed: u64) -> Shape {
     })
 }
 
-/// Closed, open, with handles, in several parts, and unordered. All have a positive area.
+/// Meshes that are closed, open, with handles, in several parts, or unordered. All have a positive area.
 pub(super) fn samples() -> impl Strategy<Value = Sample> {
     let sized = |least: u32, most: u32| (least..most, least..most).prop_map(|(a, b)| [a, b]);
     let plain = |shape: Shape, sphere: bool| Sample { mesh: mesh_of(shape), manifold: true, sphere };
@@ -126,7 +126,7 @@ pub(super) fn samples() -> impl Strategy<Value = Sample> {
     ]
 }
 
-/// The least side, a power of two, with a texel for each face.
+/// The smallest power of two that is the side of an atlas with a texel for each face.
 pub(super) fn least_side(mesh: &Mesh) -> u32 {
     let mut side = 1_u32;
     while (side * side) < mesh.len() as u32 {
@@ -135,7 +135,7 @@ pub(super) fn least_side(mesh: &Mesh) -> u32 {
     side
 }
 
-/// A mesh with the side of an atlas: the least that fits, or two or four times that.
+/// A mesh, and the side of an atlas: the smallest side that fits, or two or four times as long.
 pub(super) fn atlases() -> impl Strategy<Value = (Sample, u32)> {
     (samples(), 0_u32..3).prop_map(|(sample, more)| {
         let side = least_side(&sample.mesh) << more;

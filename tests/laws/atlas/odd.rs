@@ -48,7 +48,7 @@ fn one_face_has_the_whole_square() {
     }
 }
 
-/// Faces without area, faces twice, faces the wrong way round, three faces on an edge: all have texels and are counted.
+/// Faces without area, repeated faces, reversed faces, three faces on an edge: all have texels and are counted.
 #[test]
 fn oddities_are_counted() {
     let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [5.0; 3], [6.0, 5.0, 5.0]];
@@ -74,7 +74,7 @@ fn oddities_are_counted() {
     assert!(AtlasQuality::of(&atlas).used < 1.0);
 }
 
-/// Sizes at the ends of f32.
+/// Sizes at the limits of f32.
 #[test]
 fn the_ends_of_f32_do_no_harm() {
     for size in [f32::MAX, 1e30, 1e-30, f32::MIN_POSITIVE, f32::from_bits(2), f32::from_bits(1)] {
@@ -89,7 +89,7 @@ fn the_ends_of_f32_do_no_harm() {
     }
 }
 
-/// Thousands of faces on one edge, in one place, or without any neighbor.
+/// Thousands of faces on one edge, at the same position, or without any neighbor.
 #[test]
 fn crowds_are_mapped() {
     let random = CounterRng::new(5);
@@ -158,7 +158,7 @@ proptest! {
         }
     }
 
-    /// Numbers are numbers, normals have length 1, on any mesh.
+    /// On any mesh, no number is NaN or infinite and normals have length 1.
     #[test]
     fn nothing_is_nan((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");

@@ -1,4 +1,4 @@
-//! No point of a face reads another face's texel: nearest and bilinear reads in whole numbers.
+//! No point of a face reads another face's texel: tests nearest and bilinear reads in integers.
 //!
 //! Weights of corners are multiples of 2^-K, so coordinates are multiples of 2^-K texels, and the arithmetic of reads
 //! is exact.
@@ -11,7 +11,8 @@ use super::meshes::atlases;
 const K: u32 = 6;
 const ONE: i64 = 1 << K;
 
-/// The coordinates of the point with these weights, in units of 2^-K texels, interpolated over its drawn triangle.
+/// The coordinates of the point with these weights, in units of 2^-K texels, interpolated over the drawn triangle that
+/// contains it.
 fn drawn_at(drawn: &DrawnFace, place: &FacePlace, weights: [i64; 3]) -> [i64; 2] {
     let [a, b, c] = place.in_turn(weights);
     // m = (b + c) / 2.
@@ -22,7 +23,7 @@ fn drawn_at(drawn: &DrawnFace, place: &FacePlace, weights: [i64; 3]) -> [i64; 2]
     })
 }
 
-/// The coordinates of a point over the whole face: the smaller of two interpolated coordinates.
+/// The coordinates of a point over the whole face: on each axis the smaller of two interpolated coordinates.
 fn whole_at(whole: &WholeFace, weights: [i64; 3]) -> [i64; 2] {
     let at = |pair: usize, axis: usize| {
         let vertices = whole.vertices.iter().zip(weights);
@@ -81,8 +82,8 @@ proptest! {
         }
     }
 
-    /// Both drawn triangles together cover the center of each texel of the face once: inside one of them, or on the
-    /// diagonal, which the fill rule gives to one triangle.
+    /// The two drawn triangles cover the center of each texel of the face once: the center is inside one triangle, or
+    /// on the diagonal, which the fill rule assigns to one of them.
     #[test]
     fn drawing_covers_the_rectangle((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");

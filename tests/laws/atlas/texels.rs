@@ -26,7 +26,7 @@ fn polygon(ring: &[DVec3]) -> (f64, DVec3) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Every face owns its rectangle, rectangles tile the atlas without overlap, and areas sum up.
+    /// Every face has its own rectangle, the rectangles tile the atlas without overlap, and the areas add up.
     #[test]
     fn every_face_owns_texels_of_its_own((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -48,7 +48,7 @@ proptest! {
         prop_assert!((sum - whole).abs() <= 1e-12 * whole && (atlas.area() - whole).abs() <= 1e-12 * whole);
     }
 
-    /// The polygons of a texel, and its points, have its area and mean point, computed in another way.
+    /// The polygons and the points of a texel have its area and mean point, computed here in a different way.
     #[test]
     fn parts_are_what_texels_say((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -72,7 +72,8 @@ proptest! {
         }
     }
 
-    /// A texel of a level is the area-weighted mean of its finest texels, and its bounding ball holds their parts.
+    /// A texel of a level is the area-weighted mean of its finest texels, and its bounding ball contains the parts of
+    /// these texels.
     #[test]
     fn clusters_are_means_of_their_texels((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");

@@ -8,8 +8,8 @@ use super::meshes::{atlases, least_side, ring, round};
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
-    /// 2 T - 1 nodes; children partition the faces and the rectangle of their parent; every leaf has one face, and no
-    /// node has more faces than texels.
+    /// A tree over T faces has 2 T - 1 nodes; children partition the faces and the rectangle of their parent; every
+    /// leaf has one face, and no node has more faces than texels.
     #[test]
     fn nodes_are_halves_of_their_parents((sample, side) in atlases()) {
         let atlas = Atlas::new(&sample.mesh, side).expect("an atlas");
@@ -40,7 +40,7 @@ proptest! {
         }
     }
 
-    /// Children are connected if their parent is, with few exceptions if texels are scarce, and hardly any otherwise.
+    /// Children are connected if their parent is, with few exceptions if texels are scarce, and almost none otherwise.
     #[test]
     fn children_are_connected((sample, side) in atlases()) {
         let quality = AtlasQuality::of(&Atlas::new(&sample.mesh, side).expect("an atlas"));
@@ -56,7 +56,7 @@ proptest! {
     }
 }
 
-/// Each node of a sphere's tree is connected and has no hole.
+/// Each node of a sphere's tree is connected and has no holes.
 #[test]
 fn clusters_of_a_sphere_are_simply_connected() {
     for (around, down) in [(6, 4), (16, 16), (40, 30), (64, 64)] {
@@ -67,7 +67,7 @@ fn clusters_of_a_sphere_are_simply_connected() {
     }
 }
 
-/// A torus is connected but not simply connected; only its largest clusters have its holes.
+/// A torus is connected but not simply connected; only its largest clusters have holes.
 #[test]
 fn the_upper_clusters_of_a_torus_have_holes() {
     let quality = AtlasQuality::of(&Atlas::new(&ring([48, 24]), 128).expect("an atlas"));
@@ -78,7 +78,7 @@ fn the_upper_clusters_of_a_torus_have_holes() {
     assert_eq!((top.nodes, top.connected, top.simply_connected), (1, 1, 0));
 }
 
-/// As many faces as texels: every cut is determined to the face.
+/// With as many faces as texels, every cut is fixed exactly.
 #[test]
 fn a_full_atlas_is_still_one() {
     let mesh = ring([32, 32]);

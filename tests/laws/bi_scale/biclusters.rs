@@ -43,7 +43,7 @@ proptest! {
         let mut left = vec![matrix.nonzeros() as u64];
         let found = bicluster(&matrix, BiclusterOptions { seed, deletion, drop: 0.0 }, &mut |now| left.push(now)).unwrap();
         prop_assert_eq!(found.sum(), Ok(matrix.clone()));
-        // Each bicluster removes at least half its cost in non-zeros, so the total cost is at most twice the non-zeros.
+        // Each bicluster removes at least half its cost in nonzeros, so the total cost is at most twice the non-zeros.
         for (index, step) in left.windows(2).enumerate() {
             prop_assert!(2 * step[1] + found.get(index).cost() <= 2 * step[0], "bicluster {}", index);
         }
@@ -73,7 +73,7 @@ proptest! {
         let light: Vec<f64> = light[..matrix.columns()].iter().map(|&texel| f64::from(texel)).collect();
         let expected = by_rows(&matrix, &light);
         prop_assert_eq!(&paper::multiply(&found, &light), &expected);
-        // Sums of multiples of a quarter below 2^22 are exact in f32 too.
+        // Sums of multiples of a quarter below 2^22 are also exact in f32.
         let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel as f32]).collect::<Vec<_>>());
         prop_assert_eq!(fast.into_iter().map(|[sum]| f64::from(sum)).collect::<Vec<f64>>(), expected);
     }
@@ -87,7 +87,7 @@ proptest! {
         let light = &light[..matrix.columns()];
         let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel]).collect::<Vec<_>>());
         let expected = paper::multiply(&found, &light.iter().map(|&texel| f64::from(texel)).collect::<Vec<f64>>());
-        // Per row the sum of magnitudes, and the largest number of operations on a term.
+        // For each row, the sum of magnitudes and the largest number of operations on a term.
         let [rows, _] = found.matrix_size();
         let (mut magnitude, mut operations) = (vec![0.0; rows], vec![0; rows]);
         for index in 0..found.len() {
@@ -102,18 +102,19 @@ proptest! {
             }
         }
         for (row, ([fast], expected)) in fast.iter().zip(&expected).enumerate() {
-            // (1 + u)^n - 1 <= 2 n u for n u below a half, with u = 2^-24. Doubled, because f64 has a smaller error
-            // too.
+            // (1 + u)^n - 1 <= 2 n u for n u below a half, with u = 2^-24. Doubled, because f64 also has a (smaller)
+            // error.
             let bound = 4.0 * operations[row] as f64 * f64::from(f32::EPSILON) / 2.0 * magnitude[row];
             prop_assert!((f64::from(*fast) - expected).abs() <= bound, "row {row}: {fast} for {expected}");
         }
     }
 }
 
-/// Bound on the rounding error of the sum of biclusters, per number. An element v of n values t has residuals r_k =
-/// r_(k-1) - t_k from r_0 = v, each rounded by at most u |r_k| with u = EPSILON / 2, and the last is 0; the error of
-/// their exact sum is the sum of these roundings. Summing the t rounds as often, and no term exceeds S = |v| + sum |t|
-/// to first order: 2 n u S, with n + 2 in place of n for terms of second order.
+/// Bound on the rounding error of the sum of biclusters, per entry. An entry v that is split into n terms t_k has
+/// residuals r_0 = v, r_k = r_(k-1) - t_k and r_n = 0, each rounded by at most u |r_k| with u = EPSILON / 2, so the
+/// exact sum of the t_k differs from v by at most the sum of these roundings. Adding the t_k rounds n more times. To
+/// first order no partial sum exceeds S = |v| + sum |t_k|, so the bound is 2 n u S; n + 2 instead of n covers the terms
+/// of second order.
 fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut sizes: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(|value| value.abs()).collect()).collect();
     let mut counts: Vec<Vec<f64>> = rows.iter().map(|row| vec![2.0; row.len()]).collect();
@@ -164,8 +165,8 @@ fn a_matrix_of_nothing_has_no_biclusters() {
     assert_eq!(found.sum(), Ok(matrix));
 }
 
-/// A residual of 2^31 units does not fit into 32 bits: the search continues with a table, and the matrix comes back in
-/// its own unit.
+/// A residual of 2^31 units does not fit into 32 bits: the search continues with a table, and the matrix is recovered
+/// in its own unit.
 #[test]
 fn residuals_leave_32_bits() {
     let mut rows = vec![vec![i32::MIN, 1, 1, 1, 1, 1]; 7];
@@ -191,7 +192,7 @@ proptest! {
         prop_assert_eq!(paper::biclusters(&matrix, options), quietly(&matrix, options));
     }
 
-    /// Subnormal numbers, 1e-300 beside 1e300, and numbers of 53 bits read back up to rounding.
+    /// Subnormal numbers, 1e-300 together with 1e300, and 53-bit numbers are recovered up to rounding.
     #[test]
     fn any_numbers_come_back(rows in real_blocks(), seed: u64, deletion: bool) {
         let matrix = real_matrix(&rows);
@@ -206,7 +207,7 @@ proptest! {
         prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
     }
 
-    /// Multiples of a power of two below 2^40 times it are subtracted without rounding, for any power.
+    /// Multiples of a power of two, below 2^40 times that power, are subtracted without rounding.
     #[test]
     fn numbers_of_few_bits_come_back_exactly(
         rows in anything(), factor in 1..1_000_000_i32, power in -1000..900_i32, seed: u64, deletion: bool,
@@ -217,8 +218,8 @@ proptest! {
         prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
     }
 
-    /// Rows that are multiples of one row by a few factors give as many biclusters; a single row is split, which costs
-    /// as much.
+    /// Rows that are multiples of one row yield one bicluster per factor; the only row of a factor is split into
+    /// columns at the same cost.
     #[test]
     fn matrices_of_rank_1_are_few_biclusters(
         row in prop::collection::vec(0.5..1.0_f64, 6..12),
@@ -243,7 +244,7 @@ proptest! {
         prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
     }
 
-    /// The search finds equal biclusters for numbers in a table and in units: 2^-40 of a quarter has no unit.
+    /// The search finds the same biclusters for numbers in a table and in units; multiples of 2^-42 have no unit.
     #[test]
     fn the_scale_of_numbers_decides_nothing(rows in blocks(), seed: u64, deletion: bool) {
         let options = BiclusterOptions { seed, deletion, drop: 0.0 };

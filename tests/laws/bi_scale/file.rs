@@ -1,4 +1,4 @@
-//! Files of bi-scale transfer, and matrices as text: written files read back, damaged ones are refused.
+//! Files of bi-scale transfer, and matrices as text: written files can be read back, damaged ones are refused.
 
 use std::path::Path;
 
@@ -48,7 +48,7 @@ fn small_of_numbers(values: &[Vec<f64>]) -> BiScaleFile {
     BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
 }
 
-/// Numbers in a table: without and with residuals, and only residuals beyond 32 bits.
+/// Files with numbers in a table: without residuals, with residuals, and with only the residuals beyond 32 bits.
 fn tables() -> [BiScaleFile; 3] {
     let row = |large: f64| vec![0.1, -3.0, large, f64::from_bits(1), 0.7];
     let mut residuals = vec![row(1e300); 4];
@@ -87,7 +87,7 @@ fn what_is_written_is_read() {
     }
 }
 
-/// Integers have the smallest type that holds all of them, numbers in a table are floats.
+/// Integers have the smallest type that holds all of them, numbers in a table are stored as floats.
 #[test]
 fn values_have_types() {
     let type_of = |file: &BiScaleFile| {
@@ -137,7 +137,7 @@ fn parts_that_do_not_go_together_are_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// With corrected checksums, files are read or refused; nothing panics.
+    /// Damaged files with corrected checksums are read or refused without a panic.
     #[test]
     fn damaged_contents_never_panic(which in 0..4_usize, member: prop::sample::Index, at: prop::sample::Index, byte: u8) {
         let file = if which == 0 { &all_widths()[0] } else { &tables()[which - 1] };

@@ -66,7 +66,7 @@ fn blocks() -> impl Strategy<Value = Vec<Vec<i32>>> {
     })
 }
 
-/// Any number whose sums are finite: all bit patterns equally likely, near 1, or at the ends of the range.
+/// Any number whose sums are finite: all bit patterns equally likely, near 1, or at the limits of the range.
 fn finite() -> impl Strategy<Value = f64> {
     let ends = [1e303, -1e303, f64::MIN_POSITIVE, f64::from_bits(1), 1e300, 1e-300, 0.1, -0.1, 1.0];
     prop_oneof![
@@ -92,7 +92,7 @@ fn quietly(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     bicluster(matrix, options, &mut |_| ()).expect("small values")
 }
 
-/// Hills that occlude each other, and their visibility.
+/// A mesh of hills that occlude each other, and its visibility.
 fn sight(log2_samples: u32, horizon: Horizon) -> (Vertices, VisibilityMaps) {
     let mesh = hills(3);
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");

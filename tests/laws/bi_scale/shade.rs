@@ -20,7 +20,7 @@ use proptest::prelude::*;
 
 const VERTICES: u32 = 5;
 
-/// Views, lights and texels along an edge.
+/// Numbers of views, lights and texels along an edge.
 fn sizes() -> impl Strategy<Value = [usize; 3]> {
     [1..4_usize, 1..4_usize, 1..5_usize]
 }
@@ -58,12 +58,12 @@ proptest! {
         let local = &light.as_chunks().0[..lights * VERTICES as usize];
         let found = TextureLookup::new(&texture).radiance(local, &pixel, &mut Vec::new());
         prop_assert_eq!(found, paper::radiance(&texture, local, &pixel));
-        // Light is linear: doubling it doubles the radiance, to the bit.
+        // Radiance is linear in the light: doubling the light doubles it exactly.
         let twice: Vec<[f64; 3]> = local.iter().map(|rgb| rgb.map(|value| 2.0 * value)).collect();
         prop_assert_eq!(paper::radiance(&texture, &twice, &pixel), found.map(|value| 2.0 * value));
     }
 
-    /// A constant texture gives its value times the light of the pixel, for any place and view.
+    /// A constant texture yields its value times the pixel's light, for any position and view.
     #[test]
     fn weights_sum_to_one(sizes in sizes(), pixel in pixel(), value in 0.1..3.0_f32) {
         let texture = texture(sizes, &[value]);
@@ -75,7 +75,7 @@ proptest! {
     }
 }
 
-/// At a vertex a pixel's frame is the vertex's own; in between it is right-handed and orthonormal.
+/// At a vertex, a pixel's frame equals the vertex's frame; between vertices it is right-handed and orthonormal.
 #[test]
 fn frames_are_interpolated() {
     let vertices = Vertices::new(&hills(3), Tangents::Along(DVec3::X)).expect("vertices");
@@ -98,7 +98,7 @@ fn square() -> (Mesh, Vertices) {
     (mesh, vertices)
 }
 
-/// Rungs of a point in the middle of a square, towards an eye above it.
+/// Radiance at each rung, from a point in the middle of a square toward an eye above it.
 fn rungs(patch: &MesoPatch, texture: &BidirectionalTexture, radiance: [f64; 3]) -> [[f64; 3]; TracedRung::ALL.len()] {
     rungs_at(patch, texture, radiance, ([0.3, 0.7], DVec3::new(0.28, 0.0, 0.96)))
 }
@@ -127,8 +127,8 @@ fn sampled(patch: &MesoPatch, size: usize, side: usize) -> BidirectionalTexture 
 }
 
 /// A Lambert square under uniform light 1 reflects its albedo. Ray tracing has the error of 49,152 directions in the
-/// integral of the cosine, transfer that of M directions: their centers have a mean cosine that is too large by the
-/// factor 1 + 2 / M, and routing texels to the nearest center gives shares with an error of less than as much.
+/// integral of the cosine, transfer has the error of M directions: the mean cosine of their centers is too large by the
+/// factor 1 + 2 / M, and routing texels to the nearest center adds a smaller error.
 #[test]
 fn white_furnace_of_pixels() {
     let albedo = [0.25, 0.5, 1.0];
@@ -152,7 +152,7 @@ fn white_furnace_of_pixels() {
             let rung = |rung: TracedRung| by_rays[rung as usize][channel];
             assert_relative_eq!(rung(TracedRung::Exact), albedo, max_relative = 1e-3);
             assert_eq!(rung(TracedRung::Light), rung(TracedRung::Exact), "the same light");
-            // No occluders, so that only the rim of the horizon changes.
+            // Without occluders, only the rim of the horizon changes.
             assert_relative_eq!(rung(TracedRung::Visibility), albedo, max_relative = 2e-3);
             assert_relative_eq!(rung(TracedRung::Directions), by_transfer[channel], max_relative = 1e-6);
             for last in [TracedRung::Views, TracedRung::Texture] {
@@ -162,7 +162,7 @@ fn white_furnace_of_pixels() {
     }
 }
 
-/// A rough patch is darker than a flat one, at every step; with more directions and finer textures the steps converge.
+/// A rough patch is darker than a flat one at every rung; with more directions and finer textures the rungs converge.
 #[test]
 fn rungs_come_together() {
     let patch = PatchKind::Bricks.patch(1.0);
@@ -179,8 +179,8 @@ fn rungs_come_together() {
     assert!(of_texture < 0.5, "{of_texture}");
 }
 
-/// At a sample of a texture (the middle of a texel, towards one of its views) only single precision causes an error; at
-/// the middle of a texel, the texels cause no error for any view.
+/// At a sample of a texture (the center of a texel, toward one of the views), only single precision causes an error; at
+/// the center of a texel, texels cause no error for any view.
 #[test]
 fn samples_cost_nothing() {
     let patch = PatchKind::Bricks.patch(1.0);

@@ -1,4 +1,4 @@
-//! Heights, their bidirectional textures, and pixels shaded with them.
+//! Height fields, their bidirectional textures, and pixels shaded with them.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -25,13 +25,13 @@ fn direction() -> impl Strategy<Value = DVec3> {
     [at(), at()].prop_map(hemisphere)
 }
 
-/// Places, including the middles and borders of texels.
+/// Texture positions, including the centers and borders of texels.
 fn place() -> impl Strategy<Value = [f64; 2]> {
     let at = || prop_oneof![3 => -1.0..2.0_f64, 1 => (0..32_u8).prop_map(|at| f64::from(at) / 16.0)];
     [at(), at()]
 }
 
-/// Heights of a few texels: arbitrary, steps, or almost flat.
+/// Height fields of a few texels: arbitrary heights, steps, or almost flat.
 fn heights() -> impl Strategy<Value = HeightField> {
     (1..9_usize, 0.001..0.5_f64).prop_flat_map(|(side, relief)| {
         let height = prop_oneof![3 => 0.0..1.0_f64, 1 => Just(0.0), 1 => Just(1.0)];
@@ -68,7 +68,7 @@ proptest! {
         prop_assert!(response.iter().all(|value| value.is_finite() && *value >= 0.0), "{response:?}");
     }
 
-    /// The visible point lies on the view's line and on the surface, and no part of the surface is in front of it.
+    /// The visible point lies on the line of sight and on the surface, and no part of the surface is in front of it.
     #[test]
     fn what_is_seen_lies_behind_its_place(heights in heights(), place in place(), view in direction()) {
         prop_assume!(view.z > 0.02);
@@ -95,7 +95,7 @@ proptest! {
         let patch = patch(heights, MesoMaterial::diffuse([1.0; 3]));
         let seen = patch.seen(place, view);
         let point = seen.point(&patch);
-        // On lines between cells there is a normal on either side.
+        // On lines between cells, each side has a different normal.
         let side = patch.heights().side() as f64;
         let is_between = [point.x, point.y].map(|at| ((at * side - 0.5) - (at * side - 0.5).round()).abs()).iter().all(|at| *at > 1e-6);
         prop_assume!(is_between);
@@ -108,7 +108,7 @@ proptest! {
             patch.heights().height([at.x, at.y]) - at.z
         });
         let depth = depth.fold(f64::NEG_INFINITY, f64::max);
-        // Between two of the points the surface rises by its steepest slope times their distance.
+        // Between two of the points the surface rises by at most its steepest slope times their distance.
         let steepest = 2.0 * 8.0 * 0.5 * (length / 20_000.0);
         prop_assert!(if depth > 1e-9 { is_dark } else { !is_dark || depth > -steepest }, "{depth}, {is_dark}");
     }
@@ -123,7 +123,8 @@ proptest! {
         }
     }
 
-    /// A flat patch responds with its BRDF times the cosine, with any samples, and the BRDF is reciprocal.
+    /// A flat patch responds with its BRDF times the cosine, whatever the number of samples, and the BRDF is
+    /// reciprocal.
     #[test]
     fn flat_patches_are_their_material(
         place in place(), view in direction(), light in direction(), turns in 0.0..1.0_f64, side in 1..5_usize,
@@ -149,7 +150,8 @@ proptest! {
     }
 }
 
-/// A square pit twice as wide as deep, viewed at 45 degrees through its middle: the view meets the foot of the wall.
+/// A square pit twice as wide as deep, viewed at 45 degrees through its middle: the line of sight meets the foot of the
+/// wall.
 #[test]
 fn parallax_moves_points_by_their_depth() {
     let side = 64;
@@ -165,8 +167,8 @@ fn parallax_moves_points_by_their_depth() {
     assert_eq!(patch.response([0.5, 0.5], view, DVec3::new(-0.96, 0.0, 0.28)), [0.0; 3]);
 }
 
-/// Uniform light 1: a Lambert surface reflects its albedo, times twice the mean cosine of the directions, which is 1 +
-/// 2 / k^2 with k x k directions, k even.
+/// Under uniform light 1, a Lambert surface reflects its albedo times twice the mean cosine of the directions, which is
+/// 1 + 2 / k^2 for k x k directions and even k.
 #[test]
 fn white_furnace() {
     let albedo = [0.25, 0.5, 1.0];
@@ -186,7 +188,7 @@ fn white_furnace() {
 }
 
 /// Shadows only remove light: no point of a white patch reflects more than it receives, up to the error of 32 x 32
-/// directions in a tilted cosine; where the surface is rough, it reflects less.
+/// directions for a tilted cosine; a rough surface reflects less.
 #[test]
 fn relief_makes_no_light() {
     let light = directions(32);
@@ -206,8 +208,8 @@ fn relief_makes_no_light() {
     }
 }
 
-/// Samples are the patch's response at the middles of texels, in the directions of their numbers, in any number of
-/// threads; several per texel are averaged.
+/// Samples are the patch's response at the centers of texels, for the view and light of their indices, with any number
+/// of threads; several samples per texel are averaged.
 #[test]
 fn textures_hold_the_response() {
     let patch = PatchKind::Mail.patch(1.0);

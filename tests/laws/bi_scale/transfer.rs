@@ -1,4 +1,4 @@
-//! The matrix T: the texels that a vertex sees, and the local directions that receive their light.
+//! The matrix T: the texels that a vertex sees, and the local directions to which their light is assigned.
 
 use approx::assert_relative_eq;
 use crossbar::bi_scale::directions::LocalDirections;
@@ -11,14 +11,14 @@ use glam::DVec3;
 
 use super::sight;
 
-/// The direction of a light texel's center, from the axes of its face.
+/// The direction of a light texel's center, computed from the axes of its face.
 pub(super) fn center(texel: usize) -> DVec3 {
     let axes = CUBE_FACES[texel / 1024];
     let place = |at: usize| (2 * at + 1) as f64 / 32.0 - 1.0;
     (axes.center + place(texel % 32) * axes.right + place(texel / 32 % 32) * axes.down).normalize()
 }
 
-/// T by loops over texels and directions, as section IV-A defines it.
+/// The matrix T equals loops over texels and directions, as section IV-A defines it.
 #[test]
 fn texels_go_to_the_nearest_local_direction() {
     for (log2_samples, side, horizon) in [(0, 4, Horizon::Normal), (1, 8, Horizon::Geometry), (2, 5, Horizon::Normal)] {

@@ -1,5 +1,5 @@
 //! Cards draw only the front faces of open models, as the host's rays meet them, for each kind of transfer. An ideal
-//! card differs from values interpolated in f64 by less than the snapping of vertices to subpixels explains.
+//! card differs from values interpolated in f64 by no more than the snapping of vertices to subpixels.
 
 use super::{exits, interpolated};
 use crate::support::{cluster_options, profile};
@@ -36,16 +36,16 @@ use refsim::texture::TexelFormat;
 
 const SIZE: [u32; 2] = [60, 50];
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
-/// Offsets of rays from a pixel's center, in pixels. If all meet one triangle, the rasterizer finds it too.
+/// Offsets of rays from a pixel's center, in pixels. If all meet the same triangle, the rasterizer must find it.
 const AROUND: [[f64; 2]; 5] = [[0.0, 0.0], [0.05, 0.05], [0.05, -0.05], [-0.05, 0.05], [-0.05, -0.05]];
 
 /// The surface that a pixel shows, computed in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shown {
     Nothing,
-    /// The barycentric weights at the center, one subpixel step to the right, and one down.
+    /// The barycentric weights at the center, one subpixel step to the right of it, and one step below.
     Triangle([SeenPixel; 3]),
-    /// Triangles meet near the center: the rasterizer may decide otherwise.
+    /// Triangles meet near the center: the rasterizer may choose another triangle.
     Edge,
 }
 
@@ -83,7 +83,7 @@ impl Scene {
         Self::new("an open box", &mesh, camera.expect("a camera"))
     }
 
-    /// Between lid and body of the example's teapot there is a gap, and its bottom is open.
+    /// The example's teapot, which has a gap between lid and body and an open bottom.
     fn teapot() -> Self {
         let mesh = load_mesh("docs/examples/teapot.obj".as_ref()).expect("the teapot");
         let camera = Camera::new([2.4, -5.2, -2.0], [0.6, 0.0, 1.3], [0.0, 0.0, 1.0], 0.5, SIZE[0], SIZE[1]);
@@ -94,8 +94,8 @@ impl Scene {
         DVec3::from(self.vertices.positions()[vertex as usize].map(f64::from))
     }
 
-    /// Distance along the ray, and barycentric weights, of the point where the ray at a place of the picture meets a
-    /// triangle's plane; `None` for a back face or behind the eye.
+    /// Distance along the ray and barycentric weights of the point where the ray through a picture position meets a
+    /// triangle's plane; `None` for a back face or a point behind the eye.
     fn meet(&self, triangle: usize, [x, y]: [f64; 2]) -> Option<(f64, SeenPixel)> {
         let (eye, direction) = (DVec3::from(self.camera.eye().map(f64::from)), self.camera.direction_at(x, y));
         let corners = self.vertices.triangles()[triangle];
@@ -109,7 +109,7 @@ impl Scene {
             .then_some((t, SeenPixel { triangle: triangle as u32, corners, weights }))
     }
 
-    /// Synthetic transfer to light of order 3: up to 64 clusters of 6 vectors, one for every four vertices at most.
+    /// Synthetic transfer to light of order 3: up to 64 clusters of 6 vectors, but at most one per four vertices.
     fn clusters(&self, basis: &ExitBasis) -> Clustering {
         let place = |at: usize| self.place(at as u32).to_array();
         let signal = signal_at(self.vertices.len(), basis.len() * 9, 3, place);
@@ -130,7 +130,7 @@ impl Scene {
             return Shown::Edge;
         }
         let Some(triangle) = nearest else { return Shown::Nothing };
-        // Twice the snapping error of a vertex, which is half a subpixel per axis.
+        // One subpixel: twice the snapping error of a vertex, which is half a subpixel per axis.
         let step = 1.0 / f64::from(ideal().rules.subpixel_grid.lines());
         let met = [[0.0; 2], [step, 0.0], [0.0, step]].map(|beside| self.meet(triangle as usize, at(beside)));
         match met {
@@ -176,7 +176,7 @@ fn scenes() -> [Scene; 2] {
     [Scene::open_box(), Scene::teapot()]
 }
 
-/// `seen_pixels`, on which comparisons rely, reports front faces only.
+/// `seen_pixels`, on which comparisons rely, reports only front faces.
 #[test]
 fn seen_pixels_are_those_of_rays() {
     for scene in scenes() {
@@ -244,7 +244,7 @@ fn all_frequency_transfer_shows_front_faces() {
 fn bi_scale_transfer_shows_front_faces() {
     let (random, views, lights) = (CounterRng::new(7), 5, 3);
     let directions = |side| LocalDirections::new(side).expect("directions");
-    // One color throughout a patch, so that the few weight bits of a sampler make no difference.
+    // Each texture block has one color, so that the few weight bits of a sampler have no effect.
     let sample = |at: u64| [0, 1, 2].map(|channel| random.unit(at / 16, channel, 0) as f32);
     let samples = (0..16 * (views * lights) as u64 * (views * lights) as u64).map(sample).collect();
     let textures = [BidirectionalTexture::new(4, directions(views), directions(lights), samples).expect("a texture")];
@@ -271,7 +271,7 @@ fn bi_scale_transfer_shows_front_faces() {
     }
 }
 
-/// A study's sentence on the difference between card and host for the open box.
+/// A study's figures for the difference between card and host for the open box.
 fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
     let scene = Scene::open_box();
     let basis = ExitBasis::Radiance;
@@ -301,14 +301,14 @@ fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
     found.document(&Provenance::new("crossbar cpca card"))["difference"].clone()
 }
 
-/// A study of an ideal card that interpolates shades reports the rounding of single precision and no more.
+/// A study of an ideal card that interpolates shades reports only the rounding of single precision.
 #[test]
 fn a_study_blames_no_back_face() {
     let largest = difference(ideal(), None)["largest_255ths"].as_f64().expect("a number");
     assert!(largest > 0.0 && largest < 0.01, "{largest}");
 }
 
-/// Half precision has no number for this exposure: pixels that are not finite are counted, and seen.
+/// Half precision cannot represent this exposure: pixels that are not finite are counted and visible.
 #[test]
 fn pixels_that_are_not_finite_are_not_right() {
     let found = difference(profile("ideal-fp16"), Some(1e9));

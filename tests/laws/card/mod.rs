@@ -1,4 +1,4 @@
-//! Meshes drawn by cards of systems 3 to 6.
+//! Meshes that the cards of systems 3 to 6 draw.
 
 mod front_faces;
 
@@ -9,7 +9,7 @@ use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::brdf::ExitBasis;
 
-/// Exit radiance coefficients of all vertices, for light of order 3 and half its radiance: red, green and blue rows.
+/// Exit radiance coefficients of all vertices for light of order 3 at half its radiance: red, green and blue rows.
 pub(crate) fn exits(clustering: &Clustering, light: &HarmonicLight) -> Vec<[Vec<f64>; 3]> {
     let mut matrix = vec![0.0; clustering.dimension()];
     let mut of_vertex = |vertex| {
@@ -20,8 +20,8 @@ pub(crate) fn exits(clustering: &Clustering, light: &HarmonicLight) -> Vec<[Vec<
     (0..clustering.of_point().len()).map(&mut of_vertex).collect()
 }
 
-/// The radiance that a pixel shows towards an eye, from coefficients and view vectors interpolated in f64; none for
-/// grazing views of glossy surfaces, since maps end at the horizon.
+/// The radiance that a pixel shows towards an eye, from coefficients and view vectors interpolated in f64; `None` for
+/// grazing views of glossy surfaces, because maps end at the horizon.
 pub(crate) fn interpolated(
     vertices: &Vertices,
     basis: &ExitBasis,

@@ -54,7 +54,7 @@ impl Hills {
     }
 
     /// The largest difference of a picture from the host's values, relative to the largest value, over pixels of the
-    /// hills whose four neighbours are on the hills too.
+    /// hills whose four neighbors also show the hills.
     fn error(&self, picture: &Texels) -> f64 {
         let exits = exits(&self.clustering, &self.light);
         let seen = seen_pixels(&profile("ideal-fp32"), self.vertices.geometry(), &camera()).expect("pixels");
@@ -77,14 +77,15 @@ impl Hills {
     }
 }
 
-/// From above, so that no hill hides another.
+/// A camera above the hills, so that no hill hides another.
 fn camera() -> Camera {
     Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
 }
 
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 
-/// The remaining error is that of the bilinear filter between the maps' texels: it falls with the square of their size.
+/// The remaining error comes from the bilinear filter between the maps' texels: it decreases with the square of their
+/// size.
 #[test]
 fn glossy_pictures_converge_with_the_maps() {
     for basis in [ExitBasis::of_order(4), ExitBasis::without_1_0(5).expect("order 5"), ExitBasis::of_order(5)] {
@@ -150,7 +151,7 @@ fn a_frame_is_counted_and_timed() {
         assert!((4 * vertices..=9 * drawn + 3 * triangles.len() as u64).contains(&time.vertices_run));
         assert!(time.frame >= time.host.max(time.draws) && time.host >= time.products, "{time:?}");
         assert!(time.frame <= time.host + time.draws + time.state + time.draws, "{time:?}");
-        // From sizes alone: vertices and constants take equal time, and only the pixels' time is missing.
+        // Estimated from sizes alone, vertices and constants take the same time; only the pixels' time is missing.
         let draws = || log.iter().filter_map(|event| if let Event::Draw(draw) = event { Some(draw) } else { None });
         let of_groups = draws().skip(1).map(|draw| draw.vertices_run[1]).sum::<u64>();
         let counts = FrameCounts {
@@ -177,7 +178,7 @@ fn a_frame_is_counted_and_timed() {
     assert!(many.frame > few.frame, "{few:?} {many:?}");
 }
 
-/// Fewer weight bits give larger errors, within the expected size.
+/// Fewer weight bits cause larger errors, within the expected size.
 #[test]
 fn weights_of_fewer_bits_are_farther_off() {
     let hills = Hills::new(ExitBasis::of_order(4), 6, 6);

@@ -1,4 +1,4 @@
-//! Fewer triangles are drawn: within the budget, never more, and without error if none is allowed.
+//! Reclassification draws fewer triangles, never more; its error stays within the budget and is 0 if the budget is 0.
 
 use crate::support::cluster_options;
 use crossbar::clustering::{Clustering, Signal, compress};
@@ -14,7 +14,7 @@ fn grid(size: u32) -> Vec<[u32; 3]> {
     cells.flat_map(|a| [[a, a + 1, a + size], [a + 1, a + size + 1, a + size]]).collect()
 }
 
-/// A smooth signal over the grid with a noise that makes clusters ragged.
+/// A smooth signal over the grid with noise that makes the borders of clusters ragged.
 fn ragged(size: u32, noise: f32) -> Signal {
     let random = CounterRng::new(5);
     let value = |at: u32, j: u32| {
@@ -150,7 +150,7 @@ fn what_does_not_go_together_is_refused() {
     assert_eq!(error.to_string(), "expected a signal of 36 x 4 numbers, found 49 x 4");
 }
 
-/// Any triangles over the points, degenerate ones too.
+/// A signal and arbitrary triangles over its points, including degenerate ones.
 fn any_mesh() -> impl Strategy<Value = (Signal, Vec<[u32; 3]>, usize)> {
     (3..30_u32).prop_flat_map(|points| {
         let values = prop::collection::vec(-4_i8..=4, points as usize * 2);

@@ -1,4 +1,4 @@
-//! Compression against plain loops, closed forms, and properties of every step.
+//! Tests compression against plain loops, closed forms, and properties of every step.
 
 use crate::environment::by_form;
 use crate::support::cluster_options;
@@ -9,7 +9,7 @@ use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::transfer::synthetic::torus_signal;
 use proptest::prelude::*;
 
-/// In the order of descending error.
+/// Methods of compression, in order of decreasing error.
 const METHODS: [CpcaMethod; 4] =
     [CpcaMethod::Static, CpcaMethod::Doubling, CpcaMethod::Iterative, CpcaMethod::Adaptive { rounds: 6 }];
 
@@ -23,7 +23,7 @@ fn compressed(signal: &Signal, options: &CpcaOptions) -> Compression {
     compress(signal, options, |_| ()).expect("compressed")
 }
 
-/// The sum of squares of all numbers.
+/// Sum of the squares of all numbers of a signal.
 fn squares(signal: &Signal) -> f64 {
     signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum()
 }
@@ -40,7 +40,7 @@ fn energy(signal: &Signal) -> f64 {
     (0..signal.points()).map(square).sum()
 }
 
-/// Compares errors up to the share of the energy that counts as no error.
+/// Returns `true` if two errors are equal up to a negligible fraction of the energy.
 fn near(a: f64, b: f64, energy: f64) -> bool {
     (a - b).abs() <= 1e-11 * energy
 }
@@ -56,7 +56,7 @@ fn check_steps(signal: &Signal, form: CpcaForm, compression: &Compression) {
     assert!(near(last.squared_error, direct, energy), "{last:?} but {direct} by the approximations");
 }
 
-/// The short form has one signal of each size.
+/// By default one signal of each size, with `CROSSBAR_FULL=1` three.
 #[test]
 fn clusters_are_those_of_plain_loops() {
     for (points, dimension, clusters, vectors) in [(500, 4, 12, 2), (700, 9, 10, 4), (300, 25, 6, 3), (90, 40, 5, 6)] {
@@ -88,7 +88,7 @@ fn clusters_are_those_of_plain_loops() {
 
 #[test]
 fn ties_go_to_the_lower_cluster() {
-    // Whole numbers: distances are exact. Point 2 is between the start points.
+    // The numbers are integers, so distances are exact. Point 2 is between the start points.
     let signal = Signal::new(1, vec![0.0, 4.0, 2.0, 0.0, 4.0]).expect("a signal");
     for (start, of_point) in [(vec![0, 1], [0, 1, 0, 0, 1]), (vec![1, 0], [1, 0, 0, 1, 0])] {
         let options = CpcaOptions {
@@ -159,7 +159,7 @@ fn as_many_vectors_as_dimensions_are_exact() {
             let mut point = [0.0; 6];
             for p in 0..300 {
                 clustering.approximation(p, &mut point);
-                // Rounding to f32 leaves 2^-25 of each number.
+                // Rounding to f32 causes an error of 2^-25 of each number.
                 assert!(point.iter().zip(signal.point(p)).all(|(a, &b)| (a - f64::from(b)).abs() < 2e-7), "{p}");
             }
         }
@@ -223,7 +223,8 @@ fn options_that_do_not_fit_are_refused() {
     }
 }
 
-/// Small signals with many equal numbers: duplicates, ties, clusters without points and of low rank.
+/// Small signals with many equal numbers: they cause duplicates, ties, clusters without points, and clusters of low
+/// rank.
 fn coarse_signal() -> impl Strategy<Value = Signal> {
     (1..=5usize, 1..=40usize).prop_flat_map(|(dimension, points)| {
         let scale = prop::sample::select(vec![1.0_f32, 1e-30, 2e37, 1e-3]);

@@ -1,4 +1,4 @@
-//! Files of low-frequency transfer: written files read back, damaged ones are refused.
+//! Files of low-frequency transfer: written files can be read back, damaged ones are refused.
 
 use std::path::Path;
 
@@ -30,14 +30,14 @@ fn parsed(bytes: &[u8]) -> Result<PrtFile, String> {
     parse_prt(bytes, name()).map_err(|error| error.to_string())
 }
 
-/// For a fan of 12 vertices.
+/// The digest of a mesh: a fan of 12 vertices.
 fn digest(tangents: Tangents) -> MeshDigest {
     let corners = (0..12).map(|i| [i as f32, (i * i) as f32, 0.0]).collect();
     let mesh = Mesh::new(corners, (1..11).map(|i| [0, i, i + 1]).collect()).expect("a mesh");
     MeshDigest::new(&Vertices::new(&mesh, tangents).expect("vertices"))
 }
 
-/// A small file with everything: 12 points of 2 x 4 numbers in 3 clusters with different numbers of vectors.
+/// A small file with all optional contents: 12 points of 2 x 4 numbers in 3 clusters with different numbers of vectors.
 fn small() -> PrtFile {
     let signal = torus_signal(12, 8, 1);
     let options = CpcaOptions { method: CpcaMethod::Adaptive { rounds: 2 }, ..cluster_options(3, 2, 3, 1) };
@@ -82,7 +82,7 @@ fn every_flipped_bit_and_every_cut_is_seen() {
     let file = small();
     let whole = bytes(&file);
     damage_is_seen(&file, &whole, by_form(1, 8), parsed);
-    // Every bit of an array and of its header is under its checksum.
+    // A checksum covers every bit of an array and of its header.
     let at = whole.windows(6).position(|bytes| bytes == b"\x93NUMPY").expect("an array");
     let mut damaged = whole;
     damaged[at + 100] ^= 1;
@@ -112,7 +112,7 @@ fn forged_metadata_are_refused_by_name() {
     assert!(error("0,-0.5,2", "1,NaN,0").contains("an axis, found `1,NaN,0`"));
     assert!(error("\"clusters=3", "\"\\u0007").contains("provenance: expected a line of 1 to 4096 bytes"));
     assert!(error("{", "[").contains("metadata: expected JSON"));
-    // Counts far beyond the bytes that are there: refused before anything of that size is allocated.
+    // Counts far larger than the file are refused before anything of that size is allocated.
     for field in ["points", "count", "vectors", "weights", "light_order"] {
         for claim in ["1000", "4294967295", "18446744073709551615", "-1", "1e400"] {
             assert!(error(&format!("\"{field}\":"), &format!("\"{field}\":{claim},\"x\":")).starts_with("a.npz: "));
@@ -186,7 +186,7 @@ fn parts_that_do_not_go_together_are_not_written() {
     }
 }
 
-/// Arrays that are missing, of another shape or type, or more than there should be.
+/// Arrays that are missing, superfluous, or have the wrong shape or type are refused by name.
 #[test]
 fn forged_arrays_are_refused_by_name() {
     let whole = bytes(&small());
@@ -242,7 +242,8 @@ proptest! {
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
     }
 
-    /// Arbitrary bytes after the magic, and changed members with valid checksums: an error or a file, no panic.
+    /// Arbitrary bytes after the magic number, and changed members with valid checksums, are refused or read without a
+    /// panic.
     #[test]
     fn noise_is_no_file(noise in prop::collection::vec(any::<u8>(), 0..200), which: prop::sample::Index, at: prop::sample::Index, with: u8) {
         prop_assert!(parsed(&[MAGIC, &noise].concat()).is_err());

@@ -1,4 +1,4 @@
-//! The case parser: any bytes give a case or an error, and every error can be rendered.
+//! The case parser: any bytes yield a case or an error, and every error can be rendered.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ fn read(bytes: &[u8]) -> Option<Setup> {
     Setup::from_bytes("case.toml", bytes, folder()).map_err(shown).ok()
 }
 
-/// Draws small cases: invalid state must be reported as an error too.
+/// Draws the case if it is small: drawing must report invalid state as an error, too.
 fn draw(setup: &Setup) {
     if setup.size[0] * setup.size[1] <= 64 * 64 {
         case::run(setup, ExecutorKind::Scalar).ok();

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::mutation::mutated;
 use crate::support::file;
 
-/// Two triangles of a square with y up, as singles: positions, then normals along y, then texture coordinates.
+/// The four vertices of a square, with y up: position, normal along y, texture coordinates.
 const SQUARE: [[f32; 8]; 4] = [
     [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0],
@@ -134,7 +134,7 @@ fn materials_have_base_color_and_emission() {
 
 #[test]
 fn nodes_move_turn_scale_and_mirror() {
-    // A quarter turn about y takes x to -z in glTF, which is y here.
+    // A quarter turn about y takes x to -z in glTF, which is y in the mesh.
     let half = 0.5_f32.sqrt();
     let nodes = json!([
         { "mesh": 0, "translation": [1, 2, 3], "rotation": [0, half, 0, half], "scale": [2, 1, 1] },
@@ -159,7 +159,7 @@ fn nodes_move_turn_scale_and_mirror() {
 #[test]
 fn sparse_elements_replace_those_of_the_base_or_zeros() {
     let mut sparse = document(json!([{ "mesh": 3 }]));
-    // The third corner is set to the values of the normal: (0, 1, 0), with z up (0, 0, 1).
+    // The third corner is replaced by the values of the normal: (0, 1, 0), which is (0, 0, 1) with z up.
     let values = json!({ "bufferView": 4, "byteOffset": 0 });
     add_view(&mut sparse, json!({ "buffer": 0, "byteOffset": 12, "byteLength": 12 }));
     add_view(&mut sparse, json!({ "buffer": 0, "byteOffset": 144, "byteLength": 2 }));
@@ -191,7 +191,7 @@ fn texture_coordinates_may_be_unsigned_fractions() {
     assert_eq!(first(&fractions), Some([16256.0 / 65535.0, 0.0]));
 }
 
-/// The specification allows each of these, and none changes the square.
+/// The specification allows each of these documents, and none of them changes the square.
 #[test]
 fn rare_but_legal_documents_are_read() {
     let square = read(&document(json!([{ "mesh": 0 }])));
@@ -204,7 +204,7 @@ fn rare_but_legal_documents_are_read() {
     };
     let attributes = "/meshes/0/primitives/0/attributes";
     for changes in [
-        // 5.27: a scene need not have nodes, nor an animation's channel a target.
+        // 5.27: scenes need no nodes, and animation channels need no targets.
         vec![("", "scene", json!(1)), ("", "scenes", json!([{}, { "nodes": [0] }]))],
         vec![(
             "",
@@ -222,7 +222,7 @@ fn rare_but_legal_documents_are_read() {
             (attributes, "WEIGHTS_0", json!(2)),
             (attributes, "COLOR_3", json!(0)),
         ],
-        // 5.29: a texture need not have a source, nor an image a kind that the core knows.
+        // 5.29: a texture needs no source, and an image may have a type that the core does not define.
         vec![
             (
                 "",
@@ -318,7 +318,7 @@ fn buffers_stand_in_the_text_or_beside_it() {
     assert_eq!(square.mesh().len(), 2);
 }
 
-/// Several kinds of everything, small.
+/// A small document with several kinds of everything.
 fn rich() -> Vec<u8> {
     let nodes = json!([{ "mesh": 0, "scale": [1, 2, 1] }, { "mesh": 1 }, { "mesh": 2 }, { "mesh": 3, "children": [] }]);
     let mut all = document(nodes);
@@ -337,7 +337,7 @@ proptest! {
         let _ = parse_gltf(&bytes, Path::new("m.glb"), &mut nothing_beside);
     }
 
-    /// Replacing bytes keeps lengths, so that more files get past the JSON.
+    /// Replacing digits keeps all lengths, so that more files pass the JSON parser.
     #[test]
     fn replaced_digits_do_no_harm(places in prop::collection::vec((any::<prop::sample::Index>(), 0..20_u32), 1..4)) {
         let mut bytes = rich();

@@ -1,4 +1,4 @@
-//! Readers and writers of files: written files read back, and no bytes cause a panic.
+//! Readers and writers of files: written files can be read back, and no bytes cause a panic.
 
 mod cases;
 mod foreign_obj;

@@ -1,4 +1,4 @@
-//! The model reader: written models read back, and no bytes cause a panic.
+//! The model reader: written models can be read back, and no bytes cause a panic.
 
 use crate::environment::writes_files;
 use std::path::Path;
@@ -123,7 +123,7 @@ fn the_square_is_hit_as_its_fixture_says() {
     assert_eq!(String::from_utf8(text).expect("text"), expected);
 }
 
-/// A bracket whose first corner does not see all of it: rays hit exactly its area.
+/// An L-shaped face, not all of which is visible from its first corner: rays hit exactly its area.
 #[test]
 fn a_concave_face_is_hit_where_it_is() {
     let text = "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 4 0\nv 0 4 0\nf 2 3 4 5 6 1\n";

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use proptest::prelude::*;
 
-/// A good file with a number of bytes replaced, inserted or removed.
+/// A valid file with some bytes replaced, inserted or removed.
 pub(crate) fn mutated(good: impl Into<Vec<u8>>, edits: Range<usize>) -> impl Strategy<Value = Vec<u8>> {
     let good = good.into();
     let edits = prop::collection::vec((any::<prop::sample::Index>(), 0_u8..3, any::<u8>()), edits);

@@ -1,4 +1,4 @@
-//! Pictures: written pictures read back, to the bit or to the precision of the format, and no bytes cause a panic.
+//! Pictures: written pictures can be read back, exactly or to the precision of the format, and no bytes cause a panic.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::support::file;
 const SIZE: [u32; 2] = [5, 3];
 const PIXELS: usize = 15;
 
-/// Colors from dark to brighter than white, with ids beside them.
+/// Colors from dark to brighter than white, with a channel of ids.
 fn picture() -> Picture {
     let color: Vec<[f32; 3]> = (0..PIXELS).map(|i| [i as f32 * 0.01, 1.0 / (1 + i) as f32, 40.0 * i as f32]).collect();
     let ids = (0..PIXELS as u32).collect();
@@ -54,7 +54,7 @@ proptest! {
     }
 
     /// Three mantissas of 8 bits share the exponent of the brightest channel: each channel is accurate to 1/128 of the
-    /// brightest, and a picture that was read is written and read again without loss.
+    /// brightest, and writing a picture that was read loses nothing.
     #[test]
     fn hdr_keeps_what_its_format_holds(color in prop::collection::vec(prop::array::uniform3(1e-6_f32..1e6), PIXELS)) {
         let read = Picture::decode(&hdr(&Picture::rgb(SIZE[0], SIZE[1], &color)).expect("a file")).expect("our own file");
@@ -91,7 +91,7 @@ proptest! {
     }
 }
 
-/// Radiance's tools multiply pixels, and record the factor in the header; several lines multiply.
+/// Radiance's tools multiply pixels, and record the factor in the header; the factors of several lines are multiplied.
 #[test]
 fn exposures_of_hdr_files_are_undone() {
     let picture = Picture::rgb(2, 1, &[[1.0, 2.0, 4.0], [0.5, 0.25, 8.0]]);
@@ -122,8 +122,8 @@ fn fixture(name: &str) -> Result<Picture, InputError> {
     PictureFile::open(&file("fixtures/pictures").join(name)).and_then(|file| file.decode())
 }
 
-/// A picture is what an EXR file displays: 4 x 3 pixels from (-1, 10). Red is 1 + column + 10 row where the data window
-/// has pixels, in files that OpenEXR's own library wrote.
+/// A picture is an EXR file's display window: 4 x 3 pixels from (-1, 10). OpenEXR's own library wrote the files; where
+/// the data window has pixels, red is 1 + column + 10 row.
 #[test]
 fn exr_files_show_their_display_window() {
     let shown = |name: &str| {
@@ -140,8 +140,8 @@ fn exr_files_show_their_display_window() {
     assert!(error.ends_with(reason), "{error}");
 }
 
-/// PNG's specification: light is a sample to the power of 1 / gamma, unless an sRGB or cICP chunk says otherwise.
-/// Samples are 0 to 5 fifths.
+/// PNG's specification: linear light is a sample to the power of 1 / gamma, unless an sRGB or cICP chunk says
+/// otherwise. Samples are 0 to 5 fifths of the maximum.
 #[test]
 fn png_files_say_what_light_samples_stand_for() {
     let samples = |name: &str| {
@@ -160,7 +160,7 @@ fn png_files_say_what_light_samples_stand_for() {
     assert!(error.ends_with("of full range, found narrow range (video full range flag 0)"), "{error}");
 }
 
-/// Header lines of Radiance HDR files besides exposures.
+/// Header lines of Radiance HDR files other than exposures.
 #[test]
 fn hdr_files_that_are_not_linear_or_turned_are_refused() {
     let plain = hdr(&Picture::rgb(2, 1, &[[1.0; 3]; 2])).expect("a file");

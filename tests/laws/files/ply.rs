@@ -1,4 +1,4 @@
-//! PLY files: every encoding gives the same mesh, and no bytes make the reader panic.
+//! PLY files: every encoding yields the same mesh, and no bytes make the reader panic.
 
 use std::path::Path;
 

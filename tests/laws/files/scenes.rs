@@ -1,5 +1,5 @@
-//! Scene files: writing and reading gives the same bits, the fixtures equal the built scenes, and no bytes cause a
-//! panic.
+//! Scene files: writing and reading back yields the same bits, the fixtures equal the built scenes, and no bytes cause
+//! a panic.
 
 use crate::environment::writes_files;
 use std::io;
@@ -79,8 +79,7 @@ fn built_scenes_read_back_whole() {
     }
 }
 
-/// The scene files equal the generators' output byte for byte, so that a change of a generator is noticed on any
-/// machine.
+/// The scene files equal the generators' output byte for byte, so that a changed generator is noticed on any computer.
 #[test]
 fn fixtures_are_the_scenes() {
     let folder = file("fixtures/scenes");
@@ -170,7 +169,8 @@ proptest! {
     }
 }
 
-/// Materials of modelling tools that reflect more than all light: scaled with a note, refused with `--strict`.
+/// Materials of modelling tools that reflect more light than arrives are scaled with a note, or refused with
+/// `--strict`.
 #[test]
 fn materials_of_modellers_are_scaled_and_noted() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -211,7 +211,7 @@ fn materials_of_modellers_are_scaled_and_noted() {
     assert_eq!(read(false).expect("a scene").1, []);
 }
 
-/// A model with y up gives the same bits as its z-up version, and so does its scene; glTF has y up by definition.
+/// A model with y up has the same bits as its z-up version, and so does its scene; glTF has y up by definition.
 #[test]
 fn models_stand_up() {
     let models = file("fixtures/models");
@@ -233,7 +233,8 @@ fn models_stand_up() {
     }
 }
 
-/// Flipped triangles are reversed with their normals, and counted; so are degenerate triangles and edges of many faces.
+/// Flipped triangles are reversed with their normals, and counted; degenerate triangles and edges of many faces are
+/// counted, too.
 #[test]
 fn odd_models_are_mended_and_counted() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -262,7 +263,8 @@ fn odd_models_are_mended_and_counted() {
     assert_eq!(as_it_is, (crossbar::io::load_mesh(&model).expect("a mesh"), Vec::new()));
 }
 
-/// Names as 3ds Max and others write them: with blanks and `#`; comments after names; several libraries in a line.
+/// Names as 3ds Max and other programs write them: with spaces and `#`, followed by comments, or several libraries in a
+/// line.
 #[test]
 fn names_run_to_the_end_of_their_line() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -304,7 +306,7 @@ fn names_run_to_the_end_of_their_line() {
             .ends_with("m.obj:13: material blue# # sky: expected a material of its libraries, found none of this name"),
         "{refused}"
     );
-    // Taking one name for both is a guess.
+    // Whether a line with spaces names one file or several is a guess.
     assert_eq!(albedos(&["Material"], "a.mtl").0, [[0.5; 3]]);
     assert_eq!(albedos(&["blue"], "my b.mtl").0, [blue]);
     write("a.mtl b.mtl", "newmtl blue\nKd 0.6 0.6 0.6\n");

@@ -1,4 +1,4 @@
-//! STL files: both kinds give the same mesh; no bytes make the reader panic, or allocate more than the file needs.
+//! STL files: both kinds yield the same mesh; no bytes make the reader panic, or allocate more than the file needs.
 
 use std::path::Path;
 
@@ -73,7 +73,7 @@ fn stl_is_found_by_ending_and_content() {
     assert_eq!(square, load_mesh(&models.join("square.obj")).expect("a mesh"));
 }
 
-/// Forms that programs write and readers accept: several solids, no names or names in Latin-1, keywords in capitals,
+/// Variants that programs write and readers accept: several solids, no names or names in Latin-1, keywords in capitals,
 /// normals of NaN, blank lines, a byte order mark, lines that end in CR, everything in one line.
 #[test]
 fn text_in_all_its_forms_gives_the_same_mesh() {

@@ -1,4 +1,5 @@
-//! Meshes and rays at the ends of f32: no panic, hang or wrong number; zeros of both signs are one direction.
+//! Meshes and rays at the limits of f32 cause no panic, hang or wrong number; zeros of both signs mean the same
+//! direction.
 
 use crate::support::{profile, soup};
 use crossbar::geom::exact;
@@ -12,7 +13,7 @@ use refsim::machine::ExecutorKind;
 
 const FINE: OctreeParameters = OctreeParameters { most_triangles: 1, most_depth: 20 };
 
-/// Every path's hits, by name: the host, the engine on a card, the cards alone.
+/// Hits of every path, by name: the host, the Ray Engine on a card, the cards alone.
 fn paths(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<(&'static str, Vec<Option<Hit>>)> {
     let mut found = vec![("host", HostTracer::with_octree(mesh, FINE, sides).nearest_all(rays).0)];
     let parameters = EngineParameters { octree: FINE, triangles: 1..=4, rays: 2, sides, ..EngineParameters::default() };
@@ -76,7 +77,7 @@ fn the_ends_of_f32_do_no_harm() {
     }
 }
 
-/// Squares in the planes x, y and z = -1, 0 and 1: walls, and planes of every cell of the octree.
+/// Squares in the planes x, y and z = -1, 0 and 1, which are also planes of the octree's cells.
 fn walls() -> Mesh {
     let mut positions = Vec::new();
     for axis in 0..3 {
@@ -96,8 +97,8 @@ fn walls() -> Mesh {
     Mesh::new(positions, triangles).expect("a mesh")
 }
 
-/// All rays of a direction with zeros, from points between walls, in them, on their edges and outside; `signs` has the
-/// zeros' signs as bits.
+/// Rays along a direction with zeros, from points between walls, in walls, on their edges and outside; the bits of
+/// `signs` are the signs of the zeros.
 fn rays_with_zeros(direction: [f32; 3], signs: usize) -> Vec<Ray> {
     let mut rays = Vec::new();
     let mut zeros = 0;
@@ -152,7 +153,7 @@ fn right_everywhere(mesh: &Mesh, rays: &[Ray], sides: Sides) {
     }
 }
 
-/// Depth 1 means no hit: the farthest corner that a batch can meet must not lie there.
+/// Depth 1 means no hit, so the farthest corner that a batch can meet must not have depth 1.
 #[test]
 fn the_farthest_corner_is_hit() {
     for size in [1.0f32, 8.0, 0.75, 5.0, 1024.0] {
@@ -164,7 +165,7 @@ fn the_farthest_corner_is_hit() {
     }
 }
 
-/// From 2^80 sizes of the mesh away, f64 cannot distinguish cells.
+/// At a distance of 2^80 times the size of the mesh, f64 cannot distinguish cells.
 #[test]
 fn a_ray_from_far_away_finds_the_first_of_many() {
     let unit = 1.0 / (1u64 << 42) as f32;
@@ -178,7 +179,7 @@ fn a_ray_from_far_away_finds_the_first_of_many() {
     right_everywhere(&mesh, &[ray([far; 3], [-far; 3]), ray([far; 3], [-1.0; 3])], Sides::Front);
 }
 
-/// t = -0 on the host would be +0 from a depth buffer.
+/// The host's t must not be -0, because a depth buffer stores +0.
 #[test]
 fn a_ray_that_starts_on_a_back_face_starts_at_plus_zero() {
     let mesh = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).expect("a mesh");

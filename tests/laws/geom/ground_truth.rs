@@ -1,4 +1,4 @@
-//! The ground truth's filter and tree against plain integers.
+//! Tests the ground truth's filter and tree against plain integers.
 
 use crate::support::in_threads;
 use crossbar::geom::exact::{self, ExactT, Guess, Sides, Tracer, filter, integer};
@@ -6,7 +6,7 @@ use crossbar::geom::{Mesh, Ray, aimed, teapot};
 use num_bigint::BigUint;
 use proptest::prelude::*;
 
-/// Coordinates that often coincide: few values, some at the ends of the range.
+/// Coordinates that often coincide: few values, some at the limits of the range.
 fn coordinate() -> impl Strategy<Value = f32> {
     prop_oneof![
         4 => (-4_i8..=4).prop_map(f32::from),
@@ -29,7 +29,8 @@ fn sides() -> impl Strategy<Value = Sides> {
     prop_oneof![Just(Sides::Front), Just(Sides::Both)]
 }
 
-/// A ray of any kind: free, or from a point towards a mix of the corners (a corner, an edge, the inside, the plane).
+/// A random ray, or a ray toward a weighted sum of the corners: a corner, or a point on an edge, inside, or in the
+/// plane.
 fn ray_at(triangle: [[f32; 3]; 3]) -> impl Strategy<Value = Ray> {
     let weights = prop::array::uniform3(
         prop_oneof![2 => Just(0.0_f32), 2 => Just(1.0_f32), 1 => Just(0.5_f32), 2 => -0.5_f32..1.5],
@@ -139,7 +140,8 @@ fn rays_aimed_at_the_teapot_agree_on_all_paths() {
     let tracer = Tracer::new(&mesh);
     let mut rays: Vec<Ray> = aimed::aimed_at_vertices(&mesh, eye).iter().map(|aimed| aimed.ray).collect();
     rays.extend(aimed::aimed_at_edges(&mesh, eye, 1, 1).iter().map(|aimed| aimed.ray));
-    // Straight down through vertices: rays that meet edges and corners exactly, and planes of vertical triangles.
+    // Axis-parallel rays through vertices, which meet edges and corners exactly and lie in planes of vertical
+    // triangles.
     rays.extend(mesh.positions().iter().map(|&[x, y, _]| Ray::new([x, y, 8.0], [0.0, 0.0, -1.0]).expect("a ray")));
     rays.extend(mesh.positions().iter().map(|&[_, y, z]| Ray::new([-9.0, y, z], [1.5, 0.0, 0.0]).expect("a ray")));
     let mut ties = 0;

@@ -1,4 +1,4 @@
-//! Meshes, rays, exact hits, and every path that finds them.
+//! Meshes, rays, exact hits, and every way to compute hits.
 
 mod bad_geometry;
 mod ground_truth;

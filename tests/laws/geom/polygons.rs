@@ -1,4 +1,4 @@
-//! Polygons cut into triangles, compared with the even-odd rule and with intersections of segments, both in integers.
+//! Compares the triangulation of polygons with the even-odd rule and with segment intersections, both in integers.
 
 use std::cmp::Ordering;
 
@@ -17,7 +17,7 @@ fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// Segments a + s u and b + t v meet if s and t lie in [0, 1].
+/// Returns `true` if two segments, a + s u and b + t v, meet: s and t lie in [0, 1].
 fn meet([a, a_end]: [Point; 2], [b, b_end]: [Point; 2]) -> bool {
     let (u, v, w) = (minus(a_end, a), minus(b_end, b), minus(b, a));
     let det = |p: Point, q: Point| p[0] * q[1] - p[1] * q[0];
@@ -34,7 +34,7 @@ fn meet([a, a_end]: [Point; 2], [b, b_end]: [Point; 2]) -> bool {
     det(w, u) == 0 && ends[0] <= length && ends[1] >= 0
 }
 
-/// `true` if no edges meet except consecutive ones at their corner.
+/// Returns `true` if no edges meet, except consecutive edges at their common corner.
 fn is_simple(outline: &[Point]) -> bool {
     let n = outline.len();
     let edge = |i: usize| [outline[i % n], outline[(i + 1) % n]];
@@ -62,7 +62,7 @@ fn uncrossed(mut outline: Vec<Point>) -> Option<Vec<Point>> {
     is_simple(&outline).then_some(outline)
 }
 
-/// Simple polygons on grids from coarse, with many collinear corners, to fine.
+/// Simple polygons on coarse grids (with many collinear corners) to fine grids.
 fn simple() -> impl Strategy<Value = Vec<Point>> {
     let points = |side: i64| prop::collection::vec(prop::array::uniform2(0..side), 3..=40);
     prop::sample::select(vec![5_i64, 12, 60, 1000])
@@ -93,8 +93,8 @@ fn placed(outline: &[Point], ([o, u, v], exponent): &([[i64; 3]; 3], i32)) -> Ve
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
-    /// Each point off all edges lies in one triangle if a ray from it crosses the outline an odd number of times, and
-    /// in none otherwise.
+    /// Each point off all edges lies in one triangle if a ray from it crosses the outline an odd number of times,
+    /// otherwise in no triangle.
     #[test]
     fn triangles_cover_the_inside_once(
         outline in simple(),
@@ -111,7 +111,7 @@ proptest! {
         }
         let (triangles, fault) = triangulate(&placed(&outline, &plane));
         prop_assert_eq!((triangles.len(), fault), (n - 2, None));
-        // Finer by 64, so that most points lie on no edge.
+        // The grid is 64 times finer, so that most points lie on no edge.
         let fine: Vec<Point> = outline.iter().map(|point| point.map(|x| 64 * x)).collect();
         let largest = fine.iter().flatten().max().copied().unwrap_or_default() as f64;
         for point in points {
@@ -153,7 +153,7 @@ proptest! {
     ) {
         let corners: Vec<[f32; 2]> = corners
             .into_iter()
-            // Corners near one line, where f64 leaves the sign open.
+            // Corners so close to one line that f64 cannot determine the sign.
             .map(|[x, y]| if near { [x, (x * 3.0).next_up()] } else { [x, y] })
             .filter(|corner| corner.iter().all(|value| value.is_finite()))
             .collect();
@@ -185,7 +185,7 @@ fn faults_have_names() {
     let fault = |corners: &[[f32; 3]]| triangulate(corners).1;
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     assert_eq!(fault(&flat(&square)), None);
-    // A corner in line with its neighbours is legal; three corners in line make a triangle.
+    // A corner in line with its neighbors is legal, and so are three collinear corners.
     assert_eq!(fault(&flat(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]])), None);
     assert_eq!(fault(&flat(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]])), None);
     assert_eq!(fault(&flat(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])), Some(PolygonFault::Repeated));
@@ -197,7 +197,7 @@ fn faults_have_names() {
     // Rounding in a file does not make a face non-planar.
     lifted[2][2] = 1e-6;
     assert_eq!(fault(&lifted), None);
-    // The hole of a ring, joined to its outline by an edge that runs there and back, stays open.
+    // The hole of a ring, joined to its outline by a bridge edge in both directions, stays open.
     let ring = flat(&[
         [0.0, 0.0],
         [4.0, 0.0],

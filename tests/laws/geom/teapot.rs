@@ -1,4 +1,4 @@
-//! The teapot's topology by formula, and the camera that looks at it.
+//! The teapot's topology, checked with formulas, and the camera that looks at the teapot.
 
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ fn signed_volume(teapot: &teapot::Teapot, part: TeapotPart) -> f64 {
         .sum()
 }
 
-/// Boundary edges of each part.
+/// Number of boundary edges of each part.
 fn rims(teapot: &teapot::Teapot) -> BTreeMap<TeapotPart, usize> {
     let mut rims = BTreeMap::new();
     for edge in teapot.mesh.edges() {
@@ -71,7 +71,7 @@ fn every_vertex_has_a_place_of_its_own_and_a_use() {
         let mut used: Vec<_> = mesh.triangles().iter().flatten().collect();
         used.sort_unstable();
         used.dedup();
-        // At rate 1 the spout's tip falls away, and its two vertices with it.
+        // At rate 1 the spout's tip vanishes, and with it two vertices.
         assert_eq!(used.len() + if rate == 1 { 2 } else { 0 }, mesh.positions().len());
     }
 }
@@ -82,7 +82,7 @@ fn front_faces_look_outwards() {
     for part in [TeapotPart::Body, TeapotPart::Handle, TeapotPart::Spout, TeapotPart::Lid] {
         assert!(signed_volume(&teapot, part) > 0.0, "{part:?}");
     }
-    // The bottom's volume is measured from the origin, which lies on it: look at its normals.
+    // The bottom's volume is measured from the origin, which lies on it, so its normals are checked instead.
     let bottom =
         (0..).zip(&teapot.patch_of).filter(|&(_, &patch)| teapot::part_of_patch(patch.into()) == TeapotPart::Bottom);
     for (triangle, _) in bottom {
@@ -117,7 +117,8 @@ fn the_teapot_fills_the_default_picture() {
 
 #[test]
 fn front_only_sees_the_outside_of_the_teapot() {
-    // From outside, the first hit of both sides is a front side, except through an open rim or a part inside another.
+    // Seen from outside, the first hit with both sides enabled is on a front side, except through an open rim or a part
+    // inside another.
     let mesh = teapot::teapot(6).expect("a teapot");
     let camera = Camera::teapot(96, 96).expect("a camera");
     let tracer = Tracer::new(&mesh);

@@ -1,5 +1,5 @@
-//! fixtures/probes/open: for each open switch of a card a small case that distinguishes its values, for owners of the
-//! card. docs/measuring.md lists them.
+//! Tests fixtures/probes/open, which has a small case for each open switch of a card. Owners of the card can draw it to
+//! find the switch's value. docs/measuring.md lists the cases.
 
 mod probe;
 
@@ -18,7 +18,7 @@ const PRODUCTS: &str = "the only product out of range is -3 times -3, and with a
 const SIGNED: &str = "a signed byte k is 2k / 255 while texels are bytes (switch texel-values)";
 const TEXELS: &str = "chooses the texel format of a system's textures: the card has it, or refuses it";
 
-/// Switches whose values draw the same by every program of the card, with the reason.
+/// Device, switch and reason, for switches whose values draw the same with every program of the card.
 const UNDRAWN: [(&str, &str, &str); 5] = [
     ("nv20", "mad", PRODUCTS),
     ("nv20", "signed-texel-minimum", SIGNED),
@@ -27,7 +27,7 @@ const UNDRAWN: [(&str, &str, &str); 5] = [
     ("r200", "ray-textures", TEXELS),
 ];
 
-/// The reason why no drawing decides a switch of a card.
+/// The reason why no draw can distinguish the values of a switch, if it is known to be so.
 fn undrawn(device: &str, switch: &str) -> Option<&'static str> {
     UNDRAWN.iter().find(|(name, of, _)| *name == device && *of == switch).map(|(_, _, why)| *why)
 }
@@ -36,12 +36,12 @@ fn place(device: &str, switch: &str) -> String {
     format!("fixtures/probes/open/{device}/{switch}.toml")
 }
 
-/// Open switches that a drawing decides.
+/// Open switches whose values a draw can distinguish.
 fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
     probe::open(profile).filter(|switch| undrawn(&profile.name, &switch.name).is_none())
 }
 
-/// Two values of each switch draw different codes, and the batch executor gives the reference's bits.
+/// Two values of each switch draw different codes, and the batch executor produces the reference's bits.
 #[test]
 fn each_open_switch_has_a_probe() {
     for device in CARDS {
@@ -59,7 +59,7 @@ fn each_open_switch_has_a_probe() {
     }
 }
 
-/// The folder has no other files, so that a settled switch leaves no probe behind.
+/// The folder has no other files, so a settled switch cannot leave a probe behind.
 #[test]
 fn there_are_no_other_probes() {
     let mut expected: Vec<String> = Vec::new();
@@ -76,7 +76,7 @@ fn there_are_no_other_probes() {
     }
 }
 
-/// The page's table is that of the folder.
+/// The page's table lists the probes in the folder.
 #[test]
 fn the_page_lists_the_probes() {
     let mut table =

@@ -1,4 +1,4 @@
-//! Pixels drawn under the values of a switch.
+//! Draws probes with each value of a switch.
 
 use std::path::Path;
 
@@ -6,7 +6,8 @@ use crossbar::case::{Loaded, Setup};
 use refsim::device::{Profile, Switch};
 use refsim::machine::ExecutorKind;
 
-/// Codes of a case's first target, and of its depth buffer, under a value of a switch; `None` if it cannot be drawn.
+/// Codes of a case's first target, and of its depth buffer, drawn with a value of a switch; `None` if the case cannot
+/// be drawn.
 pub(super) fn codes(text: &str, switch: (&str, &str), kind: ExecutorKind) -> Option<Vec<u64>> {
     let (head, rest) = text.split_once("\n\n")?;
     let set = format!("{head}\n\n[switches]\n{} = \"{}\"\n\n{rest}", switch.0, switch.1);

@@ -1,4 +1,4 @@
-//! Pictures of a room by every method, for tests of bits here and on a GPU (tests/gpu).
+//! Pictures of a room drawn with every method, for tests of identical bits here and on a GPU (tests/gpu).
 
 use crossbar::picture::Picture;
 use crossbar::radiosity::display::Display;

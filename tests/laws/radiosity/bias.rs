@@ -1,5 +1,5 @@
-//! Half precision darkens a room: by how much, per patches, packing and rounding, compared with a prediction from the
-//! rounding of the sum.
+//! Half precision darkens a room. Compares by how much, for numbers of patches, packings and roundings, with a
+//! prediction from the rounding of the sum.
 
 use crate::support::profile;
 use approx::abs_diff_eq;
@@ -12,7 +12,7 @@ use refsim::machine::ExecutorKind;
 use super::cornell;
 
 /// Darkening of the closed Cornell box in half floats: the mean relative error over patches that do not emit light;
-/// measured and predicted.
+/// returns the measured and the predicted value.
 fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
     let system = cornell(patches);
     let truth = system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity();
@@ -35,8 +35,8 @@ fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
 
 const SIZES: [usize; 3] = [60, 120, 240];
 
-/// The prediction is of first order in the loss: losses also reduce the sums that lose, so it is too large by about the
-/// square of the loss.
+/// The prediction is of first order in the loss. Losses also reduce the sums that cause them, so the prediction is too
+/// large by about the square of the loss.
 fn is_predicted([found, predicted]: [f64; 2]) -> bool {
     abs_diff_eq!(found, predicted, epsilon = 0.1 * predicted + 1.5 * predicted * predicted)
 }
@@ -51,7 +51,7 @@ fn the_room_is_darker_the_more_patches_and_darkest_where_sums_are_truncated() {
     }
     for (patches, (nearest, truncated)) in SIZES.into_iter().zip(nearest.into_iter().zip(truncated)) {
         assert!(truncated[0] > 4.0 * nearest[0], "{patches}: {nearest:?}, {truncated:?}");
-        // Half a step per term, a step of 2^-10 to 2^-11 of the sum, and light that is reflected about twice.
+        // Each term loses half a step, which is 2^-10 to 2^-11 of the sum, and light is reflected about twice.
         let per_patch = truncated[0] / patches as f64;
         assert!((1.0 / 4096.0..1.0 / 1024.0).contains(&per_patch), "{per_patch} a patch");
     }

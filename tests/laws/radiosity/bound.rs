@@ -1,7 +1,7 @@
 //! Error bounds of the f32 iteration of [`CardSystem`].
 //!
 //! With `A = diag(M)^-1 M`, `e = diag(M)^-1 E` and `G = 1 - A`, the exact step is `x' = e + G x`, and the solution x*
-//! is its fixed point. The card's step is the exact one plus d, the rounding errors of the step and of the data. So
+//! is its fixed point. The card's step is the exact step plus d, the rounding errors of the step and of the data. So
 //! the error r obeys `r' = G r + d`, and in the infinity norm `|r'| <= g |r| + |d|` with `g = |G|`, the maximum
 //! absolute row sum: below 1, since reflectances are. After k steps
 //!
@@ -54,7 +54,7 @@ impl ErrorBound {
     }
 }
 
-/// Sums of the magnitudes of a row's rounded results, per channel.
+/// Sums of the magnitudes of a row's rounded results, for each channel.
 #[derive(Clone, Copy, Default)]
 struct Magnitudes {
     sums: [f64; 4],
@@ -68,7 +68,7 @@ impl Magnitudes {
         value
     }
 
-    /// `start` less the products of a row, in the order of the texels.
+    /// Subtracts the products of a row from `start`, in the order of the texels.
     fn row(&mut self, start: [f32; 4], matrix: &[[f32; 4]], radiosity: &[[f32; 4]]) -> [f32; 4] {
         matrix.iter().zip(radiosity).fold(start, |acc, (m, b)| {
             let product = [0, 1, 2, 3].map(|c| m[c] * b[c]);
@@ -117,9 +117,9 @@ pub(super) fn bounded_step(card: &CardSystem, radiosity: &Texels) -> (Texels, [f
 }
 
 /// An a-priori bound on the error that rounding causes in any number of steps: `d / (1 - g)`, where an element of a
-/// step has k roundings, k depending on the layout, and a relative error of `gamma = k u / (1 - k u)` of the
-/// magnitudes that are summed. Starting from 0, add `g^steps |e| / (1 - g)` for the error of the initial guess.
-/// Infinite where k u is not below 1, or g is not.
+/// step has k roundings (k depends on the layout) and a relative error of `gamma = k u / (1 - k u)` of the magnitudes
+/// that are summed. Starting from 0, add `g^steps |e| / (1 - g)` for the error of the initial guess. Infinite if k u or
+/// g is not below 1.
 pub(super) fn before(card: &CardSystem, contraction: f64, largest: f64) -> f64 {
     let texels = card.matrix().width;
     let roundings = match card.packing() {
@@ -128,8 +128,8 @@ pub(super) fn before(card: &CardSystem, contraction: f64, largest: f64) -> f64 {
     };
     let k = roundings as f64 * UNIT_F32;
     let (gamma, open) = (SLACK * k / (1.0 - k), 1.0 - contraction);
-    // |x| + |e| + sum |a| |x| <= (2 + g) |x| + |e|, and |x| is at most x* plus the error itself; starting from 0 it
-    // approaches from below.
+    // |x| + |e| + sum |a| |x| <= (2 + g) |x| + |e|, and |x| is at most |x*| plus the error; starting from 0, x
+    // approaches x* from below.
     let size = largest / open;
     let grows = gamma * (2.0 + contraction) / open;
     if !(k < 1.0 && open > 0.0 && grows < 1.0) {

@@ -1,4 +1,4 @@
-//! Partly covered patches: form factors and radiosities are those of their open parts.
+//! Partly covered patches: form factors and radiosities belong to their open parts.
 
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ use glam::DVec3;
 
 use super::tracer;
 
-/// The feet of the two blocks, as `rooms::cornell` builds them.
+/// Corners of the two blocks' base areas on the floor, as `rooms::cornell` builds them.
 #[expect(clippy::approx_constant, reason = "a corner of a block")]
 const FEET: [[[f64; 2]; 4]; 2] =
     [[[1.3, 0.65], [0.82, 2.25], [2.4, 2.72], [2.9, 1.14]], [[4.23, 2.47], [2.65, 2.96], [3.14, 4.56], [4.72, 4.06]]];
@@ -36,7 +36,7 @@ fn solved(patches: &Patches, factors: &FormFactors) -> Vec<[f64; 3]> {
     system.solve(Solver::GaussSeidel, &options, None).expect("a solution").radiosity()
 }
 
-/// True if a point of the floor is under a block: inside one of the feet.
+/// Returns `true` if a point of the floor is under a block: inside one of the base areas.
 fn under_a_block(DVec3 { x, y, .. }: DVec3) -> bool {
     FEET.iter().any(|foot| {
         (0..4).all(|i| {
@@ -61,7 +61,7 @@ fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<DVec3>, f64) {
     (points, share)
 }
 
-/// The radiosity at a point by path tracing: one pixel, seen from just above.
+/// The radiosity at a point by path tracing of one pixel, seen from just above the point.
 fn radiosity_by_paths(
     scene: &Scene,
     caster: &mut dyn crossbar::tracer::Caster,
@@ -89,7 +89,8 @@ fn estimate(values: &[f64]) -> [f64; 2] {
 fn open_areas_are_what_the_feet_leave() {
     let scene = scene();
     let feet: f64 = FEET.iter().map(|foot| shoelace(foot).abs()).sum();
-    // Cuts within four lifts (2^-16 of the diagonal) of a border are not made, at most along each foot.
+    // No cuts are made within four lifts (2^-16 of the diagonal) of a border, which affects at most the perimeter of
+    // each base area.
     let perimeter: f64 = FEET.iter().flat_map(|foot| (0..4).map(|i| distance(foot[i], foot[(i + 1) % 4]))).sum();
     let finest = 4.0 * (3.0_f64 * 5.5 * 5.5).sqrt() / 65_536.0;
     for count in [20, 150, 700, 2000] {
@@ -129,8 +130,8 @@ fn enforcing_closure_hardly_changes_a_room_with_blocks() {
         worst = (0..3).map(|c| (closed[i][c] / found[i][c] - 1.0).abs()).fold(worst, f64::max);
         light = [light[0] + factors.areas()[i] * found[i][0], light[1] + factors.areas()[i] * closed[i][0]];
     }
-    // Closure removes the noise of nine rays per pair: at most 1.5 % of a patch here, and a fortieth of that over the
-    // room.
+    // Closure removes the noise of nine rays per pair: here at most 1.5 % of a patch's radiosity, and a fortieth of
+    // that over the whole room.
     assert!(worst < 0.03, "a patch changes by {worst}");
     assert!(
         abs_diff_eq!(light[1] / light[0], 1.0, epsilon = 1e-3),
@@ -159,8 +160,8 @@ fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
             points.iter().map(|&p| radiosity_by_paths(&scene, &mut caster, [p, patch.normal()], 64)).collect();
         for c in 0..3 {
             let [truth, sigma] = estimate(&seen.iter().map(|b| b[c]).collect::<Vec<_>>());
-            // Four standard errors of the paths and points, plus a tenth: a patch of this size has one radiosity under
-            // uneven light.
+            // Four standard errors of the paths and points, plus a tenth, because a patch of this size has a single
+            // radiosity under uneven light.
             for (what, b) in [("found", found[i][c]), ("closed", closed[i][c])] {
                 let off = (b - truth).abs();
                 let message = format!("{what}: patch {i}, {share} open, channel {c}: {b} against {truth} +- {sigma}");

@@ -31,7 +31,7 @@ fn small(size: usize, seed: u64) -> System {
     System::new(factors, vec![[0.9, 0.7, 0.3]; size], emittance).expect("a system")
 }
 
-/// All states of the host's loop, in the order of the card's passes, up to the first repetition; and the iteration in
+/// All states of the host's loop, in the order of the card's passes, up to the first repetition; and the iteration at
 /// which the repeated state first occurred.
 fn orbit(system: &System) -> (Vec<Vec<[f32; 3]>>, usize) {
     let host = CardSystem::rgb(system, 254, 4096).expect("it fits");
@@ -87,7 +87,7 @@ fn cycles_and_fixed_points_are_those_of_the_hosts_loop() {
     assert!(periods[&1] > 0 && periods.keys().any(|&period| period > 1), "both kinds occur: {periods:?}");
 }
 
-/// In half floats the host's loop is no reference, so the card's own states are compared with each other.
+/// For half floats the host's loop is not a reference, so the card's own states are compared with each other.
 #[test]
 fn half_floats_go_round_too() {
     let mut longest = 0;

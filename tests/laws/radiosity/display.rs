@@ -1,4 +1,4 @@
-//! The card's picture: a pixel shows the patch that exact arithmetic finds there.
+//! The card's picture: each pixel shows the patch that exact arithmetic finds there.
 
 use crate::support::profile;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
@@ -15,15 +15,15 @@ use refsim::machine::{Executor, ExecutorKind, Machine};
 use super::all_pictures::{FLOATS, all_pictures, colours, pixels, rooms_and_cameras};
 use super::white;
 
-/// NV35 cuts corners to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 16 = 0.0884 of one, and rounding
-/// adds a little.
+/// NV35 truncates corners to a sixteenth of a pixel: an edge moves by at most sqrt(2) / 16 = 0.0884 pixels, and
+/// rounding adds a little.
 const SNAPPED: f64 = 0.09;
 
 fn card(device: &str) -> Machine {
     Machine::new(profile(device), ExecutorKind::Batch)
 }
 
-/// A point of the picture as a ray, in pixels from the upper left corner.
+/// The ray through a point of the picture, given in pixels from the upper left corner.
 fn ray(camera: &Camera, [x, y]: [f64; 2]) -> Ray {
     Ray::new(camera.eye(), narrow(camera.direction_at(x, y))).expect("a ray")
 }
@@ -37,7 +37,7 @@ fn holds(patch: &Patch, point: DVec3) -> bool {
     (0..corners.len()).all(inside)
 }
 
-/// Exact hit per point of the picture: the patch and the place on it.
+/// Exact hit for each point of the picture: the patch and the position on it.
 fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<(usize, DVec3)>> {
     let rays: Vec<Ray> = points.iter().map(|&point| ray(camera, point)).collect();
     let hits = nearest_all(patches.mesh(), &rays, Sides::Both);
@@ -51,8 +51,8 @@ fn exact(patches: &Patches, camera: &Camera, points: &[[f64; 2]]) -> Vec<Option<
     rays.iter().zip(hits).map(found).collect()
 }
 
-/// The patch of each pixel whose centre is farther than [`SNAPPED`] from any other patch; the outer `None` marks all
-/// other pixels.
+/// The patch and position of each pixel whose center is farther than [`SNAPPED`] from any other patch; the outer `None`
+/// marks all other pixels.
 fn certain(patches: &Patches, camera: &Camera) -> Vec<Option<Option<(usize, DVec3)>>> {
     let around = [[0.0, 0.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let pixels = (0..camera.height()).flat_map(|y| (0..camera.width()).map(move |x| [x, y]));
@@ -103,8 +103,8 @@ fn a_radiosity_that_is_the_same_everywhere_makes_a_picture_of_one_colour() {
     }
 }
 
-/// Along the side that ceiling and wall share, the ceiling has corners where the wall has none. The wall's side is
-/// drawn through these corners: as a single line it would leave two black pixels at 192 x 192.
+/// Along the side that ceiling and wall share, the ceiling has corners that the wall lacks. The wall's side is drawn
+/// through these corners; a single edge would leave two black pixels at 192 x 192.
 #[test]
 fn a_closed_room_shows_a_patch_in_every_pixel() {
     for blocks in [false, true] {
@@ -145,8 +145,8 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
             let want: f64 = weights.iter().zip(values).map(|(w, corner)| w * corner[c]).sum();
             let spread =
                 values.iter().map(|x| x[c]).fold(0.0, f64::max) - values.iter().map(|x| x[c]).fold(9.0, f64::min);
-            // The nearest patches are 12 pixels wide or more, the farthest 10: snapped corners shift what is inside by
-            // half a hundredth.
+            // The nearest patches are at least 12 pixels wide, the farthest 10: snapped corners change interpolated
+            // values by about 0.5 %.
             assert!(
                 abs_diff_eq!(pixel[c], want, epsilon = 0.01 * spread + 1e-5),
                 "{} and {want}, spread {spread}",
@@ -158,8 +158,8 @@ fn a_smooth_picture_is_what_the_host_interpolates() {
     assert!(compared > 3 * 3000, "{compared}");
 }
 
-/// A disc of triangles around the origin, ordered so that no two consecutive triangles are neighbours, which would make
-/// one face.
+/// A disc of triangles around the origin, ordered so that consecutive triangles are never neighbors, which would be
+/// joined into one face.
 fn disc(triangles: u32) -> Scene {
     let turn = |k: u32| {
         let angle = f64::from(k) / f64::from(triangles) * std::f64::consts::TAU;
@@ -187,7 +187,7 @@ fn any_number_of_patches_can_meet_in_a_corner() {
         let middle = pixels(&picture)[16 * 33 + 16];
         let mean = at_corners(&patches, &radiosity)[0][0];
         for (found, want) in middle.into_iter().zip(mean) {
-            // An operation is off by 2^-24 of its result; there are 3 per patch.
+            // Each operation has an error of 2^-24 of its result; there are 3 per patch.
             assert_abs_diff_eq!(found, want, epsilon = 1e-6 * f64::from(triangles) * (want + 1.0));
         }
     }

@@ -1,4 +1,4 @@
-//! Form factors against closed forms, and against properties of all form factors.
+//! Tests form factors against closed forms, and properties of all form factors.
 
 use approx::abs_diff_eq;
 use crossbar::geom::Mesh;
@@ -121,7 +121,7 @@ fn closed_rooms_close_and_pairs_are_reciprocal() {
     }
 }
 
-/// The largest difference between A_i F_ij and A_j F_ji, relative to the larger of the two.
+/// The largest difference between A_i F_ij and A_j F_ji, relative to the larger one.
 fn reciprocity_error(factors: &FormFactors) -> f64 {
     let (areas, matrix) = (factors.areas(), factors.matrix());
     let pairs = (0..areas.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -204,7 +204,7 @@ fn an_empty_room_keeps_its_factors_to_the_bit_when_rays_are_asked() {
     assert!(calls.last() == Some(&(all, all)) && calls.len() > 10 && calls.windows(2).all(|two| two[0].0 < two[1].0));
 }
 
-/// Two walls of a cube with a screen between them that hides all, then half.
+/// Two walls of a cube with a screen between them that hides everything, then half.
 #[test]
 fn a_screen_hides_what_is_behind_it() {
     let screen = |share: f32| {
@@ -238,8 +238,8 @@ fn a_closed_room_with_blocks_closes_but_for_what_is_wholly_under_them() {
     let mut factors =
         FormFactors::with_visibility(&patches, &mut tracer(&scene), parameters, &mut |_, _| ()).expect("factors");
     // The visibility of a pair is the mean of side^2 samples of 0 or 1: its standard deviation is at most 1 / (2 side),
-    // that of a row sum this times the root of the sum of its squares. Five deviations. The covered part of a floor
-    // patch does not count; blind patches are wholly covered.
+    // and a row sum's is this times the root of the sum of the row's squares. Allows five deviations. The covered part
+    // of a floor patch does not count; blind patches are entirely covered.
     let covered = |i: usize| patches.open_parts(i).is_empty();
     for (i, (sum, row)) in factors.row_sums().into_iter().zip(open.matrix().rows()).enumerate() {
         let squares: f64 = row.iter().map(|f| f * f).sum();

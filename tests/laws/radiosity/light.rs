@@ -1,4 +1,4 @@
-//! Physics: furnaces, energy, light that changes.
+//! Physical properties: furnaces, energy, changed light.
 
 use approx::abs_diff_eq;
 use crossbar::radiosity::form_factor::VisibilityParameters;
@@ -37,7 +37,7 @@ fn what_is_emitted_is_absorbed_or_leaves() {
     let closed = cornell(250);
     let solution = closed.solve(Solver::Direct, &EXACT, None).expect("a solution").radiosity();
     assert!(closed.energy_balance_error(&solution).iter().all(|left| left.abs() < 1e-12 * emitted(&closed)));
-    // An open room conserves energy too: its row sums give the light that leaves.
+    // An open room also conserves energy: its row sums determine the light that leaves.
     let scene = rooms::cornell(CornellBox { blocks: true, open: true });
     let patches = Patches::new(&scene, Subdivision::AtMost(250)).expect("patches");
     let seen =
@@ -67,11 +67,11 @@ fn light_can_change_and_the_last_solution_is_a_good_start() {
     let onwards = system.solve(Solver::Jacobi, &options, Some(&before.radiosity())).expect("a solution");
     for (anew, onwards) in anew.channels.iter().zip(&onwards.channels) {
         assert!(onwards.converged && onwards.iterations() < anew.iterations());
-        // Two solutions of residual 1e-8 |E| each.
+        // Two solutions, each with a residual of 1e-8 |E|.
         let (far, size) = (distance(&anew.radiosity, &onwards.radiosity), distance(&anew.radiosity, &[0.0; 250]));
         assert!(far < 1e-6 * size, "{far} of {size}");
     }
-    // Light is linear, and so are the radiosities.
+    // Radiosities are linear in the emitted light.
     let doubled = before.channels[0].radiosity.iter().map(|b| 1.01 * b).collect::<Vec<_>>();
     assert!(distance(&doubled, &anew.channels[0].radiosity) < 1e-6 * distance(&doubled, &[0.0; 250]));
     // New paint recomputes only the matrix, and a darker room is darker.
@@ -90,7 +90,7 @@ fn corners_share_what_meets_there() {
     let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(4)).expect("patches");
     let even = display::at_corners(&patches, &[[0.25, 0.5, 1.0]; 96]);
     assert!(even.iter().flatten().all(|corner| *corner == [0.25, 0.5, 1.0]));
-    // A radiosity that grows along x: inner corners of the floor lie on the line.
+    // A radiosity that increases linearly along x: values at inner corners of the floor lie on the line.
     let slope: Vec<[f64; 3]> = patches.list().iter().map(|p| [p.center()[0]; 3]).collect();
     let corners = display::at_corners(&patches, &slope);
     for (patch, values) in patches.list().iter().zip(&corners).filter(|(p, _)| p.normal()[2] == 1.0) {
@@ -100,7 +100,7 @@ fn corners_share_what_meets_there() {
             }
         }
     }
-    // Walls of other materials, or across an edge, give nothing.
+    // Walls of other materials, or across an edge, contribute nothing.
     let mut floor_only = vec![[0.0; 3]; 96];
     floor_only[..16].fill([1.0; 3]);
     assert!(display::at_corners(&patches, &floor_only)[16..].iter().flatten().all(|corner| *corner == [0.0; 3]));

@@ -31,7 +31,7 @@ fn cornell(patches: usize) -> System {
     System::new(factors, patches.reflectances(), patches.emittances()).expect("a system")
 }
 
-/// True if every row of form factors sums to 1 within a tolerance, except rows of patches that see nothing.
+/// Returns `true` if every row of form factors sums to 1 within a tolerance, except rows of patches that see nothing.
 fn are_closed(factors: &FormFactors, tolerance: f64) -> bool {
     factors.row_sums().into_iter().all(|sum| sum == 0.0 || (sum - 1.0).abs() <= tolerance)
 }

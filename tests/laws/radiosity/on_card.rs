@@ -1,4 +1,4 @@
-//! Matrix radiosity on the card: solved, relit, refused in words that help; programs counted.
+//! Matrix radiosity on the card: solutions, relighting, helpful refusals, and counts of instructions.
 
 use crate::support::profile;
 use approx::abs_diff_eq;
@@ -22,7 +22,7 @@ fn direct(system: &System) -> Vec<[f64; 3]> {
     system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity()
 }
 
-/// The largest difference in each channel.
+/// The largest absolute difference in each channel.
 fn off(found: &[[f32; 3]], truth: &[[f64; 3]]) -> [f64; 3] {
     [0, 1, 2].map(|c| found.iter().zip(truth).map(|(f, t)| (f64::from(f[c]) - t[c]).abs()).fold(0.0, f64::max))
 }
@@ -67,7 +67,7 @@ fn relighting_goes_on_from_the_last_solution() {
         assert_eq!(before, cold.radiosity, "a change of light leaves radiosities where they are");
         let warm = card.solve(&system, &options, &mut |_| ()).expect("a solution");
         assert!(warm.converged && warm.iterations() < cold.iterations(), "{} {}", warm.iterations(), cold.iterations());
-        // The same bits as a card that was given the new light from the start.
+        // The bits equal the results of a card that had the new light from the start.
         let mut other = self::card(&system, packing, Storage::Fp32);
         other.load(&before).expect("radiosities");
         (0..warm.iterations()).try_for_each(|_| other.iterate()).expect("iterations");
@@ -83,7 +83,7 @@ fn relighting_goes_on_from_the_last_solution() {
     }
 }
 
-/// Section 3: 1024 instructions, 254 texels, ceil(N / 254) passes.
+/// Section 3 of the paper: 1024 instructions, 254 texels, ceil(N / 254) passes.
 #[test]
 fn programs_are_as_long_as_the_card_takes() {
     let nv35 = profile("nv35");

@@ -1,4 +1,4 @@
-//! Radiosity against independent methods: light by path tracing, scenes of other authors.
+//! Compares radiosity with independent methods: light by path tracing, scenes of other authors.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ use super::tracer;
 
 const FULL: CornellBox = CornellBox { blocks: true, open: false };
 
-/// Irradiance at points of the walls equals the radiance of a path tracer there, times pi over the reflectance.
+/// Irradiance at points of the walls equals the radiance that a path tracer finds there, times pi over the reflectance.
 #[test]
 fn the_cornell_box_is_as_bright_as_paths_say() {
     let scene = rooms::cornell(FULL);

@@ -1,4 +1,4 @@
-//! All solvers find the same solution; their histories show how fast.
+//! All solvers find the same solution; their histories show how fast they converge.
 
 use approx::abs_diff_eq;
 use crossbar::radiosity::solve::{Options, Problem, Solver, residual, solve};

@@ -1,4 +1,4 @@
-//! Layouts read back to their input; the card's order of operations against plain loops.
+//! Texture layouts can be read back, and the card's order of operations equals plain loops.
 
 use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
@@ -63,7 +63,7 @@ fn bits(texels: &Texels) -> Vec<[u32; 4]> {
     texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
 }
 
-/// The steps written out as one loop over f32, without textures or passes.
+/// The steps equal a single loop over f32, without textures or passes.
 #[test]
 fn rgb_passes_are_one_loop_over_the_row() {
     let system = cornell(120);
@@ -113,7 +113,8 @@ fn luminance_passes_add_four_partial_sums_a_block() {
     }
 }
 
-/// A patch that sees itself has a diagonal other than 1, by which the paper's equation does not divide E.
+/// A patch that sees itself has a diagonal other than 1, by which the paper's equation does not divide E, but the card
+/// must.
 #[test]
 fn the_diagonal_is_divided_out_of_both_sides() {
     let values = vec![0.5, 0.25, 0.25, 0.0];

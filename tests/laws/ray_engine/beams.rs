@@ -8,7 +8,8 @@ use crossbar::tracer::octree::{Beam, Flow, GpuCells, Octree, OctreeParameters};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-/// Rays through one face of the cube: from a box, mostly into a cone, some components zero, equal or tiny.
+/// Rays through one face of the cube: they start in a box and mostly point into a cone; some components are zero, equal
+/// or tiny.
 fn bucket(random: CounterRng, count: u64, [distance, origins, directions]: [f64; 3]) -> Vec<Ray> {
     let at = |i: u64, k: u64| 2.0 * random.unit(i, 1, k) - 1.0;
     let (axis, sign) =

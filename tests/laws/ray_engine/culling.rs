@@ -14,7 +14,7 @@ use crossbar::tracer::octree::OctreeParameters;
 use proptest::prelude::*;
 use refsim::machine::ExecutorKind;
 
-/// Numbers from -1 to 1; 0 and the ends occur more often than by chance.
+/// Numbers from -1 to 1; 0, -1 and 1 occur more often than by chance.
 fn coordinate(random: CounterRng, i: u64, k: u64) -> f64 {
     match random.bits(i, 9, k) % 8 {
         0 => 0.0,
@@ -32,7 +32,7 @@ fn add(a: [f64; 3], b: [f64; 3], by: f64) -> [f64; 3] {
     [0, 1, 2].map(|k| a[k] + by * b[k])
 }
 
-/// Triangles of all kinds: plain, tiny, huge, needles, points, lines, and with corners of their neighbours.
+/// Triangles of all kinds: plain, tiny, huge, needles, points, lines, and triangles with corners of their neighbors.
 fn triangles(random: CounterRng, count: u64, size: f64, wild: bool) -> Mesh {
     let mut positions: Vec<[f32; 3]> = Vec::new();
     for i in 0..count {
@@ -63,7 +63,7 @@ fn triangles(random: CounterRng, count: u64, size: f64, wild: bool) -> Mesh {
     soup(positions)
 }
 
-/// Rays from a box, mostly into a cone, some at corners and edges and from points of the triangles.
+/// Rays that start in a box and mostly point into a cone; some aim at corners and edges, and some start on triangles.
 fn rays(random: CounterRng, mesh: &Mesh, size: f64, [origins, directions]: [f64; 2]) -> RayBatch {
     let (eye, at) = (add([0.0; 3], point(random, 5000), 3.0), point(random, 5001));
     let mut all = Vec::new();
@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-/// The culling is effective: otherwise the test above would be vacuous.
+/// Culling removes enough triangles; otherwise the test above would be vacuous.
 #[test]
 fn much_of_what_can_be_culled_is() {
     for (device, least) in [("ideal-fp32", 400), ("r300", 400), ("r200", 200)] {

@@ -1,4 +1,4 @@
-//! The engine on every kind of card and on every executor.
+//! Tests the Ray Engine on every kind of card and on every executor.
 
 use crate::environment::is_full;
 use crate::support::{bits, profile};
@@ -13,7 +13,7 @@ use crossbar::tracer::octree::OctreeParameters;
 use refsim::event::Event;
 use refsim::machine::{Executor, ExecutorKind};
 
-/// Part of the teapot, and rays of more than one origin at its triangles.
+/// Part of the teapot, and rays from more than one origin toward its triangles.
 fn scene() -> (Mesh, Vec<Ray>) {
     let whole = teapot(2).expect("a teapot");
     let mesh = Mesh::new(whole.positions().to_vec(), whole.triangles()[..96].to_vec()).expect("a part of it");
@@ -29,7 +29,7 @@ fn scene() -> (Mesh, Vec<Ray>) {
     (mesh, rays)
 }
 
-/// One GPU cell for the whole scene, and one pass for all rays: program, rays and units then equal the crossbar's.
+/// One GPU cell for the whole scene, and one pass for all rays: then program, rays and units equal the crossbar's.
 #[test]
 fn a_pass_of_the_engine_finds_what_the_crossbar_finds() {
     let (mesh, rays) = scene();
@@ -65,7 +65,7 @@ fn executors() -> Vec<Executor> {
 
 type Run = (Vec<Option<(u32, u32)>>, EngineCounts, Vec<Event>);
 
-/// The short form has every third ray.
+/// By default every third ray, with `CROSSBAR_FULL=1` all.
 #[test]
 fn executors_do_not_show() {
     let (mesh, mut rays) = scene();

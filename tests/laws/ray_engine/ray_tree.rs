@@ -1,4 +1,4 @@
-//! The ray tree gives back every ray once.
+//! The ray tree returns every ray exactly once.
 
 use crossbar::geom::Ray;
 use crossbar::geom::random::CounterRng;

@@ -15,7 +15,7 @@ use refsim::machine::ExecutorKind;
 
 const SMALL: OctreeParameters = OctreeParameters { most_triangles: 4, most_depth: 6 };
 
-/// Eye rays, and rays from everywhere to everywhere.
+/// Eye rays, and rays between random points.
 fn rays(count: usize) -> Vec<Ray> {
     let mut rays = Camera::teapot(32, 32).expect("a camera").rays();
     let random = CounterRng::new(21);

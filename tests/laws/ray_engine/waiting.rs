@@ -23,7 +23,7 @@ struct Run {
 
 fn run(mesh: &Mesh, rays: &[Ray], parameters: EngineParameters) -> Run {
     let octree = OctreeParameters { most_triangles: 4, most_depth: 6 };
-    // A small tree: buckets leave it while rays still enter.
+    // The tree is small, so buckets leave it while rays still enter.
     let parameters = EngineParameters { octree, rays: 32, waiting: 600, record: true, ..parameters };
     let mut engine = RayEngine::new(mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
     let hits = engine.trace(rays).expect("the card works");
@@ -48,7 +48,7 @@ fn host_work(log: &[Event]) -> HostCounts {
     out
 }
 
-/// The run in modelled time: commands from the log, their durations from the card's figures.
+/// Replays the run in modelled time: commands come from the log, durations from the card's figures.
 fn timed(run: &Run, host: &HostModel) -> Replay {
     let model = Model::new(Level::Pipeline, &profile("nv35")).expect("a model");
     replay(&run.log, &model, &Options { host: Some(host), ..Options::of(Level::Pipeline) }).expect("a good log")

@@ -6,8 +6,8 @@ use crossbar::scene::{Scene, Surface};
 
 use super::{by_distributed_rays, by_paths, host, of, room, room_camera, settings, white};
 
-/// Maximum number of standard deviations between two pixels: by a normal law, one of 1.7 million channels lies further
-/// off, so a correct picture of 16 x 16 fails once in 2,000 seeds.
+/// Maximum number of standard deviations between two pixels: with a normal distribution, one of 1.7 million channels
+/// exceeds it, so a correct picture of 16 x 16 fails once in 2,000 seeds.
 const PIXEL_FAR: f64 = 5.0;
 
 fn paths(scene: &Scene, settings: &Settings, direct: Direct) -> RenderedPicture {
@@ -18,13 +18,14 @@ fn of_size(size: u32, scene: &Scene, settings: &Settings, direct: Direct) -> Ren
     by_paths(scene, &room_camera(size, size), settings, direct)
 }
 
-/// Walks rarely find the lamp: each pixel needs many samples for a normal law, so there are few pixels.
+/// Side of small pictures. Walks rarely find the lamp, so a pixel needs many samples before its mean is normally
+/// distributed.
 const FEW: u32 = 4;
 /// 96 samples for each of 16 x 16 pixels.
 const MANY: u32 = 96 * 16;
 
-/// Compares pixel by pixel, and the mean square of all deviations, whose expectation is 1: its spread is about (2 /
-/// n)^(1/2), wider for long tails.
+/// Compares pixel by pixel, and checks the mean square of all deviations: its expectation is 1, and its standard
+/// deviation about (2 / n)^(1/2), more for long tails.
 fn agree(a: &RenderedPicture, b: &RenderedPicture) {
     let (mut squares, mut count, mut sum, mut spread) = (0.0, 0.0, 0.0, 0.0);
     for pixel in 0..a.color.len() {
@@ -46,7 +47,7 @@ fn agree(a: &RenderedPicture, b: &RenderedPicture) {
             spread += variance;
         }
     }
-    // Channels of a pixel are correlated: a third of the channels is independent.
+    // Channels of a pixel are correlated: only a third of them is independent.
     let wide = 5.0 * (2.0 / (count / 3.0_f64)).sqrt();
     assert!(count > 0.0, "something was left to chance");
     assert!((squares / count - 1.0).abs() < wide, "mean square {} of {count}", squares / count);
@@ -80,7 +81,8 @@ fn distributed_rays_are_paths_with_one_diffuse_hit() {
     let once = |seed| Settings { samples: 64, depth: 1, seed, ..settings() };
     let camera = room_camera(16, 16);
     agree(&by_distributed_rays(&scene, &camera, &once(6)), &paths(&scene, &once(7), Direct::Both));
-    // A mirror in between: one hit more for both, and no light path between diffuse surfaces that only the walk finds.
+    // A mirror in between: both renderers have one more hit, and there is no light path between diffuse surfaces that
+    // only the walk finds.
     let mirror = room(1.0, &of(Surface::Mirror { reflectance: [0.9; 3] }));
     assert!(by_distributed_rays(&mirror, &camera, &once(8)).counts.of(RayKind::Reflection) > 0);
 }
@@ -89,7 +91,7 @@ fn distributed_rays_are_paths_with_one_diffuse_hit() {
 fn a_lens_is_sharp_at_its_focus() {
     use crossbar::renderer::{Lens, eye};
     use crossbar::scene::Camera;
-    // A wall of two shades seen head on: with the wall in focus the edge stays sharp, otherwise it blurs.
+    // A wall of two shades seen from the front: with the wall in focus the edge stays sharp, otherwise it blurs.
     let mut builder = super::Builder::default();
     builder.quad([-4.0, -4.0, 0.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0], white(0.25));
     builder.quad([0.0, -4.0, 0.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0], white(1.0));

@@ -1,4 +1,4 @@
-//! Pictures are identical to the bit for every number of threads, bundle size and caster.
+//! Pictures are bit-identical for every number of threads, bundle size and caster.
 
 use crate::support::{in_threads, profile};
 use crossbar::geom::exact::Sides;
@@ -42,7 +42,7 @@ fn usual() -> Settings {
     Settings { samples: 3, lens: Some(Lens { radius: 0.02, focus: 1.2 }), ..settings() }
 }
 
-/// The parts of a picture that must not change; the number of bundles may.
+/// The parts of a picture that must not change; the number of bundles may change.
 fn essence(mut picture: RenderedPicture) -> RenderedPicture {
     picture.counts.bundles = 0;
     picture

@@ -1,4 +1,4 @@
-//! Direct light from a square, against Lambert's closed form of 1760.
+//! Compares direct light from a square with Lambert's closed form of 1760.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ fn lambert(corners: &[DVec3]) -> f64 {
     ((0..corners.len()).map(side).sum::<f64>() / (2.0 * PI)).abs()
 }
 
-/// Form factor to a rectangle parallel to the area with a corner straight above it; a and b are the sides relative to
+/// Form factor to a rectangle parallel to the area, with a corner directly above it; a and b are its sides divided by
 /// its height.
 fn parallel_corner(a: f64, b: f64) -> f64 {
     let (x, y) = ((1.0 + a * a).sqrt(), (1.0 + b * b).sqrt());

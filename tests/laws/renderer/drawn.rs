@@ -1,4 +1,4 @@
-//! Eye rays and mirrors that a card draws, beside the same by rays.
+//! Compares eye rays and mirrors that a card draws with traced ones.
 
 use crossbar::card::RasterizedEyes;
 use crossbar::geom::exact::Sides;
@@ -11,13 +11,14 @@ use refsim::machine::{Executor, ExecutorKind};
 use super::{Builder, by_whitted_rays, lamp, of, settings};
 use crate::support::profile;
 
-/// Share of the pixels in which a channel differs by more than two 255ths.
+/// Fraction of the pixels in which a channel differs by more than two 255ths.
 fn differing(one: &RenderedPicture, other: &RenderedPicture) -> f64 {
     let far = |(a, b): &(&[f64; 3], &[f64; 3])| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 2.0 / 255.0);
     one.color.iter().zip(&other.color).filter(far).count() as f64 / one.color.len() as f64
 }
 
-/// The raster of a card finds what the rays through the centers of pixels hit, but for edges; all other rays go on.
+/// Except at edges, a card's rasterizer finds what rays through pixel centers hit; all further rays are traced as
+/// before.
 #[test]
 fn drawn_eye_rays_see_what_cast_ones_hit() {
     let scene = built::build("cornell-box").expect("a scene");
@@ -34,14 +35,14 @@ fn drawn_eye_rays_see_what_cast_ones_hit() {
         let (a, b) = (a.as_ref()?, b.as_ref()?);
         (a.triangle == b.triangle).then(|| f64::from((a.t - b.t).abs() / a.t))
     });
-    // The card rounds vertices to a grid within pixels.
+    // The card rounds vertices to its subpixel grid.
     let most = off.fold(0.0, f64::max);
     assert!(most < 0.03, "{most}: depths along the view");
     assert!(differing(&cast, &drawn) < 0.01);
 }
 
-/// A mirror under a ceiling that is far away shows the quarters of the ceiling where rays find them: the faces of the
-/// map are the right way round. A ceiling that is near is displaced.
+/// A mirror under a ceiling that is far away shows the quarters of the ceiling where rays find them, so the map's faces
+/// have the right orientation. A near ceiling appears displaced.
 #[test]
 fn an_environment_map_is_right_for_what_is_far_away() {
     let mirror = Surface::Mirror { reflectance: [0.9, 0.6, 0.3] };

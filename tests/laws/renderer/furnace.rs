@@ -14,7 +14,7 @@ fn trace(scene: &Scene, camera: &Camera, settings: &Settings, direct: Direct) ->
     picture
 }
 
-/// A closed box whose walls emit 1 and reflect a half.
+/// A closed box whose walls emit radiance 1 and reflect half of the light.
 fn furnace() -> Scene {
     let mut builder = Builder::default();
     builder.boxed([-1.0; 3], [1.0, 2.0, 1.5], true, &Material { emission: [1.0; 3], ..white(0.5) });
@@ -39,7 +39,7 @@ fn short_walks_sum_the_series_exactly() {
 
 #[test]
 fn all_walks_sum_to_emission_over_one_minus_albedo() {
-    // Only roulette is random, and must not change the mean: 1 / (1 - 1/2).
+    // Only Russian roulette is random, and it must not change the mean, 1 / (1 - 1/2).
     let scene = furnace();
     let all = Settings { depth: 1000, samples: 8000, ..settings() };
     for direct in [Direct::Walk, Direct::Both] {

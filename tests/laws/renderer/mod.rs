@@ -1,4 +1,5 @@
-//! The renderers, compared with closed forms, with each other, and with themselves on other threads and casters.
+//! Compares the renderers with closed forms, with each other, and with themselves for other numbers of threads and
+//! other casters.
 
 mod agreement;
 mod bits;
@@ -18,7 +19,7 @@ use crossbar::renderer::{RenderedPicture, Settings, distributed, path, photon};
 use crossbar::scene::{Camera, Color, Material, Scene, Surface};
 use crossbar::tracer::HostTracer;
 
-/// Squares and triangles with a material each, put together.
+/// Builds a scene of quads and triangles, each with its material.
 #[derive(Default)]
 struct Builder {
     corners: Vec<[f32; 3]>,
@@ -31,7 +32,7 @@ impl Builder {
         self.materials.push(material);
     }
 
-    /// A parallelogram from a corner along two sides; its front is where `u x v` points.
+    /// A parallelogram given by a corner and two sides; `u x v` points to its front.
     fn quad(&mut self, corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: Material) {
         let at = |a: f32, b: f32| [0, 1, 2].map(|k| corner[k] + a * u[k] + b * v[k]);
         self.triangle([at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0)], material.clone());
@@ -92,7 +93,7 @@ fn by_photons(scene: &Scene, camera: &Camera, settings: &Settings, photons: &Pho
     photon::render(scene, camera, settings, photons, &mut host(scene), &mut |_| {}).expect("a picture")
 }
 
-/// A camera of one pixel, a needle's eye wide.
+/// A camera with one pixel and a very small field of view.
 fn needle(eye: [f32; 3], target: [f32; 3]) -> Camera {
     let way = [0, 1, 2].map(|k| target[k] - eye[k]);
     let up = if way[0] == 0.0 && way[1] == 0.0 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
@@ -120,16 +121,16 @@ fn room(lamp_side: f32, block: &Material) -> Scene {
     builder.scene()
 }
 
-/// Into the room from its front wall.
+/// A camera at the room's front wall that looks into the room.
 fn room_camera(width: u32, height: u32) -> Camera {
     Camera::new([0.2, -0.95, 1.1], [0.0, 0.3, 0.7], [0.0, 0.0, 1.0], 0.8, width, height).expect("a camera")
 }
 
-/// Tolerance of a mean in standard deviations. By a normal law the error of one channel in 150,000 is larger; the seeds
-/// are fixed, so a test that passed once passes until something changes.
+/// Tolerance of a mean in standard deviations. With a normal distribution, one channel in 150,000 has a larger error.
+/// The seeds are fixed, so a test that passed once passes until something changes.
 const FAR: f64 = 4.5;
 
-/// Holds one pixel against what is expected of it.
+/// Compares one pixel with its expected value.
 fn within_chance(picture: &RenderedPicture, pixel: usize, expected: [f64; 3]) {
     let variances = picture.variance[pixel];
     for ((found, variance), expected) in picture.color[pixel].into_iter().zip(variances).zip(expected) {
@@ -140,7 +141,7 @@ fn within_chance(picture: &RenderedPicture, pixel: usize, expected: [f64; 3]) {
     }
 }
 
-/// So that the helpers above can't go wrong unseen.
+/// Tests the helpers above, whose errors could go unnoticed.
 #[test]
 fn boxes_face_the_way_they_say() {
     for (inwards, from) in [(true, [0.5; 3]), (false, [0.5, 0.5, 4.0])] {

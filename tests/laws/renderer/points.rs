@@ -32,7 +32,7 @@ fn floor(albedo: f32, beside: impl FnOnce(&mut Builder)) -> Scene {
     scene
 }
 
-/// Radiance of the floor at the origin towards the eye: `f cos I / d^2` with f of Lafortune and Willems.
+/// Radiance of the floor at the origin towards the eye: `f cos I / d^2` with the f of Lafortune and Willems.
 fn radiance(albedo: f64, light: DVec3, share: f64) -> [f64; 3] {
     let eye = DVec3::from(EYE.map(f64::from)).normalize();
     let mirrored = DVec3::new(-eye.x, -eye.y, eye.z);
@@ -69,7 +69,7 @@ fn every_renderer_shows_the_highlight_of_a_point_light() {
     }
 }
 
-/// On a single flat floor photons add nothing to distributed rays: the pictures are equal.
+/// On a single flat floor, photons add nothing to distributed rays, so the pictures are equal.
 #[test]
 fn photons_and_distributed_rays_agree_on_gloss_under_a_point_light() {
     let camera = Camera::new(EYE, [0.0; 3], [0.0, 0.0, 1.0], 0.6, 12, 12).expect("a camera");
@@ -85,8 +85,8 @@ fn photons_and_distributed_rays_agree_on_gloss_under_a_point_light() {
     }
 }
 
-/// A mirror adds a second light for the floor, at the light's mirror image. No ray of a lobe hits a point, but photons
-/// find it.
+/// A mirror acts as a second light for the floor, at the light's mirror image. No ray of a lobe can hit a point light,
+/// but photons carry its light.
 #[test]
 fn a_mirror_casts_a_point_light_on_gloss() {
     let image = DVec3::new(2.5, 0.25, 2.0);
@@ -98,22 +98,22 @@ fn a_mirror_casts_a_point_light_on_gloss() {
     let photons = Photons { caustic: 1_000_000, nearest: 2000, radius: 0.2, ..photons(4) };
     let found = by_photons(&scene, &needle(EYE, [0.0; 3]), &settings(), &photons).color[0];
     for channel in 0..3 {
-        // About 600 photons, a standard deviation of 4 %; the lobe changes a little over the disk of the estimate.
+        // About 600 photons have a standard deviation of 4 %; the lobe varies a little over the disk of the estimate.
         let share = (found[channel] - direct[channel]) / mirrored[channel];
         assert!((share - 1.0).abs() < 0.2, "{found:?}, expected {mirrored:?} beside {direct:?}");
     }
 }
 
-/// Behind the first glass each of the two rays samples one of two lamps, and sees only one of the two. With separate
-/// random numbers the variance of the rays' sum is the sum of their variances. With the same numbers one ray would be
-/// lit exactly where the other is not.
+/// Behind the first glass, each of the two rays samples one of two lamps, and only one of the lamps is visible to it.
+/// With separate random numbers the variance of the rays' sum is the sum of their variances. With the same numbers one
+/// ray would be lit exactly where the other is not.
 #[test]
 fn the_two_rays_of_glass_are_independent() {
     let variance = |below: f32, above: f32| {
         let mut builder = Builder::default();
         let glass = of(Surface::Glass { index: 1.5, transmittance: [1.0; 3] });
         builder.quad([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], glass);
-        // Under the glass a floor with a lamp over it, above it a wall with a lamp before it.
+        // Below the glass, a floor with a lamp over it; above the glass, a wall with a lamp in front of it.
         builder.quad([-9.0, -9.0, -2.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], white(below));
         builder.quad([2.0, -1.0, -0.5], [0.0, 2.0, 0.0], [2.0, 0.0, 0.0], lamp([4.0; 3]));
         builder.quad([4.0, -9.0, 0.0], [0.0, 0.0, 9.0], [0.0, 18.0, 0.0], white(above));

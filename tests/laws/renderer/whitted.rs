@@ -1,4 +1,5 @@
-//! Whitted's rays against closed forms: the image in a mirror, Snell, Fresnel, total internal reflection, shadows.
+//! Compares Whitted's rays with closed forms: the image in a mirror, Snell, Fresnel, total internal reflection,
+//! shadows.
 
 use std::f64::consts::PI;
 
@@ -32,12 +33,12 @@ fn a_mirror_shows_the_image_of_a_point() {
         [0.0, 20.0, 0.0],
         of(Surface::Mirror { reflectance: [0.9, 0.8, 0.7] }),
     );
-    // A lamp of side 0.02 about (2, 1, 3) that faces down; its image is about (2, 1, -3).
+    // A lamp of side 0.02 centered at (2, 1, 3) that faces down; its image is at (2, 1, -3).
     builder.quad([1.99, 0.99, 3.0], [0.0, 0.02, 0.0], [0.02, 0.0, 0.0], lamp([2.0, 2.0, 2.0]));
     let scene = builder.scene();
     let eye = [-1.0, -2.0, 4.0];
     near(one(&scene, eye, [2.0, 1.0, -3.0]), [1.8, 1.6, 1.4], 1e-6);
-    // Inside the image, and just outside.
+    // Rays that hit the image, and rays just outside it.
     for (at, seen) in [([1.992, 1.008, -3.0], true), ([1.98, 1.0, -3.0], false), ([2.0, 1.02, -3.0], false)] {
         let found = one(&scene, eye, at);
         assert_eq!(found[0] > 0.0, seen, "{at:?}: {found:?}");
@@ -46,10 +47,11 @@ fn a_mirror_shows_the_image_of_a_point() {
 
 #[test]
 fn a_slab_of_glass_moves_the_ray_and_keeps_its_direction() {
-    // Fronts outwards: air above z = 0, glass down to z = -1.
+    // The fronts of the slab face outward: air above z = 0, glass down to z = -1.
     let mut builder = Builder::default();
     builder.boxed([-50.0, -50.0, -1.0], [50.0, 50.0, 0.0], false, &of(glass()));
-    // In at 45 degrees: sin' = sin / 1.5. Within the slab the ray goes tan' across, afterwards as before.
+    // The ray enters at 45 degrees: sin' = sin / 1.5. It moves across by tan' within the slab, and leaves in its
+    // original direction.
     let sine = (0.5_f64).sqrt() / 1.5;
     let across = sine / (1.0 - sine * sine).sqrt();
     let at = (across + 1.0) as f32;
@@ -58,12 +60,13 @@ fn a_slab_of_glass_moves_the_ray_and_keeps_its_direction() {
     let (s, p) = fresnel(0.5_f64.sqrt(), 1.5);
     let passes = 1.0 - (s + p) / 2.0;
     near(one(&scene, [-1.0, 0.0, 1.0], [0.0; 3]), [passes * passes; 3], 1e-9);
-    // The lamp's position without glass, and beyond the other side of the image.
+    // Rays that would hit the lamp without glass, and rays beyond the other side of the image.
     near(one(&scene, [-1.1, 0.0, 1.0], [-0.1, 0.0, 0.0]), [0.0; 3], 0.0);
     near(one(&scene, [-0.9, 0.0, 1.0], [0.1, 0.0, 0.0]), [0.0; 3], 0.0);
 }
 
-/// Both polarisations, in cosines instead of sines and tangents of the angles' sum and difference.
+/// Reflectances for both polarizations, computed from cosines instead of sines and tangents of the angles' sum and
+/// difference.
 fn fresnel(cosine: f64, index: f64) -> (f64, f64) {
     let other = (1.0 - (1.0 - cosine * cosine) / (index * index)).sqrt();
     let s = (cosine - index * other) / (cosine + index * other);
@@ -73,14 +76,15 @@ fn fresnel(cosine: f64, index: f64) -> (f64, f64) {
 
 #[test]
 fn a_prism_turns_light_by_total_internal_reflection() {
-    // Right angle at the origin, legs along x and z, hypotenuse from (2, 0) to (0, 2): 45 degrees are beyond the
-    // critical 41.8.
+    // Right angle at the origin, legs along x and z, hypotenuse from (2, 0) to (0, 2): 45 degrees exceed the critical
+    // angle of 41.8.
     let mut builder = Builder::default();
     let (low, high) = (-5.0, 10.0);
     builder.quad([0.0, low, 0.0], [2.0, 0.0, 0.0], [0.0, -high, 0.0].map(|x: f32| -x), of(glass()));
     builder.quad([0.0, low, 0.0], [0.0, high, 0.0], [0.0, 0.0, 2.0], of(glass()));
     builder.quad([2.0, low, 0.0], [0.0, high, 0.0], [-2.0, 0.0, 2.0], of(glass()));
-    // In upwards through the leg on x, off the hypotenuse, out through the leg on z towards negative x.
+    // The ray enters upward through the leg on x, is reflected at the hypotenuse, and leaves through the leg on z
+    // toward negative x.
     builder.quad([-3.0, -1.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0], lamp([1.0; 3]));
     let mut scene = builder.scene();
     turn_outwards(&mut scene);
@@ -88,7 +92,7 @@ fn a_prism_turns_light_by_total_internal_reflection() {
     near(found, [0.96 * 0.96; 3], 1e-9);
 }
 
-/// The legs' and the hypotenuse's fronts must look out of the glass: away from its middle.
+/// Turns triangles so that the fronts of legs and hypotenuse face away from the middle of the glass.
 fn turn_outwards(scene: &mut Scene) {
     use crossbar::geom::Mesh;
     use crossbar::geom::vector::wide;
@@ -106,7 +110,7 @@ fn turn_outwards(scene: &mut Scene) {
     *scene = Scene::new(mesh, scene.materials().to_vec(), scene.material_of().to_vec(), Vec::new()).expect("a scene");
 }
 
-/// A floor, a square of side 1 a unit above it, and a light a unit above that.
+/// A floor, a square of side 1 one unit above it, and a light one unit above the square.
 fn shadowed() -> Scene {
     let mut builder = Builder::default();
     builder.quad([-20.0, -20.0, 0.0], [40.0, 0.0, 0.0], [0.0, 40.0, 0.0], white(0.5));
@@ -119,7 +123,7 @@ fn shadowed() -> Scene {
 #[test]
 fn shadows_end_where_the_light_says() {
     let scene = shadowed();
-    // Twice as large on the floor: from -1 to 1.
+    // The shadow on the floor is twice as large as the square: from -1 to 1.
     for (x, lit) in [(0.0, false), (0.98, false), (1.02, true), (4.0, true)] {
         let found = one(&scene, [x, -6.0, 0.5], [x, 0.0, 0.0]);
         let square = f64::from(x * x) + 4.0;
@@ -130,8 +134,8 @@ fn shadows_end_where_the_light_says() {
 
 #[test]
 fn lit_surfaces_have_no_spots() {
-    // Rays that start on a surface must not meet it again, however far from the origin of coordinates it lies and
-    // however flat they leave it.
+    // Rays that start on a surface must not meet it again, however far it is from the origin of coordinates and however
+    // small their angle to it.
     for shift in [0.0, 100.0, 3000.0] {
         let mut builder = Builder::default();
         builder.quad([shift, shift, 0.1 * shift], [8.0, 0.0, 1.7], [0.0, 7.0, 0.9], white(1.0));

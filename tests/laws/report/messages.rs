@@ -8,7 +8,7 @@ use crossbar::report::{Excerpt, SourceText};
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use proptest::prelude::*;
 
-/// A message about a place of a text.
+/// A message with an excerpt and labels.
 #[derive(Debug)]
 struct Message(Excerpt, Vec<LabeledSpan>);
 
@@ -33,7 +33,7 @@ fn rendered(source: &dyn SourceCode, spans: &[Range<usize>]) -> String {
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::none()).with_width(100);
     handler.render_report(&mut text, &Message(excerpt, labels)).expect("a message");
-    // 80 characters of the text and two truncation marks, after line numbers of at most 8 digits.
+    // At most 80 characters of the text and two truncation marks, after line numbers of at most 8 digits.
     assert!(text.lines().all(|line| line.chars().count() <= 80 + 6 + 8 + 10), "{text}");
     text
 }
@@ -95,7 +95,7 @@ proptest! {
         }).collect();
         let text = rendered(&SourceText::new("\x1b[1mx", lossy), &inside);
         prop_assert!(!text.contains(|c| c != '\n' && is_hidden(c)), "{text:?}");
-        // Sources of other kinds may hold bytes that are not UTF-8.
+        // Sources of other types may contain bytes that are not UTF-8.
         let labels: Vec<_> = spans.iter().map(|s| LabeledSpan::new(None, s.start, s.len())).collect();
         if Excerpt::new(&bytes, &labels).is_some() {
             let text = rendered(&bytes, &spans);

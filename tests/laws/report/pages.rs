@@ -79,7 +79,7 @@ fn the_structure_of_a_page() {
 /// Tags that have no end tag.
 const VOID: [&str; 4] = ["meta", "img", "wbr", "br"];
 
-/// The tags of a page, each with its attributes; panics where a tag is not closed, or closed twice.
+/// The tags of a page, each with its attributes; panics if a tag is not closed, or is closed twice.
 fn balanced(page: &str) -> Vec<String> {
     let (mut open, mut all): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     let mut rest = page;
@@ -157,7 +157,7 @@ fn decoded(png: &[u8]) -> RgbImage {
     image::load_from_memory(png).expect("a picture").to_rgb8()
 }
 
-/// The picture of a page's figure, which the page shows at its own pixel size.
+/// The decoded picture of one figure of the page; asserts that the page shows it at its pixel size.
 fn shown(page: &str, alt: &str) -> RgbImage {
     let mut images =
         page.split("<img ").filter(|image| image.split_once('>').is_some_and(|(tag, _)| tag.contains(alt)));
@@ -171,7 +171,8 @@ fn shown(page: &str, alt: &str) -> RgbImage {
     picture
 }
 
-/// A leaky teapot: the page has every pixel of the map and of the shaded picture, and its conclusion counts the leaks.
+/// The page of a leaky teapot shows every pixel of the map and of the shaded picture, and its conclusion counts the
+/// leaks.
 #[test]
 fn every_wrong_pixel_is_shown() {
     let (width, height) = (800, 160);
@@ -212,8 +213,8 @@ fn every_wrong_pixel_is_shown() {
     assert_eq!(shown(&page, "alt=\"ATI Radeon 8500: "), decoded(file(&files, "r200.png")));
 }
 
-/// The conclusion of the `reproduce` page is counted from its rows, and its verdicts are beside the figures that they
-/// judge.
+/// On the `reproduce` page, the counts in the conclusion match the rows, and each verdict is in the column next to its
+/// figure.
 #[test]
 fn papers_rows_are_tallied() {
     let entries = reproduce::choose(&["ray-engine-equation-11".to_owned(), "ray-engine-radeon-8500".to_owned()])

@@ -27,7 +27,7 @@ fn cell() -> impl Strategy<Value = Cell> {
         Just(Quantity::Percent),
         Just(Quantity::Error),
     ];
-    // Figures as tables have them, not all doubles: seven digits after the point of 1e300 make no sense.
+    // Numbers as they occur in tables, not arbitrary doubles: seven decimal places of 1e300 make no sense.
     let real = (-1e9..1e9_f64, -12_i32..3).prop_map(|(x, power)| x * power_of_ten(power));
     prop_oneof![
         words().prop_map(Cell::Text),
@@ -56,7 +56,7 @@ fn table() -> impl Strategy<Value = Table> {
     })
 }
 
-/// The pieces within which a text must not be broken: words, or the parts between slashes of long words.
+/// The unbreakable pieces of a text: words, or the parts between slashes of long words.
 fn pieces(text: &str) -> Vec<String> {
     let of = |word: &str| -> Vec<String> {
         if word.len() > 24 { word.split_inclusive('/').map(str::to_owned).collect() } else { vec![word.to_owned()] }
@@ -101,8 +101,8 @@ proptest! {
         }
     }
 
-    /// The folded table has the first row of each group, and one row for the others of a large group; the document has
-    /// every row.
+    /// The folded table has the first row of each group, and one row for the remaining rows of a large group; the
+    /// document has every row.
     #[test]
     fn folds_lose_nothing(kinds in proptest::collection::vec(0_usize..4, 1..30)) {
         let first: Vec<usize> = kinds.iter().map(|kind| kinds.iter().position(|k| k == kind).unwrap_or(0)).collect();

@@ -1,4 +1,4 @@
-//! The scenes that the project builds: exact counts, sound triangles, and only fronts are visible.
+//! The scenes that the project builds: exact counts, valid triangles, and only front faces are visible.
 
 use approx::abs_diff_eq;
 use crossbar::geom::Contact;
@@ -58,7 +58,7 @@ fn views_see_fronts_only() {
             let front = nearest_all(scene.mesh(), &rays, Sides::Front);
             let both = nearest_all(scene.mesh(), &rays, Sides::Both);
             for (pixel, (front, both)) in front.iter().zip(&both).enumerate() {
-                // Two faces in one place would show as noise in a card's depth buffer.
+                // Two coincident faces would cause noise in a card's depth buffer.
                 if let Some(hit) = both {
                     let apart = hit
                         .ties
@@ -69,7 +69,7 @@ fn views_see_fronts_only() {
                 if front == both {
                     continue;
                 }
-                // The teapot is open between pot and lid, and there one looks at its inside.
+                // The teapot is open between pot and lid, so its inside is visible there.
                 let seen = both.as_ref().map(|hit| scene.material(hit.triangle));
                 let through = seen.is_some_and(|material| material.name == "copper");
                 assert!(through, "{name}, {}: pixel {pixel} sees the back of {seen:?}", view.name);

@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use super::distance;
 use crate::support::in_threads;
 
-/// Pictures of all layouts, and where a pixel near each axis lies: +x, -x, +y, -y, +z, -z.
+/// Pictures of all layouts, and the position of a pixel near each axis: +x, -x, +y, -y, +z, -z.
 const LABELLED: [(EnvironmentLayout, [u32; 2], [[u32; 2]; 6]); 4] = [
     (EnvironmentLayout::LatLong, [64, 32], [[48, 16], [15, 16], [32, 15], [0, 16], [32, 0], [32, 31]]),
     (EnvironmentLayout::AngularProbe, [64, 64], [[47, 32], [16, 31], [32, 32], [31, 63], [32, 16], [31, 47]]),
@@ -52,7 +52,7 @@ fn pictures_are_not_mirrored() {
         let at = Extremes::of(&light(10, &Picture::rgb(width, height, &pixels)).channels()[0]).largest_at;
         assert!(at.x > 0.1 && at.y > 0.5 && at.z > 0.1, "{layout}: right and up of the middle is at {at}");
     }
-    // The backs of both crosses show one place from inside: left in the wide cross is right in the tall one.
+    // The back faces of both crosses show the same side from inside: left in the wide cross is right in the tall one.
     let back = |[width, height]: [u32; 2], [column, row]: [u32; 2]| {
         let mut pixels = vec![[0.0; 3]; (width * height) as usize];
         pixels[(row * width + column) as usize] = [1.0; 3];
@@ -80,7 +80,7 @@ fn a_constant_picture_is_a_constant() {
     }
 }
 
-/// A light of order 3, painted at pixels' centers, is recovered.
+/// A light of order 3 is recovered from a picture that has its values at the pixels' centers.
 #[test]
 fn a_lat_long_picture_gives_back_the_light_that_it_was_painted_with() {
     let expected = [2.0, 0.3, -0.4, 0.5, 0.1, 0.2, -0.3, 0.2, 0.1];
@@ -150,7 +150,7 @@ fn pixels_that_show_nothing_are_not_read() {
 }
 
 proptest! {
-    /// Any picture is a light of finite coefficients, or an error with the reason.
+    /// Any picture yields a light with finite coefficients, or an error that states the reason.
     #[test]
     fn any_picture_is_a_light_or_refused(
         width in 0..17u32,

@@ -1,4 +1,4 @@
-//! Spherical harmonics against their definition, orthonormality, the addition theorem and published constants.
+//! Tests spherical harmonics against their definition, orthonormality, the addition theorem and published constants.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,8 @@ fn functions_are_orthonormal_at_every_order() {
 }
 
 /// y_lm by Rodrigues' formula: P_l is the l-th derivative of (z^2 - 1)^l / (2^l l!); y_lm is the m-th derivative of P_l
-/// times the real or imaginary part of (x + iy)^m and a normalising factor. All coefficients are integers exact in f64.
+/// times the real or imaginary part of (x + iy)^m and a normalizing factor. All coefficients are integers that f64
+/// represents exactly.
 fn by_definition(index: usize, v: DVec3) -> f64 {
     let (l, m) = function_band(index);
     let sine = m < 0;
@@ -117,7 +118,7 @@ fn d3dx_has_these_constants() {
     assert!(distance(&found, &expected) < 1e-15, "{found:?}");
 }
 
-/// A signed 16-bit map of the functions needs values in [-1, 1]: up to order 6 none exceeds 1.
+/// A signed 16-bit map of the functions needs values in [-1, 1]: up to order 6 no value exceeds 1.
 #[test]
 fn functions_up_to_order_6_stay_below_1() {
     for (order, largest) in [(5, (9.0 / (4.0 * PI)).sqrt()), (6, 0.935_602_579), (7, 1.017_107_236)] {

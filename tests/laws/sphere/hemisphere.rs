@@ -29,7 +29,8 @@ fn the_gram_matrix_is_that_of_a_rule_over_the_hemisphere() {
     }
 }
 
-/// The product's rounding alone is the condition number times 2^-53; the inverse's error is that of the root.
+/// The rounding of the product alone is the condition number times 2^-53; the error of the inverse corresponds to the
+/// root of the condition number.
 #[test]
 fn the_inverse_is_one() {
     for order in 1..=MAX_ORDER {
@@ -60,7 +61,7 @@ fn the_diagonal_of_the_inverse_is_whole() {
     }
 }
 
-/// A is 1/2 I plus a matrix that couples functions of odd l + m with those of even l + m only.
+/// A is 1/2 I plus a matrix that couples only functions of odd l + m with functions of even l + m.
 #[test]
 fn the_spectrum_is_symmetric_about_one_half() {
     for order in 1..=MAX_ORDER {
@@ -113,7 +114,7 @@ fn least_squares_is_the_best_of_all() {
                 assert!(best.worst <= error.worst + 1e-14 && best.average <= error.average + 1e-14, "{other:?}");
                 assert!(error.average <= error.worst && error.average >= 0.0, "{other:?} {error:?}");
             }
-            // Rounding of the integrals, divided by the root of the least eigenvalue.
+            // Rounding of the integrals, divided by the root of the smallest eigenvalue.
             let least = *Hemisphere::new(order).spectrum().values.last().expect("a value");
             let rounding = 32.0 * f64::EPSILON * f64::EPSILON / least;
             assert!(order < signal || best.worst < rounding, "{signal} {order}: {best:?}");
@@ -140,7 +141,8 @@ proptest! {
         prop_assert!(distance(&left, &[0.0; 16]) < 1e-11);
     }
 
-    /// Dividing by z inverts it exactly where z f is odd in z and within the order: f even in z, one order lower.
+    /// Dividing by z inverts the projection exactly if z f is odd in z and within the order: f is even in z and one
+    /// order lower.
     #[test]
     fn scaled_odd_reflection_reproduces_even_functions_of_lower_order(mut c in coefficients(4)) {
         for (index, c) in c.iter_mut().enumerate() {

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use super::{direction, distance, functions};
 
-/// A disk's coefficients by a rule in the disk's own frame.
+/// A disk's coefficients by quadrature in the disk's own frame.
 fn disk_by_quadrature(order: usize, center: DVec3, radius: f64) -> Vec<f64> {
     let u = center.any_orthonormal_vector();
     let w = center.cross(u);
@@ -40,7 +40,7 @@ proptest! {
     fn a_turned_disk_is_the_disk_elsewhere(center in direction(), other in direction(), radius in 0.1..2.0f64) {
         let axis = center.cross(other);
         prop_assume!(axis.length() > 0.05);
-        // The half turn around the middle of both maps one to the other.
+        // The half turn around the midpoint of both directions maps one to the other.
         let middle = (center + other).normalize();
         prop_assume!(middle.is_finite());
         let half_turn = DMat3::from_cols(
@@ -57,7 +57,7 @@ proptest! {
 
 #[test]
 fn the_sun_lights_a_facing_plane_by_its_radiance_and_solid_angle() {
-    // Irradiance of the constant and linear bands alone: pi c_00 y_00 + 2 pi / 3 (c . y).
+    // Irradiance of only the constant and linear bands: pi c_00 y_00 + 2 pi / 3 (c . y).
     let sky = ClearSky { sun: DVec3::Z, sun_radiance: [1.0; 3], zenith: [0.0; 3], ground: [0.0; 3] };
     let light = sky.light(2).expect("a light");
     let solid_angle = PI * SUN_RADIUS * SUN_RADIUS;

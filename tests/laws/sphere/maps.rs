@@ -1,4 +1,4 @@
-//! Texels of cube maps against the emulated card's own lookup, solid angles against closed forms.
+//! Compares texels of cube maps with the emulated card's lookup, and solid angles with closed forms.
 
 use std::f64::consts::PI;
 
@@ -34,18 +34,18 @@ fn texels_of_a_cube_cover_the_sphere() {
         assert_abs_diff_eq!(6.0 * (0..side).map(row).sum::<f64>(), 4.0 * PI, epsilon = 2e-14);
         assert_eq!(map.len(), 6 * side * side);
     }
-    // The corner texel of a fine map is 3^(3/2) times smaller than the middle one.
+    // The solid angle of a fine map's corner texel is 3^(3/2) times smaller than the middle texel's.
     let map = CubeMap::new(2001);
     assert_abs_diff_eq!(map.solid_angle(1000, 1000) / map.solid_angle(0, 0), 27f64.sqrt(), epsilon = 0.01);
 }
 
-/// The texels cover the hemisphere, and the directions between the horizon and the square's sides.
+/// The texels cover the hemisphere, and also the directions between the horizon and the square's sides.
 #[test]
 fn texels_of_a_parabolic_map_cover_the_square() {
     let map = ParabolicMap::new(32);
     let row = |row: usize| (0..32).map(|column| map.solid_angle(column, row)).sum::<f64>();
     let whole: f64 = (0..32).map(row).sum();
-    // Stereographic projection takes the square's sides to circles in planes at 45 degrees, which meet at -z.
+    // Stereographic projection maps the square's sides to circles in planes at 45 degrees, which meet at -z.
     let expected = 16.0 / 2f64.sqrt() * atan2(1.0, 2f64.sqrt());
     assert_abs_diff_eq!(whole, expected, epsilon = 1e-14);
     let above = (0..32 * 32).map(|at| (at % 32, at / 32)).filter(|&(column, row)| map.direction(column, row).z > 0.0);

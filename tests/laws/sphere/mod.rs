@@ -11,14 +11,14 @@ use crossbar::sphere::{function_count, harmonics as values};
 use glam::DVec3;
 use proptest::prelude::*;
 
-/// All functions of an order at a direction.
+/// Values of all functions of an order in a direction.
 fn functions(order: usize, direction: DVec3) -> Vec<f64> {
     let mut y = vec![0.0; function_count(order)];
     values(order, direction, &mut y);
     y
 }
 
-/// The largest distance of two lists' elements.
+/// The largest distance between corresponding elements of two lists.
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()
@@ -32,7 +32,7 @@ fn direction() -> impl Strategy<Value = DVec3> {
     point.prop_filter("far from 0", |v| (0.01..1.0).contains(&v.length_squared())).prop_map(|v| v / v.length())
 }
 
-/// Numbers from -1 to 1, as many as an order has functions.
+/// Random coefficients from -1 to 1, one per function of the order.
 fn coefficients(order: usize) -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-1.0..1.0f64, function_count(order))
 }

@@ -1,4 +1,4 @@
-//! Rotation of coefficients is rotation of the function.
+//! Rotating the coefficients rotates the function.
 
 use crossbar::sphere::{HarmonicRotation, MAX_ORDER, evaluate, function_count};
 use glam::{DMat3, DVec3};
@@ -26,7 +26,7 @@ fn of(order: usize, matrix: &DMat3) -> HarmonicRotation {
     HarmonicRotation::new(order, matrix).expect("a rotation")
 }
 
-/// The matrix of band l of one rotation after another.
+/// The matrix product for one band: rotation b followed by rotation a.
 fn product(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
     let element = |k: usize| (0..size).map(|j| a[k / size * size + j] * b[j * size + k % size]).sum();
     (0..size * size).map(element).collect()

@@ -1,4 +1,5 @@
-//! The reference over all pairs of texels, from texels far below the mean free path to far above the diffusion length.
+//! Tests the reference over all pairs of texels, with texels from far below the mean free path to far above the
+//! diffusion length.
 
 use crate::support::plate;
 use approx::assert_relative_eq;
@@ -16,8 +17,8 @@ fn media() -> [Dipole; 3] {
     [marble, medium(1.0, 0.0), medium(0.68, 0.9)]
 }
 
-/// A point of a plate gets what a half space returns, [`Dipole::total`], minus the part beyond the plate: at most
-/// `Dipole::beyond` of the nearest edge, and at least that of the farthest corner.
+/// A point of a plate receives what a half space returns, [`Dipole::total`], minus the part beyond the plate: at most
+/// `Dipole::beyond` at the nearest edge's distance, and at least its value at the farthest corner's distance.
 #[test]
 fn a_plate_of_any_size_returns_the_half_space_s_total() {
     let atlas = atlas(&plate(1.0, 1.0), SIDE);
@@ -43,7 +44,7 @@ fn a_plate_of_any_size_returns_the_half_space_s_total() {
 
 /// Two texels of one face are parallelograms of sides e and f, k e + l f apart. The points of both are
 /// `(k + u) e + (l + v) f` apart with u and v from -1 to 1 by the densities 1 - |u| and 1 - |v|: equation 10 as an
-/// integral over two numbers, by panels that narrow towards where the points meet.
+/// integral over two numbers, with panels that get narrower toward the point where the points meet.
 pub(super) fn parallelograms(dipole: &Dipole, [e, f]: [DVec3; 2], [k, l]: [f64; 2]) -> f64 {
     let panels = |middle: f64, side: DVec3| {
         let mut edges = vec![middle - 1.0, middle, middle + 1.0, 0.0];

@@ -1,4 +1,4 @@
-//! Squares of texels that gather together, compared with texels that gather alone.
+//! Compares squares of texels that gather together with texels that gather alone.
 
 use crate::environment::by_form;
 use crossbar::geom::Mesh;
@@ -26,7 +26,7 @@ fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64
     worst
 }
 
-/// The short form has the smallest scale and another medium.
+/// Links keep the tolerance; by default tests only the smallest scale, and the last medium.
 #[test]
 fn links_keep_their_tolerance() {
     let [fixed, adaptive] = [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 64 }];
@@ -41,7 +41,7 @@ fn links_keep_their_tolerance() {
     }
 }
 
-/// For large clusters the errors of parts cancel: a quarter of the tolerance is enough. The short form has the smaller
+/// For large clusters the errors of parts cancel: a quarter of the tolerance is enough. By default only the smaller
 /// scale.
 #[test]
 fn sixteen_links_are_far_within_it() {

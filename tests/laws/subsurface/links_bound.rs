@@ -1,4 +1,4 @@
-//! Links to every texel are equation 9 within a bound that is derived, not measured.
+//! Links to every texel equal equation 9 within a bound that is derived, not measured.
 //!
 //! The difference of two sums `sum over j of F_ij E_j` is at most the sum of E_j times the errors of both factors.
 //!
@@ -34,7 +34,7 @@ fn derivatives(dipole: &Dipole, [least, most]: [f64; 2]) -> [f64; 2] {
         let u = (least * least + z * z).sqrt();
         let falling = z * dipole.alpha_prime() / (4.0 * std::f64::consts::PI) * crossbar::elementary::exp(-sigma * u);
         let polynomial = |terms: &[f64]| terms.iter().fold(0.0, |sum, term| sum * sigma * u + term);
-        // Derivatives by s, without their signs.
+        // Derivatives with respect to s, without their signs.
         let square = u * u;
         let first = falling / 2.0 * polynomial(&[1.0, 3.0, 3.0]) / (square * square * u);
         let second = falling / 4.0 * polynomial(&[1.0, 6.0, 15.0, 15.0]) / (square * square * square * u);
@@ -84,7 +84,7 @@ fn links_to_every_texel_are_equation_9_within_the_derived_bound() {
     let light: Vec<f64> = (0..(SIDE * SIDE) as usize).map(uneven).collect();
     let values: Vec<[f64; 3]> = light.iter().map(|value| [*value; 3]).collect();
     let (mut loosest, mut nearest) = (0.0_f64, 0.0_f64);
-    // Texels of a tenth of a mean free path and less. The smaller they are, the nearer the bound is to the tolerance.
+    // Texels of at most a tenth of a mean free path. The smaller they are, the closer the bound is to the tolerance.
     for (mm_per_unit, dipole) in
         [(0.2, figure_7()), (0.2, medium(1.0, 0.3)), (0.05, medium(3.0, 0.0)), (0.05, figure_7()), (0.02, figure_7())]
     {
@@ -115,7 +115,7 @@ fn links_to_every_texel_are_equation_9_within_the_derived_bound() {
     assert!(nearest > 1e-4, "the bound is {} times the largest difference", 1.0 / nearest);
 }
 
-/// The derivatives in the bound are R_d's: compared with differences of R_d along a line.
+/// Compares the derivatives in the bound with differences of R_d along a line.
 #[test]
 fn the_bound_s_derivatives_are_those_of_r_d() {
     for dipole in [figure_7(), medium(1.0, 0.3), medium(3.0, 0.0)] {

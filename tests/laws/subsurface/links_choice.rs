@@ -1,4 +1,4 @@
-//! Laws of links: they tile the atlas once, gather by their factors, and have the same bits on any number of threads.
+//! Laws of links: they tile the atlas once, gather with their factors, and do not depend on the number of threads.
 
 use crate::support::in_threads;
 use approx::assert_relative_eq;
@@ -33,7 +33,7 @@ fn the_links_of_a_texel_cover_every_texel_once() {
         for texel in texels(SIDE) {
             let mut covered = vec![0; (SIDE * SIDE) as usize];
             for (ClusterId { level, y, x }, factor) in links.of(texel) {
-                // Padding has the factor 0; a link never has.
+                // Padding has the factor 0, which no link has.
                 if factor[0] > 0.0 {
                     let size = 1 << level;
                     for (v, u) in (0..size).flat_map(|v| (0..size).map(move |u| (v, u))) {
@@ -126,8 +126,8 @@ fn bits_do_not_depend_on_the_number_of_threads() {
     }
 }
 
-/// The map that the card holds is E a / (mean a): plain means of it times stored factors are factors times means by
-/// area.
+/// The card's map holds E a / (mean a), so stored factors times its plain means equal factors times area-weighted
+/// means.
 #[test]
 fn stored_factors_make_plain_means_weigh_by_area() {
     let surface = dented();
@@ -194,7 +194,7 @@ fn places_are_exact_in_fp16_up_to_1024_and_half_of_them_are_not_at_2048() {
 
 #[test]
 fn lost_factors_are_counted() {
-    // Green light of a dense absorber on a large model: far factors vanish.
+    // Green light of a dense absorber on a large model: factors at large distances vanish.
     let surface = surface(&atlas(&sphere(3, 0.2), SIDE), 20.0);
     let links = links(&surface, &[medium(0.74, 0.3)], LinkChoice::Fixed { level: 2 });
     let encoded = EncodedLinks::new(&links, &surface, MeanWeighting::Count);

@@ -30,8 +30,8 @@ fn factors_times_areas_are_symmetric_between_texels() {
     }
 }
 
-/// Factors of channels together are within the tolerance of finer factors of each alone; these are compared with
-/// contour integrals below.
+/// Factors of several channels together are within the tolerance of finer factors of each channel alone, which are
+/// compared with contour integrals below.
 fn keep_their_tolerance<const N: usize>(surface: &SurfaceMoments, dipoles: [Dipole; N]) {
     let coarse = Factors::new(surface, dipoles, 0.01).expect("a tolerance");
     let fine = dipoles.map(|dipole| Factors::new(surface, [dipole], fine_tolerance()).expect("a tolerance"));
@@ -48,7 +48,7 @@ fn keep_their_tolerance<const N: usize>(surface: &SurfaceMoments, dipoles: [Dipo
     }
 }
 
-/// The short form has the smallest scale and another medium.
+/// Factors keep the tolerance; by default tests only the smallest scale, and the last medium.
 #[test]
 fn factors_keep_their_tolerance() {
     let atlas = atlas(&sphere(6, 0.2), 32);
@@ -58,14 +58,15 @@ fn factors_keep_their_tolerance() {
     }
 }
 
-/// Skin1: mean free paths and diffusion lengths that differ by factors.
+/// The medium Skin1, whose channels have very different mean free paths and diffusion lengths.
 #[test]
 fn channels_together_keep_the_tolerance_of_each() {
     let surface = surface(&atlas(&sphere(4, 0.2), 32), 10.0);
     keep_their_tolerance(&surface, [medium(0.74, 0.032), medium(0.88, 0.17), medium(1.01, 0.48)]);
 }
 
-/// 1 / A_i times the integral over texel i, by many points, of exact contour integrals over the polygons of texel j.
+/// Compares factors with 1 / A_i times the integral over texel i, by many points, of exact contour integrals over the
+/// polygons of texel j.
 #[test]
 fn factors_agree_with_contour_integrals() {
     let atlas = atlas(&sphere(2, 0.0), 16);
@@ -84,7 +85,7 @@ fn factors_agree_with_contour_integrals() {
             }
             let exact = sum / f64::from(points * points);
             let [found] = factors.factor([i % 16, i / 16], ClusterId { level: 0, y: j / 16, x: j % 16 });
-            // The outer sum has an error of its own, below 2e-3: doubling the points changes it by less.
+            // The outer sum has an error below 2e-3, because doubling the points changes it by less.
             assert_relative_eq!(found, exact, max_relative = 3e-3);
         }
     }
@@ -139,7 +140,8 @@ pub(super) fn mean_of_contours(
     sum / area
 }
 
-/// An integral by three Gauss points on parts that are halved until halves agree with the whole; three times at least.
+/// An integral by three Gauss points on parts, which are halved at least three times and until the halves agree with
+/// the whole.
 fn bisected(value: &mut dyn FnMut(f64) -> f64, [from, to]: [f64; 2], allowed: f64, most: u32) -> f64 {
     let mut sum = 0.0;
     let mut pending = vec![([from, to], allowed, 0)];
@@ -162,7 +164,7 @@ fn bisected(value: &mut dyn FnMut(f64) -> f64, [from, to]: [f64; 2], allowed: f6
 
 /// Two sides of a bar. Texels have the aspects of the faces, and lengths from a hundredth to hundreds of mean free
 /// paths.
-/// The short form has one medium per length, and one texel in eight.
+/// By default one medium per length, and one texel in eight.
 #[test]
 fn slivers_keep_the_tolerance() {
     let media = [figure_7(), medium(0.74, 0.9), medium(0.05, 1e-4)];
@@ -196,15 +198,16 @@ fn the_reference_and_the_factors_agree_texel_by_texel() {
             for j in 0..256_usize {
                 let cluster = ClusterId { level: 0, y: (j / 16) as u32, x: (j % 16) as u32 };
                 let [found] = receiver.factor([i as u32 % 16, i as u32 / 16], cluster);
-                // The reference's far pairs are points: an error of 0.75 (side / distance)^2 at most, from 5 radii on.
+                // The reference treats pairs beyond 5 radii as points, which causes an error of at most 0.75 (side /
+                // distance)^2.
                 assert_relative_eq!(found, reference.factor(i, j), max_relative = 0.02);
             }
         }
     }
 }
 
-/// B = G(2R) on a sphere of any radius; the polyhedron's error falls with the size of its faces. The short form has the
-/// smallest and the largest radius.
+/// B = G(2R) on a sphere of any radius; the polyhedron's error decreases with the size of its faces. By default only
+/// the smallest and the largest radius.
 #[test]
 fn a_sphere_under_uniform_light_has_its_closed_form() {
     let dipole = figure_7();
@@ -229,7 +232,7 @@ fn a_sphere_under_uniform_light_has_its_closed_form() {
     }
 }
 
-/// Row sums of a model, and of the same surface with four times as many faces, at points near a texel of both.
+/// Row sums of a model, and of the same surface with four times as many faces, near points that have a texel in both.
 #[test]
 fn the_result_does_not_depend_on_the_tessellation() {
     let mesh = sphere(3, 0.2);
@@ -247,7 +250,7 @@ fn the_result_does_not_depend_on_the_tessellation() {
             sum / surface.area()
         })
         .collect();
-    // Both are the mean over the surface of the integral of R_d over it, each within the tolerance.
+    // Both are, within the tolerance, the mean over the surface of the integral of R_d over the surface.
     assert_relative_eq!(means[0], means[1], max_relative = 2e-3);
 }
 

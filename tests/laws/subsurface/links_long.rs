@@ -1,4 +1,4 @@
-//! Factors and links of texels that are long relative to the mean free path, compared with integrals of equation 10
+//! Compares factors and links of texels that are long relative to the mean free path with integrals of equation 10
 //! without subdivision.
 
 use crate::environment::by_form;
@@ -24,8 +24,8 @@ fn media() -> [Dipole; 3] {
     [marble(), medium(1.0, 0.0), medium(0.68, 0.9)]
 }
 
-/// Rectangles of sides `length` and `width`, and of the same length but the other width, which meet in an edge at an
-/// angle; at 180 degrees one lies in the plane of the other.
+/// Two rectangles of the same length, with widths `width` and `other`, that meet along an edge at an angle; at 180
+/// degrees they are coplanar.
 fn folded([length, width, other]: [f32; 3], degrees: f32) -> Mesh {
     let [cosine, sine] = crossbar::elementary::on_circle(f64::from(degrees) / 360.0).map(|value| value as f32);
     let [y, z] = [-cosine * other, sine * other];
@@ -45,7 +45,7 @@ fn allowed(dipole: &Dipole, exact: f64) -> f64 {
     TOLERANCE * (exact + 1e-5 * dipole.total())
 }
 
-/// Texels of one face, against the integral over two numbers. Lengths are those of a texel's longer side, in mean free
+/// Compares texels of one face with the integral over two numbers. A length is a texel's longer side in mean free
 /// paths.
 #[test]
 fn long_texels_of_a_face_have_equation_10() {
@@ -88,8 +88,8 @@ fn long_texels_of_a_face_have_equation_10() {
     assert!(worst > 1e-3, "{worst} leaves nothing to test");
 }
 
-/// Texels on both sides of an edge, of the same length and of others, by exact integrals over one from points of the
-/// other. Lengths are those of the edge, in mean free paths.
+/// Texels on both sides of an edge, with equal and different lengths, compared with exact integrals over one texel from
+/// points of the other. A length is the edge's, in mean free paths.
 #[test]
 fn long_texels_across_an_edge_have_equation_10() {
     let folds = [(180.0, 1.0), (30.0, 1.0), (90.0, 2.0), (90.0, 9.0), (120.0, 4.0), (60.0, 30.0)];
@@ -123,7 +123,7 @@ fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
         ("700 x 2 mm", plate(700.0, 2.0), 16, adaptive),
         ("a cube of 300 mm", cuboid([0.0; 3], [300.0; 3]), 16, LinkChoice::Fixed { level: 2 }),
     ];
-    // The plate of 700 mm and the cube take a minute together.
+    // The 700 mm plate and the cube together take a minute.
     for (name, mesh, side, choice) in models.into_iter().take(by_form(2, 4)) {
         let atlas = atlas(&mesh, side);
         let surface = surface(&atlas, 1.0);
@@ -140,8 +140,8 @@ fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
     }
 }
 
-/// Both sides of a thin sheet, far from its rim: a texel gets the plane's total from its own side, and from the other
-/// side the part beyond a disc whose radius is the sheet's thickness.
+/// Both sides of a thin sheet, far from its rim: a texel receives the plane's total from its own side, and from the
+/// other side the part beyond a disc whose radius is the sheet's thickness.
 #[test]
 fn a_thin_sheet_has_light_from_both_sides() {
     for ([length, width], media) in [([1e5, 8e4], &media()[..]), ([300.0, 240.0], &media()[..1])] {

@@ -6,7 +6,7 @@ use crossbar::geom::Mesh;
 use crossbar::subsurface::multipole::{ClusterId, SurfaceMoments};
 use crossbar::subsurface::{Coefficients, Dipole};
 
-/// A sphere of radius 1: the sides of a cube, each of n x n squares, pushed outward; with dents if requested.
+/// A sphere of radius 1, with dents in proportion to `dents`: the sides of a cube, n x n squares each, pushed outward.
 pub(crate) fn sphere(n: u32, dents: f64) -> Mesh {
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     for side in 0..6 {
@@ -35,7 +35,7 @@ pub(crate) fn sphere(n: u32, dents: f64) -> Mesh {
     Mesh::new(positions, triangles).expect("a mesh").welded()
 }
 
-/// Every triangle cut into four, its plane kept.
+/// Divides every triangle into four in the same plane.
 pub(crate) fn subdivided(mesh: &Mesh) -> Mesh {
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     for [a, b, c] in mesh.iter_corners() {
@@ -79,7 +79,7 @@ pub(crate) fn texels(side: u32) -> impl Iterator<Item = [u32; 2]> {
     (0..side).flat_map(move |y| (0..side).map(move |x| [x, y]))
 }
 
-/// The tolerance of the reference factors: a tenth of the tested ones, in the full form a hundredth.
+/// The tolerance of the reference factors: a tenth of the tested tolerance, with `CROSSBAR_FULL=1` a hundredth.
 pub(crate) fn fine_tolerance() -> f64 {
     by_form(1e-3, 1e-4)
 }

@@ -1,4 +1,4 @@
-//! Passes 1 and 2 on a card against the formulas of section 4, in f64.
+//! Compares passes 1 and 2 on a card with the formulas of section 4, in f64.
 
 use crate::support::profile;
 use crossbar::atlas::Atlas;
@@ -26,7 +26,7 @@ pub(super) fn nv35() -> Profile {
     profile("nv35")
 }
 
-/// A cube around 0 with edges of `size`: 12 faces, flat by their normals.
+/// A cube around 0 with edges of `size`: 12 faces with flat normals.
 pub(super) fn cube(size: f32) -> Mesh {
     let (mut positions, mut normals, mut faces) = (Vec::new(), Vec::new(), Vec::new());
     for axis in 0..3 {
@@ -71,7 +71,7 @@ pub(super) fn lights() -> [Light; 3] {
     ]
 }
 
-/// Equation 8 at a point.
+/// Irradiance at a point by equation 8.
 fn irradiance(lights: &[Light], point: DVec3, normal: DVec3) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for light in lights {
@@ -94,7 +94,7 @@ fn irradiance(lights: &[Light], point: DVec3, normal: DVec3) -> [f64; 3] {
     sum
 }
 
-/// The map of a card as irradiances, without area factors and scale.
+/// Reads the map of a card and removes area factors and scale.
 fn irradiances(card: &SubsurfaceCard, atlas: &Atlas) -> Vec<[f64; 3]> {
     let map = card.read_levels().expect("levels").swap_remove(0);
     let texel = |(texel, part): (&[f32; 4], &crossbar::atlas::Texel)| {
@@ -108,7 +108,7 @@ fn largest(values: &[[f64; 3]]) -> f64 {
     values.iter().flatten().fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }
 
-/// The largest difference, as a share of the largest value.
+/// The largest difference, relative to the largest value.
 fn difference(found: &[[f64; 3]], wanted: &[[f64; 3]]) -> f64 {
     let differences: Vec<[f64; 3]> =
         found.iter().zip(wanted).map(|(found, wanted)| [0, 1, 2].map(|c| found[c] - wanted[c])).collect();
@@ -149,7 +149,7 @@ fn irradiance_by_texel_is_equation_8() {
 
 /// Parallel light is constant over a flat face. Light from a point at distance D varies by some (h / D)^2 over a face
 /// of extent h: the second derivative of c T(c) / d^2 is below 12 / D^2, and linear interpolation has an error of at
-/// most an eighth of it along each of two directions.
+/// most h^2 / 8 times it along each of two directions.
 #[test]
 fn by_vertex_is_by_texel_on_flat_faces() {
     let atlas = atlas(2.0);
@@ -181,7 +181,7 @@ fn a_table_of_irradiances_reaches_each_texel() {
     assert_eq!(refused, "expected finite irradiances of at least 0, found NaN");
 }
 
-/// Passes 1 to 2 from real links, against the gather in f64 from the irradiances on the card.
+/// Compares passes 1 and 2 with real links with the gather in f64 from the card's irradiances.
 #[test]
 fn the_card_gathers_as_the_host_does() {
     let atlas = atlas(2.0);
@@ -318,7 +318,7 @@ fn what_does_not_fit_the_card_is_named() {
     assert_eq!(words, "device `nv35` has textures of at most 24x24 texels, the row of levels needs 32x16");
     let leveled = SubsurfaceCardOptions { map: MapFormat::Unorm8 { scale: 1.0 }, ..usual };
     assert!(new(small, &links, ETA, leveled).is_ok(), "the atlas alone fits");
-    // Links, radiosity map, levels, levels side by side, scattered irradiance.
+    // Bytes of links, radiosity map, levels, levels side by side, and scattered irradiance.
     let bytes = 4096 + 4096 + 1360 + 8192 + 4096;
     assert_eq!(new(nv35(), &links, ETA, usual).expect("a card").memory().bytes(), bytes);
     for (eta, found) in [(0.9, "0.9"), (3.5, "3.5"), (1e5, "100000.0")] {

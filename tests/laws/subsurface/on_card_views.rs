@@ -31,7 +31,7 @@ fn options() -> SubsurfaceCardOptions {
     SubsurfaceCardOptions { light: LightStage::Texels, ..SubsurfaceCardOptions::default() }
 }
 
-/// Each face has a separate color: every pixel has exactly one of these colors, in every view.
+/// Each face has a separate color: in every view, every pixel has exactly one of these colors.
 #[test]
 fn no_face_reads_another() {
     let colors: Vec<[f64; 3]> = (0..12).map(|face| [1.0 + f64::from(face), 0.7 * f64::from(face), 0.3]).collect();
@@ -69,7 +69,7 @@ fn slivers() -> Mesh {
     Mesh::new(positions, faces).expect("a mesh")
 }
 
-/// Pass 3 for flat faces on the host, in f64.
+/// Computes pass 3 for flat faces on the host, in f64.
 struct Host<'a> {
     atlas: &'a Atlas,
     mesh: &'a Mesh,
@@ -150,7 +150,7 @@ impl Host<'_> {
 }
 
 /// Snapping to a sixteenth of a pixel moves a corner by up to a thirty-second along each axis. So each channel must lie
-/// between the least and the largest value of the formula at 5 x 5 points around the center, widened by a quarter of
+/// between the smallest and the largest value of the formula at 5 x 5 points around the center, widened by a quarter of
 /// that range, because a kink may fall between two points, and by `error` relative to the brightest value.
 fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize {
     const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
@@ -160,7 +160,7 @@ fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize
     for (pixel, found) in picture.texels.iter().enumerate() {
         let [x, y] = [pixel % picture.width, pixel / picture.width].map(|at| at as f64 + 0.5);
         let around = || STEPS.into_iter().flat_map(|dx| STEPS.map(|dy| (x + dx / 16.0, y + dy / 16.0)));
-        // Where all points around see one face, it is in front: a cube has no front face behind another.
+        // If all points around see the same face, it is in front: no front face of a cube is behind another.
         let face = (0..host.mesh.len() as u32).find(|&face| host.color(x, y, face).is_some());
         let seen = face.and_then(|face| around().map(|(x, y)| host.color(x, y, face)).collect::<Option<Vec<_>>>());
         let Some(colors) = seen else { continue };
@@ -182,7 +182,8 @@ fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize
     compared
 }
 
-/// Error of the table lookup: linear between 256 entries of 16 bits with weights of 8 bits, T' < 10, T'' < 40.
+/// Error of the table lookup: linear interpolation between 256 16-bit entries with 8-bit weights, where T' < 10 and T''
+/// < 40.
 const TABLE: f64 = 40.0 / 8.0 / (255.0 * 255.0) + 10.0 / 255.0 / 512.0 + 1.0 / 65536.0;
 
 #[test]

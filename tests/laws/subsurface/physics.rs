@@ -1,4 +1,5 @@
-//! The dipole and the boundary: closed forms against quadrature, figures that follow from the paper's material.
+//! The dipole and the boundary: compares closed forms with quadrature, and checks figures that follow from the paper's
+//! material.
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use crossbar::elementary::{exp, ln};
@@ -11,7 +12,7 @@ use std::f64::consts::PI;
 /// The material of the paper's Figure 7, per mm.
 const FIGURE_7: Coefficients = Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 };
 
-/// Reflectances of both polarisations as the textbooks print them, `sin(a - b) / sin(a + b)` and
+/// Reflectances of both polarizations as printed in textbooks, `sin(a - b) / sin(a + b)` and
 /// `tan(a - b) / tan(a + b)`, with Snell's law for the refracted angle b.
 fn reflectances(eta: f64, cos_a: f64) -> [f64; 2] {
     let sin_a = (1.0 - cos_a * cos_a).sqrt();
@@ -58,7 +59,7 @@ fn transmittance_is_the_same_both_ways_and_nothing_else_passes() {
     assert_eq!(fresnel_transmittance(1.3, 1.0 + 1e-15), fresnel_transmittance(1.3, 1.0));
 }
 
-/// The mean reflectance of the outside in closed form (Walsh 1926, Duntley 1942).
+/// The mean reflectance for light from outside, in closed form (Walsh 1926, Duntley 1942).
 fn walsh(n: f64) -> f64 {
     let square = |x: f64| x * x;
     let (n2, n4) = (n * n, n * n * n * n);
@@ -72,7 +73,7 @@ fn walsh(n: f64) -> f64 {
 fn means_of_fresnels_formula_are_those_of_the_closed_form() {
     for eta in [1.05, 1.2, 1.3, 1.5, 2.0, 3.0] {
         assert_abs_diff_eq!(mean_transmittance(eta), 1.0 - walsh(eta), epsilon = 2e-11);
-        // From inside, with all angles beyond the critical one reflected.
+        // From inside; light beyond the critical angle is reflected entirely.
         let critical = (1.0 - 1.0 / (eta * eta)).sqrt();
         let inside = 1.0
             - graded_integral(1.0 - critical, 60, |above| {

@@ -1,4 +1,4 @@
-//! Exact answers on polygons, cubes and spheres: contour integrals against brute force.
+//! Exact results for polygons, cubes and spheres: compares contour integrals with brute force.
 
 use crate::environment::is_full;
 use approx::assert_relative_eq;
@@ -92,7 +92,7 @@ fn without_absorption_factors_in_the_plane_are_solid_angles() {
     }
 }
 
-/// The mean of the cube's row sums: points of an eighth of a face, closer together towards the edges.
+/// The mean of the cube's row sums, over points in an eighth of a face that are denser toward the edges.
 fn cube(dipole: &Dipole, side: f64, panels: u32) -> f64 {
     let at = |x: f64, y: f64, z: f64| side * DVec3::new(x, y, z);
     let faces = [0, 1, 2].into_iter().flat_map(|axis| [0.0, 1.0].map(|end| (axis, end)));
@@ -133,7 +133,7 @@ fn without_absorption_a_cube_loses_or_makes_energy() {
     }
 }
 
-/// Chords of a sphere are shorter than twice the radius, and every ring of them has the area of a flat one.
+/// Chords of a sphere are shorter than twice the radius, and every ring of chords has the area of a flat ring.
 #[test]
 fn without_absorption_a_sphere_loses_energy() {
     let dipole = dipole(1.0, 0.0);

@@ -1,4 +1,4 @@
-//! Photons traced through a medium, compared with exact facts: counts balance, mean paths depend only on volume and
+//! Compares photons traced through a medium with exact results: counts balance, mean paths depend only on volume and
 //! surface, half spaces have the albedo of Chandrasekhar's H function.
 
 use crate::environment::by_form;
@@ -9,7 +9,8 @@ use crossbar::subsurface::{Coefficients, Dipole};
 
 use super::walk::{self, PhotonEntry, PhotonWalk, WalkTally};
 
-/// Fixed seeds give fixed verdicts; a correct result lies farther off than this many half widths in one of 10^4 cases.
+/// Maximum distance in half widths, which one of 10^4 correct results exceeds. The seeds are fixed, so the verdicts are
+/// fixed, too.
 const FAR: f64 = 2.3;
 
 fn medium(sigma_s_prime: f64, sigma_a: f64, eta: f64, photons: u64) -> PhotonWalk {
@@ -21,8 +22,8 @@ fn balanced(tally: &WalkTally, walk: &PhotonWalk) {
     assert_eq!(tally.fates().iter().sum::<u64>(), walk.photons);
 }
 
-/// The mean path of light from everywhere in a body without absorption. Inside, radiance is eta^2 of that outside for
-/// any scattering, so the path is 4 V / S times eta^2 over the mean transmittance.
+/// The mean path of light from all directions in a body without absorption. For any scattering, radiance inside is
+/// eta^2 times the radiance outside, so the path is 4 V / S times eta^2 over the mean transmittance.
 fn mean_path(volume_by_surface: f64, eta: f64) -> f64 {
     4.0 * volume_by_surface * eta * eta / mean_transmittance(eta)
 }
@@ -66,8 +67,8 @@ fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
     }
 }
 
-/// The dipole against the walk in a half space, as docs/papers/subsurface.md prints both: bounds of rings in mean free
-/// paths, the light that leaves in each ring after a million photons of another seed, and the dipole's share.
+/// Compares the dipole with the walk in a half space, as docs/papers/subsurface.md prints both: bounds of rings in mean
+/// free paths, the light that leaves in each ring after a million photons of another seed, and the dipole's share.
 #[test]
 fn the_dipole_is_as_far_off_as_the_page_says() {
     let walk = PhotonWalk { seed: 7, ..medium(2.21, 0.0012, 1.3, 20_000) };

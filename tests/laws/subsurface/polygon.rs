@@ -1,4 +1,4 @@
-//! Factors from a point to flat polygons by contour integrals: a second way to equation 10.
+//! Factors from a point to flat polygons by contour integrals: a second way to compute equation 10.
 //!
 //! In the plane of a polygon, with `h` the point's height above it and (rho, phi) polar coordinates around its foot,
 //! R_d has the radial primitive `D(rho) = G(sqrt(rho^2 + h^2)) - G(h)`, so that the integral over the polygon is
@@ -16,8 +16,8 @@ use glam::DVec3;
 const WIDEST: f64 = 1.0;
 
 /// The integral of R_d over a flat polygon, from a point: the factor of equation 10 for a vanishing patch at the
-/// point. Corners in mm, in either order; a polygon without area has the factor 0. The polygon may be concave but not
-/// cross itself. To about 1e-13 of the plane's total.
+/// point. Corners in mm, in either order; a polygon without area has the factor 0. The polygon may be concave but must
+/// not cross itself. The error is about 1e-13 of the plane's total.
 pub(crate) fn point_to_polygon(dipole: &Dipole, point: DVec3, corners: &[DVec3]) -> f64 {
     let Some(normal) = normal(corners) else { return 0.0 };
     let height = normal.dot(corners[0] - point);
@@ -36,8 +36,8 @@ fn normal(corners: &[DVec3]) -> Option<DVec3> {
 
 /// The integral of `D(rho) dphi` along a side from a to b, seen from the origin.
 ///
-/// With p the distance of the side's line and t the place on it, t = p sinh(u) makes `rho = p cosh(u)` and
-/// `dphi = du / cosh(u)`: smooth at the scale 1 of u however near the line passes.
+/// With p the distance of the side's line and t the position on it, t = p sinh(u) makes `rho = p cosh(u)` and
+/// `dphi = du / cosh(u)`: smooth at the scale 1 of u, however close the line passes.
 fn side(dipole: &Dipole, normal: DVec3, height: f64, a: DVec3, b: DVec3) -> f64 {
     let Some(along) = unit(b - a) else { return 0.0 };
     let away = normal.dot(a.cross(along));

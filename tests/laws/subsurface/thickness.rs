@@ -10,7 +10,7 @@ fn cubes_and_slabs_are_as_thick_as_they_are() {
     let thickness =
         |size: [f32; 3]| median_thickness(&cuboid([3.0; 3], size.map(|length| length + 3.0))).expect("closed");
     assert_relative_eq!(thickness([10.0; 3]), 10.0, max_relative = 1e-5);
-    // Most of the surface of a slab is its two sides, in any orientation.
+    // Most of a slab's surface belongs to its two large sides, in any orientation.
     for turn in 0..3 {
         let mut size = [10.0, 10.0, 1.0];
         size.rotate_right(turn);

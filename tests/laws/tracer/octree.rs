@@ -28,14 +28,14 @@ fn mesh() -> impl Strategy<Value = Mesh> {
         .prop_map(|(triangles, scale)| soup(triangles.into_iter().flatten().map(|p| p.map(|x| x * scale)).collect()))
 }
 
-/// Along axes, diagonals and anywhere; zeros of both signs.
+/// Directions along axes and diagonals, and random ones, with zeros of both signs.
 fn direction() -> impl Strategy<Value = [f32; 3]> {
     let part = || prop_oneof![Just(0.0f32), Just(-0.0), Just(1.0), Just(-1.0), -1.0f32..1.0];
     [part(), part(), part()].prop_filter("a direction", |d| d.iter().any(|x| *x != 0.0))
 }
 
-/// Trees of every shape. One level more makes up to four times as many cells along a surface, so few trees are deep;
-/// planes of the grid are planes of cells from the fourth level on.
+/// Trees of every shape. Each further level creates up to four times as many cells along a surface, so few trees are
+/// deep. From the fourth level on, planes of the grid are planes of cells.
 fn parameters() -> impl Strategy<Value = OctreeParameters> {
     (1usize..=4, prop_oneof![16 => 1u32..=5, 3 => Just(6), 1 => Just(8)])
         .prop_map(|(most_triangles, most_depth)| OctreeParameters { most_triangles, most_depth })
@@ -71,8 +71,8 @@ proptest! {
             let (expected, all) = whole.nearest(&ray);
             prop_assert!(all.tests <= mesh.len() as u64);
             if found != expected {
-                // Rounding can create a hit of a triangle that the ray misses; then no cell along the ray needs to hold
-                // the triangle.
+                // Rounding can produce a hit on a triangle that the ray misses; then no cell along the ray needs to
+                // hold the triangle.
                 let false_hit = expected.expect("what is found in cells is found among all").triangle;
                 let corners = mesh.corners(false_hit).expect("a triangle");
                 prop_assert!(exact::intersect(&ray, &corners, sides).is_none(), "lost {:?}, found {:?}", expected, found);
@@ -82,8 +82,8 @@ proptest! {
             for end in [end, reach * end, before, before.next_up(), before * 2.0, f32::INFINITY, 0.0, -1.0, f32::NAN] {
                 let (occluded, cost) = fine.occluded_before(&ray, end);
                 if occluded != found.is_some_and(|hit| hit.t < end) {
-                    // Rounding can move a hit's t in front of the cells that hold the triangle, where a search that
-                    // ends at `end` does not reach. Then there is no hit in exact arithmetic either.
+                    // Rounding can move a hit's t in front of the cells that hold the triangle, out of reach of a
+                    // search that ends at `end`. Then there is no hit in exact arithmetic either.
                     let hit = found.expect("only a hit can be lost");
                     let corners = mesh.corners(hit.triangle).expect("a triangle");
                     let exact = exact::intersect(&ray, &corners, sides).map(|t| t.to_f64());

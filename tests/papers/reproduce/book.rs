@@ -1,4 +1,4 @@
-//! The book's text on the figures: `docs/papers` and `docs/status.md` are the program's own text.
+//! Tests the documentation of the figures: the program generates parts of `docs/papers` and `docs/status.md`.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ fn markdown(table: &Table) -> String {
     [row(table.shown_headings()), rule].into_iter().chain(body).collect()
 }
 
-/// Where figures are missed, calibrated ones among them: `Table 1 (2 of 6)`.
+/// Lists where figures are missed, including calibrated ones: `Table 1 (2 of 6)`.
 fn missed_by_place() -> String {
     let mut places: Vec<(Paper, &str, [usize; 2])> = Vec::new();
     for row in all() {
@@ -34,7 +34,7 @@ fn missed_by_place() -> String {
     text.collect::<Vec<_>>().join("; ")
 }
 
-/// Text of the book for a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
+/// Text of the generated block with this name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
 fn said(name: &str) -> String {
     let words: Vec<&str> = name.split(' ').collect();
     let of = |ids: &[&str], calibrated: usize| -> Table {
@@ -53,7 +53,7 @@ fn said(name: &str) -> String {
     format!("\n\n{}\n", markdown(&table))
 }
 
-/// docs/status.md and the papers' pages.
+/// Paths of docs/status.md and the papers' pages.
 fn pages() -> Vec<String> {
     let folder = std::fs::read_dir(file("docs/papers")).expect("the papers' pages");
     let names = folder.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name in ASCII"));
@@ -64,7 +64,7 @@ fn pages() -> Vec<String> {
     pages
 }
 
-/// The book's figures are the program's.
+/// The figures on the pages equal the program's.
 #[test]
 fn the_book_says_what_the_program_says() {
     for path in pages() {
@@ -74,7 +74,7 @@ fn the_book_says_what_the_program_says() {
     }
 }
 
-/// Every row is in the pages: predicted ones and calibrated ones have separate tables.
+/// The pages contain every row; predicted and calibrated rows have separate tables.
 #[test]
 fn every_row_stands_in_the_book() {
     let texts = pages().iter().map(|path| std::fs::read_to_string(file(path)).expect("a page")).collect::<String>();
@@ -88,7 +88,7 @@ fn every_row_stands_in_the_book() {
     }
 }
 
-/// The book's charts are the program's.
+/// The charts in the documentation equal the program's.
 #[test]
 fn the_book_draws_what_the_program_draws() {
     for (id, name) in [

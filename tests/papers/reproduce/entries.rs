@@ -1,4 +1,4 @@
-//! Laws of single entries: their sweeps, tables and charts.
+//! Properties of single entries: their sweeps, tables and charts.
 
 use approx::abs_diff_eq;
 use crossbar::report::{Cell, Series};
@@ -6,7 +6,8 @@ use crossbar::study::reproduce::{Bound, Method, PaperRow, RowVerdict, printed};
 
 use super::{FOUND, findings, row};
 
-/// Section 6.1: the table has the paper's equation, to the digit; rows of drawn figures have the pipeline's values.
+/// Section 6.1: the table reproduces every digit of the paper's equation; rows of drawn figures have the values of the
+/// pipeline model.
 #[test]
 fn the_equation_gives_every_printed_digit() {
     let found = findings("ray-engine-equation-11");
@@ -28,7 +29,7 @@ fn the_equation_gives_every_printed_digit() {
     assert_eq!(verdicts, [print, print, drawn, drawn, drawn]);
 }
 
-/// The three experiments: other readings of the rays on the card, other octrees of the host alone, and other costs of
+/// The three experiments: other readings of the rays on the card, other octrees for the host alone, and other costs of
 /// commands.
 #[test]
 fn what_the_paper_leaves_open_is_swept() {
@@ -37,12 +38,12 @@ fn what_the_paper_leaves_open_is_swept() {
     assert_eq!(columns("ray-engine-table-4", 1), 2, "rays and visits");
     assert_eq!(columns("ray-engine-table-3", 1), 8, "leaves");
     assert_eq!(columns("ray-engine-table-5", 1), 4, "factors");
-    // Doubled costs explain 64 rays, but move asynchronous read-back out of its bound: no explanation.
+    // Doubled costs explain 64 rays, but move asynchronous read-back out of its bound, so they are not an explanation.
     let small = row("ray-engine/plus-card");
     assert_eq!((small.verdict(), small.explanation()), (RowVerdict::Missed, None));
 }
 
-/// The chosen number of patches is one of four that give both printed pairs of rates.
+/// The chosen number of patches is one of four that yield both printed pairs of rates.
 #[test]
 fn the_number_of_patches_is_swept() {
     let sizes = &findings("radiosity-rates").tables[0];
@@ -51,7 +52,8 @@ fn the_number_of_patches_is_swept() {
     let both = sizes.rows().iter().filter(|row| [jacobi, seidel].iter().all(|i| row[*i].text() == "yes"));
     let both: Vec<String> = both.map(|row| row[0].text()).collect();
     assert_eq!(both, ["1,540", "1,541", "1,542", "1,543"]);
-    // Square roots of 189.5 and 190.5 million over 2 x 40: 1,539.1 to 1,543.1. The card's rate excludes none of them.
+    // Square roots of 189.5 and 190.5 million over 2 x 40: 1,539.1 to 1,543.1. The card's rate excludes none of these
+    // patch counts.
     let by_host = sizes.rows().iter().filter(|row| row[seidel].text() == "yes");
     assert_eq!(by_host.map(|row| row[0].text()).collect::<Vec<_>>(), both);
     assert!(sizes.rows().len() > both.len(), "and others that do not");
@@ -66,18 +68,18 @@ fn charts_and_tables_are_not_empty() {
     }
 }
 
-/// Figure 4: the card's time is linear in the elements of the matrix, the host's more than that.
+/// Figure 4: the card's time is linear in the elements of the matrix, the host's time grows faster.
 #[test]
 fn the_card_is_linear_and_the_host_is_not() {
     let [rgb, luminance, host] = &findings("radiosity-figure-4").charts[0].chart.lines[..] else {
         panic!("three lines")
     };
-    // Milliseconds per element, except at the origin.
+    // Milliseconds per element, without the point at the origin.
     let slopes = |line: &Series| -> Vec<f64> { line.points[1..].iter().map(|(n, ms)| ms / n).collect() };
     for line in [rgb, luminance] {
         let all = slopes(line);
         let last = all[all.len() - 1];
-        // From 512 patches on; below, the fixed cost of a draw shows.
+        // From 512 patches on; below that, the fixed cost of a draw is visible.
         assert!(
             all[3..].iter().all(|slope| abs_diff_eq!(slope / last, 1.0, epsilon = 0.01)),
             "{}: {all:?}",
@@ -88,7 +90,8 @@ fn the_card_is_linear_and_the_host_is_not() {
     assert!(all.windows(2).all(|two| two[1] >= two[0]) && all[6] > 5.0 * all[0], "{all:?}");
 }
 
-/// Models and BRDFs are lost, so only an order is judged; the appendix is judged to its printed digits.
+/// The paper's models and BRDFs are lost, so only orders of magnitude are judged; the appendix is judged to its printed
+/// digits.
 #[test]
 fn lost_models_are_judged_by_order() {
     for id in ["cpca-figure-6", "cpca-figure-10", "cpca-figure-11", "cpca-table-1", "cpca-coherence"] {
@@ -103,7 +106,7 @@ fn lost_models_are_judged_by_order() {
     assert_eq!(appendix.len(), 17);
 }
 
-/// Reflectance factors: the textbooks' forms judge the rows; a table shows all other forms.
+/// Reflectance factors: the rows use the textbooks' forms; a table shows all other forms.
 #[test]
 fn reflectance_factors_have_the_printed_rows() {
     let found = findings("all-frequency-factors");
@@ -133,8 +136,8 @@ fn smooth_transfer_compresses_better() {
     assert!(falls("bird") > falls("Buddha"), "{} and {}", falls("bird"), falls("Buddha"));
 }
 
-/// Omega and clusters do not depend on coding, each further representative lowers the error, and the value for a model
-/// is within the range of its segments.
+/// Omega and the number of clusters do not depend on coding, each further representative lowers the error, and the
+/// value for a model is within the range of its segments.
 #[test]
 fn clusters_and_codes_of_models_keep_their_laws() {
     let found = findings("all-frequency-table-1");
@@ -161,7 +164,8 @@ fn clusters_and_codes_of_models_keep_their_laws() {
     }
 }
 
-/// Table 1 has all readings: with a ground, which can only take light away, a row's range has a smaller omega.
+/// Table 1 has all readings. A ground can only remove light, so readings with a ground extend a row's range to a
+/// smaller omega.
 #[test]
 fn a_ground_takes_light_away() {
     let found = findings("all-frequency-table-1");
@@ -172,7 +176,7 @@ fn a_ground_takes_light_away() {
     }
 }
 
-/// Figures 2, 5 and 6: errors fall with more terms, more representatives and more light coefficients.
+/// Figures 2, 5 and 6: errors decrease with more terms, more representatives and more light coefficients.
 #[test]
 fn errors_fall_with_what_is_kept() {
     let found = findings("all-frequency-figures");
@@ -188,14 +192,15 @@ fn errors_fall_with_what_is_kept() {
     }
 }
 
-/// Texts of a table's column.
+/// The cells of a table's column, as text.
 fn column(id: &str, table: usize, name: &str) -> Vec<String> {
     let table = &findings(id).tables[table];
     let at = table.headings().iter().position(|heading| heading == name).expect("a column");
     table.rows().iter().map(|row| row[at].text()).collect()
 }
 
-/// Raw over stored numbers of CPCA's Table 1, and the bird's host work: 48,688 / (256 x 9) times less.
+/// Ratios of raw to stored numbers in CPCA's Table 1, and the bird's work on the host, which is 48,688 / (256 x 9)
+/// times less.
 #[test]
 fn compressed_sizes_follow_from_printed_ones() {
     let of = |name: &str| column("cpca-section-6", 0, name);
@@ -204,7 +209,7 @@ fn compressed_sizes_follow_from_printed_ones() {
     assert_eq!(of("registers_per_cluster")[7..], ["18", "30", "78", "6", "126"]);
 }
 
-/// Multiplications and raw gigabytes of all-frequency transfer's Table 1, worked by hand, and its equation 12.
+/// Multiplications and raw gigabytes of all-frequency transfer's Table 1, computed by hand, and equation 12.
 #[test]
 fn factored_sizes_follow_from_printed_ones() {
     let of = |name: &str| -> Vec<f64> {
@@ -214,7 +219,8 @@ fn factored_sizes_follow_from_printed_ones() {
     let near = |found: f64, expected: f64, epsilon: f64| abs_diff_eq!(found, expected, epsilon = epsilon);
     assert!(near(of("cluster_M")[0] / 3.0, 31.25, 0.04) && near(of("vertex_M")[0] / 3.0, 24.73, 0.04));
     assert!(near(of("raw_GB")[1], 12.607, 1e-3));
-    // The bunny's omega over 2,560 members times numbers per 16 of their sum, of its mean cluster.
+    // The bunny's omega divided by the compression ratio of its mean cluster: members times 2,560 numbers, over 16
+    // times their sum.
     let value = |what: &str| printed(&format!("all-frequency/{what}")).expect("a figure").value;
     let members = 24e3 * value("vertices-bunny") * value("omega-bunny") / 100.0 / value("clusters-bunny");
     let ratio = members * 2560.0 / (16.0 * (members + 2560.0));
@@ -229,6 +235,6 @@ fn the_host_of_radiosity_has_its_printed_rate() {
     let rate = row("radiosity/gauss-seidel-rate");
     assert!(abs_diff_eq!(rate.ours, rate.target.value, epsilon = 1e-9));
     let each = column("radiosity-figure-4", 0, "host_ns");
-    // 362 x 362 elements are the cache: 128 and 256 patches fit, 384 do not.
+    // The cache holds 362 x 362 elements: 128 and 256 patches fit, 384 do not.
     assert!(each[0] == each[1] && each[1] != each[2], "{each:?}");
 }

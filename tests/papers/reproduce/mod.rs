@@ -1,4 +1,4 @@
-//! The papers' figures beside ours, computed once.
+//! Compares the papers' figures with ours, which are computed once.
 
 mod book;
 mod entries;

@@ -7,7 +7,7 @@ use refsim::timing::host::CPU_ONLY_RAYS_PER_SECOND;
 use super::{findings, row};
 
 /// Printed values that follow from printed values are consistent; values that determined a constant are calibrated;
-/// values that contradict each other are contradictory, with the computation.
+/// values that contradict each other are marked as contradictory, with the computation.
 #[test]
 fn print_is_set_against_print() {
     use RowVerdict::{Calibrated, Consistent, Contradictory};
@@ -28,7 +28,8 @@ fn print_is_set_against_print() {
     assert!(armor.expect("a computation").text().starts_with("254.80 MB: "));
 }
 
-/// "About 8 of 24" segments hold only within the rounding of the print; so do two rates that determined six.
+/// "About 8 of 24" segments hold only within the rounding of the print; so do two of the rates from which the number
+/// six was determined.
 #[test]
 fn about_8_segments_need_the_rounding() {
     let rounded = findings("all-frequency-counts").rows.iter().filter(|row| row.holds_by_rounding());
@@ -37,7 +38,8 @@ fn about_8_segments_need_the_rounding() {
     assert_eq!(rounded, ["all-frequency/below-mean", bunny, teapot]);
 }
 
-/// The emulator and the systems cannot use studies, and store rates of hosts themselves: these equal the data's.
+/// The emulator and the systems cannot use studies, so they store rates of hosts themselves; these equal the rates in
+/// the data.
 #[test]
 fn hosts_have_the_rates_of_the_data() {
     let value = |id: &str| printed(id).expect("a figure").value;

@@ -1,8 +1,8 @@
 //! Records of runs at full size belong to the entries that the program has.
 //!
-//! A run on reduced models proves that an entry ends and has the rows and tables of its record. The full form runs all
-//! recorded entries, and the fastest of them at full size; the short form runs one on reduced models, entry number
-//! `CROSSBAR_TURN`, by default chosen by the day.
+//! A run on reduced models proves that an entry ends and has the rows and tables of its record. `CROSSBAR_FULL=1` runs
+//! all recorded entries, and the fastest of them at full size. By default one entry runs on reduced models: entry
+//! number `CROSSBAR_TURN`, which otherwise depends on the day.
 
 use std::env;
 use std::io::Write as _;
@@ -48,7 +48,7 @@ fn entries_have_the_rows_and_tables_of_their_records() {
     }
 }
 
-/// In the full form the cheapest record is repeated to the bit.
+/// With `CROSSBAR_FULL=1`, the fastest record is reproduced bit for bit.
 #[test]
 fn the_quickest_record_comes_out_again() {
     if !is_full() {
@@ -62,7 +62,7 @@ fn the_quickest_record_comes_out_again() {
     assert!(drawn.map(|row| row.source).all(|source| source == RowSource::Confirmed), "{}", entry.id);
 }
 
-/// Every file of the folder is the record of an entry, and its findings and rows name it.
+/// Every file of the folder is the record of an entry, and the findings and rows of the entry name it.
 #[test]
 fn every_file_is_the_record_of_an_entry() {
     let files = std::fs::read_dir(file("src/studies/records")).expect("the records");

@@ -1,4 +1,4 @@
-//! Reasons of a row's verdict: its source, its bound, its class, its explanation.
+//! Reasons for a row's verdict: its source, its bound, its class, its explanation.
 
 use crossbar::study::reproduce::report::{evidence_line, notes};
 use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, RowSource, RowVerdict, figures, timed};
@@ -17,9 +17,9 @@ fn every_judged_figure_has_one_row() {
     assert_eq!(rows, judged);
 }
 
-/// A contradiction is computed from printed values, and is in the notes. In a contradictory row, our value lies within
-/// the bound of the printed value or of the contradicting one, by every reading; any other row outside its bound is
-/// missed, with a class.
+/// A contradiction is computed from printed values and listed in the notes. In a contradictory row, our value is, under
+/// every reading, within the bound of the printed value or of the contradicting one; any other row outside its bound is
+/// missed and has a class.
 #[test]
 fn contradictions_come_with_their_computations() {
     let notes = notes(&FOUND);
@@ -52,8 +52,8 @@ fn rates_have_the_bound_of_predictions() {
 }
 
 /// Values of a confined row lie within its range, and a confined row whose bound admits the whole range is met by
-/// construction. Counted by hand: a block, three trees, fixed links, lossless biclusters, six errors that fall with
-/// vectors, six overdraws, terms and representatives.
+/// construction. The number was counted by hand: a block, three trees, fixed links, lossless biclusters, six errors
+/// that fall with vectors, six overdraws, terms and representatives.
 #[test]
 fn what_cannot_fail_is_no_evidence() {
     let confined: Vec<_> = all().filter_map(|row| Some((row, row.confinement()?.0))).collect();
@@ -66,8 +66,8 @@ fn what_cannot_fail_is_no_evidence() {
     assert_eq!(confined.len(), 1 + 3 + 1 + 1 + 6 + 6 + 1 + 1);
 }
 
-/// Values that follow from printed sizes and a calibrated rate, from the display's rate (inferred from the printed
-/// ones), or from the appendix's own equations predict nothing.
+/// Values that follow from printed sizes and a calibrated rate, from the display's rate (inferred from printed rates),
+/// or from the appendix's equations are not predictions.
 #[test]
 fn print_in_other_words_is_not_predicted() {
     for id in [
@@ -86,7 +86,7 @@ fn print_in_other_words_is_not_predicted() {
     }
 }
 
-/// The sentence of the tally has a number for each verdict, and they add up to the number of its rows.
+/// The tally's sentence has a number for each verdict, and the numbers add up to the number of rows.
 #[test]
 fn the_parts_of_the_tally_add_up() {
     let numbers = |text: &str| -> Vec<usize> { text.split([' ', ',']).filter_map(|word| word.parse().ok()).collect() };
@@ -139,7 +139,7 @@ fn timed_work_has_the_times_of_its_rows() {
     }
 }
 
-/// A bound must fail for a card without any gain.
+/// The host alone, without any gain from a card, must fail every bound.
 #[test]
 fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
     let alone = &findings("ray-engine-table-3").rows[0];
@@ -165,7 +165,7 @@ fn every_explanation_is_said_once() {
     assert_eq!(rows.flat_map(|rows| rows.split("; ").map(str::to_owned).collect::<Vec<_>>()).count(), explained);
 }
 
-/// The class of a miss is data of the figure: every missed row has one, and no other figure.
+/// Exactly the missed rows have a miss class in the figure data, and no unjudged figure has one.
 #[test]
 fn missed_rows_have_their_class() {
     let wrong = all().filter(|row| (row.verdict() == RowVerdict::Missed) != row.target.missed.is_some());

@@ -1,4 +1,4 @@
-//! Examples of the rules, each a line of one case that a rule is about.
+//! Examples of the rules; each line is one case that a rule decides.
 
 use refsim_lanes::num::unit::{nv, nv_functions};
 use refsim_lanes::num::{Flags, NumberOperation as Op, Unit, ops};
@@ -7,7 +7,7 @@ use super::table::{evaluate, format};
 
 use Unit::{Gt200, Gt200ZeroWins, Nv2x, Nv3x, Nv3xLegacy};
 
-/// An operation in some units, with operands and result.
+/// An operation, the units that agree on it, operands and result.
 type Example = (Op, &'static [Unit], [u32; 3], u32);
 
 const ALL: &[Unit] = &[Nv2x, Nv3xLegacy, Nv3x];

@@ -101,7 +101,7 @@ fn waves_and_exponentials() {
     assert_eq!(rows, 8444);
 }
 
-/// The half float of a row; `convert` gives the same except for the bits of a NaN.
+/// The half float of a row; `convert` returns the same except for the bits of a NaN.
 fn half(rounding: Rounding) -> impl Fn(&Row<'_>) -> String {
     move |row| {
         let x = row.word("x");

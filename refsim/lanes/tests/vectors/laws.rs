@@ -19,7 +19,7 @@ fn value(addend: Addend) -> i128 {
     if addend.negative { -magnitude } else { magnitude }
 }
 
-/// The value of a sum in units of `2^-8`, from one of at most 6 bits.
+/// The value of an aligned sum with at most 6 bits, in units of `2^-8`.
 fn sum(addends: &[Addend], bits: u32, alignment: Alignment) -> i128 {
     let sum = aligned(addends.iter().copied(), bits, None, alignment);
     sum.sum << (8 + sum.top - bits.cast_signed())
@@ -31,7 +31,7 @@ fn enough_bits_make_sums_exact() {
     for &a in &addends {
         for &b in &addends {
             for &c in &addends {
-                // 2 bits of fraction, and 3 between the least and the largest exponent.
+                // 5 bits: 2 of fraction, and 3 for the distance of the smallest and the largest exponent.
                 for alignment in [Alignment::Cut, Alignment::Floor] {
                     assert_eq!(sum(&[a, b, c], 5, alignment), value(a) + value(b) + value(c));
                 }

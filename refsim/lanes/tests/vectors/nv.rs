@@ -47,7 +47,7 @@ fn dot(format: Format, name: &'static str) -> impl Fn(&Row<'_>) -> String {
         let results =
             [DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact].map(|order| ops::dot(format, order, &terms));
         assert_eq!((results[0], results[0]), (results[1], results[2]));
-        // The order of the addends does not show.
+        // The order of the addends does not affect the result.
         terms.reverse();
         assert_eq!(results[0], ops::dot(format, DotOrder::Sequential, &terms));
         digits(results[0].bits)
@@ -118,7 +118,7 @@ fn comparisons() {
     assert_eq!(rows, 4264);
 }
 
-/// An operation of one operand that is the same in several units.
+/// Evaluates an operation on operand x in several units, whose results must be equal.
 fn same(formats: &[Format], operation: Op) -> impl Fn(&Row<'_>) -> String {
     move |row| {
         let results = formats.iter().map(|&format| columns(format, operation, &["x"])(row));

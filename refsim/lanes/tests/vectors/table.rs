@@ -2,7 +2,7 @@
 
 use refsim_lanes::num::{Format, NumberOperation, Rounding, Unit};
 
-/// A column's name, and its operation on a row.
+/// A column's name, and the function that computes its cell from a row.
 pub(crate) type Check<'c> = (&'c str, &'c dyn Fn(&Row<'_>) -> String);
 
 /// A row of a table.
@@ -12,7 +12,7 @@ pub(crate) struct Row<'t> {
 }
 
 impl<'t> Row<'t> {
-    /// The cell of a column; an empty cell repeats the cell of [`repeated`]'s column.
+    /// The cell of a column; an empty cell repeats the cell of the column that [`repeated`] names.
     pub(crate) fn cell(&self, column: &str) -> &'t str {
         let index = self.columns.iter().position(|c| *c == column).unwrap_or_else(|| panic!("no column {column}"));
         if self.cells[index].is_empty() { self.cell(&repeated(column)) } else { self.cells[index] }
@@ -58,12 +58,12 @@ pub(crate) fn check(text: &str, operands: usize, checks: &[Check<'_>]) -> usize 
     rows
 }
 
-/// A word in eight digits.
+/// A word in eight hexadecimal digits.
 pub(crate) fn digits(word: u32) -> String {
     format!("{word:08x}")
 }
 
-/// The format of a card's unit.
+/// Single precision computed by a card's unit.
 pub(crate) fn format(unit: Unit) -> Format {
     Format::FP32.with_unit(unit)
 }
@@ -92,7 +92,7 @@ pub(crate) fn unary<'c>(column: &'c str, function: impl Fn(u32) -> u32 + 'c) -> 
     move |row| digits(function(row.word(column)))
 }
 
-/// The format of GT200 that rounds toward zero.
+/// Single precision computed by a card's unit, rounded toward zero.
 pub(crate) fn toward_zero(unit: Unit) -> Format {
     format(unit).with_rounding(Rounding::TowardZero)
 }

@@ -84,7 +84,7 @@ fn reflections_depth_and_bumps_before_1_4() {
     let (x, z) = ([2.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 0.0]);
     let spec = "ps_1_1\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3spec t3, t0, c0\nmov r0, t3";
     assert_eq!(f(with_texture(spec, &fp32, &[t, x, z, z], none).value(3)), [0.75, 0.0, 0.0, 0.5]);
-    // The eye lies in the fourth components: (1, 0, 0) again.
+    // The eye is in the fourth components of the coordinates: (1, 0, 0) again.
     let vspec = "ps_1_1\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3vspec t3, t0\nmov r0, t3";
     assert_eq!(f(with_texture(vspec, &fp32, &[t, x, z, z], none).value(3)), [0.75, 0.0, 0.0, 0.5]);
     let depth = "ps_1_3\ntex t0\ntexm3x2pad t1, t0\ntexm3x2depth t2, t0\nmov r0, c0";

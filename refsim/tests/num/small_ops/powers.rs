@@ -24,7 +24,7 @@ impl Reference {
         {
             return Outcome::new(self.f.max_finite(), Flags::OVERFLOW | Flags::INEXACT);
         }
-        // Compares 2^(n/d) with c as 2^n with c^d.
+        // Compares 2^(n/d) with c by comparing 2^n with c^d.
         rational::round(&self.f, self.tininess, false, |c| power_of_two(negative, q.n).cmp_power(c, q.d))
     }
 
@@ -40,7 +40,7 @@ impl Reference {
         if q.cmp(ONE).is_eq() {
             return self.zero(false);
         }
-        // Compares |log2 q| with n/d as q^d, or (1/q)^d, with 2^n.
+        // Compares |log2 q| with n/d by comparing q^d, or (1/q)^d, with 2^n.
         let q = if negative { Q::new(q.d, q.n) } else { q };
         rational::round(&self.f, self.tininess, negative, |c| power_of_two(false, c.n).cmp_power(q, c.d).reverse())
     }

@@ -7,7 +7,7 @@ use refsim::output::{CompareFunction, DepthFormat, DepthSurface, OutputError};
 use refsim::texture::TargetRounding;
 use std::cmp::Ordering;
 
-/// Reference: clamped, scaled and rounded with big integers.
+/// Reference: clamps, scales and rounds with big integers.
 fn model(bits: u32, scale: u64, rounding: TargetRounding) -> u32 {
     let (n, d) = match unpack(&Format::FP32, bits) {
         Unpacked::Nan { .. } | Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => return 0,
@@ -46,7 +46,7 @@ proptest! {
     #[test]
     fn float_depths(bits in 0u32..=0x3f80_0000) {
         prop_assert_eq!(DepthFormat::Float32.quantise(Format::FP32, bits, TargetRounding::Truncate), bits);
-        // 20e4 holds 20 bits: truncating the last three bits gives a number of the format, if the exponent fits.
+        // 20e4 holds 20 bits: truncating the last three bits yields a number of the format, if the exponent fits.
         let short = bits & !7;
         let stored = DepthFormat::Float24.quantise(Format::FP32, short, TargetRounding::Nearest);
         prop_assert!(stored < 1 << 24);
@@ -55,7 +55,7 @@ proptest! {
         }
     }
 
-    /// Decoding and storing a stored value gives the same value.
+    /// Decoding and storing a stored value returns the same value.
     #[test]
     fn stored_depths_are_fixed_points(code in 0u32..0x1_0000) {
         let there = DepthFormat::Unorm16.to_format(code, Format::FP32);
@@ -71,7 +71,7 @@ fn float_24_rounds_to_even() {
     for (last_bits, want) in [(3, 0), (4, 0), (5, 1), (11, 1), (12, 2), (13, 2), (20, 2), (28, 4)] {
         assert_eq!(q(last_bits), half + want, "{last_bits} eighths");
     }
-    // The carry past the mantissa reaches the exponent, and just below 1 becomes 1.
+    // The carry past the mantissa reaches the exponent, and a number just below 1 becomes 1.
     assert_eq!(DepthFormat::Float24.quantise(Format::FP32, 0x3f7f_ffff, TargetRounding::Nearest), 15 << 20);
     assert_eq!(DepthFormat::Float24.quantise(Format::FP32, 0x3eff_ffff, TargetRounding::Nearest), half);
     // Subnormals: the unit is 2^-34.

@@ -96,7 +96,7 @@ fn impossible_targets_are_refused() {
 }
 
 proptest! {
-    /// The fragments give the same targets when merged in a single tile and in tiles of any size.
+    /// Fragments produce the same targets whether merged in a single tile or in tiles of any size.
     #[test]
     fn tiles_change_nothing(
         fragments in prop::collection::vec((0u32..9, 0u32..7, [0u32..0x1400, 0u32..0x1400, 0u32..0x1400, 0u32..0x1400], 0.0f32..1.0), 1..60),

@@ -9,7 +9,7 @@ const W: u32 = 37;
 const H: u32 = 29;
 
 fn position() -> impl Strategy<Value = (f32, f32)> {
-    // Many positions on pixel centres and edges, where the fill rule matters.
+    // Many positions on pixel centers and edges, where the fill rule matters.
     let axis = |n: u32| {
         prop_oneof![
             -4.0..n as f32 + 4.0,
@@ -59,14 +59,15 @@ proptest! {
             let ((px, py), (qx, qy), (rx, ry)) = (c(p), c(q), c(r));
             (qx - px) * (ry - py) - (rx - px) * (qy - py)
         };
-        // Requires the other two vertices on different sides of the edge 0-2, further away than the snapping error.
+        // Requires the other two vertices to be on different sides of the edge 0-2, farther away than the snapping
+        // error.
         let (one, other) = (side(0, 2, 1), side(0, 2, 3));
         if one.abs() < 40.0 || other.abs() < 40.0 || (one > 0.0) == (other > 0.0) {
             return Ok(());
         }
         let both = counts(&[[&v[0], &v[1], &v[2]], [&v[0], &v[2], &v[3]]], &s, &rules);
         prop_assert!(both.iter().all(|&n| n <= 1));
-        // In a convex quad the other diagonal gives the same pixels.
+        // In a convex quad the other diagonal covers the same pixels.
         if side(1, 3, 0).min(side(1, 3, 2)) < -40.0 && side(1, 3, 0).max(side(1, 3, 2)) > 40.0 {
             let other = counts(&[[&v[0], &v[1], &v[3]], [&v[1], &v[2], &v[3]]], &s, &rules);
             prop_assert_eq!(both, other);
@@ -98,7 +99,7 @@ proptest! {
             vertices.push(at(x + 18.0, y + 14.0, W, H));
         }
         let list: Vec<_> = assemble(Primitive::TriangleFan, vertices.len()).unwrap().map(|t| t.map(|i| &vertices[i])).collect();
-        // With three or four points the rim may cross the target's corners: then no pixel is covered twice.
+        // With three or four points the rim may cross the target's corners; then only double coverage is ruled out.
         let found = counts(&list, &state(W, H, CONVENTIONS[0]), &RULES);
         prop_assert!(found.iter().all(|&n| n <= 1));
         if count >= 8 {
@@ -154,7 +155,7 @@ fn coordinates_over_a_quad_hit_their_texels() {
     use refsim::texture::{AddressMode, nearest_index};
     for n in [1u32, 2, 3, 5, 64, 100, 127, 257, 511, 640, 1000, 1023, 1024, 2047, 2048] {
         for center in [PixelCenter::Direct3d, PixelCenter::OpenGl] {
-            // Direct3D's centres are at integers, so the quad's coordinates include the half texel.
+            // Direct3D's pixel centers are at integers, so the quad's coordinates include the half texel.
             let shift = if center == PixelCenter::Direct3d { 0.5 / n as f32 } else { 0.0 };
             let mut v = [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| vertex([x, y, 0.0, 1.0]));
             for (corner, [s, t]) in v.iter_mut().zip([[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) {
@@ -179,7 +180,7 @@ fn coordinates_over_a_quad_hit_their_texels() {
     }
 }
 
-/// The fill rule in the smallest case: a one-pixel square with corners on four pixel centres.
+/// The fill rule in the smallest case: a one-pixel square with corners on four pixel centers.
 #[test]
 fn top_and_left_edges_are_in() {
     let s = state(8, 8, CONVENTIONS[0]);

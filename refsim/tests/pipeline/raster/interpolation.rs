@@ -22,7 +22,7 @@ fn corner() -> impl Strategy<Value = Vertex> {
 }
 
 proptest! {
-    /// The definition, implemented in host floats on the public set-up data, gives the same bits.
+    /// The definition, implemented in host floats on the public set-up data, produces the same bits.
     #[test]
     fn host_floats_give_the_same_bits(v in [corner(), corner(), corner()], x in 0u32..64, y in 0u32..64) {
         let s = state(64, 64, CONVENTIONS[0]);
@@ -77,7 +77,7 @@ proptest! {
         }
     }
 
-    /// With another iterator format every step is rounded to it.
+    /// With another iterator format, every step is rounded to that format.
     #[test]
     fn iterator_formats_are_obeyed(v in [corner(), corner(), corner()], x in 0u32..64, y in 0u32..64, which in 0usize..3) {
         let format = [Format::FP16, Format::S3_12, Format::FP24][which];
@@ -90,7 +90,7 @@ proptest! {
     }
 }
 
-/// Depth is linear in screen space for any w, and exact at vertices on pixel centres.
+/// Depth is linear in screen space for any w, and exact at vertices on pixel centers.
 #[test]
 fn depth_is_linear_on_the_screen() {
     let mut v = [[-1.0f32, 1.0, 0.0], [1.0, 1.0, 0.5], [-1.0, -1.0, 1.0]].map(|[x, y, z]| {

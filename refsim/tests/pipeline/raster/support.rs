@@ -14,7 +14,7 @@ pub(crate) const RULES: RasterRules = RasterRules {
     iterator_format: Format::FP32,
 };
 
-/// Grids with this many bits, and the grid of twelfths.
+/// Subpixel grids with these numbers of bits, and the grid of twelfths.
 pub(crate) fn grids(bits: impl Strategy<Value = u8>) -> impl Strategy<Value = SubpixelGrid> {
     prop_oneof![3 => bits.prop_map(SubpixelGrid::Bits), 1 => Just(SubpixelGrid::Twelfths)]
 }
@@ -57,7 +57,7 @@ pub(crate) fn set_up(
     (out, report)
 }
 
-/// Number of triangles that cover each pixel, by quads of 16x16 tiles.
+/// Number of triangles that cover each pixel, counted by the quads of 16x16 tiles.
 pub(crate) fn counts(triangles: &[[&Vertex; 3]], state: &RasterState, rules: &RasterRules) -> Vec<u32> {
     let target = state.scissor;
     let mut counts = vec![0; (target.width * target.height) as usize];

@@ -8,7 +8,7 @@ use refsim::exec::batch::{Instances, SimdLevel, Surfaces, VertexRows};
 use refsim::raster::{ComponentMask, Cull, RasterRules, RasterState, TriangleSetup, Vertex, Viewport, setup};
 
 /// Single-precision patterns near the boundaries of the definition: zeros, planes, the guard band, the least w,
-/// denormals, the ends of the range, and non-finite values.
+/// denormals, the limits of the range, and non-finite values.
 const EDGES: [u32; 28] = [
     0,
     0x8000_0000,
@@ -40,7 +40,7 @@ const EDGES: [u32; 28] = [
     0x7fc0_0001,
 ];
 
-/// The fields of a set-up that shapes contain.
+/// The fields of a triangle set-up that are compared.
 type Shape = ([refsim::raster::Edge; 3], i64, refsim::texture::Region, refsim::raster::Plane, bool, bool, [u32; 3]);
 
 fn shape(s: &TriangleSetup) -> Shape {
@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-/// Every boundary value in every component, with ordinary values in the others.
+/// Puts every boundary value in every component, with ordinary values in the others.
 #[test]
 fn edge_values_arrive_where_the_definition_has_them() {
     let plain = [[-0.5f32, 0.75, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0], [0.0, -0.5, 0.75, 2.0]].map(|p| p.map(f32::to_bits));
@@ -141,7 +141,7 @@ fn edge_values_arrive_where_the_definition_has_them() {
     }
 }
 
-/// Columns and rows left of and above the window's corner are rounded up, all others down; with pixel centers at
+/// Positions left of or above the window's corner are rounded up, all others down; with pixel centers at
 /// integers the corner is at (-1/2, -1/2).
 #[test]
 fn cut_positions_move_toward_the_corner_of_the_window() {
@@ -172,7 +172,7 @@ fn cut_positions_move_toward_the_corner_of_the_window() {
     }
 }
 
-/// More vertices and triangles than one task processes.
+/// Tests more vertices and triangles than one task processes.
 #[test]
 fn many_vertices_arrive_like_few() {
     let mut random = Random::new(1);

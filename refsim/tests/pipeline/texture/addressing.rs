@@ -70,7 +70,7 @@ proptest! {
 
     #[test]
     fn linear_taps_match_the_naive_model(u in coordinate(), n in 1u32..3000, bits in 0u8..=12, cut in any::<bool>()) {
-        // round(x) with halves up is floor(x + 1/2) in units of the grid.
+        // round(x) with ties up is floor(x + 1/2) in units of the grid.
         let one = 1i64 << bits;
         let doubled: BigInt = position(u, n, 2 * one, -1) + i32::from(!cut || bits == 0);
         let p = i64::try_from(doubled).unwrap().div_euclid(2);
@@ -118,7 +118,7 @@ fn rectangles_are_addressed_in_texels() {
     assert_eq!(nearest_index(AddressMode::Wrap, f32::NAN.to_bits(), 2048, 2048), Some(0));
 }
 
-/// The Direct3D table: for each face the direction of its centre, of increasing u and of increasing v.
+/// The Direct3D table: for each face, the directions of its center, of increasing u and of increasing v.
 #[test]
 fn cube_faces_follow_the_table() {
     let table = [
@@ -141,7 +141,7 @@ fn cube_faces_follow_the_table() {
             }
         }
     }
-    // Ties: z before y before x.
+    // On ties, z precedes y and y precedes x.
     let face = |d: [f32; 3]| cube_coordinates(d.map(f32::to_bits)).0;
     assert_eq!(face([1., 1., 1.]), CubeFace::PositiveZ);
     assert_eq!(face([-1., -1., 0.]), CubeFace::NegativeY);

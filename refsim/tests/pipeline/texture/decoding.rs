@@ -6,7 +6,7 @@ use refsim::texture::{ChannelClass, SignedTexelMinimum, TargetRounding, TexelFor
 
 const FORMATS: [Format; 4] = [Format::S3_12, Format::FP16, Format::FP24, Format::FP32];
 
-/// The definition of a normalised channel, implemented again.
+/// The definition of a normalized channel, implemented independently.
 fn exact(class: ChannelClass, bits: u8, code: u32, minimum: SignedTexelMinimum) -> Rational {
     let signed = |code: u32| i64::from(code) - if code >> (bits - 1) == 1 { 1i64 << bits } else { 0 };
     match class {

@@ -55,7 +55,7 @@ proptest! {
                 let at = (naive(mode, x + dx, 7), naive(mode, y + dy, 5));
                 let value = match at {
                     (Some(x), Some(y)) => image.texel(0, 0, y, x, SignedTexelMinimum::BelowMinusOne).0[component],
-                    // Black border: stored components are 0, others have their default 1.
+                    // Black border: stored components are 0; missing components have their default, 1.
                     _ => image_border(format, component),
                 };
                 let ChannelValue::Ratio { numerator, denominator } = value else { panic!("integer texels only") };

@@ -1,4 +1,4 @@
-//! Places of texels in memory.
+//! Addresses of texels in memory.
 
 use std::collections::BTreeSet;
 

@@ -26,7 +26,7 @@ fn noise(format: TexelFormat, kind: TextureKind, [w, h, d]: [u32; 3], seed: u64)
     image
 }
 
-/// Positions in one level that are averaged into a position of the next level.
+/// Texel positions in the finer level that are averaged into texel `place` of the coarser level.
 fn under(finer: [u32; 3], coarser: [u32; 3], place: [u32; 3]) -> Vec<[u32; 3]> {
     let mut places = vec![place];
     for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! Exact fractions of big integers, and a test whether a pattern is nearest to one.
+//! Exact fractions of big integers, and a check that a pattern is the nearest to a fraction.
 
 use num_bigint::BigInt;
 use refsim::num::{Format, Unpacked, unpack};

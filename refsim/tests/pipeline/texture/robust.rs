@@ -1,4 +1,4 @@
-//! Any bits and any state have a defined result, without panics.
+//! Any bits in any state have a defined result and cause no panic.
 
 use proptest::prelude::*;
 use refsim::num::Format;

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{Channel, Image, Region, TargetRounding, TexelFormat, TextureError, TextureKind, encode_channel};
 
-/// Reference: `floor(clamp(value) * scale + 1/2)`, halves away from zero, or truncated; with big integers.
+/// Reference: `clamp(value) * scale`, rounded with ties away from zero or truncated; with big integers.
 fn model(format: Format, bits: u32, scale: i64, signed: bool, rounding: TargetRounding) -> i64 {
     let Some(value) = Rational::of(format, bits) else {
         let negative = format.is_negative(bits);
@@ -51,7 +51,7 @@ fn every_16_bit_value_into_unsigned_and_signed_channels() {
 }
 
 proptest! {
-    /// Reading a region back gives the written texels, and nothing else changes.
+    /// Reading a region back returns the written texels, and nothing else changes.
     #[test]
     fn regions_go_where_they_should(x in 0u32..9, y in 0u32..7, width in 0u32..9, height in 0u32..7, seed in any::<u8>()) {
         let mut image = Image::new(TexelFormat::Rg16, TextureKind::Cube, [8, 8, 1], 2).unwrap();

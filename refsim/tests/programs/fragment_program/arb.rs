@@ -44,7 +44,7 @@ fn components_can_be_chosen_one_by_one() {
 
 #[test]
 fn roots_are_of_magnitudes() {
-    // NV_fragment_program returns NaN, and minus infinity for -0.
+    // NV_fragment_program returns NaN here, and minus infinity for -0.
     let text = "RSQ a.x, program.local[0].x; RSQ a.y, -program.local[0].y; RSQ a.z, program.local[0].z; MOV a.w, b;";
     assert_eq!(color(text, &[[-4.0, 16.0, -0.0, 1.0]]), [0.5, 0.25, f32::INFINITY, 0.0]);
 }

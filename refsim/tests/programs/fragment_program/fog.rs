@@ -18,14 +18,14 @@ fn with(state: FixedFunctionState) -> Constants {
     Constants { state: Some(Box::new(state)), ..Constants::default() }
 }
 
-/// Colour of a program at fog coordinate `c`.
+/// Color of a program at fog coordinate `c`.
 fn color(text: &str, host: &Constants, c: f32) -> [f32; 4] {
     let input = FragmentInput { fog: c.to_bits(), ..FragmentInput::default() };
     let ran = run_quad(&format!("!!ARBfp1.0\n{text}\nEND"), &nv35(), &PixelBindings::new(host), &[input; 4]);
     ran.results[0].colors[0].map(f32::from_bits)
 }
 
-/// Fog by the specification's equations: red fog over a program's green.
+/// Runs fog by the specification's equations: red fog over a program's green.
 fn fogged(mode: &str, density: f32, start: f32, end: f32, c: f32) -> [f32; 4] {
     let mut state = FixedFunctionState::default();
     state.fog.color = bits([1.0, 0.0, 0.5, 0.125]);
@@ -104,7 +104,7 @@ fn options_and_bindings_are_printed_as_they_are_read() {
         MUL result.color, state.lightprod[3].back.specular, state.light[4].spot.direction.w;\nEND\n";
     let program = assemble(text).unwrap();
     assert_eq!(print(&program), text);
-    // In the checked program the option is expanded into instructions, which can be printed and parsed too.
+    // In the checked program the option is expanded into instructions, which can also be printed and parsed.
     let expanded = print(&check(program, &nv35()).unwrap());
     insta::assert_snapshot!(expanded);
     assert_eq!(print(&assemble(&expanded).unwrap()), expanded);

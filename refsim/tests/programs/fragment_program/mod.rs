@@ -18,7 +18,7 @@ fn nv35() -> Profile {
     Profile::named("nv35").unwrap()
 }
 
-/// Runs `!!FP1.0` statements with parameters from `p[0]` on, then writes R0 out.
+/// Runs `!!FP1.0` statements with parameters from `p[0]` on, then outputs R0.
 fn run(statements: &str, values: &[[f32; 4]]) -> QuadRun {
     run_with(statements, &constants(values), &FragmentInput::default())
 }
@@ -28,7 +28,7 @@ fn run_with(statements: &str, host: &Constants, input: &FragmentInput) -> QuadRu
     run_quad(&text, &nv35(), &PixelBindings::new(host), &[*input; 4])
 }
 
-/// Final colour of lane 0.
+/// Final color of lane 0.
 fn color(ran: &QuadRun) -> [f32; 4] {
     ran.results[0].colors[0].map(f32::from_bits)
 }
@@ -82,7 +82,7 @@ fn condition_codes_start_as_equal_and_change_only_where_something_is_written() {
 
 #[test]
 fn the_codes_take_the_result_after_saturation_and_in_the_destinations_format() {
-    // -1 saturates to 0; 2^-30 is zero in fp16 and not in fp32.
+    // -1 saturates to 0; 2^-30 is zero in fp16, but not in fp32.
     let ran = run("MOVRC_SAT RC, p[0]; MOVR R0 (EQ), {1,1,1,1};", &[[-1.0; 4]]);
     assert_eq!(color(&ran), [1.0; 4]);
     let tiny = f32::from_bits(0x3080_0000);
@@ -128,7 +128,7 @@ fn colors_leave_in_either_precision_and_depth_through_z() {
 
 #[test]
 fn words_keep_their_bits() {
-    // The lower half of a word that is a NaN as a float, and one that is subnormal.
+    // Pairs of halves whose word, read as a float, is a NaN or subnormal.
     for halves in [[0x7e01_u32, 0x7fff], [0x0001, 0x0000], [0xffff, 0xff80]] {
         let text = "MOVR R1, R1; MOVRC RC, p[1]; MOVR R2 (GT), R1; UP2H R0, R2.x;";
         let parts =

@@ -1,4 +1,4 @@
-//! `f[WPOS]` and `fragment.position`: column and row of the pixel's centre, depth, 1 / w.
+//! `f[WPOS]` and `fragment.position`: column and row of the pixel's center, depth, 1 / w.
 
 use crate::running::run_quad;
 use refsim::asm::assemble;
@@ -12,7 +12,7 @@ use refsim::texture::TexelFormat;
 const WIDTH: u32 = 20;
 const HEIGHT: u32 = 6;
 
-/// Draws a quad over a target and returns the colours. The quad's left corners have the first w and depth, the right
+/// Draws a quad over a target and returns the colors. The quad's left corners have the first w and depth, the right
 /// corners the second.
 fn drawn(kind: ExecutorKind, text: &str, center: PixelCenter, w: [f32; 2], depth: [f32; 2]) -> Vec<[f32; 4]> {
     let profile = Profile::named("nv35").unwrap();

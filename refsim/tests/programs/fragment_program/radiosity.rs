@@ -1,5 +1,5 @@
 //! The longest program that the card accepts: a block of 254 matrix texels times a vector, as in GPU radiosity of the
-//! time: two reads, a multiply-add and a coordinate step per texel, 1024 instructions.
+//! period: two reads, a multiply-add and a coordinate step per texel, 1024 instructions.
 
 use super::nv35;
 use crate::random::Random;
@@ -41,7 +41,7 @@ fn a_block_is_as_long_as_the_instructions_allow() {
     let verdict = |texels| check(assemble(&kernel(texels)).unwrap(), &nv35());
     let program = verdict(BLOCK).unwrap();
     assert_eq!(program.instructions.len(), 4 * BLOCK + 3);
-    // 255 texels and three instructions more are 1023; 256 are too many.
+    // 255 texels need 1023 instructions, four per texel and three more; 256 texels need too many.
     verdict(BLOCK + 1).unwrap();
     let report = verdict(BLOCK + 2).unwrap_err();
     assert_eq!(report.violations.iter().map(|v| v.rule).collect::<Vec<_>>(), [RuleId::TooManyInstructions]);

@@ -9,7 +9,7 @@ use refsim::asm::{assemble, print};
 use refsim::isa::Version;
 use refsim::texture::TextureKind;
 
-/// Text of a random program, with comments and any spaces between statements.
+/// Text of a random program, with comments and random white space between statements.
 fn program(nv: bool, seed: u64) -> String {
     let mut random = Random::new(seed);
     let kinds = [TextureKind::D2, TextureKind::D1, TextureKind::Volume, TextureKind::Cube, TextureKind::Rectangle];

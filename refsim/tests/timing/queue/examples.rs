@@ -122,13 +122,13 @@ fn two_buckets(mode: ReadBackMode, double: bool) -> u64 {
 
 #[test]
 fn what_asynchrony_and_double_buffers_are_good_for() {
-    // 6 rays + 3 upload + 20 fragments + 5 read-back, in sequence, twice.
+    // Twice in sequence: 6 rays + 3 upload + 20 fragments + 5 read-back.
     assert_eq!(two_buckets(ReadBackMode::Synchronous, false), 68);
     assert_eq!(two_buckets(ReadBackMode::Synchronous, true), 68);
     // The second upload waits until the first draw has read the rays (29), and overlaps the read-back, which ends at
-    // 34: cleared by 35, then 35 + 20 + 5.
+    // 34: the target is cleared by 35, then 35 + 20 + 5.
     assert_eq!(two_buckets(ReadBackMode::Asynchronous, false), 60);
-    // The second draw follows the first: 9 + 20, its target cleared by 30, + 20 + 5.
+    // The second draw follows the first, which ends at 9 + 20; its target is cleared by 30, then 30 + 20 + 5.
     assert_eq!(two_buckets(ReadBackMode::Asynchronous, true), 55);
 }
 
@@ -137,7 +137,7 @@ fn an_asynchronous_read_back_has_a_fence() {
     let mut queue = Queue::new(free());
     queue.draw(&[], &[IDS], cost(0, 10, 0, 0), "draw");
     let fence = queue.read_back(IDS, ps(5), ReadBackMode::Asynchronous, "ids").expect("a fence");
-    // A draw to another target runs beside the transfer, a draw to the same target after it.
+    // A draw to another target runs during the transfer; a draw to the same target runs after it.
     queue.draw(&[], &[RAYS], cost(0, 3, 0, 0), "beside");
     queue.draw(&[], &[IDS], cost(0, 3, 0, 0), "after");
     queue.finish(fence);

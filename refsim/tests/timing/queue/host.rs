@@ -1,10 +1,10 @@
-//! The host model: a single scale, calibrated on one figure.
+//! The host model: a single scale, calibrated with one figure.
 
 use proptest::prelude::*;
 use refsim::timing::Picoseconds;
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostError, HostModel, HostOperation, HostWeights};
 
-/// Artificial counts of a run on the host alone.
+/// Artificial counts of a run without a card.
 fn counts() -> HostCounts {
     HostCounts::default()
         .with(HostOperation::RayGenerated, 1000)

@@ -53,7 +53,7 @@ fn makespan(commands: &[Command], figures: QueueFigures, mode: ReadBackMode) -> 
     play(commands, figures, mode).makespan()
 }
 
-/// Spans and waits of a unit as intervals, by time.
+/// Spans and waits of a unit as intervals, sorted by time.
 fn intervals(timeline: &Timeline, unit: Unit) -> Vec<(u64, u64)> {
     let spans = timeline.spans().iter().filter(|span| span.unit == unit).map(|span| (span.start.0, span.end.0));
     let waits = timeline.waits().iter().filter(|wait| wait.unit == unit).map(|wait| (wait.start.0, wait.end.0));
@@ -62,7 +62,7 @@ fn intervals(timeline: &Timeline, unit: Unit) -> Vec<(u64, u64)> {
     all
 }
 
-/// Resources that each command reads and writes, by the command index of its spans.
+/// For each command index of the spans, the resources that the command reads and writes.
 fn uses(commands: &[Command], mode: ReadBackMode) -> Vec<(Vec<u64>, Vec<u64>)> {
     let mut fence = false;
     let mut uses = Vec::new();

@@ -1,4 +1,4 @@
-//! Properties of the SVD, and of reflectance by few terms.
+//! Properties of the SVD, and of reflectance approximated by few terms.
 
 use std::f64::consts::PI;
 
@@ -43,7 +43,7 @@ fn all_terms(table: &ProductTable) -> Factorization {
     Factorization::new(table, rank).expect("all terms")
 }
 
-/// The table minus its approximation by `terms` terms, at all pairs of texels.
+/// The table minus its approximation with `terms` terms, for all pairs of a view and a light texel.
 fn differences(table: &ProductTable, found: &Factorization, terms: usize) -> Matrix {
     let (factors, mut values) = (found.factors(terms), table.values().clone());
     for view in 0..table.view().texels() {
@@ -72,7 +72,7 @@ fn as_many_terms_as_the_rank_are_the_table() {
 }
 
 /// The squared error of m terms is the sum of the squared omitted singular values, and no row has a larger error than
-/// the first of these.
+/// the first omitted singular value.
 #[test]
 fn the_error_is_the_tail_of_the_spectrum() {
     for table in tables() {
@@ -91,7 +91,7 @@ fn the_error_is_the_tail_of_the_spectrum() {
     }
 }
 
-/// No matrix of rank m is nearer (Eckart and Young): here, small perturbations of the factors.
+/// No matrix of rank m is closer (Eckart and Young); tested with small perturbations of the factors.
 #[test]
 fn no_neighbour_of_the_factors_is_nearer() {
     let table = sampled(6, &COOK_TORRANCE);
@@ -180,7 +180,7 @@ fn reciprocity_makes_a_symmetric_table() {
     }
 }
 
-/// Bits do not depend on the number of threads; in the full form at the paper's size.
+/// Bits do not depend on the number of threads; with `CROSSBAR_FULL=1` at the paper's size.
 #[test]
 fn bits_do_not_depend_on_threads() {
     let on = |threads: usize| {
@@ -236,7 +236,7 @@ fn a_white_furnace_shows_what_terms_lose() {
     assert_eq!((view, light(DVec3::NEG_Z)), (1.0 / PI, 0.0));
 }
 
-/// Singular values of isotropic lobes come in pairs: only a number of terms that splits a pair is reported.
+/// Singular values of isotropic lobes come in pairs: a number of terms is reported only if it splits a pair.
 #[test]
 fn split_pairs_are_found() {
     let bare = Lobe {
@@ -255,7 +255,7 @@ fn split_pairs_are_found() {
     assert_eq!(found.split_pair(0), None);
 }
 
-/// Means over finer samples converge; the clamp holds for each texel.
+/// Means over finer samples converge; no texel exceeds the limit.
 #[test]
 fn more_samples_agree_and_the_limit_holds() {
     let table = |edge: usize, limit: f64| {

@@ -6,7 +6,7 @@ use crate::support::file;
 use crossbar::all_frequency::factor::{Factorization, load_product_table};
 use proptest::prelude::*;
 
-/// Loads a file with these contents: the sides of the view and the light map, or the error message.
+/// Loads a file with these contents: the side lengths of the view map and the light map, or the error message.
 fn load(bytes: &[u8]) -> Result<[usize; 2], String> {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let path = folder.path().join("q.csv");
@@ -31,7 +31,7 @@ proptest! {
         }
     }
 
-    /// Only square numbers of rows and columns make maps.
+    /// A table is accepted only if its numbers of rows and columns are squares.
     #[test]
     fn squares_are_maps_and_nothing_else(rows in 1..30_usize, columns in 1..30_usize) {
         let text = (vec!["0.5"; columns].join(",") + "\n").repeat(rows);

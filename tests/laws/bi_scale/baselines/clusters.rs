@@ -1,5 +1,5 @@
-//! Clusters of rows: no round adds error, rows are in their best cluster, sizes and products are those of the stored
-//! form.
+//! Clusters of rows: no round increases the error, each row is in its best cluster, and sizes and products match the
+//! stored form.
 
 use approx::assert_relative_eq;
 use crossbar::bi_scale::baselines::{RowClusterOptions, RowClusters, StoredTransfer};
@@ -50,7 +50,7 @@ fn no_round_adds_error() {
     }
 }
 
-/// From all rows, rounds start where clustering of the dense signal ends; each row is in its best cluster.
+/// Rounds over all rows start where clustering of the dense signal ends; each row is in its best cluster.
 #[test]
 fn rounds_begin_with_the_clusters_of_the_dense_signal() {
     let matrix = transfer().1;
@@ -97,7 +97,7 @@ fn products_are_those_of_the_approximated_rows() {
     }
 }
 
-/// Rows of a few patterns are represented exactly by as many vectors.
+/// Rows that are combinations of two patterns are represented exactly by two vectors.
 #[test]
 fn rows_of_low_rank_are_met() {
     let mut matrix = SparseMatrix::new(6144, 2).unwrap();
@@ -112,7 +112,7 @@ fn rows_of_low_rank_are_met() {
     }
 }
 
-/// Any number of threads gives the same bits.
+/// The bits do not depend on the number of threads.
 #[test]
 fn threads_change_nothing() {
     let matrix = transfer().1;

@@ -1,4 +1,4 @@
-//! Other ways to store transfer: their contents and errors, against plain loops.
+//! Other ways to store transfer: their contents and errors, compared with plain loops.
 
 mod clusters;
 mod rotated;
@@ -22,7 +22,7 @@ fn transfer() -> (Vertices, SparseMatrix, LocalDirections) {
     (vertices, matrix, directions)
 }
 
-/// Any light, times solid angles.
+/// Random light of cube texels, times solid angles.
 fn light(seed: u64) -> Vec<f64> {
     let random = CounterRng::new(seed);
     light_vector(&(0..6144).map(|texel| 3.0 * random.unit(texel, 0, 0)).collect::<Vec<f64>>())
@@ -37,7 +37,7 @@ fn dense_row(matrix: &SparseMatrix, row: usize) -> Vec<f64> {
     dense
 }
 
-/// Rows of light texels with blocks of values, some of them empty, some full, drawn at random.
+/// Rows of light texels with random blocks of values; some blocks are empty, some full.
 fn any_rows(seed: u64, count: usize) -> SparseMatrix {
     let random = CounterRng::new(seed);
     let mut matrix = SparseMatrix::new(6144, 2).expect("columns");

@@ -1,4 +1,4 @@
-//! Harmonics and reshuffled visibility, which are rotated into vertex frames.
+//! Tests harmonics and shuffled visibility, both rotated into vertex frames.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,14 +26,14 @@ fn cells_cover_the_hemisphere() {
         assert_relative_eq!((4.0 * PI).sqrt() * sum(0), TAU, max_relative = 1e-12);
         let exact = DirectionRule::hemisphere(8).project(4, |_| 1.0);
         for (at, exact) in exact.into_iter().enumerate() {
-            // Points of equal solid angle, 16 along an edge of a cell, are a midpoint rule.
+            // Points of equal solid angle, 16 along an edge of a cell, form a midpoint rule.
             let bound = 8.0 / (256 * side * side) as f64;
             assert!((sum(at) - exact).abs() < bound, "{side}, {at}: {} for {exact}", sum(at));
         }
     }
 }
 
-/// Light projected to an order, and matrices of harmonics, computed texel by texel.
+/// Light projected to an order, and matrices of harmonics, equal the results of plain loops over texels.
 #[test]
 fn harmonics_are_those_of_plain_loops() {
     let (vertices, matrix, directions) = transfer();
@@ -72,7 +72,7 @@ fn harmonics_are_those_of_plain_loops() {
     }
 }
 
-/// For smooth light the error falls with the order. For hard light, low orders have a large error, and a larger one
+/// For smooth light, the error decreases with the order. For hard light, low orders have a large error, which is larger
 /// with harmonics on both sides than on one side.
 #[test]
 fn higher_orders_are_nearer() {
@@ -97,7 +97,7 @@ fn higher_orders_are_nearer() {
     assert_eq!(refused, "expected an order of harmonics of 1 to 10, found 11");
 }
 
-/// Down-sampled visibility, reshuffled direction by direction, and its error, which finer texels do not remove.
+/// Down-sampled visibility is shuffled direction by direction; finer texels do not remove its error.
 #[test]
 fn a_shuffle_takes_the_texel_of_each_direction() {
     let (vertices, matrix, directions) = transfer();
@@ -137,7 +137,7 @@ fn a_shuffle_takes_the_texel_of_each_direction() {
     );
 }
 
-/// An unoccluded vertex under uniform light: each direction gets its solid angle.
+/// At an unoccluded vertex under uniform light, each direction gets its solid angle.
 #[test]
 fn a_constant_light_stays_constant() {
     let (vertices, _, directions) = transfer();

@@ -51,7 +51,7 @@ fn sizes_are_of_entries_and_rows() {
     assert_eq!(CompressedRows::wide(&matrix).unwrap().sizes()[0].bytes, 8 * entries + 4 * rows);
 }
 
-/// Columns and values out of range are refused, and fit wider types.
+/// Columns and values that are out of a type's range are refused, but fit wider types.
 #[test]
 fn what_has_no_room_is_refused() {
     let of = |columns, index, value| {

@@ -1,4 +1,4 @@
-//! Rows in wavelets, against plain loops.
+//! Compares rows stored as wavelet coefficients with plain loops.
 
 use approx::assert_relative_eq;
 use crossbar::bi_scale::baselines::{
@@ -69,8 +69,8 @@ fn the_largest_coefficients_are_those_of_plain_loops() {
     }
 }
 
-/// Orthonormal wavelets: with all coefficients the product equals the matrix's; with fewer, it equals that of the
-/// represented rows, and choice by magnitude has the least squared error.
+/// Orthonormal wavelets: with all coefficients the product equals the matrix's; with fewer, it equals the product of
+/// the represented rows, and selection by magnitude has the smallest squared error.
 #[test]
 fn products_are_those_of_the_approximated_rows() {
     let (matrix, light) = (transfer().1, light(7));
@@ -92,7 +92,7 @@ fn products_are_those_of_the_approximated_rows() {
     assert!(squares[1] > 0.0 && 1.2 * squares[1] < squares[0], "{squares:?}");
 }
 
-/// The error of a byte is at most half a step; sizes count the stored data.
+/// Coefficients in bytes have an error of at most half a step; sizes count the stored data.
 #[test]
 fn bytes_are_steps_of_the_largest() {
     let matrix = any_rows(5, 40);

@@ -17,7 +17,7 @@ fn buried_vertices_are_listed() {
     let mesh = soup.flat();
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(10), &mut caster(&mesh), false).expect("traced");
-    // The inner box sees back faces of the outer one.
+    // The vertices of the inner box see back faces of the outer box.
     assert_eq!(rays.counts().dark, (0..24).collect::<Vec<u32>>());
     assert_eq!(rays.counts().buried, rays.counts().dark);
     assert_eq!(rays.counts().below_horizon, 0);
@@ -32,7 +32,7 @@ fn rays_into_the_surface_are_counted() {
     let mut soup = Soup::default();
     soup.quad(DVec3::ZERO, DVec3::X, DVec3::Y);
     let mesh = soup.mesh().welded();
-    // Normals that point down, and along the square.
+    // Normals that point down, and normals that lie in the square's plane.
     for (normal, share) in [([0.0, 0.0, -1.0], 1.0), ([1.0, 0.0, 0.0], 0.5)] {
         let tilted = mesh.clone().with_normals(vec![normal; 4]).expect("normals");
         let vertices = Vertices::new(&tilted, Tangents::Any).expect("vertices");

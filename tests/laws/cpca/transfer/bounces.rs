@@ -1,4 +1,4 @@
-//! Interreflection: against the reference, and white furnaces.
+//! Tests interreflections against the reference and in white furnaces.
 
 use crossbar::cpca::paper::Reference;
 use crossbar::cpca::transfer::{Bounces, Incident, Response, Transfer};
@@ -96,7 +96,7 @@ fn where_nothing_is_lost_everything_looks_like_the_sky() {
 
 #[test]
 fn half_of_white_is_a_series_that_can_be_summed() {
-    // In a closed box no sky is visible; a bounce halves the reflected light, which is 0.
+    // In a closed box no sky is visible; a bounce halves the reflected light, which is already 0.
     let mut soup = Soup::default();
     soup.boxed(DVec3::ONE, DVec3::ZERO);
     let mesh = soup.flat();
@@ -111,7 +111,7 @@ fn half_of_white_is_a_series_that_can_be_summed() {
 
 #[test]
 fn glossy_bounces_are_those_of_the_reference_where_bands_suffice() {
-    // A lobe of exponent 1 times s_z is a polynomial of degree 2 in the light and 1 in the view where it is positive.
+    // Where it is positive, a lobe of exponent 1 times s_z is a polynomial of degree 2 in the light and 1 in the view.
     let mesh = step();
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     let rays = trace(&mesh, &vertices, 9);

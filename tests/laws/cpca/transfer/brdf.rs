@@ -84,7 +84,7 @@ fn head_on_the_lobe_of_phong_reflects_its_share() {
 fn the_matrix_of_lambert_is_a_product_of_two_integrals() {
     let exit = ExitBasis::of_order(5);
     let found = brdf_matrix(&Brdf::Lambert { albedo: 0.7 }, &exit, 6, &DirectionRule::hemisphere(20)).expect("B");
-    // By a finer rule than needed.
+    // Computed with a finer rule than necessary.
     let rule = DirectionRule::hemisphere(60);
     let [view, light] = [rule.project(5, |_| 1.0), rule.project(6, |s| s.z)];
     assert_eq!([found.row_count(), found.column_count()], [25, 36]);
@@ -138,7 +138,7 @@ fn turning_an_anisotropic_brdf_turns_its_matrix() {
     let mut most: f64 = 0.0;
     for (row, expected) in both.rows().zip(turned.rows()) {
         for (found, expected) in row.iter().zip(expected) {
-            // The rule is the same after a quarter turn only if azimuths divide by 4: 64 do.
+            // The rule is unchanged by a quarter turn only if its number of azimuths is divisible by 4: here it is 64.
             close(*found, *expected, 1e-12, "an element");
             most = most.max(expected.abs());
         }

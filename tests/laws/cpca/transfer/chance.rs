@@ -22,7 +22,7 @@ fn random_directions_see_as_much_light() {
     let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(0)).expect("t_p");
     let (mut squares, mut count) = (0.0, 0);
     for (vertex, (at, frame)) in vertices.positions().iter().zip(vertices.frames()).enumerate() {
-        // Away from the edge between floor and wall, where an offset point would lie on one of them.
+        // Skips the edge between floor and wall, where an offset point would lie on one of them.
         if at[1] == 1.0 {
             continue;
         }

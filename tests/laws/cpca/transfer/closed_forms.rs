@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::{Soup, caster, close, uniform};
 
-/// A triangle at the origin that faces up, too small to matter: its first corner is vertex 0.
+/// A triangle at the origin that faces up, too small to affect visibility; its first corner is vertex 0.
 fn observer() -> Soup {
     Soup(vec![[0.0; 3], [1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0]])
 }
@@ -32,7 +32,8 @@ fn a_long_wall_shadows_as_the_formula_says() {
         soup.quad(DVec3::new(-1e4, 1.0, -1.0), DVec3::X * 2e4, DVec3::Z * (1.0 + k));
         let (transfer, rays) = diffuse(&soup.flat(), 511, 1);
         let expected = f64::midpoint(1.0, 1.0 / (1.0 + k * k).sqrt());
-        // The wall's rim passes between directions: of each of 512 azimuths, at most one cosine-weighted step in z.
+        // The wall's rim passes between directions: the error is at most one cosine-weighted step in z for each of 512
+        // azimuths.
         let found = transfer.radiance(0, DVec3::Z, &uniform(1));
         close(found, expected, 2e-3, "irradiance over pi");
         assert!(rays.counts().buried.is_empty() && rays.counts().unclear.is_empty());
@@ -54,7 +55,7 @@ fn disk(soup: &mut Soup, height: f64, radius: f64) {
 #[test]
 fn a_disk_overhead_shadows_every_band_as_the_formula_says() {
     let (degree, order) = (63, 10);
-    // Between two rings of the rule, so that a shadow is a number of whole rings.
+    // The rim lies between two rings of the rule, so that the shadow consists of whole rings.
     let rule = DirectionRule::hemisphere(degree);
     for ring in [3, 12, 25] {
         let [below, above] = [ring, ring + 1].map(|ring| rule.directions()[ring * (degree + 1)].z);
@@ -64,7 +65,8 @@ fn a_disk_overhead_shadows_every_band_as_the_formula_says() {
         let (transfer, rays) = diffuse(&soup.flat(), degree, order);
         let blocked = (0..rule.len()).filter(|&direction| rays.is_blocked(0, direction)).count();
         assert_eq!(blocked, (31 - ring) * (degree + 1));
-        // The sky is free for z below the rim: the integral of y z / pi there, for m = 0 alone, by a separate rule.
+        // The sky is visible for z below the rim. The expected value is the integral of y z / pi over it, by a separate
+        // rule; it is nonzero only for m = 0.
         let mut expected = [0.0; 100];
         let mut y = [0.0; 100];
         for (z, weight) in crossbar::quadrature::integral_points(0.0, cosine) {
@@ -74,7 +76,7 @@ fn a_disk_overhead_shadows_every_band_as_the_formula_says() {
                 expected[index] += weight * 2.0 * PI * y[index] * z / PI;
             }
         }
-        // A ring's weight covers the band around it: the rim lies at the end of a band, up to half a step.
+        // A ring's weight covers the band around it: the rim lies within half a step of the end of a band.
         let step = (above - below) * above * 1.1;
         for (index, expected) in expected.into_iter().enumerate() {
             let m_is_0 = index == function_index(index.isqrt(), 0);
@@ -95,13 +97,13 @@ fn at_the_foot_of_a_wall_half_of_the_sky_is_seen() {
     let mesh = soup.flat();
     let foot = Vertices::new(&mesh, Tangents::Along(DVec3::X)).expect("vertices");
     let foot = foot.positions().iter().position(|at| *at == [-1.0, 0.0, 0.0]).expect("a corner");
-    // 32 azimuths, half of them towards the wall.
+    // The rule has 32 azimuths, half of them toward the wall.
     let (transfer, rays) = diffuse(&mesh, 31, 3);
     close(transfer.radiance(foot, DVec3::Z, &uniform(9)), 0.5, 1e-7, "half of the sky");
     assert!(rays.counts().unclear.is_empty() && rays.counts().below_horizon == 0);
 }
 
-/// A wall all around, inside of radius 1, whose elevation above the horizon has the sine `sine`.
+/// A circular wall with inner radius 1; `sine` is the sine of its elevation above the horizon.
 fn bowl(sine: f64) -> Mesh {
     let mut soup = observer();
     let corners = 128;
@@ -116,7 +118,7 @@ fn bowl(sine: f64) -> Mesh {
     soup.flat()
 }
 
-/// Light in a bowl by the default rule for transfer: every height of the rim is within the same error.
+/// Light in a bowl, computed with the default rule for transfer, has the same error bound for every height of the rim.
 #[test]
 fn bowls_of_any_height_cost_no_more_than_walls() {
     let albedo = Brdf::Lambert { albedo: 1.0 };
@@ -141,6 +143,6 @@ fn bowls_of_any_height_cost_no_more_than_walls() {
         worst = worst.max((light / (1.0 - sine * sine) - 1.0).abs());
         assert_eq!(found.directions, 1058);
     }
-    // 3 % with the rule of 23 rings.
+    // The error was 3 % with a rule of 23 rings.
     assert!(worst < 5e-3, "{worst}");
 }

@@ -39,7 +39,7 @@ fn lambert_is_the_diffuse_path() {
             for vertex in 0..vertices.len() {
                 for (at, &value) in glossy.of(vertex).iter().enumerate() {
                     let expected = if at < 25 { f64::from(diffuse.of(vertex)[at]) / y_0 } else { 0.0 };
-                    // Single precision after each bounce, for numbers up to 1.
+                    // Numbers up to 1 are rounded to single precision after each bounce.
                     close(f64::from(value), expected, 4e-7, "an element of M_p");
                 }
             }
@@ -49,7 +49,7 @@ fn lambert_is_the_diffuse_path() {
 
 #[test]
 fn zero_hemisphere_projection_does_not_keep_lambert() {
-    // 20 % of energy is lost on average (section 3.2): the constant function loses half.
+    // The paper says that 20 % of energy is lost on average (section 3.2); the constant function loses half.
     let exit = ExitBasis::of_order(5);
     let (rule, views) = (DirectionRule::hemisphere(20), DirectionRule::hemisphere(40));
     let incident = Incident::Harmonics { order: 5, inverse: false };
@@ -116,7 +116,7 @@ fn the_chain_of_matrices_is_the_transfer() {
         for vertex in 0..vertices.len() {
             let rows = incident.of(vertex).iter().map(|&value| f64::from(value)).collect();
             let product = chain.product(&Matrix::new([25, 36], rows).expect("a matrix")).expect("M_p");
-            // Single precision of R_p T_p, before A_i^-1, whose condition number is 151,695.
+            // R_p T_p is rounded to single precision before A_i^-1, whose condition number is 151,695.
             for (&found, expected) in transfer.of(vertex).iter().zip(product.rows().flatten()) {
                 close(f64::from(found), *expected, 2e-2, "an element");
             }
@@ -124,7 +124,7 @@ fn the_chain_of_matrices_is_the_transfer() {
     }
 }
 
-/// Transfer computed from the same rays for every comparison, so that shadows are equal.
+/// Transfer; all comparisons use the same rays, so that shadows are equal.
 fn matrices(vertices: &Vertices, rays: &TracedRays, incident: Incident) -> Transfer {
     let response = glossy(&WARD, &ExitBasis::of_order(4), incident, rays.rule());
     Transfer::new(vertices, rays, &[response], 5, Bounces::Count(0)).expect("M_p")

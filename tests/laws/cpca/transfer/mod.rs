@@ -34,7 +34,7 @@ impl Soup {
         }
     }
 
-    /// A box between two corners whose faces look outwards, or, with exchanged corners, inwards.
+    /// A box between two corners whose faces point outward, or inward if the corners are exchanged.
     fn boxed(&mut self, low: DVec3, high: DVec3) {
         let d = high - low;
         for axis in 0..3 {
@@ -51,13 +51,13 @@ impl Soup {
         soup(self.0)
     }
 
-    /// A mesh with the normals of its triangles.
+    /// A mesh with flat normals, one per triangle.
     fn flat(self) -> Mesh {
         flat(self.0)
     }
 }
 
-/// A step: a floor and a wall of two squares each, and an overhanging block.
+/// A floor and a wall of two squares each, and an overhanging block.
 fn step() -> Mesh {
     let mut soup = Soup::default();
     for x in [0.0, 1.0] {
@@ -76,14 +76,14 @@ fn trace(mesh: &Mesh, vertices: &Vertices, degree: usize) -> TracedRays {
     TracedRays::trace(vertices, DirectionRule::hemisphere(degree), &mut caster(mesh), true).expect("traced")
 }
 
-/// The coefficients of light of radiance 1 from everywhere.
+/// Coefficients of light with radiance 1 from all directions.
 fn uniform(count: usize) -> Vec<f64> {
     let mut light = vec![0.0; count];
     light[0] = (4.0 * PI).sqrt();
     light
 }
 
-/// Light with a non-zero coefficient for every function.
+/// Coefficients of light, all of them nonzero.
 fn mixed(count: usize) -> Vec<f64> {
     (0..count).map(|index| if index == 0 { 3.0 } else { ((index * 37 % 23) as f64 - 11.0) / 15.0 }).collect()
 }

@@ -1,4 +1,4 @@
-//! The models of the papers on transfer: counts of their tables, closed, with tangents everywhere.
+//! The models of the papers on transfer have the counts of the papers' tables, and tangents everywhere.
 
 use crate::environment::is_full;
 use std::path::Path;
@@ -8,7 +8,7 @@ use crossbar::io::load_mesh;
 use crossbar::scene::built::meshes as models;
 use crossbar::transfer::{Tangents, Vertices};
 
-/// Larger models are built a second time with `CROSSBAR_FULL=1` alone.
+/// Number of vertices above which models are built a second time only with `CROSSBAR_FULL=1`.
 const SMALL: usize = 20_000;
 
 #[test]
@@ -31,7 +31,7 @@ fn they_have_as_many_vertices_as_table_1_prints() {
     ];
     let names = models::names()
         .filter(|name| ["transfer-", "all-frequency-", "bi-scale-"].iter().any(|paper| name.starts_with(paper)))
-        // It has no texture coordinates.
+        // This teapot has no texture coordinates.
         .filter(|&name| name != "all-frequency-teapot");
     assert!(names.eq(printed.map(|(name, ..)| name)));
     for (name, count, closed) in printed {
@@ -52,8 +52,8 @@ fn they_have_as_many_vertices_as_table_1_prints() {
     assert!(models::build("transfer-dodo").is_none());
 }
 
-/// The subsurface paper's bunny is the scan of the file, turned, moved and scaled; the finest of the bi-scale paper keeps
-/// its vertices.
+/// The subsurface paper's bunny is the scan in the file, rotated, moved and scaled; the bi-scale paper's finest bunny
+/// keeps its vertices.
 #[test]
 fn bunnies_are_of_the_scan() {
     let scanned = load_mesh(Path::new("src/ground/scene/built/bunny.ply")).expect("a model");
@@ -74,7 +74,7 @@ fn bunnies_are_of_the_scan() {
     }
 }
 
-/// The models of several materials use all of them.
+/// Models with several materials use all of them.
 #[test]
 fn flat_models_have_their_materials() {
     for (name, expected) in [
@@ -88,7 +88,7 @@ fn flat_models_have_their_materials() {
         }
         assert_eq!(model.material_of.len(), model.mesh.len());
         let vertices = Vertices::with_materials(&model.mesh, &model.material_of, Tangents::Texture).expect("vertices");
-        // Vertices that the file repeats where tubes close count once.
+        // Vertices that the file repeats at the seams of tubes count once.
         assert!(vertices.len() <= models::build(name).expect("a mesh").positions().len(), "{name}");
     }
     let plain = models::build_with_materials("bi-scale-bunny").expect("a model");

@@ -1,5 +1,5 @@
-//! An independent estimate: path tracing under the same light, with triangles and materials, but no rule of directions,
-//! no matrix and no interpolation between vertices.
+//! An independent estimate: path tracing under the same light, with triangles and materials, but without a rule of
+//! directions, a matrix, or interpolation between vertices.
 //!
 //! Per vertex the difference is compared with the standard error of the paths. The error of interpolation between
 //! vertices is smaller, since the surfaces are divided finely enough; with `CROSSBAR_FULL` both are finer.
@@ -23,12 +23,12 @@ const LIFT: f64 = 1e-4;
 /// Random numbers per vertex of a path.
 const PER_PLACE: u64 = 2;
 
-/// Parts of each side of a square, and paths per vertex.
+/// Number of parts into which each side of a square is divided, and number of paths per vertex.
 fn size() -> (u32, u64) {
     by_form((6, 4_000), (16, 40_000))
 }
 
-/// The step of [`super::step`], of squares divided into `parts` x `parts`. The block comes last.
+/// The mesh of [`super::step`], with squares divided into `parts` x `parts`. The block comes last.
 fn divided_step(parts: u32) -> (Mesh, Vec<u32>) {
     let coarse = super::step();
     let (mut soup, mut materials) = (Soup::default(), Vec::new());
@@ -51,8 +51,8 @@ fn around(normal: DVec3, [u, turns]: [f64; 2]) -> DVec3 {
     LocalFrame::of_normal(normal).to_global(DVec3::new(u.sqrt() * x, u.sqrt() * y, (1.0 - u).sqrt()))
 }
 
-/// Paths from a place, each with its first direction: the radiance along it after at most this many diffuse
-/// reflections.
+/// Traces paths from a position, each with its first direction; returns the radiance along each path after a limited
+/// number of diffuse reflections.
 struct Paths<'a> {
     mesh: &'a Mesh,
     caster: HostTracer,
@@ -93,7 +93,7 @@ impl Paths<'_> {
     }
 }
 
-/// Number of standard deviations from a mean.
+/// Distance of `found` from the mean of the samples, in standard errors of the mean.
 fn deviations(found: f64, samples: &[f64]) -> f64 {
     let count = samples.len() as f64;
     let mean = samples.iter().sum::<f64>() / count;
@@ -107,7 +107,7 @@ fn spread(all: &[f64]) -> [f64; 2] {
     [(squares / all.len() as f64).sqrt(), all.iter().fold(0.0, |most, z| most.max(z.abs()))]
 }
 
-/// Vertices that are compared with paths: a few of each kind, away from the edge, where an offset place would lie on
+/// Vertices that are compared with paths: a few of each kind, away from the edge, where an offset point would lie on
 /// the other surface.
 fn chosen(vertices: &Vertices, every: usize) -> impl Iterator<Item = usize> + '_ {
     (0..vertices.len()).step_by(every).filter(|&vertex| vertices.positions()[vertex][1] != 1.0)
@@ -156,7 +156,7 @@ fn glossy_transfer_with_a_bounce_is_what_paths_bring() {
     let responses = [Brdf::Lambert { albedo: ALBEDO }, glossy].map(|brdf| response(brdf).expect("a response"));
     let transfer = |count| Transfer::new(&vertices, &rays, &responses, 4, Bounces::Count(count)).expect("M_p");
     let paths = Paths { mesh: &mesh, caster: caster(&mesh), light: &light, random: CounterRng::new(9) };
-    // A (M_p l), by a rule exact for products of two functions.
+    // Computes A (M_p l) with a rule that is exact for products of two functions.
     let projected = |transfer: &Transfer, vertex: usize| {
         let (rule, mut integrals) = (DirectionRule::hemisphere(6), vec![0.0; exit.len()]);
         for (&view, weight) in rule.directions().iter().zip(rule.weights()) {
@@ -175,7 +175,8 @@ fn glossy_transfer_with_a_bounce_is_what_paths_bring() {
         let random = |sample, dimensions: [u64; 2]| dimensions.map(|k| paths.random.unit(vertex as u64, sample, k));
         let first: Vec<DVec3> = (0..samples).map(|sample| around(frame.normal(), random(sample, [0, 1]))).collect();
         let arriving = paths.arriving(vertex as u64, place, &first, 1);
-        // Views are uniform over the hemisphere, light cosine-distributed: 2 pi times pi over the number of samples.
+        // Views are uniform over the hemisphere, light is cosine-distributed: the factor is 2 pi times pi over the
+        // number of samples.
         let scale = 2.0 * std::f64::consts::PI * std::f64::consts::PI;
         let mut integrals = vec![Vec::new(); exit.len()];
         for (sample, (&towards, radiance)) in (0..).zip(first.iter().zip(arriving)) {

@@ -1,4 +1,4 @@
-//! Rotating everything, or dividing the work differently, changes nothing.
+//! Rotating the whole scene, or dividing the work differently, does not change the result.
 
 use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
 use crossbar::geom::{Mesh, Sides};
@@ -52,10 +52,10 @@ fn turning_mesh_tangents_and_light_changes_nothing() {
         for vertex in 0..before.vertex_count() {
             let of =
                 |direction: &usize| rays.is_blocked(vertex, *direction) != turned_rays.is_blocked(vertex, *direction);
-            // Corners are in single precision: a ray that just misses an edge may hit it.
+            // Corners are rounded to single precision: a ray that just misses an edge may hit it.
             let flipped: Vec<usize> = (0..rays.rule().len()).filter(of).collect();
             differ += flipped.len();
-            // Factors of a ray: its weight, the lobe towards the view, and the light, both below 20.
+            // A ray contributes its weight times the lobe toward the view and the light, both below 20.
             let share: f64 = flipped.iter().map(|&direction| 400.0 * rays.rule().weights()[direction]).sum();
             let [found, expected] =
                 [after.radiance(vertex, view, &turned_light), before.radiance(vertex, view, &light)];

@@ -17,7 +17,7 @@ fn dipole() -> Dipole {
     Dipole::new(Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 }, 1.3).expect("a medium")
 }
 
-/// Irradiance that enters each vertex; all of it if `transmittance` is 1.
+/// Transfer of the irradiance that enters each vertex; all irradiance enters if `transmittance` is 1.
 fn entering(mesh: &Mesh, order: usize, transmittance: fn(f64) -> f64) -> (Vertices, Transfer) {
     let vertices = Vertices::new(mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(14), &mut caster(mesh), false).expect("traced");
@@ -52,10 +52,10 @@ fn a_sheet_scatters_as_the_exact_polygon() {
             let vertex = vertices.positions().iter().position(|p| (p[0] - at[0]).abs() + (p[1] - at[1]).abs() < 1e-5);
             let place = DVec3::new(f64::from(at[0]), f64::from(at[1]), 0.0) * mm;
             let polygon = corners.map(|[x, y]| DVec3::new(x, y, 0.0) * mm);
-            // Irradiance is pi under uniform light, so the radiance is the returned fraction.
+            // Irradiance is pi under uniform light, so the radiance equals the fraction of light that is returned.
             let expected = point_to_polygon(&dipole(), place, &polygon);
             let found = scattered.radiance(vertex.expect("a vertex"), DVec3::Z, &uniform(1));
-            // Midpoints of cells of 1/15 and 1/5 mm, with a mean free path of 0.45 mm.
+            // The error of midpoints in cells of 1/15 and 1/5 mm, with a mean free path of 0.45 mm.
             close(found, expected, if mm < 3.0 { 2e-3 } else { 1e-2 }, "the share");
         }
     }
@@ -71,7 +71,7 @@ fn a_sphere_under_uniform_light_is_what_is_known() {
         let error = |vertex| (scattered.radiance(vertex, DVec3::Z, &uniform(1)) / expected - 1.0).abs();
         (0..vertices.len()).map(error).fold(0.0, f64::max)
     });
-    // Edges of 0.6, 0.3 and 0.15 mm, with a mean free path of 0.45 mm: convergence of second order.
+    // Edges of 0.6, 0.3 and 0.15 mm, with a mean free path of 0.45 mm: the convergence is of second order.
     assert!(errors[1] < errors[0] / 2.5 && errors[2] < errors[1] / 2.5 && errors[2] < 0.01, "{errors:?}");
 }
 

@@ -112,7 +112,7 @@ impl Single {
         !self.products.iter().chain(&[self.n_ao, self.n_d, self.t()]).all(|x| x.is_finite()) && self.n_d != 0.0
     }
 
-    /// True if a product of non-zero factors is subnormal or 0 in f32, by comparison with f64.
+    /// Returns `true` if a product of nonzero factors is subnormal or 0 in f32, by comparison with f64.
     fn underflows(&self, double: &Double) -> bool {
         let lost = |(single, double): (&f32, &f64)| {
             double.abs() > 0.0 && single.abs() < f32::MIN_POSITIVE && double.abs() < f64::from(f32::MIN_POSITIVE)
@@ -120,7 +120,7 @@ impl Single {
         self.products.iter().zip(&double.products).any(lost)
     }
 
-    /// The f32 condition that rejects the ray, among plane, edges and start.
+    /// The f32 condition that rejects the ray: plane, edge or start.
     fn turned(&self, sides: Sides) -> Cause {
         if self.n == [0.0; 3] || !self.faces(sides) {
             Cause::Plane
@@ -133,7 +133,7 @@ impl Single {
 }
 
 impl Double {
-    /// The condition that a missed triangle fails in f64.
+    /// The condition that a triangle without a hit fails in f64.
     fn fails(&self, sides: Sides) -> Cause {
         if self.outside() && self.n_d != 0.0 {
             Cause::Edge
@@ -147,14 +147,14 @@ impl Double {
     }
 }
 
-/// The f32 test of one triangle at a scale, written independently: t along the direction scaled into range.
+/// The f32 test of one triangle at a scale, implemented independently; t is measured along the scaled direction.
 pub(crate) fn meets(ray: &Ray, corners: [[f32; 3]; 3], sides: Sides, scale: f64) -> bool {
     let single = Single::new(ray, corners, scale);
     let t = single.t();
     single.faces(sides) && !single.outside() && (0.0..f32::INFINITY).contains(&t)
 }
 
-/// The cause of one disagreement of the f32 test among all pairs.
+/// The cause of one disagreement between the f32 test over all pairs and exact arithmetic.
 pub(crate) fn of(mesh: &Mesh, ray: &Ray, sides: Sides, wrong: &Disagreement) -> Cause {
     let scale = scale(mesh);
     let corners = |triangle| mesh.corners(triangle).expect("a triangle of the mesh");

@@ -2,9 +2,9 @@
 //! planes, from surfaces, with zeros of both signs) through every path: no panic, no hang, no lost hit, and the same
 //! bits.
 //!
-//! **What is tested.** The baseline is the card's f32 test over all pairs. Where its answer is right in exact
-//! arithmetic, every path must give its bits. Where it is wrong, or has an error of t of a hundredth or more, a path
-//! may differ, but only by skipping triangles: every reported hit passes the f32 test. docs/papers/ray_engine.md has a
+//! **What is tested.** The baseline is the card's f32 test over all pairs. If its answer is correct in exact
+//! arithmetic, every path must return the same bits. If it is wrong, or its t is off by a hundredth or more, a path may
+//! differ, but only by skipping triangles: every reported hit passes the f32 test. docs/papers/ray_engine.md has a
 //! table of fp32's errors by the rounding that causes them.
 
 mod cause;
@@ -32,7 +32,7 @@ const SCENES: u64 = 10_000;
 /// One scene in this many is drawn on the card; every scene with `CROSSBAR_FULL=1`.
 const ON_CARD: usize = 8;
 const IN_OCTREES: usize = 4;
-/// ULPs above which a t error is at least a hundredth.
+/// Number of ULPs above which the relative error of t is at least a hundredth.
 const ASTRAY: u64 = 1 << 17;
 const TOLERANCE: Tolerance = Tolerance::ulps(4);
 
@@ -61,8 +61,8 @@ impl Yardstick {
         Self { scene, hits, wrong }
     }
 
-    /// Compares the hits of a path with the baseline: returns the number of rays that differ; panics at an unexplained
-    /// one.
+    /// Compares the hits of a path with the baseline: returns the number of rays that differ; panics if a difference is
+    /// not allowed.
     fn hold(&self, name: &str, number: u64, hits: &[Option<Hit>]) -> usize {
         let bits = |hit: &Option<Hit>| hit.map(|hit| (hit.triangle, hit.t.to_bits()));
         assert_eq!(self.hits.len(), hits.len());
@@ -85,7 +85,7 @@ impl Yardstick {
         differing
     }
 
-    /// The f32 test of one triangle, in a mesh with the scene's bounds, which two degenerate triangles ensure.
+    /// The f32 test of one triangle, in a mesh to which two degenerate triangles give the scene's bounds.
     fn alone(&self, ray: &Ray, triangle: u32) -> Option<Hit> {
         let corners = self.scene.mesh.corners(triangle)?;
         let positions = corners.into_iter().chain(self.scene.mesh.bounds()?).collect();
@@ -94,8 +94,8 @@ impl Yardstick {
     }
 }
 
-/// The baselines of all scenes, shared by the tests. Tests must initialise this before they start work in parallel: a
-/// waiting worker could be the one that has to run the initialisation.
+/// The baselines of all scenes, shared by the tests. Tests must initialize this before they start parallel work: a
+/// waiting worker could be the one that has to run the initialization.
 static YARDSTICKS: LazyLock<Vec<Yardstick>> =
     LazyLock::new(|| (0..SCENES).into_par_iter().map(Yardstick::new).collect());
 
@@ -105,7 +105,7 @@ fn sum(step: usize, each: impl Fn(u64, &Yardstick) -> usize + Sync + Send) -> us
     yardsticks.par_iter().enumerate().step_by(step).map(|(number, yardstick)| each(number as u64, yardstick)).sum()
 }
 
-/// The step through the scenes: the one of the short form, or 1.
+/// The step through the scenes: `step`, or 1 with `CROSSBAR_FULL=1`.
 fn every(step: usize) -> usize {
     by_form(step, 1)
 }
@@ -126,7 +126,7 @@ fn the_octree_finds_what_all_pairs_find() {
         }
         differing
     });
-    // Rays on which fp32 is wrong: 1 in 5,000 answers according to the page.
+    // Only rays on which fp32 is wrong may differ: 1 in 5,000 answers, according to the page.
     assert!(differing * step < 400, "{differing} answers differ");
 }
 
@@ -136,7 +136,7 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
     sum(step, |number, yardstick| {
         let scene = &yardstick.scene;
         let mut differing = 0;
-        // A t far below a batch's largest loses bits in the depth buffer, and one beyond it is lost: scenes of moderate
+        // A t far below a batch's largest t loses bits in the depth buffer, and a larger t is lost; scenes of moderate
         // size have no such t.
         if scene.moderate {
             let card = Crossbar::new(profile("ideal-fp32"), ExecutorKind::Batch).all_pairs(true);
@@ -162,7 +162,7 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
 /// Counts by kind, then by cause.
 type Counts = BTreeMap<(DisagreementKind, Cause), usize>;
 
-/// The table of the page: how often fp32 is wrong, by kind and by rounding.
+/// The table on the page: how often fp32 is wrong, by kind of error and by the rounding that causes it.
 fn table([rays, hits]: [usize; 2], counts: &Counts) -> String {
     let mut out = format!("| of {rays} rays, {hits} truly hit |");
     for cause in Cause::ALL {
@@ -193,7 +193,7 @@ fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
                 let cause = cause::of(&scene.mesh, &scene.rays[wrong.ray], scene.sides, wrong);
                 *counts.entry((wrong.kind, cause)).or_default() += 1;
             }
-            // The equations here are those of the tracer.
+            // The equations in `cause` must agree with the tracer.
             let scale = cause::scale(&scene.mesh);
             for (ray, hit) in scene.rays.iter().zip(hits) {
                 let any = scene.mesh.iter_corners().any(|corners| cause::meets(ray, corners, scene.sides, scale));

@@ -1,4 +1,4 @@
-//! Tiny scenes by number: the special cases of an intersector within a dozen triangles.
+//! Tiny numbered scenes: at most a dozen triangles each, with the special cases of an intersector.
 
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Ray, Sides};
@@ -11,7 +11,7 @@ pub(crate) struct Scene {
     pub(crate) mesh: Mesh,
     pub(crate) rays: Vec<Ray>,
     pub(crate) sides: Sides,
-    /// True if all coordinates, those of ray origins included, have one moderate size: products neither overflow nor
+    /// True if all coordinates, including ray origins, have the same moderate size: products neither overflow nor
     /// underflow in f32.
     pub(crate) moderate: bool,
 }
@@ -65,7 +65,7 @@ impl Scene {
     pub(crate) fn new(number: u64) -> Self {
         let mut dice = Dice { stream: CounterRng::new(2002), scene: number, throws: 0 };
         let kind = dice.one_of(&[Coordinates::Grid, Coordinates::Grid, Coordinates::Free, Coordinates::Mixed]);
-        // Sizes: mostly one, sometimes tiny or huge, sometimes mixed within the scene.
+        // Coordinate scales: mostly 1, sometimes tiny or huge, sometimes mixed within the scene.
         let scales: &[f32] = match dice.below(8) {
             0 => &[1e-30],
             1 => &[1e30],
@@ -89,7 +89,8 @@ impl Scene {
     }
 }
 
-/// A triangle: new corners, corners of others, a copy of another (either winding), or a needle.
+/// A triangle with new corners, corners of other triangles, a copy of another triangle (with either winding), or a
+/// needle.
 fn triangle(dice: &mut Dice, kind: Coordinates, scale: f32, offset: f32, positions: &mut Vec<[f32; 3]>) -> [u32; 3] {
     let first = positions.len() as u32;
     let mut fresh = |dice: &mut Dice| {
@@ -125,7 +126,7 @@ fn triangle(dice: &mut Dice, kind: Coordinates, scale: f32, offset: f32, positio
     }
 }
 
-/// A point of a triangle: a corner, a point of an edge, or inside, up to the rounding of f32.
+/// A point of a triangle: a corner, a point on an edge, or a point inside, up to the rounding of f32.
 fn point(dice: &mut Dice, mesh: &Mesh) -> [f32; 3] {
     let id = dice.below(mesh.len()) as u32;
     let [a, b, c] = mesh.corners(id).expect("a triangle of the mesh");
@@ -160,7 +161,7 @@ fn ray(dice: &mut Dice, kind: Coordinates, scales: &[f32], offset: f32, mesh: &M
             direction
         }
         3 => dice.vector(|dice| coordinate(dice, kind)),
-        // Along an edge of a triangle: in its plane.
+        // Along an edge of a triangle, and so in its plane.
         4 => {
             let [a, b, _] = mesh.corners(dice.below(mesh.len()) as u32)?;
             [0, 1, 2].map(|axis| b[axis] - a[axis])

@@ -1,10 +1,10 @@
 //! Bounds of a card's rounding errors of u, v, w, n.d, n.ao and t: forward error analysis of the programs, operation by
-//! operation, for formats without overflow or underflow. Each operation is charged one whole step, which covers every
-//! rounding mode.
+//! operation, for formats without overflow or underflow. Each operation is charged one full rounding step, which covers
+//! every rounding mode.
 //!
-//! The scale factors of scene and edges are not read from the program under test. Fixed-point errors are taken at the
-//! worst of the scales that the rule "as large as fits" admits: S within a factor of eight, k at least half of the
-//! value for coarse magnitudes.
+//! The scale factors of scene and edges are not read from the program under test. Fixed-point errors are computed for
+//! the worst scale that the rule "as large as fits" admits: S within a factor of eight, k at least half of the value
+//! for coarse magnitudes.
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::vector::wide;
@@ -18,10 +18,10 @@ use refsim::num::power_of_two;
 
 /// Relative error of a vertex program: a few operations in single precision.
 const SINGLE: f64 = 1.0 / (1 << 20) as f64;
-/// Relative depth below which a hit surely lies before the far end.
+/// Relative depth below which a hit certainly lies before the far plane.
 const LAST_DEPTH: f64 = 0.02;
 
-/// The first hit of a ray, where the error bounds leave no doubt.
+/// The first hit of a ray, if the error bounds leave no doubt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum First {
     Hit { triangle: u32, t: f64, error: f64 },
@@ -36,7 +36,7 @@ enum Judgement {
         error: f64,
     },
     Miss,
-    /// A hit or a miss within the error bounds; a hit would be at this t or beyond.
+    /// The error bounds allow a hit or a miss; a hit would be at this t or beyond.
     Unclear {
         from: f64,
     },
@@ -45,10 +45,10 @@ enum Judgement {
 /// The bounds of a batch.
 pub(crate) struct Bounds {
     format: FormatKind,
-    /// `true` if n.d is used as a divisor only up to 1.
+    /// `true` if `texdepth` clamps its divisor, n.d, to 1.
     min1: bool,
     one_origin: bool,
-    /// The largest components of offsets, origins and corners.
+    /// The largest component of the offsets; below, of origins and of corners.
     offset: f64,
     origin: f64,
     corner: f64,
@@ -68,7 +68,7 @@ struct Exact {
     n_ao: f64,
 }
 
-/// Error bounds of the values of [`Exact`] and of t; and the smallest n.ao whose sign is certain.
+/// Error bounds of the values of [`Exact`] and of t; and the smallest magnitude of n.ao whose sign is certain.
 #[derive(Clone, Copy)]
 struct Errors {
     inside: [f64; 3],
@@ -187,7 +187,8 @@ impl Bounds {
             FormatKind::Float { exp_bits, man_bits } => self.float(&exact, (o, corners), exp_bits, man_bits),
         };
         let passes = |sign: f64| {
-            // A certain miss has a value with a certainly wrong sign; in a certain hit, all signs are certainly right.
+            // A miss is certain if one value certainly has the wrong sign; a hit is certain if all signs are certainly
+            // right.
             let margins = [
                 sign * exact.inside[0] / errors.inside[0],
                 sign * exact.inside[1] / errors.inside[1],
@@ -215,7 +216,7 @@ impl Bounds {
         match verdict {
             Some(true) => Judgement::Hit { t: -exact.n_ao / exact.n_d * power, error: errors.t * power },
             Some(false) => Judgement::Miss,
-            // With n.d near 0 the bound of t is useless: any t is possible.
+            // If n.d is near 0, the bound of t is useless: any t is possible.
             None if exact.n_d.abs() > 4.0 * errors.n_d && errors.depth < LAST_DEPTH => {
                 Judgement::Unclear { from: (-exact.n_ao / exact.n_d - errors.t) * power }
             }
@@ -223,7 +224,7 @@ impl Bounds {
         }
     }
 
-    /// Errors in fixed point, at the worst of the admissible scales.
+    /// Errors in fixed point, for the worst admissible scale.
     fn fixed(&self, exact: &Exact, end: f64, step: f64) -> Errors {
         let mut least = end / (4.0 * self.offset);
         if !self.one_origin {
@@ -291,7 +292,7 @@ impl Bounds {
         let scale = 0.5 * power_below((most.min(4.0) / self.corner).min(most / self.offset.max(self.origin)));
         let normal = largest(exact.n);
         let edge = exact.edges.map(largest).into_iter().fold(0.0, f64::max);
-        // Factor of the areas: brings the normal near 1, or is smaller where sums would leave the range.
+        // Factor for the areas: brings the normal near 1, or is smaller if sums would leave the range.
         let sums = (6.0 * edge * self.offset)
             .max(3.3 * normal)
             .max(3.0 * normal * self.offset * scale * 4.0)

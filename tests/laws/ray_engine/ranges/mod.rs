@@ -1,9 +1,9 @@
 //! No intersection is lost to the range of a number format, and none depends on the unit of length.
 //!
-//! **Range.** Random scenes of any size and position, with triangles from tiny ones to rooms around the rays, on every
-//! card that intersects and on ideal formats, including fixed point that wraps. `bounds.rs` derives how far rounding
-//! can move u, v, w, n.d and t. If the first hit of a ray is certain within these bounds, the card must find it. So
-//! saturation, wrapping, overflow and underflow would be detected.
+//! **Range.** Random scenes of any size and position, with triangles from tiny to larger than the rays' surroundings,
+//! on every card that can intersect and on ideal formats, including fixed point that wraps. `bounds.rs` derives how far
+//! rounding can move u, v, w, n.d and t. If the first hit of a ray is certain within these bounds, the card must find
+//! it. The test therefore detects saturation, wrapping, overflow and underflow.
 //!
 //! **Unit of length.** Multiplying corners and origins by a power of two multiplies t by it and changes no other bit;
 //! nor does a power of two in a direction.
@@ -27,7 +27,7 @@ use refsim::num::power_of_two;
 use scene::Scene;
 use std::sync::LazyLock;
 
-/// Cards and ideal formats, some with other switches: wrapping overflows show errors that saturation may hide.
+/// Cards and ideal formats, some with other switches: wrapping reveals errors that saturation may hide.
 const DEVICES: [(&str, &[(&str, &str)]); 18] = [
     ("r200", &[]),
     ("r200", &[("overflow", "wrap"), ("texcrd-overflow", "wrap-preserving")]),
@@ -38,7 +38,7 @@ const DEVICES: [(&str, &[(&str, &str)]); 18] = [
     ("r350", &[]),
     ("nv30", &[]),
     ("nv35", &[]),
-    // Saturates: the hit mask is the constant 1, which would wrap to -1 here.
+    // This format saturates, because the hit mask is the constant 1, which would wrap to -1.
     ("ideal-s0.15", &[]),
     ("ideal-s3.12:wrap", &[]),
     ("ideal-s3.16", &[]),
@@ -118,7 +118,7 @@ fn no_hit_in_no_doubt_is_lost_to_the_range_of_a_format() {
     }
 }
 
-/// Directions in 16 bits do not bound the error of single rays, but a lost range loses most hits.
+/// With 16-bit directions, single rays have no error bound, so the test counts: lost ranges would lose most hits.
 #[test]
 fn floats_keep_their_range_in_the_programs_for_fixed_point() {
     for format in ["e5m10", "e7m16", "e8m16", "e8m23"] {
@@ -237,7 +237,7 @@ fn no_eye_ray_leaves_a_closed_room() {
         for jitter in [0.0, 1e-3] {
             let hits = crossbar((device, &[])).intersect(&room, &rays(jitter), Sides::Both).expect("it works").hits;
             let lost = hits.iter().filter(|hit| hit.is_none()).count();
-            // Rounding loses rays at the edges: these are the paper's leaks.
+            // Rounding loses rays at edges: these are the paper's leaks.
             assert!(lost <= most, "{device}: {lost} of 1024 lost");
         }
     }

@@ -1,4 +1,5 @@
-//! Scenes by number: triangles anywhere, of sizes from a thousandth to all of the scene, and a square of rays.
+//! Numbered scenes: triangles anywhere, whose sizes range from a thousandth of the scene to all of it, and a square of
+//! rays.
 
 use crate::support::soup;
 use crossbar::geom::exact::Sides;
@@ -8,7 +9,7 @@ use crossbar::ray_engine::RayBatch;
 
 use refsim::num::power_of_two;
 
-/// Rays of a scene: a square of this side.
+/// Side of the square of rays of a scene, in rays.
 pub(crate) const SIDE: u32 = 16;
 pub(crate) const RAYS: usize = (SIDE * SIDE) as usize;
 
@@ -19,7 +20,7 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// A scene of a size from 2^-20 to 2^20.
+    /// A scene whose size is a power of two from 2^-20 to 2^20.
     pub(crate) fn new(number: u64) -> Self {
         Self::of_size(number, (CounterRng::new(number).bits(0, 0, 0) % 41) as i32 - 20)
     }
@@ -31,7 +32,7 @@ impl Scene {
         let number_in = |index: u64, sample: u64, k: u64| 2.0 * random.unit(index, sample, k) - 1.0;
         let point = |index: u64, sample: u64| [0, 1, 2].map(|k| number_in(index, sample, k));
         let add = |p: [f64; 3], q: [f64; 3], by: f64| [0, 1, 2].map(|k| p[k] + by * q[k]);
-        // A third of the scenes lie around the origin, the others up to four sizes away.
+        // A third of the scenes lie around the origin, the others up to four times their size away from it.
         let middle = point(1, 0).map(|x| if number.is_multiple_of(3) { 0.0 } else { 4.0 * x });
         let mut corners: Vec<[f64; 3]> = Vec::new();
         let count = 2 + random.bits(2, 0, 0) % 10;

@@ -1,4 +1,4 @@
-//! Walks in bodies whose boundary has a formula.
+//! Photon walks in bodies whose boundary has a formula.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -7,7 +7,7 @@ use super::PhotonWalk;
 use super::photon::{PhotonRng, reflected};
 use super::tally::{BATCHES, BatchCounts, WalkTally};
 
-/// A body in mean free paths, entered at its origin along +z.
+/// A body, measured in mean free paths; photons enter at the origin along +z.
 trait Body: Copy + Sync {
     /// Distance at which a ray from inside leaves, and the outward unit normal there.
     fn boundary(self, from: DVec3, direction: DVec3) -> (f64, DVec3);
@@ -42,7 +42,7 @@ impl Body for Sphere {
         let along = from.dot(direction);
         let inside = (self.radius * self.radius - from.length_squared()).max(0.0);
         let root = (along * along + inside).sqrt();
-        // -along + root, without the difference of near values.
+        // -along + root, without subtracting nearly equal values.
         let length = if along > 0.0 { inside / (along + root) } else { root - along };
         (length, (from + length * direction) / self.radius)
     }

@@ -1,8 +1,8 @@
-//! Photons traced one by one through a homogeneous medium with a smooth boundary, for the dipole's own error.
+//! Photons traced one by one through a homogeneous medium with a smooth boundary, to measure the dipole's error.
 //!
 //! A photon enters refracted, goes exponentially distributed steps of mean 1 / sigma'_t, is absorbed or scattered
 //! isotropically at the end of each, and meets the boundary from inside, which reflects it by Fresnel's formula or
-//! lets it leave. Nothing is weighted: each photon leaves, is absorbed, or is given up at the step limit, so the
+//! lets it leave. Photons have no weights: each one leaves, is absorbed, or is given up at the step limit, so the
 //! counts balance exactly. Random numbers are a function of photon and event.
 
 mod body;
@@ -19,25 +19,25 @@ pub(crate) use body::{half_space, sphere};
 pub(crate) use photon::PhotonEntry;
 pub(crate) use tally::WalkTally;
 
-/// A medium and how many photons to send into it.
+/// A medium, and the number of photons to trace in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PhotonWalk {
     /// Scattering and absorption per mm.
     pub(crate) coefficients: Coefficients,
     /// The index of refraction.
     pub(crate) eta: f64,
-    /// How photons enter.
+    /// Boundary model for entering photons.
     pub(crate) entry: PhotonEntry,
-    /// Photons that enter, at least [`BATCHES`].
+    /// Number of photons that enter, at least [`BATCHES`].
     pub(crate) photons: u64,
-    /// Steps after which a photon is given up: without absorption some walks are almost endless.
+    /// Number of steps after which a photon is given up: without absorption some walks are almost endless.
     pub(crate) max_steps: u32,
     /// Random seed.
     pub(crate) seed: u64,
 }
 
 impl PhotonWalk {
-    /// The photons of a batch.
+    /// Indices of the photons of a batch.
     fn batch(&self, batch: usize) -> Range<u64> {
         let end = |batch: usize| (u128::from(self.photons) * batch as u128 / BATCHES as u128) as u64;
         end(batch)..end(batch + 1)

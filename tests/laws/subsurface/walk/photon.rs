@@ -10,12 +10,13 @@ use glam::DVec3;
 /// Maximum number of tries for a direction that passes the boundary.
 const MAX_TRIES: u32 = 1000;
 
-/// How photons enter. All counts are per photon that has passed the boundary.
+/// Boundary model for entering photons. All counts are per photon that has passed the boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PhotonEntry {
     /// Equal radiance from all directions outside, refracted.
     Diffuse,
-    /// A beam from outside at this cosine of the angle of incidence, refracted, at random around the normal.
+    /// A beam from outside at this cosine of the angle of incidence, refracted, with a random azimuth around the
+    /// normal.
     Beam(f64),
 }
 
@@ -39,7 +40,7 @@ impl PhotonRng {
         [bits >> 32, bits & 0xffff_ffff].map(|half| (half as f64 + 0.5) / 4_294_967_296.0)
     }
 
-    /// A direction, all equally likely.
+    /// A direction uniformly distributed over the sphere.
     pub(crate) fn direction(&mut self) -> DVec3 {
         let [u, v] = self.pair();
         around(DVec3::Z, 1.0 - 2.0 * u, v)
@@ -55,7 +56,7 @@ impl PhotonRng {
     pub(crate) fn enter(&mut self, entry: PhotonEntry, eta: f64, inwards: DVec3) -> DVec3 {
         let outside: Option<f64> = match entry {
             PhotonEntry::Beam(cosine) => Some(cosine),
-            // At least a third of the tries passes; the limit is for NaN indices.
+            // At least a third of the tries succeeds; the limit is needed for indices of refraction that are NaN.
             PhotonEntry::Diffuse => (0..MAX_TRIES).find_map(|_| {
                 let [u, v] = self.pair();
                 let cosine = u.sqrt();
@@ -74,7 +75,7 @@ impl PhotonRng {
     }
 }
 
-/// The unit vector at this cosine to a unit axis, at `turn` of a full turn around it.
+/// The unit vector at this cosine to a unit axis, with azimuth `turn`, as a fraction of a full turn.
 fn around(axis: DVec3, cosine: f64, turn: f64) -> DVec3 {
     let (sin, cos) = sin_cos(TAU * turn);
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();

@@ -1,6 +1,6 @@
 //! Fractions of photons by fate, with their errors.
 
-/// Number of batches in which photons are counted: their spread gives the error.
+/// Number of batches in which photons are counted: their spread determines the error.
 pub(crate) const BATCHES: usize = 32;
 
 /// The 97.5 % quantile of Student's t distribution with 31 degrees of freedom.
@@ -33,7 +33,7 @@ pub(crate) struct BatchCounts {
     pub(crate) entered: u64,
     pub(crate) absorbed: u64,
     pub(crate) cut: u64,
-    /// By bin; the last is for photons that left beyond all bins.
+    /// Number of photons that left, by bin; the last bin is for photons beyond all others.
     pub(crate) left: Vec<u64>,
     /// Length of all paths in mean free paths.
     pub(crate) path: f64,
@@ -45,7 +45,7 @@ impl BatchCounts {
     }
 }
 
-/// Counts of all photons by where they ended.
+/// Counts of all photons by fate.
 #[derive(Clone, Debug)]
 pub(crate) struct WalkTally {
     batches: Vec<BatchCounts>,
