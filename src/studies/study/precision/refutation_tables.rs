@@ -23,11 +23,11 @@ pub(super) fn title(trace: &RefutationTrace, runs: &Runs<'_>) -> String {
 /// Columns of a trace.
 const COLUMNS: &str = "fragment line instruction component exact mixed one_bit_less one_bit_less_differs";
 
-/// Number of rows above which a trace shows only results that differ with one bit less.
+/// Number of rows above which a trace shows only results that one bit less changes.
 const LONG: usize = 1000;
 
-/// Table of one trace: a row for each component of each step that all three runs execute; above [`LONG`] rows, only
-/// rows in which the last two runs differ.
+/// Table of one trace: a row per component of each step that all three runs execute; above [`LONG`] rows, only rows in
+/// which the last two runs differ.
 pub(super) fn table(title: String, trace: &RefutationTrace, runs: &Runs<'_>) -> Table {
     let mut table = Table::of(title, COLUMNS);
     rows(trace, runs).for_each(|row| table.push(row));

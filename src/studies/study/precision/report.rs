@@ -123,7 +123,7 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
     }
 }
 
-/// Chart of the curves, if they span an axis.
+/// Chart of the curves, if there are points enough for an axis.
 fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
     let lines: Vec<Series> = outcome
         .families
