@@ -23,11 +23,11 @@ pub struct TexturedSurface {
     pub vertices: Vertices,
     /// Texture index per triangle.
     texture_of: Vec<u32>,
-    /// Repetitions of a patch along an edge of the unit square of texture coordinates.
+    /// Repetitions of a patch along each edge of the unit square of texture coordinates.
     repeat: f64,
 }
 
-/// Gives a mesh normals that are smooth over edges up to an angle in degrees (section VII).
+/// Gives a mesh normals that are smooth over edges with angles up to `degrees` (section VII).
 pub fn creased(mesh: &Mesh, degrees: f64) -> Mesh {
     mesh.creased(on_circle(degrees / 360.0)[0])
 }
@@ -57,7 +57,7 @@ impl TexturedSurface {
         Ok(Self { mesh, vertices, texture_of, repeat })
     }
 
-    /// The surface points in the pixels of a camera, front faces only.
+    /// The surface points at the pixels of a camera, front faces only.
     pub(super) fn pixels(&self, camera: &Camera) -> Vec<Option<SurfacePixel>> {
         let rays = camera.rays();
         let (hits, _) = HostTracer::new(&self.mesh, Sides::Front).nearest_all(&rays);
@@ -83,7 +83,7 @@ impl TexturedSurface {
                 *into += weight * self.repeat * f64::from(along);
             }
         }
-        // An eye on the surface has no view direction; no picture is drawn from there.
+        // If the eye lies on the surface, there is no view direction; no picture is drawn from there.
         let view = frame.to_local(unit(eye - at).unwrap_or(frame.normal()));
         SurfacePixel {
             triangle,
