@@ -1,4 +1,4 @@
-//! Models of the figures, in printed or reduced size.
+//! Models of the figures, at the printed or a reduced size.
 
 use super::{ModelSize, RunResult, StudyError};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -18,7 +18,7 @@ pub(super) fn buddha(models: ModelSize) -> Mesh {
     TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 12 })
 }
 
-/// Vertices per cluster: fewer for models with few vertices, so that there are several clusters.
+/// Number of vertices per cluster: smaller for models with few vertices, so that there are several clusters.
 pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
     match models {
         ModelSize::Printed => 200,
@@ -39,19 +39,19 @@ pub(super) fn options(models: ModelSize, vectors: usize) -> SegmentOptions {
 /// Reflectance of a figure: the name of its form, and the lobe.
 pub(super) type NamedLobe = (&'static str, Lobe);
 
-/// Anisotropic reflectance of Figures 1 and 7: the textbooks' form, and the one nearest to the printed errors.
+/// Anisotropic reflectance of Figures 1 and 7: the textbook form, and the form nearest to the printed errors.
 pub(super) fn schlick() -> [NamedLobe; 2] {
     let lobe = Lobe::schlick(0.2, 0.2, 0.8);
     [("textbook", lobe), ("quarter of half vector", quarter_of_half_vector(lobe))]
 }
 
-/// Reflectance of Figure 2 and of the glossy Buddha in the same form.
+/// Reflectance of Figure 2 and of the glossy Buddha, in the same forms.
 pub(super) fn cook_torrance() -> [NamedLobe; 2] {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     [("textbook", lobe), ("distribution alone", bare(lobe))]
 }
 
-/// Suffix of file names per form: empty for the textbooks' form.
+/// Suffix of file names per form: empty for the textbook form.
 pub(super) fn ending(form: &str) -> String {
     if form == "textbook" { String::new() } else { format!("-{}", form.replace(' ', "-")) }
 }
