@@ -66,7 +66,7 @@ const STORAGE: &str = "Fixed links have their places in constants and four facto
 
 const TIMES: &str = "Times are modelled, not measured: nothing in the model was set by this paper.";
 
-/// The error against the number of links, a line per choice; `None` for fewer than two numbers.
+/// Chart of the error against the number of links, one line per choice; `None` for fewer than two numbers.
 fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<NamedChart> {
     let mut lines: Vec<Series> = Vec::new();
     for (row, error) in outcome.rows.iter().filter_map(|row| Some((row, row.error?))) {
@@ -90,7 +90,7 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
     })
 }
 
-/// The way without its number of links.
+/// Name of the way without its number of links.
 fn line(row: &WayRow) -> String {
     let channels = if row.way.rgb { ", RGB" } else { "" };
     let choice = row.way.choice.word();
