@@ -99,12 +99,13 @@ fn programs(outcome: &TeapotOutcome) -> Table {
     programs
 }
 
-/// Returns `true` if rays were aimed at edges and vertices: there are some for each edge, and one eye.
+/// Returns `true` if rays were aimed at edges and vertices: some are requested per edge, and the eye rays have one
+/// origin.
 fn aimed(parameters: &Parameters) -> bool {
     parameters.options.rays_per_edge > 0 && parameters.view.common_origin().is_some()
 }
 
-/// For each row the first one with bit-identical hits, and the same counts of aimed rays.
+/// For each row, the index of the first row with bit-identical hits and the same counts of aimed rays.
 fn first_alike(outcome: &TeapotOutcome) -> Vec<usize> {
     let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
     let alike = |a: &TeapotRow, b: &TeapotRow| {
@@ -143,14 +144,14 @@ fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
     groups
 }
 
-/// Per row without files of its own, the row with the same bits whose files stand for it.
+/// Maps each row without files of its own to the row with the same bits whose files represent it.
 fn same_bits(groups: &[Group<'_>]) -> Value {
     let pair = |row: &TeapotRow, other: &TeapotRow| (row.configuration.label.clone(), json!(other.configuration.label));
     groups.iter().flat_map(|group| group.same.iter().map(|row| pair(row, group.row))).collect::<Map<_, _>>().into()
 }
 
 impl Group<'_> {
-    /// Sentence on the other rows, which the tables name: `. The same bits with a and b`
+    /// Lists the other rows, which the tables name: `. The same bits with a and b`
     fn others(&self) -> String {
         let names: Vec<String> = self.same.iter().map(|row| called(row)).collect();
         match names.len() {
@@ -239,13 +240,13 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     Ok(found)
 }
 
-/// The group that leaks most, the first of equals.
+/// The group with the most leaks; the first one if several have as many.
 fn worst(groups: &[Group<'_>]) -> Option<usize> {
     groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(at, _)| at)
 }
 
-/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared edges
-/// as the paper has it, the same rounded to nearest, and the same with shared edges.
+/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared-edge
+/// rows, with the paper's program, with the same rounded to nearest, and with shared edges.
 fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
     let find = |wanted: &dyn Fn(&TeapotRow) -> bool| {
         groups.iter().position(|group| std::iter::once(&group.row).chain(&group.same).any(|row| wanted(row)))
@@ -258,8 +259,8 @@ fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
     differ.then_some(three)
 }
 
-/// Adds the pictures of the page: of the card that leaks and its cure, or of the row that leaks most, and the exact one
-/// first, then of all others. One picture and one map of each group are shown on the page.
+/// Adds the pictures of the page: first the card that leaks with its cure, or the row that leaks most, and the exact
+/// picture; then all others. One picture and one map of each group are shown on the page.
 fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutcome) {
     let mut groups = groups(outcome);
     let mut lead: Vec<NamedPicture> = Vec::new();

@@ -9,7 +9,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
 
-/// Maximum number of addends printed: those that lose most.
+/// Maximum number of addends printed; those with the largest loss are printed.
 const MOST_ADDENDS: usize = 10;
 const MOST_LINES: usize = 12;
 
@@ -80,7 +80,7 @@ pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result
     Ok(found)
 }
 
-/// The largest and the smallest error in words.
+/// Reports the largest and the smallest error in words.
 fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     let [rows, depth, columns] = outcome.shape;
     let order = |x: &&ProductRow, y: &&ProductRow| x.last().worst.total_cmp(&y.last().worst);
@@ -123,7 +123,7 @@ fn errors(title: &str, outcome: &ProductOutcome, skipped: usize) -> Table {
     table
 }
 
-/// Worst error over depth; none without errors at two depths.
+/// Chart of the worst error over depth; `None` unless errors are known at two depths or more.
 fn chart(outcome: &ProductOutcome) -> Option<NamedChart> {
     let line = |row: &ProductRow| {
         let points = outcome.depths.iter().zip(&row.errors).map(|(&depth, errors)| (depth as f64, errors.worst));
