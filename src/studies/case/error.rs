@@ -89,7 +89,7 @@ pub enum CaseWarning {
         #[label("here")]
         span: SourceSpan,
     },
-    /// Formats of instructions on the device that change nothing.
+    /// Formats of instructions on the device that have no effect.
     #[error("`{device}` has {formats}, which {reason}")]
     #[diagnostic(code(crossbar::device), severity(Warning), help("{help}"))]
     Formats { device: String, formats: String, reason: &'static str, help: String },
@@ -116,7 +116,7 @@ impl CaseText {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }
 
-    /// Of another text, which a case names.
+    /// Creates errors for another text, to which a case refers.
     pub(super) fn of(source: Source) -> Self {
         Self { source }
     }

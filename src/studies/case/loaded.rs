@@ -119,12 +119,12 @@ impl<'s> Loaded<'s> {
     }
 }
 
-/// Constants of the pixel program as instructions read them.
+/// Constants of the pixel program, as instructions read them.
 pub(super) fn constants(setup: &Setup) -> ResolvedConstants {
     ResolvedConstants::pixel(&setup.pixel, &setup.profile.rules, &setup.pixel_constants)
 }
 
-/// Converts an error of the machine: one about a program gets the position in its text.
+/// Converts an error of the machine; an error about a program gets its position in the text.
 fn placed(setup: &Setup, error: MachineError) -> CaseError {
     let MachineError::StepBudget { place, span, .. } = error else { return error.into() };
     let (text, key) = match place {

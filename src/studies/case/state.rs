@@ -28,9 +28,9 @@ pub struct Probe {
 /// Expected value of a probe.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expected {
-    /// Red, green, blue, alpha, from the first on, as numbers.
+    /// The first components of red, green, blue and alpha, as numbers.
     Color(Vec<f64>),
-    /// Stored channels, to the bit.
+    /// Stored channels, compared exactly.
     Raw(Vec<u32>),
     /// Depth as a number.
     Depth(f64),
@@ -116,7 +116,7 @@ pub(super) fn blend(blend: &schema::Blend) -> BlendState {
     BlendState { color, alpha }
 }
 
-/// Binds the probes: inside the target, one expectation each.
+/// Binds the probes; each must lie inside the target and have one expectation.
 pub(super) fn probes(
     binder: &Binder<'_>,
     probes: &[Spanned<schema::Probe>],

@@ -62,7 +62,7 @@ fn mipmaps(written: &schema::Texture) -> Option<&Mipmaps> {
     written.mipmaps.as_ref().map(Spanned::get_ref)
 }
 
-/// Texels of levels 1 and up that the case lists.
+/// Texels that the case lists for levels 1 and up.
 fn listed_levels(written: &schema::Texture) -> &[Spanned<Vec<Vec<Number>>>] {
     match mipmaps(written) {
         Some(Mipmaps::Texels(levels)) => levels,
@@ -117,7 +117,7 @@ fn from_texels(
 }
 
 /// Encodes a texel from a list of codes, one per channel in the order red, green, blue, alpha (luminance first). Signed
-/// channels take negative codes as two's complement. The error is a description of the expected list.
+/// channels use two's complement for negative codes. The error describes the expected list.
 fn stored(format: TexelFormat, codes: &[Number]) -> Result<u128, String> {
     let channels = format.record().stored();
     if codes.len() != channels.len() {

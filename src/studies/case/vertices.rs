@@ -99,7 +99,7 @@ pub(super) fn bind(
 /// Position and `t0` of a corner of the screen.
 type Corner = ([u32; 4], [u32; 4]);
 
-/// Corners of the screen in order; `t0` grows with columns and rows, and row 0 is the upper one in Direct3D only.
+/// Corners of the screen in order; `t0` grows with columns and rows, and row 0 is at the top only in Direct3D.
 fn corners(convention: Convention) -> [Corner; 4] {
     [(0, 0), (ONE, 0), (ONE, ONE), (0, ONE)].map(|(s, t)| {
         let x = if s == 0 { MINUS_ONE } else { ONE };
@@ -190,7 +190,7 @@ impl Reader<'_> {
             registers[number] = self.bits(value)?;
         }
         registers[self.attribute("position", geometry.span())?] = position;
-        // Only a program that reads texture coordinates receives them.
+        // Only a program that declares texture coordinates receives them.
         if let Some(number) = self.declared("t0") {
             registers[number] = t0;
         }
