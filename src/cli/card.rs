@@ -38,7 +38,7 @@ impl CardArgs {
         self.switch.clone()
     }
 
-    /// The executor, ready to work.
+    /// The executor, ready to run.
     pub(super) fn executor(&self) -> Result<Executor, Problem> {
         self.executor.open()
     }

@@ -1,4 +1,4 @@
-//! `crossbar check`: is this shader legal on that card?
+//! `crossbar check`: checks whether a shader is legal on a card.
 
 use std::path::PathBuf;
 

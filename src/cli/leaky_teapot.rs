@@ -40,7 +40,7 @@ With --device and --format both, every device runs in every format; what a devic
 Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (wrong pixels by kind),
 NAME.exr (t and triangle); rows with the same bits share these files: see same_bits in study.json.";
 
-/// Rows that run with shared edges, too, if no options choose rows.
+/// Rows that also run with shared edges, if no options choose rows.
 const CURED: [&str; 5] = ["r200", "r200-rounding-rne", "fp16", "fp24", "fp32"];
 
 /// Trace the teapot, or a model of your own, in each number format, against exact arithmetic: leaks, false hits, wrong

@@ -70,7 +70,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-/// The reference of errors: a unit; `None` for the exact product.
+/// The reference for errors: a unit, or `None` for the exact product.
 #[derive(Clone, Debug)]
 struct MatmulReference(Option<MatrixUnit>);
 

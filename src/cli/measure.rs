@@ -1,4 +1,4 @@
-//! `crossbar measure`: a card's pixels against every setting of a device's switches.
+//! `crossbar measure`: compares a card's pixels with every setting of a device's switches.
 
 use std::path::PathBuf;
 

@@ -33,7 +33,7 @@ pub(super) struct Args {
 }
 
 impl Args {
-    /// Opens the parts, which must be of this program.
+    /// Opens the parts; fails unless this program wrote them.
     pub(super) fn open(&self) -> miette::Result<PartSet> {
         Ok(PartSet::open(&self.parts, &version::program()?)?)
     }
@@ -46,7 +46,7 @@ impl Args {
         std::iter::once(OsString::from("crossbar")).chain(words).chain([out]).collect()
     }
 
-    /// Refuses a command without `--part`: this program did not write its parts.
+    /// Rejects a command that has no `--part`: this program did not write its parts.
     pub(super) fn require_divisible(&self, program: &clap::Command, parts: &PartSet) -> Result<(), InputError> {
         let mut command = program;
         for word in &parts.command().arguments {

@@ -1,4 +1,4 @@
-//! `crossbar reproduce`: the papers' tables and figures, ours beside theirs.
+//! `crossbar reproduce`: the papers' tables and figures, compared with ours.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -133,7 +133,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     study::show(&found, out)
 }
 
-/// Runs an entry at full size, and writes its record. Intermediate results of an interrupted run are beside the record.
+/// Runs an entry at full size, and writes its record. Pieces of an interrupted run are stored next to the record.
 fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
     let arguments = ["reproduce", entry.id, "--record"].map(str::to_owned).to_vec();
     let command = SplitCommand { program: version::program()?, arguments };
@@ -158,7 +158,7 @@ fn hundredths(seconds: f64) -> f64 {
     (100.0 * seconds).round() / 100.0
 }
 
-/// Time that the program has taken so far.
+/// Time that the program has used so far.
 fn clock() -> SpentTime {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     SpentTime { processor_s: processor_time(), wall_s: START.elapsed().as_secs_f64() }
@@ -167,7 +167,7 @@ fn clock() -> SpentTime {
 /// Processor time of all threads so far, in seconds; `None` if the system does not report it.
 fn processor_time() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // After the name, which may have blanks: state, ten numbers, then ticks in the program and in the system.
+    // After the name, which may contain blanks: state, ten numbers, then clock ticks in the program and in the system.
     let (_, rest) = stat.rsplit_once(')')?;
     let ticks = |at: usize| rest.split_whitespace().nth(at)?.parse::<u64>().ok();
     Some((ticks(11)? + ticks(12)?) as f64 / ticks_per_second() as f64)

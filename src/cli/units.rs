@@ -1,4 +1,4 @@
-//! `crossbar units`: matrix units of GPUs, and the evidence for each rule.
+//! `crossbar units`: matrix units of GPUs, and the evidence for each of their rules.
 
 use refsim::num::matrix::{MatrixUnit, UNITS};
 use serde_json::json;

@@ -51,7 +51,7 @@ pub(super) struct Args {
 }
 
 impl Args {
-    /// Where products are computed: maps of signed 16 bits where the card has them, else of 8.
+    /// Where products are computed: with signed 16-bit maps if the card has them, otherwise with 8-bit maps.
     fn place(&self, profile: &Profile) -> ProductPlace {
         if self.way == WayArg::Colors {
             return ProductPlace::Vertices(VertexColors::Bytes);

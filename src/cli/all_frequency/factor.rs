@@ -29,7 +29,7 @@ Examples:
 Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
 docs/papers/all_frequency.md says what the options are.";
 
-/// Isotropy of Schlick's model, the paper's.
+/// Isotropy of Schlick's model, as in the paper.
 const ISOTROPY: f64 = 0.2;
 /// Exponent of Phong's model.
 const EXPONENT: f64 = 20.0;
@@ -47,7 +47,7 @@ enum ModelArg {
     Lambert,
 }
 
-/// Options of a model, which a table has no use for.
+/// Options of a reflectance model, which do not apply to a table.
 const OF_MODEL: [&str; 5] = ["roughness", "fresnel", "denominators", "fresnel_form", "shadowing"];
 
 /// Factor reflectance into functions of view and of light: singular values, errors, tables
@@ -109,7 +109,7 @@ impl Args {
         Ok(FactorSubject::Lobe(lobe))
     }
 
-    /// Refuses figures of other models than this one.
+    /// Rejects options of other models than this one.
     fn refuse_others(&self, model: ModelArg) -> Result<(), Problem> {
         use ModelArg::{CookTorrance, Lambert, Phong, Schlick};
         let figures: [(&str, bool, &[ModelArg]); 5] = [

@@ -14,7 +14,7 @@ use crate::transfer::Vertices;
 use crate::transfer::file::{MeshDigest, require_mesh};
 use crate::transfer::light::Decimation;
 
-/// A file with the model that it was made from.
+/// A file with the model from which it was made.
 pub(super) struct FileOfModel {
     pub(super) file: AllFrequencyFile,
     pub(super) model: Model,
@@ -33,7 +33,7 @@ impl FileOfModel {
     }
 }
 
-/// A file with visibility, of the same mesh and reflectance as another.
+/// A file with visibility, for the same mesh and reflectance as another file.
 fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miette::Result<AllFrequencyFile> {
     let original = load_all_frequency(path, Some(mesh))?;
     if original.visibility.is_none() || original.reflectance != file.reflectance || original.hats != file.hats {
@@ -74,7 +74,7 @@ pub(super) struct LitArgs {
 }
 
 impl LitArgs {
-    /// The files that are read.
+    /// The input files.
     pub(super) fn inputs(&self) -> Vec<&Path> {
         let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
         files.into_iter().flatten().chain(self.picture.inputs()).collect()

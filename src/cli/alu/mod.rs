@@ -127,7 +127,7 @@ fn stages() -> OneOf<AluStage> {
     one_of([("vertex", "vertex programs", AluStage::Vertex), ("pixel", "pixel programs", AluStage::Pixel)])
 }
 
-/// The states of units, for `--state`.
+/// Values of `--state`: the states of units.
 fn states() -> OneOf<State> {
     one_of([
         ("legacy", "nv30, nv35: as GL_NV_vertex_program", State::Legacy),
@@ -137,7 +137,7 @@ fn states() -> OneOf<State> {
     ])
 }
 
-/// The block formats, for `--block`.
+/// Values of `--block`: the block formats.
 fn blocks() -> OneOf<BlockFormat> {
     one_of(BlockFormat::ALL.map(|block| (block.name(), "OCP Microscaling: 32 elements and a scale", block)))
 }
@@ -146,7 +146,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(unit) = &args.unit {
         let others = [("--unit", args.op != AluOperation::Dot)];
         given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
-        // The parser accepts these with a unit, although --device excludes it.
+        // The parser accepts these options with a unit, although it excludes --device.
         let of_device = [("--stage", args.stage.is_some()), ("--state", args.state.is_some())];
         given::refuse(of_device, "`--device`", "leave it out: a matrix unit has one rule")?;
         return matrix::run(unit, args.verify, io::stdin().lock(), out);
@@ -162,7 +162,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
 }
 
-/// The arithmetic: a format, or a stage of a device.
+/// The arithmetic of a format, or of a device's stage.
 fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
     let arithmetic = match (&args.device, args.format) {
         (Some(device), _) => {
@@ -170,7 +170,7 @@ fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
             refuse_lacking(args.op, arithmetic.format)?;
             arithmetic
         }
-        // The parser requires a format or a device, but accepts these with a format.
+        // The parser requires a format or a device, but accepts these options with a format.
         (None, _) if args.stage.is_some() || args.state.is_some() => {
             return Err(Problem::usage(
                 "`--stage` and `--state` are for `--device` only",
@@ -189,7 +189,7 @@ fn by_chance(format: &Format) -> bool {
     matches!(format.rounding, Rounding::Stochastic(_))
 }
 
-/// Refuses options that do not fit the operation or the formats.
+/// Rejects options that do not fit the operation or the formats.
 fn refuse_others(args: &Args, format: &Format) -> Result<(), Problem> {
     let needs_seed = by_chance(format) || args.to.as_ref().is_some_and(by_chance);
     let seed = [("--seed", args.seed.is_some() && !needs_seed)];
@@ -201,7 +201,7 @@ fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miet
     Ok(Verdict::Done)
 }
 
-/// Checks that the options fit together, and returns the unit of an operation that reads many numbers per line (`dot`,
+/// Checks that the options go together, and returns the unit of an operation that reads many numbers per line (`dot`,
 /// `quantize`, `dequantize`); `None` for other operations.
 fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<Option<RowUnit>, Problem> {
     if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
@@ -256,7 +256,7 @@ fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Resul
     Ok(Some(RowUnit { operation, env: format.tininess(Tininess::After) }))
 }
 
-/// The unit that the options describe, after checking that they fit together.
+/// Checks that the options go together, and returns the unit that they describe.
 fn unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<AluUnit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {

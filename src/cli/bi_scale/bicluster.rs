@@ -61,7 +61,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// The biclusters of a matrix, with progress on its entries.
+/// Computes the biclusters of a matrix, and shows its progress by entries.
 fn made(matrix: &SparseMatrix) -> Result<Biclustering, InputError> {
     let total = matrix.nonzeros() as u64;
     let bar = ProgressBar::new("non-zeros", total);
@@ -107,7 +107,8 @@ impl Summary<'_> {
         ]
     }
 
-    /// Number of bicluster columns whose value rounds in single precision, and of columns beyond its range.
+    /// Number of bicluster columns whose value must be rounded to single precision, and number of columns beyond its
+    /// range.
     fn rounded(&self) -> [usize; 2] {
         let mut rounded = [0; 2];
         for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {

@@ -1,4 +1,4 @@
-//! `crossbar bi-scale compare`: biclusters beside other ways to store transfer.
+//! `crossbar bi-scale compare`: biclusters compared with other ways to store transfer.
 
 use std::path::PathBuf;
 
@@ -28,7 +28,7 @@ Examples:
 Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
 docs/papers/bi_scale.md describes each method.";
 
-/// Order of spherical harmonics, the paper's.
+/// Order of spherical harmonics, as in the paper.
 const HARMONICS_ORDER: usize = 5;
 
 /// Compare biclusters with other ways to store transfer: bytes, and the error of the light that arrives

@@ -1,4 +1,4 @@
-//! `crossbar bi-scale`: transfer in two scales, one file per verb.
+//! `crossbar bi-scale`: transfer at two scales, one file per verb.
 
 mod bicluster;
 mod card;

@@ -24,7 +24,7 @@ use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 
-/// The logarithm of the samples along an edge of a light texel: 2 x 2, for five values of visibility.
+/// Base-2 logarithm of the samples per side of a light texel: 2 x 2 samples give five values of visibility.
 const LOG2_SAMPLES: u32 = 1;
 
 const EXAMPLES: &str = "\

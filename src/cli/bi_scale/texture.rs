@@ -96,7 +96,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// Mean over texels and views of the radiance under uniform light of radiance 1.
+/// Mean radiance over texels and views, under uniform light of radiance 1.
 fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for sample in texture.samples() {
@@ -107,11 +107,11 @@ fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
     sum.map(|sum| sum / of_texel)
 }
 
-/// The patches of a view, placed by light direction in the square, rows from the lower edge up; each has v upwards.
+/// The patches of a view, arranged by light direction in the square, rows from the lower edge up; v points up in each.
 fn sheet(texture: &BidirectionalTexture, view: usize) -> RgbImage {
     let (side, size) = (texture.light().side(), texture.size());
     let width = side * size;
-    // A white Lambert surface, lit along its normal, appears white; brighter lobes are clipped.
+    // A white Lambert surface lit along its normal appears white; brighter lobes are clipped.
     let scale = std::f64::consts::PI;
     let pixel = |at: usize| {
         let (x, y) = (at % width, width - 1 - at / width);

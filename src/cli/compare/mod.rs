@@ -1,4 +1,4 @@
-//! `crossbar compare`: one case on two sides, and where they part.
+//! `crossbar compare`: one case on two sides, and the first difference.
 
 mod show;
 
@@ -82,7 +82,7 @@ struct SideRequest {
 }
 
 impl Args {
-    /// The two sides, which must differ in something.
+    /// The two sides; fails if they do not differ in any setting.
     fn sides(&self) -> miette::Result<[SideRequest; 2]> {
         let left = (self.left_device.as_deref(), self.left_format.as_deref(), self.left_switch.as_slice());
         let right = (self.right_device.as_deref(), self.right_format.as_deref(), self.right_switch.as_slice());

@@ -44,7 +44,7 @@ run leaves nothing, and cannot be resumed.";
 
 /// Order of incident radiance in harmonics, as in the paper.
 const INCIDENT_ORDER: usize = 5;
-/// The solid angle below which vertices that scatter count as one point, in steradians.
+/// The solid angle, in steradians, below which scattering vertices count as one point.
 const SOLID_ANGLE: f64 = 0.05;
 
 /// Precompute how each vertex of a model transfers distant light
@@ -111,7 +111,7 @@ pub(super) struct Args {
     caster: CasterOptions,
 }
 
-/// The channels of transfer, for `--channels`: red, green and blue are 0, 1 and 2.
+/// Values of `--channels`: the channels of transfer; red, green and blue are 0, 1 and 2.
 fn channels_of() -> OneOf<&'static [usize]> {
     let scalar = ("scalar", "One for all, with the reflectances of green", &[1][..]);
     one_of([scalar, ("rgb", "Red, green and blue", &[0, 1, 2])])
@@ -174,7 +174,7 @@ fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {
     Ok(Some(Scatterer { dipoles, options: ScatteringOptions { mm_per_unit, solid_angle: SOLID_ANGLE } }))
 }
 
-/// Per channel a BRDF of each material.
+/// For each channel, a BRDF of each material.
 fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Problem> {
     let of = |channel: usize| {
         let brdfs: Result<Vec<Brdf>, Problem> = (model.materials.iter())

@@ -15,7 +15,7 @@ pub(super) enum KindArg {
     Glossy,
 }
 
-/// Functions of exit radiance: all of an order, or all but (1, 0).
+/// Functions of exit radiance: all functions of an order, or all but (1, 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RowsArg {
     order: usize,

@@ -57,7 +57,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     pub(super) out: PathBuf,
 
-    // Last, because its heading also covers the options after it.
+    // Last, because its heading also covers the options that follow it.
     #[command(flatten)]
     pub(super) light: LightArgs,
 
@@ -146,7 +146,7 @@ impl LightArgs {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some()
     }
 
-    /// Refuses options that a renderer does not use; `None` is a mesh that is shaded without light.
+    /// Rejects options that a renderer does not use; `None` stands for a mesh shaded without lights.
     pub(super) fn refuse_others(&self, renderer: Option<Renderer>) -> Result<(), Problem> {
         let is_photon = renderer == Some(Renderer::Photon);
         let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];

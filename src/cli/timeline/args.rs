@@ -79,7 +79,7 @@ fn models() -> OneOf<&'static [Level]> {
     ])
 }
 
-/// Modes of read-back, for `--readback`.
+/// Values of `--readback`: modes of read-back.
 fn readback() -> OneOf<ReadBackMode> {
     one_of([
         ("sync", "The host waits for all earlier work and the transfer", ReadBackMode::Synchronous),
