@@ -24,7 +24,7 @@ use std::time::Duration;
 
 /// Texels along a side, as in Table 1 of the paper.
 const SIDE: u32 = 1024;
-/// 16 clusters.
+/// Level of the atlas with 16 clusters.
 const LEVEL: u32 = SIDE.ilog2() - 2;
 /// Scale for a stand-in about 4 units long.
 const MM_PER_UNIT: f64 = 20.0;

@@ -49,7 +49,7 @@ pub enum Problem {
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]
     Usage {
-        /// The fault.
+        /// Description of the conflict.
         what: String,
         /// Advice for the user.
         help: String,

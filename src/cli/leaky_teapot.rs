@@ -144,7 +144,7 @@ impl StudyArgs for Args {
     }
 }
 
-/// The programs, for `--kernel`.
+/// Values of `--kernel`: the programs.
 fn kernels() -> OneOf<EdgeRule> {
     let paper = ("paper", "The paper's equations, evaluated by each triangle anew", EdgeRule::Paper);
     let shared = ("shared-edges", "Each edge evaluated once, for both of its triangles", EdgeRule::SharedEdges);

@@ -116,7 +116,7 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// Everything about one medium.
+/// All findings about one medium.
 fn one(shown: &Shown, published: &PublishedMaterial) -> Findings {
     let mut found = Findings::new(shown.name.as_str());
     found.fields(document(shown, published));

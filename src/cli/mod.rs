@@ -69,7 +69,7 @@ pub use error::{OutputError, Problem};
 pub use out::Out;
 pub use progress::ProgressBar;
 
-/// The answer to nothing.
+/// Message for a call without arguments.
 const WELCOME: &str = "\
 Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
 

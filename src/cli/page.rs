@@ -54,7 +54,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 }
 
 fn read_emulator(path: &Path) -> Result<Vec<u8>, InputError> {
-    /// Largest module, in bytes.
+    /// Maximum size of a module, in bytes.
     const LIMIT: u64 = 32 << 20;
     read_file(path, "WebAssembly module", LIMIT)
 }

@@ -56,7 +56,7 @@ impl ProgressBar {
         self
     }
 
-    /// A spinner beside `what`.
+    /// Creates a spinner labelled `what`.
     pub fn unending(what: &str) -> Self {
         let bar = indicatif::ProgressBar::new_spinner().with_message(what.to_owned());
         begin(&bar);
@@ -71,7 +71,7 @@ impl ProgressBar {
         self.say();
     }
 
-    /// `steps` more are done.
+    /// Reports that `steps` more steps are done.
     pub fn advance(&self, steps: u64) {
         self.bar.inc(steps);
         self.say();

@@ -14,7 +14,7 @@ const WITHOUT_EFFECT: [&str; 7] = ["out", "executor", "json", "threads", "help",
 /// A resolved command line.
 #[derive(Debug)]
 pub(super) struct CommandLine {
-    /// For a reader.
+    /// The line as text, for people.
     pub(super) text: String,
     /// Arguments with the same meaning for the parser.
     pub(super) arguments: Vec<OsString>,

@@ -58,7 +58,7 @@ pub(super) struct EyeArgs {
 }
 
 impl EyeArgs {
-    /// Returns `true` without options.
+    /// Returns `true` if no option was given.
     pub(super) fn is_default(&self) -> bool {
         let Self { eye, target, tan_half_height } = *self;
         eye.is_none() && target.is_none() && tan_half_height.is_none()

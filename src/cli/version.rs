@@ -1,4 +1,4 @@
-//! Text of `crossbar --version`.
+//! Version text of `crossbar --version`.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

@@ -40,7 +40,7 @@ pub(super) struct AluLine {
 }
 
 impl LineFormat {
-    /// Operands alone.
+    /// Operands only.
     pub(super) const fn compute(unit: &AluUnit) -> Self {
         Self {
             operands: unit.op.operands(),

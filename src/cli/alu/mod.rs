@@ -117,12 +117,12 @@ pub(super) struct Args {
     seed: Option<u64>,
 }
 
-/// The value of `--summation`.
+/// Parses the value of `--summation`.
 fn summation(text: &str) -> Result<DotOrder, String> {
     DotOrder::named(text).ok_or_else(|| "expected sequential, tree, exact, or aligned:F with F from 0 to 28".to_owned())
 }
 
-/// The stages, for `--stage`.
+/// Values of `--stage`.
 fn stages() -> OneOf<AluStage> {
     one_of([("vertex", "vertex programs", AluStage::Vertex), ("pixel", "pixel programs", AluStage::Pixel)])
 }

@@ -132,12 +132,12 @@ pub(super) struct AluUnit {
 }
 
 impl AluUnit {
-    /// Bits of an operand.
+    /// Width of an operand in bits.
     pub(super) const fn operand_width(&self) -> u32 {
         self.env.format.width()
     }
 
-    /// Bits of a result.
+    /// Width of a result in bits.
     pub(super) const fn result_width(&self) -> u32 {
         if self.op.is_comparison() { 1 } else { self.to.width() }
     }

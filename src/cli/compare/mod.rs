@@ -73,7 +73,7 @@ pub(in crate::cli) struct Args {
     registers: bool,
 }
 
-/// One side as requested.
+/// One side, as requested.
 #[derive(Debug)]
 struct SideRequest {
     name: &'static str,

@@ -94,7 +94,7 @@ fn spectra(clustering: &Clustering, superclusters: Option<&[u32]>) -> Table {
     table
 }
 
-/// Points of each cluster.
+/// Number of points of each cluster.
 fn sizes(clustering: &Clustering) -> Vec<usize> {
     let mut sizes = vec![0; clustering.subspaces().len()];
     clustering.of_point().iter().for_each(|&cluster| sizes[cluster as usize] += 1);

@@ -123,7 +123,7 @@ fn storages(profile: &Profile) -> FoundTable {
     table.into()
 }
 
-/// Everything about one device.
+/// All findings about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
     found.fields(json!({

@@ -70,7 +70,7 @@ pub(in crate::cli) struct Args {
     pub(super) perfetto: Option<PathBuf>,
 }
 
-/// The models, for `--timing`.
+/// Values of `--timing`: the models.
 fn models() -> OneOf<&'static [Level]> {
     one_of([
         ("rates", "Fill rate and bus rates", &[Level::Rates][..]),
@@ -87,7 +87,7 @@ fn readback() -> OneOf<ReadBackMode> {
     ])
 }
 
-/// `64x64`, or `64,64`.
+/// Parses `64x64` or `64,64`.
 fn parse_rays(text: &str) -> Result<Size, BadSize> {
     text.replace(',', "x").parse()
 }

@@ -80,7 +80,7 @@ pub struct Setup {
     pub blend: Option<BlendState>,
     /// Expected results.
     pub probes: Vec<Probe>,
-    /// Warnings on the case.
+    /// Warnings about the case.
     pub warnings: Vec<CaseWarning>,
 }
 

@@ -38,7 +38,7 @@ pub(super) enum Passage {
     Paragraph(String),
     Table(usize),
     Chart(usize),
-    /// Side by side.
+    /// Pictures side by side.
     Pictures(Range<usize>),
     Legend(Legend),
 }

@@ -177,7 +177,7 @@ pub enum CasterChoice {
 /// A Ray Engine, to be built over a mesh.
 #[derive(Clone, Debug)]
 pub struct EngineChoice {
-    /// Its card.
+    /// Card of the engine.
     pub card: Configuration,
     /// Executor of the card's programs.
     pub executor: Executor,
@@ -266,7 +266,7 @@ struct OpenEngine<'a> {
 pub struct CastRecord {
     /// Name of the card and its format.
     pub label: String,
-    /// Rays, passes and tests.
+    /// Numbers of rays, passes and tests.
     pub counts: EngineCounts,
     /// Modelled time of the passes, without the tests on the host; `None` for cards without rates.
     pub card: Option<Picoseconds>,

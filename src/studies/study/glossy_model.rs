@@ -100,7 +100,7 @@ impl GlossyModel {
         PrtCard::new(profile.clone(), executor.clone(), transfer, options).map_err(no_cpca_card)
     }
 
-    /// Colors of pixels.
+    /// Draws the model, and returns the colors of pixels.
     pub(super) fn draw(
         &self,
         light: &HarmonicLight,
@@ -112,7 +112,7 @@ impl GlossyModel {
         Ok(card.view_texels(light, view).map_err(no_cpca_card)?.colors())
     }
 
-    /// Draws pixel colors, and models the time of the frame.
+    /// Like `draw`, but also models the time of the frame.
     pub(super) fn timed(
         &self,
         light: &HarmonicLight,

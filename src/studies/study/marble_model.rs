@@ -54,7 +54,7 @@ impl MarbleModel {
         Atlas::new(mesh, side).map_err(no_atlas)
     }
 
-    /// Draws pixel colors under a light; all float textures have the format `texels`.
+    /// Draws the model under a light; all float textures have the format `texels`.
     pub(super) fn draw(
         &self,
         light: impl FnOnce(&mut SubsurfaceCard) -> Result<(), CardError>,

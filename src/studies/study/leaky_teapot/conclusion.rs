@@ -110,7 +110,7 @@ fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
 /// The finding: the fraction of the surface that the leakiest row loses, and, if they were traced, the fractions that
 /// the same card loses rounded to nearest, and with each edge evaluated once. `None` if no row leaks.
 fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
-    // The first of equals.
+    // The first one on a tie.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
     let loses = |row: &TeapotRow| percent(row.tally.leak_share());

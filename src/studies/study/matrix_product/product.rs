@@ -18,7 +18,7 @@ const MAX_BITS: u32 = 40;
 pub struct MatrixProduct {
     /// A and B.
     pub factors: [MatrixInput; 2],
-    /// C; zeros without.
+    /// C; zeros if it is `None`.
     pub addend: Option<MatrixInput>,
     /// The units, at least one.
     pub units: Vec<MatrixUnit>,

@@ -1,4 +1,4 @@
-//! Findings on measured pixels.
+//! Findings about measured pixels.
 
 use serde_json::json;
 

@@ -110,7 +110,7 @@ struct TraceJob {
     count_words: usize,
 }
 
-/// Buffers by contents.
+/// Buffers, indexed by their contents.
 #[derive(Default)]
 struct Buffers {
     all: Vec<String>,

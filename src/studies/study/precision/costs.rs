@@ -91,7 +91,7 @@ impl FormatCosts {
         listed.unwrap_or_else(|| f64::from(bits.width()))
     }
 
-    /// Sum over all instructions.
+    /// Sum of costs over all instructions.
     pub(super) fn sum(&self, formats: &[FormatBits]) -> f64 {
         formats.iter().fold(0.0, |sum, bits| sum + self.of(*bits))
     }

@@ -110,7 +110,7 @@ pub(super) struct Curve {
 const SPARE: u8 = 2;
 
 impl Curve {
-    /// Curve without points.
+    /// Creates a curve without points.
     pub(super) fn empty(family: FormatFamily) -> Self {
         Self { family, range: *family.range_bits().end(), scan: BitScan::default(), minimum: None, is_complete: false }
     }

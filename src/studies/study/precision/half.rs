@@ -9,13 +9,13 @@ use super::runs::{RunError, Runs};
 use super::subject::WorstPlace;
 use crate::shader::ShaderText;
 
-/// The format of f16.
+/// The format f16.
 const HALF: FormatBits = FormatBits::float(5, 10);
 
 /// Expression in half precision.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct HalfExpression {
-    /// Index of its place.
+    /// Index of its instruction place.
     pub(super) place: usize,
     /// Value of the goal's measure if only this expression is f16.
     pub(super) alone: f64,

@@ -36,7 +36,7 @@ pub struct Precision {
     pub goal: Option<Goal>,
     /// Families of formats, each once; at least one.
     pub families: Vec<FormatFamily>,
-    /// Largest number of runs.
+    /// Maximum number of runs.
     pub budget: u64,
     /// Costs of formats.
     pub costs: FormatCosts,
@@ -200,7 +200,7 @@ fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
 }
 
 impl FamilyOutcome {
-    /// Without findings.
+    /// Creates an outcome without findings.
     pub(super) fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
         let refutations = Vec::new();

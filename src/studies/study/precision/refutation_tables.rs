@@ -10,7 +10,7 @@ use crate::report::{Cell, Table, digits};
 /// The trace of the most blamed instruction that has one.
 pub(super) fn most_blamed<'t>(traces: &'t [RefutationTrace], family: &FamilyOutcome) -> Option<&'t RefutationTrace> {
     let blame = |trace: &RefutationTrace| family.needs[trace.refuted.place].blame.unwrap_or(0.0);
-    // The first of equals.
+    // The first one on a tie.
     traces.iter().min_by(|a, b| blame(b).total_cmp(&blame(a)))
 }
 

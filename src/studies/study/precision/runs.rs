@@ -16,10 +16,10 @@ use super::subject::{
 };
 use crate::study::{ProgressFn, StudyError};
 
-/// End of a search.
+/// Reason why a search ends.
 #[derive(Debug)]
 pub(super) enum RunError {
-    /// No runs are left.
+    /// The budget is spent.
     Budget,
     /// The subject failed.
     Study(StudyError),
@@ -37,7 +37,7 @@ pub(super) struct Runs<'a> {
     pub(super) goal: &'a Goal,
     pub(super) programs: Vec<StudiedProgram<'a>>,
     pub(super) places: Vec<InstructionPlace>,
-    /// Largest number of runs.
+    /// Maximum number of runs.
     budget: u64,
     /// Number of runs made.
     pub(super) made: u64,

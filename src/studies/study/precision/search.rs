@@ -17,7 +17,7 @@ pub(super) const STARTS: [u8; 3] = [0, 1, 2];
 pub(super) struct MixedFormats {
     /// Format of each instruction.
     pub(super) formats: Vec<FormatBits>,
-    /// Sum of their costs.
+    /// Sum of the formats' costs.
     pub(super) cost: f64,
     /// `true` if one bit less in any one instruction misses the goal.
     pub(super) is_minimal: bool,

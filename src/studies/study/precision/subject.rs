@@ -227,9 +227,9 @@ const UNROLLED: usize = 8;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct InstructionPlace {
     pub(super) program: usize,
-    /// The first of them.
+    /// The first of these instructions.
     pub(super) at: usize,
-    /// The others.
+    /// The other instructions.
     pub(super) alike: Vec<usize>,
 }
 

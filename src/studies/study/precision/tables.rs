@@ -52,7 +52,7 @@ pub(super) fn named(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
     table
 }
 
-/// Points of the curves.
+/// Table of the curves' points.
 pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
     let measure = runs.goal.measure.as_str();
     let mut table = Table::new("Points of the curves", &["family", "format", "bits", "precision_bits", measure, "met"]);
@@ -72,7 +72,7 @@ pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
     table
 }
 
-/// A row per instruction.
+/// Table with a row per instruction.
 pub(super) fn instructions(
     family: &FamilyOutcome,
     minimum: FormatBits,
@@ -114,7 +114,7 @@ fn note(needs: &InstructionNeeds, minimum: FormatBits, not_finite: bool) -> Opti
     }
 }
 
-/// The mixed assignment.
+/// Table of the mixed formats.
 pub(super) fn mixed(mixed: &MixedFormats, study: &Precision, runs: &Runs<'_>) -> Table {
     let mut table = Table::of("A format per instruction", "line instruction format bits cost");
     for (place, &bits) in mixed.formats.iter().enumerate() {
@@ -161,7 +161,7 @@ pub(super) fn switches(outcome: &PrecisionOutcome) -> (Table, Vec<usize>, Vec<St
     (table, (0..rows.len()).map(first).collect(), names)
 }
 
-/// Meanings of the measures.
+/// Table of the measures' meanings.
 pub(super) fn measures(runs: &Runs<'_>) -> Table {
     let mut table = Table::of("Measures, against the exact run", "measure meaning");
     for measure in runs.subject.measures() {

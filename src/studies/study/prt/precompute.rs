@@ -24,11 +24,11 @@ const EXACT_DEGREE: usize = 2 * MAX_ORDER - 2;
 /// Representation of exit radiance.
 #[derive(Clone, Debug)]
 pub enum ExitRadiance {
-    /// By itself: diffuse transfer.
+    /// Without a basis: diffuse transfer.
     Diffuse,
     /// In harmonics: glossy transfer.
     Glossy {
-        /// Their functions.
+        /// Functions of the basis.
         basis: ExitBasis,
         /// `true` for least squares, `false` for integrals over the hemisphere.
         least_squares: bool,
@@ -40,7 +40,7 @@ pub enum ExitRadiance {
 /// A medium below the surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Scatterer {
-    /// Per color channel.
+    /// Dipoles of red, green and blue.
     pub dipoles: [Dipole; 3],
     /// Lengths, and the criterion by which a cluster of vertices counts as one point.
     pub options: ScatteringOptions,
@@ -68,12 +68,12 @@ pub struct Precomputation<'a> {
     pub scatterer: Option<Scatterer>,
 }
 
-/// Transfer, and its counts.
+/// Computed transfer, with its counts.
 #[derive(Debug)]
 pub struct Precomputed {
     /// The transfer.
     pub file: PrtFile,
-    /// Directions of each vertex.
+    /// Number of directions per vertex.
     pub directions: usize,
     /// Rays.
     pub counts: TransferCounts,

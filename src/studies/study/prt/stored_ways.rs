@@ -46,7 +46,7 @@ pub struct StoredWay {
     pub sizes: Vec<StoredSize>,
     /// Error over all channels, per light.
     pub errors: Vec<LocalLightError>,
-    /// Time of its computation.
+    /// Seconds of its computation.
     pub seconds: f64,
 }
 

@@ -158,7 +158,7 @@ fn color_of(text: &str) -> Result<MaterialColor, String> {
 }
 
 impl RadiosityOptions {
-    /// Fineness of the subdivision.
+    /// Fineness of the subdivision into patches.
     pub fn subdivision(&self) -> Subdivision {
         Subdivision::AtMost(self.patches as usize)
     }

@@ -20,7 +20,7 @@ use crate::study::caster::CasterChoice;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct RadiosityItems {
     items: usize,
-    /// Pair by pair.
+    /// Rows of form factors, pair by pair.
     rows: Vec<Vec<f64>>,
     /// Runs by setting, then by number of patches.
     pub(super) sweep: Vec<Vec<SweepRun>>,

@@ -10,7 +10,7 @@ use crate::split::KeptResults;
 /// Findings of one entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EntryFindings {
-    /// Method, in paragraphs.
+    /// Paragraphs about the method.
     pub text: Vec<String>,
     /// Printed values of the paper, each with ours.
     pub rows: Vec<PaperRow>,
@@ -25,7 +25,7 @@ pub struct EntryFindings {
 }
 
 impl EntryFindings {
-    /// Findings without charts.
+    /// Creates findings without charts.
     pub(super) fn new(
         text: impl Into<Vec<String>>,
         rows: impl Into<Vec<PaperRow>>,

@@ -10,7 +10,7 @@ use crate::subsurface::on_card::Light;
 
 /// Number of bins of the angle, from 0 to 180 degrees.
 const BINS: usize = 12;
-/// Degrees of a bin.
+/// Width of a bin, in degrees.
 const WIDTH: f64 = 180.0 / BINS as f64;
 
 /// Error of radiosities in a bin, relative to the all-pairs sums in the bin; over all channels.
@@ -33,7 +33,7 @@ pub(super) struct AngleBin {
     pub(super) radiosity: f64,
     /// The links' own error: the error of the host's sum over them.
     pub(super) links: BinError,
-    /// Links and card together.
+    /// Total error of links and card.
     pub(super) all: BinError,
 }
 

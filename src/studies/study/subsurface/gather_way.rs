@@ -1,4 +1,4 @@
-//! Ways of gathering.
+//! Ways to gather light.
 
 use std::fmt;
 

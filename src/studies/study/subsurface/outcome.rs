@@ -21,7 +21,7 @@ pub(super) struct SubsurfaceOutcome {
     pub(super) cast: Option<CastRecord>,
     /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
     pub(super) truth: Option<Vec<[f64; 3]>>,
-    /// A row per way.
+    /// One row per way.
     pub(super) rows: Vec<WayRow>,
 }
 

@@ -41,7 +41,7 @@ pub struct Parameters {
 /// The light on the model.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Lighting {
-    /// Lights, by pass 1.
+    /// Lights drawn by pass 1.
     Lights(Vec<Light>),
     /// Distant light of an environment map, per texel and with shadows; replaces pass 1.
     Environment(CubeLight),

@@ -5,7 +5,7 @@ use super::{Parameters, SubsurfaceOutcome, model};
 use crate::report::{Cell, Table};
 use crate::subsurface::on_card::PassKind;
 
-/// Model and medium.
+/// Table of model and medium.
 pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "The model in mm, and the medium's lengths",

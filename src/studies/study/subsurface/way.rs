@@ -28,7 +28,7 @@ use crate::subsurface::on_card::{
 
 /// Diffuse reflectance for direct light.
 const DIFFUSE: f64 = 0.1;
-/// Pass 3.
+/// Kernel of pass 3.
 const VIEW: ViewKernel = ViewKernel { transmittance: EyeTransmittance::Exact, direct: DirectLight::ByFragment };
 
 /// Inputs that all ways of gathering share.
@@ -211,7 +211,7 @@ pub(super) fn lit_card(
     Ok(card)
 }
 
-/// B of every texel.
+/// B of every texel, from the card.
 pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, CardError> {
     Ok(card.read_scattered()?.colors())
 }

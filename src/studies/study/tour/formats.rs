@@ -26,7 +26,7 @@ use refsim::texture::TexelFormat;
 /// The formats; the first is the reference for pictures.
 const FORMATS: [&str; 4] = ["fp32", "fp24", "fp16", "s3.12"];
 
-/// What all formats share.
+/// Inputs that all formats share.
 pub(super) struct FormatSubject<'a> {
     pub(super) scene: &'a TourScene,
     pub(super) patches: &'a Patches,
@@ -36,7 +36,7 @@ pub(super) struct FormatSubject<'a> {
     pub(super) view: MeshView,
 }
 
-/// Costs of a format.
+/// Errors of one format.
 pub(super) struct FormatRow {
     format: &'static str,
     /// Fraction of the rays of form factors that differ from exact arithmetic.

@@ -98,7 +98,7 @@ pub(super) fn probe(
     Ok((CubeLight::new(rays.iter().zip(&hits).map(radiance).collect())?, open.record()))
 }
 
-/// The light in harmonics.
+/// Projects the light to harmonics.
 pub(super) fn harmonic(light: &CubeLight, order: usize) -> Result<HarmonicLight, StudyError> {
     let mut y = vec![0.0; order * order];
     let mut channels = [const { Vec::new() }; 3].map(|_: Vec<f64>| vec![0.0; order * order]);

@@ -27,7 +27,7 @@ pub(super) enum Arithmetic {
     Number(Format),
 }
 
-/// What a pattern means.
+/// Value that a pattern represents.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum FormatNumber {
     Nan,

@@ -60,7 +60,7 @@ impl SystemRun for CornellBox {
         None
     }
 
-    /// Radiosities within 1 %.
+    /// Default goal: radiosities within 1 %.
     fn default_goal(&self) -> Goal {
         at_most("largest_relative", 0.01)
     }

@@ -58,7 +58,7 @@ pub(super) struct RayEngineSubject {
 }
 
 impl RayEngineSubject {
-    /// Traces the rays exactly.
+    /// Finds the rays' exact hits.
     pub(super) fn new(mut profile: Profile) -> Result<Self, StudyError> {
         // Devices that support both versions choose between them by the format of their registers.
         if profile.supports(Version::Ps2_0) {

@@ -67,7 +67,7 @@ impl ResultSampler {
         Ok(Arc::new(Self { programs, rounded, found: Mutex::new(found) }))
     }
 
-    /// Results found.
+    /// Results of the samples.
     pub(super) fn results(&self) -> SampledResults {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
     }

@@ -75,7 +75,7 @@ impl<'a> Part<'a> {
         Ok(Transferred::Exact { rows, values })
     }
 
-    /// Exit radiance: step 4.
+    /// Computes exit radiance: step 4.
     pub(super) fn radiance(&self, transferred: &Transferred, camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
         let start = Instant::now();
         let of = |vertex: usize, row: usize| match transferred {

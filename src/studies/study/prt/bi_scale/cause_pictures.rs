@@ -36,7 +36,7 @@ impl CausePictures {
         if whole > 0.0 { 100.0 * (differences(one, other).0 / whole).sqrt() } else { 0.0 }
     }
 
-    /// A row per cause.
+    /// Table with a row per cause.
     pub(in crate::study) fn table(&self, title: &str) -> Table {
         let mut table = Table::new(title, &["cause", "step (%)", "up to here (%)", "largest (radiance)"]);
         for ((before, after), cause) in self.pictures.iter().zip(&self.pictures[1..]).zip(&self.causes) {

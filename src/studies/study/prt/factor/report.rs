@@ -1,4 +1,4 @@
-//! Findings as a page.
+//! Findings of the study.
 
 use glam::DVec3;
 use serde_json::json;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::picture::Picture;
 
-/// Pixels along an edge.
+/// Pixels per side of the picture.
 pub(super) const SIZE: u32 = 160;
 
 /// Directions towards the lights, not normalised, and their irradiances: a frontal light, and a grazing one. z is up,

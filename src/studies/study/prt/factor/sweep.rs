@@ -11,7 +11,7 @@ use crate::study::StudyError;
 /// Pixels per degree of the observer: a screen 0.7 m wide with 3,840 pixels seen from 0.7 m, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 
-/// One roughness.
+/// Result for one roughness.
 pub(in crate::study) struct SweptRoughness {
     pub(in crate::study) roughness: f64,
     pub(in crate::study) relative_squared_error: f64,
@@ -65,7 +65,7 @@ impl BrdfFactors {
     }
 }
 
-/// A row per roughness.
+/// Table with a row per roughness.
 pub(in crate::study) fn roughness_table(rows: &[SweptRoughness], title: &str) -> Table {
     let mut table = Table::of(title, "roughness relative_squared_error rms max flip_of_spheres");
     for row in rows {

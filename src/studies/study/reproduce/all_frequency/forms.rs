@@ -15,7 +15,7 @@ pub(super) const ORDERS: [usize; 4] = [4, 5, 6, 7];
 /// Interpretation: its name, the reflectance, and its sampling.
 pub(super) type Form = (&'static str, Lobe, FactorSampling);
 
-/// Errors of one interpretation.
+/// Errors of one form.
 pub(super) struct FormErrors {
     /// Errors of ten terms.
     pub(super) terms: ProductErrors,

@@ -22,7 +22,7 @@ pub(super) struct SegmentSums {
     /// Number of numbers stored before coding.
     pub(super) numbers: usize,
     pub(super) squares: f64,
-    /// For each of [`CODINGS`].
+    /// Sums for each of [`CODINGS`].
     pub(super) coded: [CodeSums; CODINGS.len()],
     /// Bytes of nonzero quantised Haar coefficients.
     pub(super) haar: f64,

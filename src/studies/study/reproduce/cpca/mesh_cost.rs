@@ -6,7 +6,7 @@ use refsim::event::vertex_cache_misses;
 use super::StudyError;
 use crate::geom::Mesh;
 
-/// "a Radeon 9700".
+/// The paper's card: "a Radeon 9700".
 pub(super) const CARD: &str = "r300";
 /// Its constant registers: "~256".
 pub(super) const REGISTERS: usize = 256;

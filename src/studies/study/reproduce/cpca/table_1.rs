@@ -83,7 +83,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Rows on frame rates.
+/// Rows for frame rates.
 fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let mut table = Table::of(
         "Frames per second, modelled from our overdraw",

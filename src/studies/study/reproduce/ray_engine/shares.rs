@@ -8,7 +8,7 @@ use crate::report::{Chart, Series, Table};
 /// Reading: computes a fraction in [0, 1].
 type Reading = fn(&EngineCounts) -> f64;
 
-/// Interpretations with their names.
+/// Readings with their names.
 const READINGS: [(&str, Reading); 2] = [
     // Rays that met the card at least once, relative to all rays.
     ("rays", EngineCounts::share_on_card),

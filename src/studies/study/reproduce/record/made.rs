@@ -48,7 +48,7 @@ impl RecordStatus {
         }
     }
 
-    /// Sentence on the findings.
+    /// Sentence about the findings' source.
     pub fn sentence(&self) -> String {
         let made = self.made();
         let seconds = |time: f64, what: &str| format!("{} s {what}", number(time, 0));

@@ -79,7 +79,7 @@ pub struct PaperFigure {
     pub decimals: u8,
     /// Unit.
     pub unit: String,
-    /// Place in the paper.
+    /// Table, figure or section of the paper.
     pub place: String,
     /// Origin: printed, implied or inferred.
     pub origin: Origin,
@@ -102,7 +102,7 @@ pub struct PaperEquation {
     pub device: String,
     /// Value of the expression, in the unit of the figure.
     pub ours: f64,
-    /// Values by other readings.
+    /// Values for other readings.
     pub readings: Vec<f64>,
     /// Printed values that the expression uses; `None` if all of them are sizes or other numbers in the text.
     pub uses: Option<String>,

@@ -43,7 +43,7 @@ pub struct PaperRow {
     pub source: RowSource,
     /// Range of values that the computation can give, and the reason.
     confined: Option<([f64; 2], &'static str)>,
-    /// Set by [`Sweep::explain`] alone.
+    /// Set only by [`Sweep::explain`].
     explanation: Option<Explanation>,
     contradiction: Option<Contradiction>,
 }

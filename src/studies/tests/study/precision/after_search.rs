@@ -63,7 +63,7 @@ fn a_refutation_has_its_trace() {
 struct Counted {
     subject: CaseSubject,
     runs: Rc<Cell<u64>>,
-    /// Added to every value.
+    /// Offset added to every value.
     off: f64,
 }
 

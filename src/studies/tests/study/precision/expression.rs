@@ -32,7 +32,7 @@ fn exact_and_computed_results_are_those_of_mpmath() {
     let table =
         std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/fpbench/binary32.csv"))
             .expect("a table");
-    // mpmath has one zero.
+    // mpmath has only one zero.
     let unsigned_zero = |bits: u64| if bits == 0x8000_0000 { 0 } else { bits };
     let mut compared = 0;
     for line in table.lines().skip(1) {
@@ -198,7 +198,7 @@ proptest! {
     fn no_text_panics(text in r#"[-+*/^()\[\]<>=!&|?:,;." a-z0-9]{0,60}"#, any in ".{0,40}") {
         let core = format!("(FPCore (x) {text})");
         for text in [text, core, any] {
-            // Either is fine.
+            // The text may be a formula or not.
             drop(ExpressionStudy::of_formula(&text, &[]));
         }
     }

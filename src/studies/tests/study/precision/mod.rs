@@ -128,7 +128,7 @@ fn device_with(subject: &dyn PrecisionSubject, formats: &[String]) -> Profile {
     device
 }
 
-/// Smallest uniform formats.
+/// Smallest uniform formats of both families.
 fn minima(case: &str) -> Vec<String> {
     let document = document(&study(case, "largest_absolute=0", &[FormatFamily::Float, FormatFamily::Fixed]));
     column(&document, "families", "minimum")

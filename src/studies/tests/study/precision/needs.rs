@@ -27,7 +27,7 @@ pub(super) struct Told {
     values: Values,
     /// Results of each instruction: first the exact ones, then the results in any other format.
     results: [Vec<f64>; 2],
-    /// Formats of all runs.
+    /// Formats of all runs so far.
     seen: Rc<RefCell<BTreeSet<[Option<String>; 2]>>>,
 }
 

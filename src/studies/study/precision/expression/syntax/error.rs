@@ -1,4 +1,4 @@
-//! The error of expressions.
+//! Errors in the text of expressions.
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -82,7 +82,7 @@ impl Parser<'_> {
         Tree::List(std::iter::once(name).chain(operands).collect(), place)
     }
 
-    /// One level deeper.
+    /// Enters one level of nesting.
     fn enter(&mut self) -> Result<(), ExpressionError> {
         self.skip_blanks();
         self.depth += 1;

@@ -9,7 +9,7 @@ use crate::report::SourceText;
 use crate::study::precision::expression::graph::{Expression, Graph, Node, NumberComparison, Operation};
 use crate::study::precision::expression::real::{Constant, Function};
 
-/// Largest number of operations.
+/// Maximum number of operations.
 const MAX_NODES: usize = 20_000;
 
 /// Unsupported operators of FPCore, with the reasons.

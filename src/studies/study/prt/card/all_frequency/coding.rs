@@ -12,7 +12,7 @@ use crate::transfer::light::HaarLight;
 /// Numbers of bits to try, if the file has more.
 const BITS: [u8; 5] = [8, 10, 12, 14, 15];
 
-/// Choices of a file.
+/// Variants of a file's code.
 fn choices(coded: &CodedTransfer) -> Vec<(&'static str, u8, CodeOptions)> {
     let of = coded.options;
     let mut all = Vec::new();

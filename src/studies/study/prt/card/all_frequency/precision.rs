@@ -19,7 +19,7 @@ const BITS: [u32; 5] = [8, 10, 12, 14, 16];
 /// Number of texture coordinate sets of ps_2_0.
 const SETS: usize = 8;
 
-/// A way to draw.
+/// A variant of drawing.
 struct Choice {
     axis: &'static str,
     label: String,

@@ -13,7 +13,7 @@ use crate::geom::vector::wide;
 use crate::study::prt::interpolate::SeenSurface;
 use crate::transfer::brdf::ExitBasis;
 
-/// A way to draw.
+/// Inputs of a card's picture.
 #[derive(Clone, Copy)]
 pub(super) struct CardDrawing<'a> {
     pub(super) profile: &'a Profile,

@@ -21,7 +21,7 @@ pub struct OnCard {
     pub vertices: Vertices,
     /// Meaning of the numbers at a vertex.
     pub meaning: PrtMeaning,
-    /// The clusters.
+    /// Clusters of the compressed transfer.
     pub clustering: Clustering,
     /// Superclusters of these clusters, if the file has any.
     pub superclusters: Option<Superclusters>,

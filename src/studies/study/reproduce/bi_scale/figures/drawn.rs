@@ -14,7 +14,7 @@ pub(super) const ORDER: usize = 5;
 /// Colors of a figure.
 pub(super) struct DrawnFigure {
     pub(super) causes: CausePictures,
-    /// Colors by low-frequency light.
+    /// Colors from low-frequency light.
     pub(super) smooth: Vec<[f64; 3]>,
 }
 
