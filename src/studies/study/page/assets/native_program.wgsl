@@ -1,6 +1,6 @@
 // Programs in the adapter's own floats: the functions that replace the number library for the machine. If a format is
-// marked as the adapter's (NATIVE is added to its `special`), its operations are computed in f32. The number library does
-// everything else, such as interpolation, texture reads, selections and registers of other formats.
+// marked as the adapter's (NATIVE is added to its `special`), its operations are computed in f32. The number library
+// does everything else, such as interpolation, texture reads, selections and registers of other formats.
 alias real = f32;
 
 fn native_bits(x: f32) -> Real {
