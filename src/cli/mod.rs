@@ -216,7 +216,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Runs the command of some parts, whose results replace its work.
+/// Runs the command that produced the parts, with their results in place of its own computation.
 fn merge(args: &merge::Args, out: &mut Out) -> miette::Result<Verdict> {
     let parts: PartSet = args.open()?;
     args.require_divisible(&program(), &parts)?;

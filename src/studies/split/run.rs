@@ -70,9 +70,9 @@ pub struct WrittenPart {
 /// Results of all items, or the part that was computed and written.
 #[derive(Clone, Debug)]
 pub enum Computed<T> {
-    /// All items: the command continues.
+    /// Results of all items; the command continues.
     Whole(T),
-    /// A part: the command ends.
+    /// The part that was written; the command ends.
     Part(WrittenPart),
 }
 

@@ -101,7 +101,7 @@ pub(super) struct Curve {
     pub(super) scan: BitScan,
     /// Smallest uniform format: the fewest bits of precision, then the fewest of range.
     pub(super) minimum: Option<FormatBits>,
-    /// `true` if all points were computed that the search needs.
+    /// `true` if the study computed all points that the search needs.
     pub(super) is_complete: bool,
 }
 

@@ -142,9 +142,9 @@ pub struct RoundedInstruction {
 /// Results of instructions; all fields have the same fragments.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SampledResults {
-    /// For the exact run, by program.
+    /// Results in the exact run, by program.
     pub exact: Vec<InstructionResults>,
-    /// For each rounded instruction, in draws with the input of the exact run.
+    /// Results of each rounded instruction, in draws with the input of the exact run.
     pub rounded: Vec<FragmentResults>,
 }
 
