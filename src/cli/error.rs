@@ -39,10 +39,10 @@ pub enum Problem {
     #[diagnostic(transparent)]
     Input(#[from] InputError),
     /// A signal ended the work before its files were written.
-    #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
+    #[error("interrupted before anything was written; files of earlier runs are unchanged")]
     #[diagnostic(
         code(crossbar::interrupted),
-        help("the same command starts from the beginning, but for what `--resume` or `--record` keeps")
+        help("the same command starts from the beginning, except for results that `--resume` or `--record` stored")
     )]
     Interrupted,
     /// Options that conflict.
@@ -117,7 +117,7 @@ fn render(diagnostic: &dyn Diagnostic, terminal: bool) -> String {
     let more = shown.left_out();
     let mut text = Rendered(shown, handler(terminal)).to_string().trim_end().to_owned();
     if more > 0 {
-        text.push_str(&format!("\n\n... and {more} more: `--json` has every one"));
+        text.push_str(&format!("\n\n... and {more} more: `--json` lists all"));
     }
     text
 }

@@ -58,7 +58,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "R.csv")]
     rays: PathBuf,
 
-    /// Which faces can be hit
+    /// Sides of faces that can be hit
     #[arg(long, default_value = "front", value_parser = sides())]
     sides: Sides,
 
@@ -66,7 +66,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
-    /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
+    /// Arithmetic that decides hits [default: batch if a device is named or with `--caster engine`, otherwise exact]
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 

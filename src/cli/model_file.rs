@@ -76,7 +76,7 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
         return Ok(());
     }
     Err(Problem::usage(
-        format!("{asked} says how a file is read, and `{name}` is built by the program"),
+        format!("{asked} applies to model files, but the program builds `{name}` itself"),
         "leave it out, or name a file",
     ))
 }

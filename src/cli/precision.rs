@@ -96,11 +96,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME=X,Y,..", value_parser = uniform::parse)]
     uniform: Vec<Uniform>,
 
-    /// Which formats are tried [default: both, or float for expressions]
+    /// Families of formats that are tried [default: both, or float for expressions]
     #[arg(long, value_parser = families())]
     family: Option<Families>,
 
-    /// Runs of the program after which the best so far is taken [default: 10000]
+    /// Maximum number of runs of the program; then the best result so far counts [default: 10000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     budget: Option<u64>,
 
@@ -131,8 +131,8 @@ fn families() -> OneOf<Families> {
 
 fn draws() -> OneOf<InputDraw> {
     one_of([
-        ("floats", "Every number of the format as likely as every other, as in Herbie", InputDraw::Floats),
-        ("reals", "Every real number of the range as likely as every other, then rounded", InputDraw::Reals),
+        ("floats", "Every number of the format is equally likely, as in Herbie", InputDraw::Floats),
+        ("reals", "Every real number of the range is equally likely, then rounded", InputDraw::Reals),
     ])
 }
 

@@ -41,10 +41,10 @@ and ours agrees with one of its values), or too vague to judge. All bounds were 
 Entries that take minutes to hours are recorded runs, which the program contains; --full-size
 computes them anew and compares them with the record. The source of each row says which.
 An interrupted run leaves no incomplete files; the next run starts from the beginning, or from the
-entries that are named. --record goes on: a file that is there stays, and so do the finished pieces
+entries that are named. --record continues: an existing file stays, and so do the finished pieces
 of all-frequency-table-1 and all-frequency-figures, which take hours, in FOLDER/ID.pieces.
 A missed figure is a finding, and docs/papers lists it with the open question: the exit code is 0. It
-is 1 only if --full-size computes a value that is not as recorded.";
+is 1 only if --full-size computes a value that differs from the record.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
 #[derive(Debug, clap::Args)]
@@ -113,7 +113,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     }
     // Checked before the long work, so that an unwritable folder is found at once.
     drop(FileSet::new(folder).map_err(Problem::from)?);
-    let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
+    let bar = ProgressBar::new("", 1).quicker("names of single entries; after an interruption, it continues");
     let mut table = Table::of("Records", "entry record processor_s wall_s");
     for (done, entry) in (0..).zip(&entries) {
         bar.show(entry.id.to_owned(), done, entries.len() as u64);

@@ -25,9 +25,9 @@ docs/papers/all_frequency.md explains all of it.";
 /// The part of the work that the card does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum WayArg {
-    /// None: the host makes colors of vertices, which are interpolated
+    /// None: the host computes vertex colors, which are interpolated
     Colors,
-    /// The product with factors of the view, which are in textures, for each pixel
+    /// The product with the view factors, from textures, per pixel
     Products,
 }
 

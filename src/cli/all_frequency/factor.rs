@@ -27,7 +27,7 @@ Examples:
       any table of reflectance times cosine: a row per view, a column per light, by texels of square parabolic maps
 
 Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
-docs/papers/all_frequency.md says what the options are.";
+docs/papers/all_frequency.md explains the options.";
 
 /// Isotropy of Schlick's model, as in the paper.
 const ISOTROPY: f64 = 0.2;
@@ -41,7 +41,7 @@ enum ModelArg {
     CookTorrance,
     /// Schlick 1994, anisotropic
     Schlick,
-    /// Phong, as MTL files have it
+    /// Phong, as in MTL files
     Phong,
     /// The same radiance in all directions
     Lambert,
@@ -88,7 +88,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=MAX_MAP_SIDE as i64))]
     side: u32,
 
-    /// Terms [default: 10, or the rank of the table where that is less]
+    /// Terms [default: 10, or the rank of the table if that is less]
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..))]
     terms: Option<u32>,
 

@@ -54,18 +54,18 @@ pub(super) fn color(material: &Material) -> [f64; 3] {
 /// Model, light and camera of `render` and `card`.
 #[derive(Debug, clap::Args)]
 pub(super) struct LitArgs {
-    /// Visibility or coded transfer; coded transfer is drawn where there are both
+    /// Visibility or coded transfer; coded transfer is drawn if there are both
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
-    /// A file with visibility of the same model: what compression costs
+    /// A file with visibility of the same model, to measure the loss of compression
     #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
     #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
     light: DistantLightArg,
 
-    /// Light coefficients that are kept, those of largest area times magnitude [default: all]
+    /// Number of light coefficients kept, largest area times magnitude first [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
     keep: Option<u32>,
 

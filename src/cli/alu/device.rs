@@ -74,7 +74,7 @@ fn no_state(name: &str, stage: AluStage) -> Problem {
     let stage = if stage == AluStage::Vertex { "vertex" } else { "pixel" };
     Problem::usage(
         format!("the {stage} arithmetic of `{name}` has no such state"),
-        "leave `--state` out, or take `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
+        "leave `--state` out, or use `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
     )
 }
 
@@ -92,8 +92,8 @@ pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<
             | Alu::Dequantize
     ) {
         return Err(Problem::usage(
-            format!("`{name}` is no instruction of a device"),
-            "take `--format` with one of the formats that `crossbar alu --help` lists",
+            format!("`{name}` is not an instruction of any device"),
+            "use `--format` with one of the formats that `crossbar alu --help` lists",
         ));
     }
     let newer = matches!(
@@ -104,7 +104,7 @@ pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<
     if format.unit == Unit::Nv2x && newer {
         return Err(Problem::usage(
             format!("the vertex unit of NV20 and NV25 has no `{name}`"),
-            "take `--device nv30`, whose unit has it, or `--format fp32`",
+            "use `--device nv30`, whose vertex unit has it, or `--format fp32`",
         ));
     }
     Ok(())
@@ -123,7 +123,7 @@ pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<
     if !vertex && (theirs || card) {
         return Err(Problem::usage(
             format!("`{}` is an instruction of the vertex units of nv20 to nv35; {format} has none", operation.name()),
-            "take `--device nv20`, `nv25`, `nv30` or `nv35`, with `--stage vertex`",
+            "use `--device nv20`, `nv25`, `nv30` or `nv35`, with `--stage vertex`",
         ));
     }
     Ok(())

@@ -10,7 +10,7 @@ const MAX_FIELDS: usize = 5;
 pub(super) fn other_fields(line: u64, expected: &str, found: usize) -> InputError {
     let fields = if found == 1 { "field" } else { "fields" };
     input_error!("crossbar::alu::fields" => "line {line}: expected {expected}, found {found} {fields}";
-        help "write the fields of one operation on one line, parted by blanks or commas")
+        help "write the fields of one operation on one line, separated by blanks or commas")
 }
 
 /// The fields of a line, separated by blanks or commas.
@@ -96,7 +96,7 @@ impl LineFormat {
         match self.after {
             (0, _) => operands,
             (2, _) => format!("{operands}, result and flags"),
-            _ => format!("{operands}, result and perhaps flags"),
+            _ => format!("{operands}, result and optionally flags"),
         }
     }
 }

@@ -37,7 +37,7 @@ Examples:
   echo 3C008C00 3C000C00 00000000 | crossbar alu dot --unit hopper-f16
       1 * 1 - 2^-12 * 2^-12 on a tensor core of Hopper: prints 3f7fffff; on Volta 3f800000
 
-Lines: hexadecimal operands parted by blanks or commas, as TestFloat writes them; blank lines are skipped. A result has as many \
+Lines: hexadecimal operands separated by blanks or commas, as TestFloat writes them; blank lines are skipped. A result has as many \
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
 08 division by zero, 10 invalid.
 
@@ -61,11 +61,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "F", required_unless_present_any = ["device", "unit"])]
     format: Option<Format>,
 
-    /// A device, in place of a format: its instruction of this name, by the unit that was measured or by its rules
+    /// A device, in place of a format: its instruction of this name, by its measured unit or its rules
     #[arg(long, value_name = "D", conflicts_with = "format")]
     device: Option<String>,
 
-    /// The stage of the device; by default the one whose unit was measured, or else pixels
+    /// The stage of the device; by default the one with a measured unit, otherwise pixels
     #[arg(long, requires = "device", value_parser = stages())]
     stage: Option<AluStage>,
 
@@ -81,7 +81,7 @@ pub(super) struct Args {
           conflicts_with_all = ["format", "device", "to", "block", "accumulator", "summation", "flags", "seed"])]
     unit: Option<MatrixUnit>,
 
-    /// The format that `convert` goes to
+    /// The result format of `convert`
     #[arg(long, value_name = "F2")]
     to: Option<Format>,
 
@@ -89,7 +89,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "B", value_parser = blocks())]
     block: Option<BlockFormat>,
 
-    /// The format in which `dot` rounds products and sums; by default that of the operands
+    /// The format in which `dot` rounds products and sums; by default the operands' format
     #[arg(long, value_name = "A")]
     accumulator: Option<Format>,
 
@@ -108,7 +108,7 @@ pub(super) struct Args {
     #[arg(long)]
     verify: bool,
 
-    /// Write the exception flags behind each result, or compare them
+    /// Write the exception flags after each result, or compare them
     #[arg(long)]
     flags: bool,
 
@@ -234,7 +234,7 @@ fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Resul
     };
     if args.verify || args.to.is_some() {
         return Err(Problem::usage(
-            "operations on lines of many numbers take neither `--verify` nor `--to`",
+            "operations on lines of many numbers support neither `--verify` nor `--to`",
             "leave the option out; `--format` is the format of the plain numbers",
         ));
     }
@@ -242,14 +242,14 @@ fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Resul
     if formats.iter().any(by_chance) {
         return Err(Problem::usage(
             "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
-            "take another rounding, or round each number on a line of its own",
+            "use another rounding, or round each number on its own line",
         ));
     }
     if let RowOperation::Dot(DotOrder::Aligned(_), accumulator) = operation
         && accumulator.is_fixed()
     {
         return Err(Problem::usage(
-            format!("`--summation aligned` goes by exponents: expected sums in a float format, found `{accumulator}`"),
+            format!("`--summation aligned` compares exponents: expected sums in a float format, found `{accumulator}`"),
             "leave it out: sums of fixed point are exact; or add a float `--accumulator`",
         ));
     }
@@ -264,8 +264,8 @@ fn unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<Al
         None if !convert => format,
         None => {
             return Err(Problem::usage(
-                "`convert` needs the format it goes to",
-                "add for example `--to fp16`; `--format` is the format it comes from",
+                "`convert` needs a result format",
+                "add for example `--to fp16`; `--format` is the source format",
             ));
         }
         Some(_) => {

@@ -151,8 +151,8 @@ impl Summary<'_> {
         table.push(["biclusters".into(), self.biclusters.len().into()]);
         table.push(["their rows".into(), self.biclusters.row_entries().into()]);
         table.push(["their columns".into(), self.biclusters.column_entries().into()]);
-        table.push(["operations of the matrix".into(), before.into()]);
-        table.push(["operations of biclusters".into(), after.into()]);
+        table.push(["operations per product, matrix".into(), before.into()]);
+        table.push(["operations per product, biclusters".into(), after.into()]);
         if before > 0 {
             table.push(["share (%)".into(), Cell::measured(100.0 * after as f64 / before as f64)]);
         }
@@ -163,7 +163,7 @@ impl Summary<'_> {
         for (what, count) in rounded.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
             table.push([what.into(), count.into()]);
         }
-        table.push(["places where the sum differs".into(), self.residual.count.into()]);
+        table.push(["entries where the biclusters' sum differs from the matrix".into(), self.residual.count.into()]);
         if self.residual.count > 0 {
             table.push(["largest difference".into(), Cell::measured(self.residual.largest)]);
         }

@@ -42,7 +42,7 @@ pub(super) struct Args {
     #[arg(value_name = "MODEL", help = transfer_model_help())]
     model: PathBuf,
 
-    /// Local directions along an edge of the square that is mapped to the hemisphere
+    /// Local directions per side of the square that is mapped to the hemisphere
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
     directions: u8,
 

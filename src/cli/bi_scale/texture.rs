@@ -34,15 +34,15 @@ pub(super) struct Args {
     #[arg(value_name = "PATCH")]
     source: PathBuf,
 
-    /// Texels along an edge; the paper has 32 and 64
+    /// Texels per side; the paper uses 32 and 64
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1024))]
     texels: u32,
 
-    /// Directions of light along an edge of the square that is mapped to the hemisphere: as for transfer
+    /// Light directions per side of the square that is mapped to the hemisphere, as for transfer
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
     directions: u8,
 
-    /// Directions of the view along an edge of such a square
+    /// View directions per side of such a square
     #[arg(long, value_name = "K", default_value_t = 12, value_parser = clap::value_parser!(u8).range(1..=64))]
     views: u8,
 

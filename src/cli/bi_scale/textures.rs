@@ -23,11 +23,11 @@ pub(super) struct PatchArgs {
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
     pub(super) repeat: f64,
 
-    /// Texels along an edge of the textures of patches [default: 64]
+    /// Texels per side of textures of patches [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     texture_size: Option<u32>,
 
-    /// Directions of the view along an edge of the square, of the textures of patches [default: 12]
+    /// View directions per side of the square, for textures of patches [default: 12]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
     texture_views: Option<u8>,
 

@@ -29,7 +29,7 @@ Examples:
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.npz
       fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
 
-CSV and NumPy arrays hold a row per point. The file that is written holds the clusters and how they were made.";
+CSV and NumPy arrays hold a row per point. The output file holds the clusters and their provenance.";
 
 /// Maximum number of iterations per number of vectors, and maximum number of rounds of redistribution.
 const ITERATIONS: usize = 10;

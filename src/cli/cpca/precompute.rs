@@ -151,7 +151,9 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         record.report(&mut findings);
         findings.field("off_host", json!({ "coefficients": differing, "relative_rms": off }));
         let [differing, off] = [counted(differing as usize), measured(off)];
-        findings.print(format!("engine: {differing} coefficients differ from those by the host's rays, {off} of all in the root mean square"));
+        findings.print(format!(
+            "engine: {differing} coefficients differ from those by the host's rays, with a relative RMS of {off}"
+        ));
     }
     Ok(findings)
 }
@@ -210,7 +212,7 @@ fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
         found.print(format!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")));
     }
     let more = [
-        (buried.len(), "vertices lie inside of something: all their rays are blocked, most from behind"),
+        (buried.len(), "vertices lie inside a solid: all their rays are blocked, mostly from behind"),
         (dark.len() - buried.len().min(dark.len()), "more vertices see no sky at all"),
         (unclear.len(), "vertices lie on triangles that face each other"),
     ];

@@ -77,7 +77,7 @@ pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Li
         let lights: Option<Vec<Light>> = asked.iter().map(of_pass).collect();
         return Ok(Lighting::Lights(lights.ok_or_else(|| {
             let help = "lights of pass 1 may be repeated; an environment map takes their place";
-            Problem::usage("expected one environment map alone, found other `--light` beside it", help)
+            Problem::usage("expected a single environment map, found another `--light` in addition", help)
         })?));
     }
     let unit = |v: DVec3| v.normalize_or_zero();

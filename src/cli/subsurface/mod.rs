@@ -115,7 +115,11 @@ impl StudyArgs for Args {
         let camera = self.eye.framing(&mesh, self.size)?;
         let lighting = lighting(&self.light, &camera)?;
         let idle = self.caster.is_named() && matches!(lighting, Lighting::Lights(_));
-        given::refuse([("--caster", idle)], "shadows of an environment map", "leave it out, or add one by `--light`")?;
+        given::refuse(
+            [("--caster", idle)],
+            "shadows of an environment map",
+            "leave it out, or add an environment map with `--light`",
+        )?;
         self.part.refuse_engine(&self.caster)?;
         Ok(Parameters {
             model: self.model.display().to_string(),

@@ -49,7 +49,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, default_value = "both", value_parser = models())]
     pub(super) timing: &'static [Level],
 
-    /// Read-back mode: the host waits, or not [default: as the run says]
+    /// Read-back mode: the host waits, or not [default: the run's]
     #[arg(long, value_name = "MODE", value_parser = readback())]
     pub(super) readback: Option<ReadBackMode>,
 

@@ -66,10 +66,10 @@ impl ComparedSides<'_> {
             TraceStage::Flow { left, right } => {
                 let side = |next: &Option<usize>| next.map_or("the end".to_owned(), |i| format!("instruction {i}"));
                 let sides = format!("{} on the left, {} on the right", side(left), side(right));
-                (format!("stage: flow control: what runs next is {sides}"), left.or(*right))
+                (format!("stage: flow control: the next instruction is {sides}"), left.or(*right))
             }
             TraceStage::Output { instruction } => {
-                let text = format!("stage: what the program leaves behind: {name}");
+                let text = format!("stage: results of the program: {name}");
                 (text, *instruction)
             }
             TraceStage::Test { left, right } => {

@@ -43,7 +43,7 @@ impl Binder<'_> {
                 (ConstantTarget::Named(width), Constant::Vector(numbers)) => {
                     let singles: Vec<u32> = numbers.iter().map(|number| number.single()).collect();
                     let value = of_width(name, width, &singles);
-                    let help = "a scalar has one number, a vector as many as components, a matrix a vector per column";
+                    let help = "a scalar has one number, a vector one per component, a matrix one vector per column";
                     let value = value.map_err(|message| self.place.wrong(span, message, help))?;
                     constants.named.insert(name.clone(), value);
                 }
@@ -55,7 +55,8 @@ impl Binder<'_> {
                     *place_at(&mut constants.boolean, number) = *value;
                 }
                 _ => {
-                    let message = format!("the value of `{name}` does not fit the register, or there is no such one");
+                    let message =
+                        format!("the value of `{name}` does not fit the register, or there is no such register");
                     return self.odd(span, message);
                 }
             }

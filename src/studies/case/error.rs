@@ -125,7 +125,7 @@ impl CaseText {
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
         let message = error.message().trim_end().replace('\n', ", ");
         CaseError::Schema {
-            help: format!("{}docs/cases.md describes what a case may say", did_you_mean_field(&message)),
+            help: format!("{}docs/cases.md describes the case format", did_you_mean_field(&message)),
             message,
             source_code: self.source.clone(),
             span: error.span().map(|span| self.clamp(span)),

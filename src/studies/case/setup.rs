@@ -163,7 +163,7 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
         },
         reason: if index.is_some() { "takes none" } else { "the case does not run" },
         help: match index {
-            Some(_) => "only instructions that write numbers to a register take one".to_owned(),
+            Some(_) => "only instructions that write numbers to a register can have one".to_owned(),
             None => format!("a changed program has another digest; here they are {}", own.join(" and ")),
         },
     };

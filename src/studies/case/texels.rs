@@ -228,11 +228,15 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture, image: &Image) -> Res
         None => Ok(()),
     };
     if written.min.is_some() && written.mag.is_some() {
-        unused(written.filter.as_ref().map(Spanned::span), "`filter` beside `min` and `mag`", "it has nothing to say")?;
+        unused(
+            written.filter.as_ref().map(Spanned::span),
+            "`filter` in addition to `min` and `mag`",
+            "it has no effect",
+        )?;
     }
     let border = written.border.as_ref().map(Spanned::span);
     let bordered = written.address.as_ref().is_some_and(|address| address.get_ref().0.iter().any(|a| a == "border"));
-    unused(border.filter(|_| !bordered), "`border` without `address = \"border\"`", "no read comes that far")?;
+    unused(border.filter(|_| !bordered), "`border` without `address = \"border\"`", "no read reaches the border")?;
     let levels = image.levels().len() as u32;
     let beyond = written.max_mip_level.as_ref().filter(|level| *level.get_ref() >= levels).map(Spanned::span);
     unused(beyond, "the texture has no such level", "`mipmaps` lists the levels from 1 on")?;

@@ -60,7 +60,7 @@ impl KeptResults {
             if let Some([expected, found]) = self.difference(&header) {
                 let other = input_error!(
                     "crossbar::part::other" => "expected a result of\n{expected}\nfound one of\n{found}";
-                    help "go on with the command, the inputs and the program of the first run, or name another folder"
+                    help "continue with the command, the inputs and the program of the first run, or name another folder"
                 );
                 return Err(other.at(path.as_path()));
             }

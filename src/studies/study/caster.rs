@@ -44,11 +44,11 @@ pub struct CasterOptions {
     #[arg(long, value_name = "TRIANGLES,DEPTH")]
     octree: Option<CountPair>,
 
-    /// Least and most triangles of a cell that the card tests [default: 5,15]
+    /// Minimum and maximum number of triangles of a cell that the card tests [default: 5,15]
     #[arg(long, value_name = "LEAST,MOST")]
     pass_triangles: Option<CountPair>,
 
-    /// Rays of a pass on the card; the host tests rays of cells that fewer meet [default: 64]
+    /// Rays per pass on the card; the host tests the rays of cells that fewer rays meet [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pass_rays: Option<u32>,
 

@@ -43,7 +43,7 @@ pub struct LeakyTeapotOptions {
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub rays_per_edge: u32,
 
-    /// Which faces can be hit.
+    /// Sides of faces that can be hit.
     #[arg(long, default_value = "front", value_parser = sides())]
     pub sides: Sides,
 

@@ -214,7 +214,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     found.heading("The figures");
     found.paragraph(
         "largest_t_error is in multiples of the ray's direction. A pixel differs if its shaded colour does. r200 rows: the \
-         card as its profile has it, then each open question of the hardware answered otherwise, one at a time.",
+         card as in its profile, then with each open switch of the hardware changed, one at a time.",
     );
     found.table(rows.csv("rows").field("rows"));
     if aimed(parameters) {
@@ -222,7 +222,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
         found.paragraph(
             "The paper's equations are evaluated once for each triangle, and on a shared edge the two evaluations need not \
              agree: a ray can miss both neighbours, in any precision. These rays are aimed from the eye at random points of \
-             every shared edge, and at every vertex; counted are those that truly hit.",
+             every shared edge, and at every vertex; only rays that truly hit are counted.",
         );
     }
     found.table(edges.csv("edges").field("edges"));
@@ -232,8 +232,8 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
             "Rows with shared edges sort the corners of each triangle, and compute an edge from its own two corners alone, by \
              the same operations in both of its triangles: both get the same bits, one asks for at least 0, the other for at \
              most 0, so no ray is outside both. Near a vertex every edge of the fan can still be rounded to the same side. \
-             Counted are rays whose first hit lies where all triangles around face the eye: beside an outline a miss may be \
-             right for the rounded ray.",
+             Only rays are counted whose first hit lies where all surrounding triangles face the eye: near an outline, a \
+             miss may be right for the rounded ray.",
         );
         found.table(FoundTable::from(programs).csv("programs").field("programs"));
     }

@@ -89,7 +89,7 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     };
     let (errors, elements) = (worst.last(), rows * columns);
     if errors.differing == 0 {
-        found.conclusion(format!("All {elements} elements are those of {reference}."));
+        found.conclusion(format!("All {elements} elements equal those of {reference}."));
         return;
     }
     let mut sentence = format!(
@@ -101,7 +101,7 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
         errors.differing,
     );
     if best.last().worst < errors.worst {
-        sentence += &format!(" The least error is that of {}: up to {}.", best.name(), error(best.last().worst));
+        sentence += &format!(" The smallest error is that of {}: up to {}.", best.name(), error(best.last().worst));
     }
     found.conclusion(sentence);
 }
@@ -154,9 +154,9 @@ fn add_blame(found: &mut Findings, study: &MatrixProduct, blame: &Blame) {
     let products = format!("products {} to {}", before.k, behind.k.saturating_sub(1));
     let [from, to] = [before, behind].map(|sums| error(sums.ours - sums.theirs));
     let sentence = match study.against {
-        _ if before.k == behind.k => format!("Element ({row}, {column}): {unit} and {other} do not part."),
-        Some(_) => format!("{ends}. The sums first part in the {products}, by {to}."),
-        None => format!("{ends}. The {products} add most to it: behind them it is {to}, before them {from}."),
+        _ if before.k == behind.k => format!("Element ({row}, {column}): {unit} and {other} do not differ."),
+        Some(_) => format!("{ends}. The sums first differ in the {products}, by {to}."),
+        None => format!("{ends}. The {products} add most to it: after them it is {to}, before them {from}."),
     };
     found.heading("One element");
     found.paragraph(sentence.clone());

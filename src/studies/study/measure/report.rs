@@ -96,7 +96,7 @@ fn settings(survey: &Survey) -> Table {
 
 /// Codes that the best setting gets wrong.
 fn wrong(survey: &Survey) -> Table {
-    let title = format!("Codes that the best setting draws otherwise: {}", survey.wrong.len());
+    let title = format!("Codes that the best setting gets wrong: {}", survey.wrong.len());
     let mut table = Table::of(title, "line column measured drawn");
     for code in survey.wrong.iter().take(MOST_SHOWN) {
         table.push([code.line.into(), CODES[code.column].into(), code.measured.into(), code.drawn.into()]);

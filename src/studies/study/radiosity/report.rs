@@ -41,7 +41,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         let picture = |kind: &str, image, what: &str| {
             NamedPicture::new(format!("{label}-{kind}"), image, format!("{label}: {what}"))
         };
-        pictures.push(picture("flat", drawn.flat, "each patch in its radiosity"));
+        pictures.push(picture("flat", drawn.flat, "each patch with its radiosity"));
         let smooth = picture("smooth", drawn.smooth, "resampled to corners");
         if leads {
             lead.push(smooth)

@@ -151,7 +151,7 @@ fn card(outcome: &RadiosityOutcome) -> Table {
 
 fn relit(outcome: &RadiosityOutcome) -> Table {
     let mut table = Table::of(
-        "After the changes: iterations from the solution before, and from nothing",
+        "After the changes: iterations from the previous solution, and from zero",
         "way from_the_last from_nothing saved_%",
     );
     for (row, relit) in outcome.rows.iter().filter_map(|row| Some((row, row.relit.as_ref()?))) {

@@ -17,7 +17,7 @@ const MAX_ALL_PAIRS_SIDE: u32 = 512;
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]
 pub struct SubsurfaceOptions {
-    /// Millimeters of a unit of the model; never guessed.
+    /// Millimeters per unit of the model; never guessed.
     #[arg(long, value_name = "MM", value_parser = number::positive)]
     pub mm_per_unit: f64,
 
@@ -25,11 +25,11 @@ pub struct SubsurfaceOptions {
     #[arg(long = "atlas", value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(1..=8192))]
     pub side: u32,
 
-    /// Links per texel; for fixed ones 1, 4, 16, 64, ...
+    /// Links per texel; for fixed links 1, 4, 16, 64, ...
     #[arg(long, value_name = "L,L", value_delimiter = ',', default_value = "16", value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub links: Vec<u32>,
 
-    /// Which links; may be repeated [default: fixed]
+    /// Layout of links; may be repeated [default: fixed]
     #[arg(long = "choice", value_name = "HOW", value_parser = choices())]
     pub choices: Vec<LinkLayout>,
 
@@ -41,11 +41,11 @@ pub struct SubsurfaceOptions {
     #[arg(long = "link-format", value_name = "F", value_parser = variants::<FloatTexels>())]
     pub link_formats: Vec<FloatTexels>,
 
-    /// The radiosity map; may be repeated [default: fp16]
+    /// Format of the radiosity map; may be repeated [default: fp16]
     #[arg(long = "map", value_name = "F", value_parser = maps())]
     pub maps: Vec<MapBits>,
 
-    /// Largest relative error of factors, beside 1e-5 of the total
+    /// Largest relative error of factors, in addition to 1e-5 of the total
     #[arg(long, value_name = "X", default_value_t = crate::subsurface::multipole::TOLERANCE, value_parser = number::positive)]
     pub tolerance: f64,
 
@@ -70,7 +70,7 @@ fn rgb() -> OneOf<bool> {
 /// Values of `--map`: formats of the radiosity map.
 fn maps() -> OneOf<MapBits> {
     one_of([
-        ("8bit", "8 bits per channel, whose levels the card makes itself", MapBits::Eight),
+        ("8bit", "8 bits per channel, whose levels the card generates", MapBits::Eight),
         ("fp16", "Half floats, levels by passes", MapBits::Float(FloatTexels::Fp16)),
         ("fp32", "Single floats, levels by passes", MapBits::Float(FloatTexels::Fp32)),
     ])

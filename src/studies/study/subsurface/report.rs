@@ -57,7 +57,7 @@ const ERRORS: &str = "links: the host's sum over the links, in double precision,
     of levels that count texels alike, as mipmaps of plain irradiance would; card: the card against the host's sum over the same links; all: the card \
     against all pairs. Without all pairs (`--all-pairs no`, and the default of atlases above ";
 
-const ANGLES: &str = "A root mean square over the model is made by its lit side. Here every bin of angles is held against its own light: 0 degrees is \
+const ANGLES: &str = "The lit side of a model dominates a root mean square over all of it. Here every bin of angles is compared with its own light: 0 degrees is \
     the surface that faces the light, 180 degrees the one that is turned away from it, which all light reaches from afar.";
 
 const STORAGE: &str = "Fixed links have their places in constants and four factors a texel, adaptive ones a texel each with place, factor and level. Factors \

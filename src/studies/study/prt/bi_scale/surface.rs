@@ -46,7 +46,7 @@ impl TexturedSurface {
     /// texture coordinates. Fails if the mesh has no texture coordinates, or there is not a texture per triangle.
     pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, StudyError> {
         if mesh.texcoords().is_none() {
-            let what = "the model has no texture coordinates, which say where on it a patch lies";
+            let what = "the model has no texture coordinates, which place patches on it";
             return Err(StudyError::new("crossbar::prt::surface", what));
         }
         if texture_of.len() != mesh.len() {

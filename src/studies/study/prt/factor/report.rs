@@ -34,7 +34,7 @@ impl Study for BrdfFactors {
         terms::charts(&all).into_iter().for_each(|chart| found.chart(chart));
         self.between(&mut found, &factors);
         if !harmonic.is_empty() {
-            found.heading("Beside spherical harmonics");
+            found.heading("Compared with spherical harmonics");
         }
         found.table(FoundTable::from(harmonics::table(&harmonic)).csv("harmonics").field("harmonics"));
         found.heading("Directional albedo");

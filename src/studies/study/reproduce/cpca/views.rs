@@ -76,7 +76,7 @@ impl<'a> ModelView<'a> {
 
     /// Colors of pixels from a clustering, or from the transfer itself.
     pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, StudyError> {
-        let lit = Lit::new(&self.computed.meaning, self.light).ok_or("the signal is no transfer").on(HOST)?;
+        let lit = Lit::new(&self.computed.meaning, self.light).ok_or("the signal is not transfer").on(HOST)?;
         let exit = clustering.map_or_else(|| lit.of_signal(&self.computed.signal), |c| lit.of_clusters(c));
         Ok(self.of_vertices(&lit.radiance(&exit, &self.computed.vertices, self.eye())))
     }

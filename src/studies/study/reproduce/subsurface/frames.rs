@@ -25,9 +25,9 @@ const EVALUATION_CLOCKS: f64 = 2.0 * (95.0 + 27.0 + 20.0);
 /// Clock of this host in Hz (Tom's Hardware).
 const HOST_HZ: f64 = 2.083e9;
 
-const HOW: &str = "The first and the third pass are drawn on stand-ins of as many faces, by vertex as the text has it, with the transmittance towards the \
-    eye from a texture and a window of {} x {} pixels, which is not printed. Links are fixed and the map has bytes, \
-    whose levels the card generates by itself.";
+const HOW: &str = "Passes 1 and 3 are drawn with stand-in models that have the paper's face counts, per vertex as in the paper; the transmittance towards \
+    the eye is read from a texture. The window has {} x {} pixels; the paper does not give its size. Links are fixed, and the map has 8-bit texels, whose \
+    mip levels the card generates.";
 const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so that a frame takes a whole number of periods of {} ms: the modelled \
     rates are {} over the periods that the three passes and the map's levels need. The waits are in the printed shares, so the printed times of passes are \
     upper bounds of what they took, most of all for the shorter passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at \

@@ -10,7 +10,7 @@ use crate::report::SourceText;
 /// Error of a text that is not an expression, or is not supported: the reason and the position.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[error("{message}")]
-#[diagnostic(code(crossbar::expression), help("docs/precision.md lists what is taken"))]
+#[diagnostic(code(crossbar::expression), help("docs/precision.md lists what is supported"))]
 pub struct ExpressionError {
     message: String,
     #[source_code]

@@ -14,11 +14,11 @@ const MAX_NODES: usize = 20_000;
 
 /// Unsupported operators of FPCore, with the reasons.
 const REFUSED: [(&str, &str); 6] = [
-    ("!", "the format under study is that of every operation, so that annotations of some have no meaning"),
-    ("while while* for for*", "loops are not taken: expressions are straight-line"),
-    ("tensor tensor* array ref dim size", "tensors are not taken"),
+    ("!", "the studied format applies to every operation, so annotations of single operations have no meaning"),
+    ("while while* for for*", "loops are not supported: expressions are straight-line"),
+    ("tensor tensor* array ref dim size", "tensors are not supported"),
     ("erf erfc tgamma lgamma", "it has no enclosure over the reals here"),
-    ("floor ceil trunc round nearbyint fmod remainder fdim copysign", "functions with jumps are not taken"),
+    ("floor ceil trunc round nearbyint fmod remainder fdim copysign", "functions with jumps are not supported"),
     ("isfinite isinf isnan isnormal signbit INFINITY NAN", "it has no meaning over the reals"),
 ];
 
@@ -35,7 +35,9 @@ pub(super) fn core(tree: &Tree, source: &Arc<SourceText>) -> Result<Expression, 
     };
     let named = |argument: &Tree| match argument.atom() {
         Some(name) => Ok(name.to_owned()),
-        None => Err(fail("expected the name of an argument; annotations and tensors are not taken", argument.place())),
+        None => {
+            Err(fail("expected the name of an argument; annotations and tensors are not supported", argument.place()))
+        }
     };
     let variables = arguments.iter().map(named).collect::<Result<Vec<String>, _>>()?;
     let (mut preconditions, mut spec) = (Vec::new(), None);

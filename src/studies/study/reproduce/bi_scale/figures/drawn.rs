@@ -27,7 +27,7 @@ impl DrawnFigure {
         let local = drawing.local(&cube).on(HOST)?;
         let drawn = drawing.shade(&local.rows);
         let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).on(HOST)?;
-        let matrix = rendering.file.matrix.as_ref().ok_or("a rendering without its matrix").on(HOST)?;
+        let matrix = rendering.file.matrix.as_ref().ok_or("the rendering has no transfer matrix").on(HOST)?;
         let low = low_frequency(&rendering, matrix, side, &light_vectors(&cube))?;
         Ok(Self { causes, smooth: drawing.shade(&low) })
     }
