@@ -1,7 +1,7 @@
 //! Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
 //!
-//! The emulated cards are in the crate `refsim`; the systems that ran on them, the studies and the program are here. So
-//! is [`oracle`], which checks other ray-triangle intersectors by exact arithmetic:
+//! The emulated cards are in the crate `refsim`; this crate has the systems that run on them, the studies and the
+//! program. It also has [`oracle`], which checks other ray-triangle intersectors with exact arithmetic:
 //!
 //! ```
 //! use crossbar::geom::{Hit, Mesh, Ray, Sides};
@@ -44,9 +44,9 @@
 //!
 //! - [`oracle`]: every hit of an intersector of yours that is wrong, and rays on which intersectors differ
 //! - [`ray_engine`], [`radiosity`], [`subsurface`], [`cpca`], [`all_frequency`], [`bi_scale`]: the six systems; each
-//!   has its paper's equations on the host, the programs of the card, and a module `paper` to be read beside it
+//!   has its paper's equations on the host, the programs of the card, and a module `paper`, to be read with the paper
 //! - [`scene`], [`geom`], [`tracer`], [`renderer`]: models and scenes, meshes and rays, a fast caster and pictures
-//! - [`study`]: what the program's commands compute, as parameters that answer with findings
+//! - [`study`]: the computations of the program's commands, from parameters to findings
 //! - `refsim`: programs, cards, number formats, durations
 //!
 //! # Features

@@ -3,9 +3,10 @@
 //!
 //! Figure to beat: 13 frames per second without drawing, ten times the printed 1.3: 77 ms for steps 2 and 3. An element
 //! is one multiplication of these steps. For comparison: equation 13 in plain f64 loops. `density` is the time of one
-//! segment by the share of its nonzero numbers.
+//! segment by its fraction of nonzero numbers.
 //!
-//! Measured once on two quiet cores: 46 ms, versus 458 ms for plain loops on one; representatives: 23 ms, 211 MB.
+//! Measured once on two quiet cores: 46 ms, compared with 458 ms for plain loops on one core; representatives: 23 ms,
+//! 211 MB.
 //!
 //! The data are random, because compression would take an hour and the frame time does not depend on the values.
 //!
@@ -31,7 +32,7 @@ const FILLED: usize = 31_703;
 /// Density of nonzeros after the paper's wavelet transform: two fifths.
 const DENSITY: f64 = 0.4;
 
-/// A segment that is present at every vertex of a run; vertices take clusters in turn.
+/// A segment that is present at every vertex of a run; clusters are assigned to vertices in turn.
 fn segment(segment: usize, filled: usize, clusters: usize, density: f64) -> CodedSegment {
     let random = CounterRng::new(segment as u64);
     let rows = clusters * VECTORS;

@@ -1,8 +1,8 @@
-//! Speed of real cards, and of formats with other rules, relative to the ideal device of the same format.
+//! Speed of real cards, and of formats with different rules, relative to the ideal device with the same format.
 //!
 //! On a shared machine, the fastest of many short runs is more reliable than a median of long ones. So the devices draw
 //! alternately, on one thread, many times; the fastest draw of each counts. To beat: 1.5 times the time of the ideal
-//! device of the format.
+//! device with the same format.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -13,10 +13,10 @@ use crossbar::ray_engine::Crossbar;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
-/// Cards that run the engine, each with the ideal format that its own format varies.
+/// Cards that run the engine, each with the ideal format from which its own format differs.
 const CARDS: [(&str, &str); 6] =
     [("r200", "s3.12"), ("r300", "fp24"), ("r350", "fp24"), ("nv30", "fp32"), ("nv35", "fp32"), ("gt200", "fp32")];
-/// Formats, each with its other rules.
+/// Formats, each with different rules to measure.
 const RULES: [(&str, &[&str]); 4] = [
     ("s3.12", &["rna", "rtz", "rdn", "wrap"]),
     ("fp32", &["rna", "rtz", "rdn", "ftz", "sat", "nvovf", "nv"]),
@@ -30,7 +30,7 @@ const ROUNDS: usize = 25;
 /// Maximum time of a card or a rule, relative to the ideal device.
 const MOST: f64 = 1.5;
 
-/// The cards and formats, each with the format of its ideal device, and then these ideal devices.
+/// The cards and formats, each with the format of its ideal device; then these ideal devices.
 fn all() -> Vec<(String, &'static str)> {
     let ideal = |format: &str| format!("ideal-{format}");
     let of_rules = RULES.iter().flat_map(|&(format, rules)| {

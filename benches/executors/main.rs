@@ -4,10 +4,10 @@
 //! `cargo bench -p crossbar-benches --bench executors` measures, on two threads; `cargo bench -p crossbar-benches
 //! --bench executors -- --table` writes the last measurement into docs/performance.md.
 //!
-//! An element is one fragment of the pixel program (an intersection, in the crossbar's draws), one vertex where the
-//! vertex program is measured, one test of the other crates. The time includes everything that a draw needs: textures,
-//! vertices, set-up, attributes, depth and colour, read-back. `resident` draws reuse textures, streams and targets,
-//! which are cleared before. `--table` also measures cards, and formats with other rules (`devices`).
+//! An element is one fragment of the pixel program (in the crossbar's draws, an intersection), one vertex if the vertex
+//! program is measured, or one test of the other crates. The time includes everything that a draw needs: textures,
+//! vertices, set-up, attributes, depth and color, read-back. `resident` draws reuse textures, streams and targets,
+//! which are cleared before each draw. `--table` also measures cards, and formats with different rules (`devices`).
 
 mod devices;
 mod scenes;
@@ -22,17 +22,17 @@ use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 use std::hint::black_box;
 
-/// The formats of the speed figures.
+/// The formats for which speed is measured.
 const FORMATS: [&str; 4] = ["s3.12", "fp32", "fp16", "fp24"];
 /// Triangles in a draw of the crossbar.
 const TRIANGLES: usize = 256;
 /// Suffix of the names of draws on a resident card.
 const RESIDENT: &str = ", resident";
-/// Threads of the figures.
+/// Number of threads that are measured.
 const THREADS: usize = 2;
 
-/// 256 triangles of the teapot that face the camera, from all over it: the vertex program for rays of one origin moves
-/// the quads of back faces off the screen.
+/// 256 triangles of the teapot that face the camera, spread over all of it: the vertex program for rays of one origin
+/// moves the quads of back faces off the screen.
 fn mesh() -> Mesh {
     let whole = teapot(6).expect("the teapot tessellates");
     let eye = camera(1).eye().map(f64::from);
@@ -43,7 +43,7 @@ fn mesh() -> Mesh {
         let normal = [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]];
         let dot: f64 = normal.iter().zip(to_eye).map(|(n, o)| n * o).sum();
         let squares = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
-        // Not edge-on, since a narrow format may turn such a triangle away.
+        // Not edge-on, since a narrow format may make such a triangle face away.
         dot > 0.0 && dot * dot > 0.01 * squares(normal) * squares(to_eye)
     };
     let facing: Vec<[u32; 3]> = whole.triangles().iter().copied().filter(faces_the_eye).collect();
@@ -113,7 +113,7 @@ fn main() -> std::io::Result<()> {
     if std::env::args().any(|argument| argument == "--table") {
         return pool(1)?.install(table::write);
     }
-    // Calls from a thread of the pool, as a renderer's worker does: other callers wait for a worker to wake up.
+    // Called from a thread of the pool, as a renderer's worker would be: other callers wait for a worker to wake up.
     pool(THREADS)?.install(|| {
         let mut criterion = Criterion::default().configure_from_args();
         executors(&mut criterion);

@@ -39,7 +39,7 @@ enum Geometry {
     Program(Box<CheckedProgram>, Vec<[u32; 4]>),
 }
 
-/// All scenes, smaller ones for the executor that needs milliseconds instead of microseconds.
+/// All scenes; they are smaller for the scalar executor, which needs milliseconds instead of microseconds.
 pub(crate) fn all(kind: ExecutorKind) -> Vec<Scene> {
     let (side, vertices) = match kind {
         ExecutorKind::Scalar => (32, 3 * 1024),
@@ -96,7 +96,7 @@ fn dependent_reads() -> String {
     text
 }
 
-/// A program of 1024 instructions, each dependent on the previous one.
+/// A program of 1024 instructions, each of which depends on the previous one.
 fn long_program() -> String {
     let mut text =
         "ps_2_a\ndef c0, 0.5, -0.25, 0.125, 0.75\ndef c1, 0.25, 1, -0.5, 0.125\ndcl t0\nmov r1, t0\n".to_owned();
@@ -178,7 +178,7 @@ impl Card {
         let mut machine = Machine::new(profile(), kind);
         let target = machine.create_target(TexelFormat::Rgba8, scene.side, scene.side).expect("a target");
         let depth = machine.create_depth(DepthFormat::Unorm24, scene.side, scene.side).expect("a depth buffer");
-        // Neighbouring texels point to distant ones.
+        // Neighboring texels point to distant ones.
         let bytes = (0..256 * 256u32).flat_map(|i| i.wrapping_mul(0x9e37_79b9).to_le_bytes()).collect();
         let image = Image::from_bytes(TexelFormat::Rgba8, refsim::texture::TextureKind::D2, [256, 256, 1], 1, bytes)
             .expect("a texture of its size");

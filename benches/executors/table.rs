@@ -16,7 +16,7 @@ const GOALS: [(&str, f64); 8] = [
     ("256 rays x 256 triangles, resident fp32", 390.0),
     ("256 rays x 256 triangles, resident fp16", 150.0),
     ("256 rays x 256 triangles, resident fp24", 100.0),
-    // No goal for draws with uploads, but shown for comparison.
+    // Draws with uploads have no goal, but are shown for comparison.
     ("256 rays x 256 triangles s3.12", 450.0),
     ("256 rays x 256 triangles fp32", 390.0),
     ("256 rays x 256 triangles fp16", 150.0),
@@ -40,7 +40,7 @@ pub(crate) fn write() -> io::Result<()> {
     fs::write(&path, format!("{before}{BEGIN}\n{}{END}{after}", table(&figures)))
 }
 
-/// Reads every `new/estimates.json` with the `benchmark.json` beside it.
+/// Reads every `new/estimates.json` with the `benchmark.json` in the same folder.
 fn collect(folder: &Path, figures: &mut Figures) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();

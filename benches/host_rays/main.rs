@@ -1,4 +1,4 @@
-//! Host speed of ray casting: our octree versus other crates' trees, in the same run, on the same rays.
+//! Host speed of ray casting: our octree compared with other crates' trees, in the same run, on the same rays.
 //!
 //! Figure to beat: the crate `bvh` 0.13, the fastest of its traversals that is correct, with its own ray-triangle test
 //! (measured once: about 5 million rays per second on one thread; `obvhs` 8 to 15). Ratios are within one run.
@@ -18,7 +18,7 @@ use std::hint::black_box;
 use std::time::Duration;
 use tracers::Tracer;
 
-/// Thread counts of the figures.
+/// Numbers of threads that are measured.
 const THREADS: [usize; 2] = [1, 2];
 
 /// Name of a kind of rays, the rays, and the query.

@@ -9,7 +9,7 @@ const SIDE: u32 = 256;
 /// Start offset of shadow rays before the primary hit, relative to its t, to avoid self-shadowing.
 const BEFORE: f32 = 1e-3;
 
-/// A mesh and the rays of an image of it.
+/// A mesh, and the rays of a picture of it.
 pub(crate) struct Room {
     pub(crate) name: &'static str,
     pub(crate) mesh: Mesh,
@@ -37,7 +37,7 @@ fn room(name: &'static str, scene: &Scene) -> Room {
     Room { name, mesh, primary, shadow }
 }
 
-/// The first point light, or else a corner of the first emitting triangle.
+/// The first point light, otherwise a corner of the first emitting triangle.
 fn light(scene: &Scene) -> [f32; 3] {
     let shining = || scene.mesh().corners(scene.emitters()[0]).expect("a triangle of the scene")[0];
     scene.point_lights.first().map_or_else(shining, |light| light.position)

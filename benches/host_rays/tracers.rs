@@ -13,12 +13,12 @@ use rayon::prelude::*;
 
 use crate::rooms::Room;
 
-/// Number of rays that a worker takes at a time.
+/// Number of rays that a worker processes at a time.
 const CHUNK: usize = 256;
 
 /// A ray caster that runs on the current thread pool.
 pub(crate) trait Tracer: Sync {
-    /// Number of rays that hit anything; finds the nearest hit of each.
+    /// Finds the nearest hit of each ray, and returns the number of rays that hit anything.
     fn nearest(&self, rays: &[Ray]) -> usize;
 
     /// Number of rays that hit anything before t = 1.

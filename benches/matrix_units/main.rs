@@ -1,5 +1,5 @@
-//! Host speed of matrix products in matrix units, on one thread: 64 x 64 elements with K = 4096; 4 x 64 where units are
-//! computed product by product.
+//! Host speed of matrix products in matrix units, on one thread: 64 x 64 elements with K = 4096; 4 x 64 for units that
+//! are computed product by product.
 //!
 //! Figure to beat: `mmasim` 2.1.1, 82 to 97 ns per product (a batch of 65,536 dot products, torch on one thread). The
 //! aim is 2 ns of processor time per product at most. An element is one product.

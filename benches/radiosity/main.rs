@@ -1,5 +1,5 @@
-//! Host speed of matrix radiosity: an iteration over 4,096 patches on the batch executor versus f32 loops, and the f64
-//! product of the host's solvers versus nalgebra's.
+//! Host speed of matrix radiosity: an iteration over 4,096 patches on the batch executor compared with f32 loops, and
+//! the f64 product of the host's solvers compared with nalgebra's.
 //!
 //! Figures to beat: the batch executor takes at most ten times the loop's time, and the product matches nalgebra's
 //! matrix-vector product. Ratios are within one run. An element is one texel of the matrix, or one element.
@@ -25,7 +25,7 @@ const PATCHES: usize = 4096;
 /// Sizes of the products.
 const SIZES: [usize; 3] = [512, 1954, 4096];
 
-/// Form factors whose rows sum to 1, all different.
+/// Random form factors, whose rows sum to 1.
 fn factors(size: usize) -> Matrix {
     let random = CounterRng::new(size as u64);
     let mut matrix = Matrix::zeros([size; 2]).expect("a matrix");
@@ -46,7 +46,7 @@ fn system(size: usize) -> System {
     System::new(factors, vec![[0.7, 0.5, 0.3]; size], emittance).expect("a system")
 }
 
-/// Straightforward implementation of equation 4: row by row, three channels and one for padding, single-threaded.
+/// Plain implementation of equation 4: row by row, three channels and one for padding, on one thread.
 fn plain_step(matrix: &Texels, e: &Texels, b: &Texels) -> Vec<[f32; 4]> {
     (0..matrix.height)
         .map(|i| {

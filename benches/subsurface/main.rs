@@ -1,10 +1,10 @@
-//! Host speed of subsurface scattering: links of an atlas, and pass 2 on the batch executor versus an f32 loop.
+//! Host speed of subsurface scattering: links of an atlas, and pass 2 on the batch executor compared with an f32 loop.
 //!
-//! Figures to beat: 16 fixed links per texel of 1024 x 1024 in the paper's 9 s on two threads; gathering squares of
-//! texels together at least three times as fast as texel by texel; pass 2 at most five times the loop's time. Ratios
-//! are within one run. An element is one texel. Measured once, on two cores: 6.9 s; 0.47 s on one core for every 64th
-//! texel alone, so together is 2.2 times as fast, which misses the aim. Pass 2: 22.8 ms on two threads versus 4.7 ms of
-//! the loop on one, 4.9 times.
+//! Figures to beat: 16 fixed links per texel of 1024 x 1024 in the paper's 9 s on two threads; gathering texels in
+//! squares at least three times as fast as texel by texel; pass 2 at most five times the loop's time. Ratios are within
+//! one run. An element is one texel. Measured once, on two cores: 6.9 s; 0.47 s on one core for every 64th texel alone,
+//! so squares are only 2.2 times as fast, which misses the goal. Pass 2: 22.8 ms on two threads compared with 4.7 ms
+//! for the loop on one, 4.9 times.
 //!
 //! `cargo bench -p crossbar-benches --bench subsurface`
 
@@ -24,11 +24,11 @@ use std::time::Duration;
 
 /// Texels along a side, as in Table 1 of the paper.
 const SIDE: u32 = 1024;
-/// 16 clusters.
+/// Level of the atlas with 16 clusters.
 const LEVEL: u32 = SIDE.ilog2() - 2;
 /// Scale for a stand-in about 4 units long.
 const MM_PER_UNIT: f64 = 20.0;
-/// One texel in this many gathers alone, for comparison.
+/// One in this many texels is gathered alone, for comparison.
 const STEP: usize = 64;
 
 /// The medium of the paper's Figure 7.
@@ -64,7 +64,7 @@ fn links(criterion: &mut Criterion, surface: &SurfaceMoments) {
     group.finish();
 }
 
-/// Pass 2 as a straightforward loop on one thread: four factors of a texel at a time.
+/// Pass 2 as a plain loop on one thread: four factors of a texel at a time.
 fn plain_gather(links: &Links, means: &[[f32; 4]]) -> Vec<[f32; 4]> {
     let gather = |factors: &[f32]| {
         let mut sum = [0.0_f32; 4];

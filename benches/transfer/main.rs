@@ -1,4 +1,4 @@
-//! Host speed of transfer precomputation: the shadow rays of all vertices, and diffuse transfer from them.
+//! Host speed of transfer precomputation: the shadow rays of all vertices, and diffuse transfer from their results.
 //!
 //! Figure to beat: 30 million rays in 5 s on two threads, which is 10 s of processor time. An element is one ray,
 //! traced or not. Measured once, on one thread of a shared EPYC (Zen 5), a bumpy body of 49,990 vertices with 1,035

@@ -1,4 +1,4 @@
-"""Beside other packages: nanoseconds per product of two arrays, and first hits of trimesh with Embree.
+"""Comparison with other packages: nanoseconds per product of two arrays, and first hits of trimesh with Embree.
 
     pip install crossbar-gi gfloat ml_dtypes apytypes trimesh embreex
     python python/benches/compare.py
@@ -9,7 +9,7 @@ Prints the tables of docs/python.md. Times are of the processor, on one thread, 
 import importlib.metadata
 import os
 
-# Before the package starts its threads.
+# Must be set before the package starts its threads.
 os.environ["RAYON_NUM_THREADS"] = "1"
 
 import sys
@@ -37,7 +37,7 @@ def version(package):
 
 
 def products():
-    """Products of 100,000 pairs in fp16, e4m3fn, and s3.12 rounded down, of operands of the format."""
+    """Products of 100,000 pairs in fp16, e4m3fn, and s3.12 rounded down; operands have the same format."""
     import apytypes
     import gfloat
     import ml_dtypes
@@ -72,7 +72,7 @@ def products():
 
 
 def first_hits():
-    """Hard rays and ordinary ones on a sphere of trimesh, first hits of Embree in single precision."""
+    """Hard and ordinary rays on a sphere of trimesh; first hits of Embree in single precision."""
     import trimesh
     from trimesh.ray.ray_pyembree import RayMeshIntersector
 
@@ -94,7 +94,7 @@ def first_hits():
         ]:
             spent = 1e-3 * shortest(hits) * N / len(origins)
             triangle = np.asarray(hits())
-            # trimesh gives no t here: triangles are judged alone.
+            # trimesh returns no t here, so only triangles are judged.
             verdicts = cg.oracle(mesh.vertices, mesh.faces, ulps=2**32 - 1).judge(
                 origins, directions, triangle, np.ones(len(triangle), np.float32)
             )

@@ -1,4 +1,4 @@
-# The compiled part: see python/src. What users call is in the modules beside it.
+# The compiled part: see python/src. Users call the Python modules in this folder.
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Shaders and cases on emulated graphics cards: what they draw, what every instruction writes, where two sides part."""
+"""Shaders and cases on emulated graphics cards: pictures, results of every instruction, differences of two sides."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 
-#: A case: the path of a TOML file, its text, a dictionary of the same fields, or the text of a pixel shader alone.
+#: A case: the path of a TOML file, its text, a dictionary of the same fields, or only the text of a pixel shader.
 CaseLike = str | os.PathLike[str] | Mapping[str, Any]
 
-#: Width and height of the target of a shader that comes without a case.
+#: Width and height of the target for a shader without a case.
 SHADER_SIZE = (64, 64)
 
 
 class Run:
-    """What a draw left behind."""
+    """The results of a draw."""
 
     #: Targets, each float64 of shape (height, width, 4): red, green, blue, alpha as numbers, rows from the top.
     targets: list[NDArray[np.float64]]
@@ -29,14 +29,14 @@ class Run:
     depth: NDArray[np.float64] | None
     #: Counts of the draw: ``fragments_shaded``, ``texture_reads``, ``bytes_read``, ...
     counts: dict[str, int]
-    #: Modelled time on the card in microseconds, ``rates_us`` and ``pipeline_us``; None where no figure of the card is
-    #: known. docs/timing.md says what they leave out.
+    #: Modelled time on the card in microseconds, ``rates_us`` and ``pipeline_us``; None if a figure of the card is
+    #: unknown. docs/timing.md says what the models omit.
     modelled: dict[str, float | None]
     #: The probes of the case, each with ``passed``.
     probes: list[dict[str, Any]]
     #: Device, format of the pixel registers, switches, and the rest of the document.
     document: dict[str, Any]
-    #: Warnings on the case.
+    #: Warnings about the case.
     warnings: list[str]
 
     def __init__(self, case: _native.Case, executor: str) -> None:
@@ -53,16 +53,16 @@ class Run:
         return f"<Run on {self.document['device']} in {self.document['format']}: {sizes}>"
 
     def trace(self, x: int, y: int) -> list[dict[str, Any]]:
-        """What every instruction wrote at a pixel, on the reference executor.
+        """Results of every instruction at a pixel, on the reference executor.
 
         Args:
             x: Column, from the left.
             y: Row, from the top.
 
         Returns:
-            One dictionary for each component that an instruction wrote: ``pass`` (which fragment of the pixel),
+            One dictionary per component that an instruction wrote: ``pass`` (index of the pixel's fragment),
             ``instruction`` (its index), ``line``, ``text``, ``name`` (the component), ``value``, ``bits``, ``flags``.
-            Empty where nothing covers the pixel.
+            Empty if nothing covers the pixel.
 
         Raises:
             ValueError: if the pixel lies outside the targets.
@@ -119,7 +119,7 @@ def _shader_case(
         "pixel": {"source": text},
         "geometry": {"full_screen": True},
         "target": {"size": list(size), "format": target},
-        # Their texels are filled in afterwards.
+        # Their texels are filled in later.
         "texture": [
             {"slot": int(name[1:]), "format": target, "size": [shape[1], shape[0]],
              "texels": [[0]] * (shape[0] * shape[1])}
@@ -194,18 +194,18 @@ def run(
             to the working directory), or the text of a pixel shader. A shader alone is drawn over the whole target,
             with ``t0`` from (0, 0) to (1, 1).
         device: A card in place of the case's: ``"r300"``, ``"nv30"``, ..., or a device file. A shader alone runs on
-            r200, those of OpenGL on nv35; with a ``format`` and no device, on a device of that format without limits.
+            r200, or nv35 for OpenGL; with a ``format`` but no device, on a device without limits that has this format.
         format: The number format of the pixel registers.
         switches: Switches of the device, by name.
         inputs: Constants ``c0`` ... of the pixel program, 4 numbers each, and textures ``t0`` ..., arrays of shape
             (height, width, 4), red, green, blue, alpha, rounded to their texel formats; they replace those of the case.
-        size: Width and height of the target, of a shader alone.
-        target: Texel format of target and textures, of a shader alone.
-        executor: ``"batch"``, or ``"scalar"``, the reference; the bits are the same.
-        step_budget: Instructions that a pixel may execute.
+        size: Width and height of the target, for a shader alone.
+        target: Texel format of target and textures, for a shader alone.
+        executor: ``"batch"``, or ``"scalar"``, the reference; both give the same bits.
+        step_budget: Maximum number of instructions that a pixel may execute.
 
     Raises:
-        ValueError: if the case, the shader or an input is refused; the message says where and why.
+        ValueError: if the case, the shader or an input is rejected; the message says where and why.
     """
     read = _read(case, device, format, switches or {}, step_budget, inputs or {}, size, target)
     return Run(read, executor)
@@ -222,22 +222,22 @@ def compare(
     pixel: tuple[int, int] | None = None,
     registers: bool = False,
 ) -> dict[str, Any]:
-    """Run a case on two sides, and say where they part, down to the instruction.
+    """Run a case on two sides, and find the first difference, down to the instruction.
 
     Args:
         case: As for :func:`run`.
-        left: What the left side has in place of the case's: ``device``, ``format``, ``switches``, ``executor``.
-        right: The same of the right side, ``{"format": "fp32"}`` for example. By default the left side runs on the
+        left: Settings of the left side that replace the case's: ``device``, ``format``, ``switches``, ``executor``.
+        right: The same for the right side, ``{"format": "fp32"}`` for example. By default the left side runs on the
             reference executor, and the right side likewise, or on the batch executor if it differs in nothing else.
         inputs: As for :func:`run`, on both sides.
         size: As for :func:`run`.
         target: As for :func:`run`.
-        pixel: Follow this pixel (column, row), whether or not the targets differ there.
-        registers: Follow every pixel.
+        pixel: Trace this pixel (column, row), even if the targets do not differ there.
+        registers: Trace every pixel.
 
     Returns:
         The document of ``crossbar compare --json`` (docs/compare.md): ``equal``, ``different`` (pixels), ``surfaces``,
-        ``counts``, and ``first``, the first difference, with its stage in words.
+        ``counts``, and ``first``, the first difference, with its stage as text.
 
     Raises:
         ValueError: if a side cannot be set up.
@@ -259,11 +259,11 @@ def compare(
 
 
 class Difference:
-    """How two pictures differ."""
+    """The difference of two pictures."""
 
-    #: Structural similarity of the luma, 1 for equal pictures; None of pictures smaller than 11 x 11 pixels.
+    #: Structural similarity of the luma, 1 for equal pictures; None for pictures smaller than 11 x 11 pixels.
     ssim: float | None
-    #: Mean FLIP: what an observer notices who flips between them, 0 none to 1.
+    #: Mean FLIP: the difference visible to an observer who flips between the pictures, 0 (none) to 1.
     flip: float
     #: Largest FLIP of a pixel.
     flip_maximum: float
@@ -285,18 +285,18 @@ class Difference:
 
 
 def diff(a: ArrayLike, b: ArrayLike, *, srgb: bool = False, exposure: float = 1.0, ppd: float = 67.0) -> Difference:
-    """Compare two pictures as an observer sees them.
+    """Compare two pictures as an observer perceives them.
 
     Args:
-        a: Shape (height, width, 3 or 4); alpha is left out. Linear light, or with ``srgb`` display values of 0 to 1;
-            arrays of uint8 are display values of 0 to 255.
+        a: Shape (height, width, 3 or 4); alpha is ignored. Linear light, or with ``srgb`` display values from 0 to 1;
+            arrays of uint8 are display values from 0 to 255.
         b: The same shape.
         srgb: True for display values.
-        exposure: Factor of linear light.
+        exposure: Factor for linear light.
         ppd: Pixels per degree of the observer.
 
     Raises:
-        ValueError: on other shapes, or NaN.
+        ValueError: for other shapes, or NaN.
     """
     pictures = []
     for name, picture in (("a", np.asarray(a)), ("b", np.asarray(b))):

@@ -1,13 +1,13 @@
-"""Number formats: what a format holds, and arithmetic in it.
+"""Number formats: the numbers of a format, and arithmetic in it.
 
 A format is a string, the same everywhere in Crossbar: ``s3.12`` (fixed point), ``n3.8`` (normalized integers),
 ``e5m10`` (float), ``e4m3fn`` (float without infinity), ``e8m0`` (powers of two), or an alias (``fp16``, ``bf16``,
-``fp24``, ``fp32``, ``ps14``, ``fx12``), with rules behind it: ``:rne :rna :rtz :rdn :rup :rod :rst`` (rounding),
+``fp24``, ``fp32``, ``ps14``, ``fx12``), followed by rules: ``:rne :rna :rtz :rdn :rup :rod :rst`` (rounding),
 ``:sat :wrap :inf :nvovf`` (overflow), ``:keep :ftz`` (subnormals), ``:ieee :nv`` (special values).
 
 Arrays of floats are numbers: they are rounded into the format first, by its rules, and results are float64. Arrays of
 *unsigned* integers are bit patterns of the format, in their low bits, and so are the results. Shapes broadcast as
-NumPy's do. Each result is the exact one, rounded once, unless the function says otherwise.
+in NumPy. Each result is the exact result, rounded once, unless the function says otherwise.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native, matrix
 
-#: Formats with more bits have no table: it would have more than 2^20 rows.
+#: Formats with more bits have no table, because it would have more than 2^20 rows.
 MAX_TABLE_BITS = 20
 
 
@@ -42,11 +42,11 @@ class Format:
     max: float
     #: Most negative finite number.
     min: float
-    #: Smallest positive number, subnormal ones among them.
+    #: Smallest positive number, including subnormal numbers.
     smallest: float
     #: Smallest positive number that is not subnormal.
     smallest_normal: float
-    #: Distance from 1 to the next larger number; in fixed point the distance of all numbers.
+    #: Distance from 1 to the next larger number; in fixed point, the distance between all neighbors.
     epsilon: float
     #: True for fixed point and normalized integers.
     is_fixed: bool
@@ -97,7 +97,7 @@ def _format(format: Format | str) -> Format:
     return known
 
 
-#: Formats that were parsed, by their strings.
+#: Parsed formats, by their strings.
 _KNOWN: dict[str, Format] = {}
 
 
@@ -140,7 +140,7 @@ def _compute(operation: str, format: Format | str, seed: int, operands: tuple[Ar
 
 
 def _spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
-    """The array as a view of a shape; single elements stay as they are."""
+    """View the array with a shape; arrays of a single element are unchanged."""
     return array if array.size == 1 or array.shape == shape else np.broadcast_to(array, shape)
 
 
@@ -175,7 +175,7 @@ def to_bits(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
 
 
 def from_bits(bits: ArrayLike, format: Format | str) -> Any:
-    """Convert bit patterns to the numbers that they mean, as float64; exact but for normalized integers.
+    """Convert bit patterns to the numbers that they represent, as float64; exact except for normalized integers.
 
     Subnormal patterns keep their value in formats that flush them.
 
@@ -193,7 +193,7 @@ def from_bits(bits: ArrayLike, format: Format | str) -> Any:
 
 
 def add(x: ArrayLike, y: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """``x + y``, rounded once. Operands, results and errors as the module says."""
+    """``x + y``, rounded once. The module describes operands, results and errors."""
     return _compute("add", format, seed, (x, y))
 
 
@@ -218,7 +218,7 @@ def fma(x: ArrayLike, y: ArrayLike, z: ArrayLike, format: Format | str, *, seed:
 
 
 def mad(x: ArrayLike, y: ArrayLike, z: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """``x * y + z``, the product and the sum each rounded."""
+    """``x * y + z``, with the product and the sum each rounded."""
     return _compute("mad", format, seed, (x, y, z))
 
 
@@ -253,7 +253,7 @@ def rcp(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
 
 
 def rsq(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """``1 / sqrt(|x|)``, rounded once; of negative numbers NaN in formats with ``:nv``."""
+    """``1 / sqrt(|x|)``, rounded once; for negative numbers, NaN in formats with ``:nv``."""
     return _compute("rsq", format, seed, (x,))
 
 
@@ -268,7 +268,7 @@ def exp2(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
 
 
 def log2(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """Logarithm of ``|x|`` to base 2, rounded once; of negative numbers NaN in formats with ``:nv``."""
+    """Logarithm of ``|x|`` to base 2, rounded once; for negative numbers, NaN in formats with ``:nv``."""
     return _compute("log2", format, seed, (x,))
 
 

@@ -1,4 +1,4 @@
-"""Matrix units of GPUs, Volta to Blackwell and CDNA1 to CDNA3: what they make of products and sums, bit for bit.
+"""Matrix units of GPUs, Volta to Blackwell and CDNA1 to CDNA3: their products and sums, bit for bit.
 
 A unit is a name of :func:`units`; ``-`` may stand for ``_``, and ``_f32`` at the end may be left out. Arrays of floats
 are numbers: they are rounded to nearest even into the unit's types, of which those of up to 8 bits saturate. Arrays of
@@ -46,17 +46,17 @@ def matmul(
         b: Shape ``(k, n)``.
         c: Numbers, shape ``(m, n)``; zeros by default.
         unit: The unit.
-        promote: Products after which the partial sum is added to a sum in single precision, to nearest, and the unit
-            begins again from zero; by default there is one accumulator.
-        types: Types of a and b, or that of both; by default the first that the unit takes. Patterns need it where
-            there are several.
+        promote: Number of products after which the partial sum is added to a sum in single precision, to nearest, and
+            the unit restarts from zero; by default there is one accumulator.
+        types: Types of a and b, or one type for both; by default the first that the unit supports. Required for
+            patterns if the unit supports several types.
         bits: Bits of each addend that are kept below the largest exponent, 1 to 60, in place of the unit's.
 
     Returns:
         Shape ``(m, n)``.
 
     Raises:
-        ValueError: if shapes do not fit, the unit does not take these operands, or does not go with ``promote``.
+        ValueError: if shapes do not match, or the unit does not support these operands or ``promote``.
     """
     addend = None if c is None else _operand("c", c).astype(np.float64)
     words = _native.matmul(unit, _types(types), _operand("a", a), _operand("b", b), addend, (bits, promote))
@@ -114,5 +114,5 @@ def _types(types: str | tuple[str, str] | None) -> tuple[str | None, str | None]
 
 
 def _typed(words: tuple[NDArray[np.uint64], int], shape: tuple[int, ...]) -> NDArray[Any]:
-    """Words as numbers of their type."""
+    """Convert words to numbers of their type."""
     return words[0].astype(f"u{words[1] // 8}").view(f"f{words[1] // 8}").reshape(shape)

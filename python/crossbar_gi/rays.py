@@ -1,8 +1,8 @@
-"""Exact first hits of rays on a mesh, other people's hits held against them, and rays on which intersectors differ.
+"""Exact first hits of rays on a mesh, comparison of other hits with them, and rays on which intersectors differ.
 
 Everything is decided in exact arithmetic on float32 values: vertices, origins and directions of other types are
-rounded to float32 first, and the answer is that of the rounded ones. ``t`` counts in multiples of a ray's direction as
-given, which need not have unit length.
+rounded to float32 first, and results are for the rounded values. ``t`` is in multiples of the given direction of a ray,
+which need not have unit length.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from . import _native
 
 
 class Kind(IntEnum):
-    """Verdict on a hit. docs/examples/foreign_intersector.md describes each."""
+    """Verdict on a hit. docs/examples/foreign_intersector.md describes each kind."""
 
     #: The exact answer, with t within the tolerance.
     RIGHT = 0
@@ -29,17 +29,17 @@ class Kind(IntEnum):
     LEAK_THROUGH = 3
     #: A hit where the ray hits nothing.
     FALSE_HIT = 4
-    #: A triangle hit from behind, where only fronts count.
+    #: A triangle hit from behind, although only front faces count.
     BACK_FACE = 5
-    #: A triangle unrelated to the right one.
+    #: A triangle unrelated to the correct one.
     WRONG_TRIANGLE = 6
-    #: A triangle that shares an edge or a vertex with the right one.
+    #: A triangle that shares an edge or a vertex with the correct one.
     WRONG_NEIGHBOUR = 7
-    #: The right triangle, at a t beyond the tolerance.
+    #: The correct triangle, with t outside the tolerance.
     T_OFF = 8
-    #: Right for a ray whose direction differs by a few ULPs, beside a silhouette: rounding.
+    #: Correct for a ray whose direction differs by a few ULPs, near a silhouette: rounding.
     SILHOUETTE = 9
-    #: Right for a ray whose origin differs by a few ULPs: rounding.
+    #: Correct for a ray whose origin differs by a few ULPs: rounding.
     START = 10
     #: A triangle behind the first one by no more than the tolerance: rounding.
     NEAR_TIE = 11
@@ -51,13 +51,13 @@ class Kind(IntEnum):
 
 
 class Aim(IntEnum):
-    """What a hard ray is aimed at."""
+    """The aim of a hard ray."""
 
     #: Not known.
     UNKNOWN = 0
-    #: From outside at a point of a shared edge.
+    #: From outside, at a point of a shared edge.
     EDGE = 1
-    #: From outside at a vertex.
+    #: From outside, at a vertex.
     VERTEX = 2
     #: Along an axis; the other two components are +0 or -0.
     AXIS = 3
@@ -70,8 +70,8 @@ class Aim(IntEnum):
 
 
 #: One verdict: the ``Kind`` and ``Aim``, True if rounding explains it, the exact first triangle (-1 for none), the
-#: number of triangles at that t, the exact t (NaN for none), and how many steps of float32 the t found is away from it
-#: (-1 where one is missing or not finite).
+#: number of triangles at that t, the exact t (NaN for none), and the difference of the found t in steps of float32
+#: (-1 if one is missing or not finite).
 VERDICT = np.dtype(
     [
         ("kind", np.uint8),
@@ -140,7 +140,7 @@ class Oracle:
 
         Args:
             origins: Shape (n, 3), in the unit of the mesh.
-            directions: Shape (n, 3), of any length but zero.
+            directions: Shape (n, 3), of any length except zero.
 
         Returns:
             Structured array :data:`HIT` of shape (n,).
@@ -161,15 +161,15 @@ class Oracle:
         t: ArrayLike,
         aims: ArrayLike | None = None,
     ) -> NDArray[Any]:
-        """Hold the first hits that somebody found against the exact ones.
+        """Compare first hits with the exact ones.
 
         Args:
             origins: Shape (n, 3).
             directions: Shape (n, 3).
             triangle: Shape (n,), integers: the triangle found, negative for none.
-            t: Shape (n,): its t, in multiples of the ray's direction; any value where there is no triangle. A t that is
+            t: Shape (n,): its t, in multiples of the ray's direction; any value if there is no triangle. A t that is
                 NaN or infinite is judged as wrong.
-            aims: Shape (n,), those of :func:`hard_rays`, if known.
+            aims: Shape (n,), the aims from :func:`hard_rays`, if known.
 
         Returns:
             Structured array :data:`VERDICT` of shape (n,).
@@ -192,7 +192,7 @@ class Oracle:
         t: ArrayLike,
         aims: ArrayLike | None = None,
     ) -> str:
-        """What :meth:`judge` found, in words: counts, and the ten worst rays with their triangles, to the last bit.
+        """The results of :meth:`judge` as text: counts, and the ten worst rays with their triangles, to the last bit.
 
         Raises:
             ValueError: as :meth:`judge`.
@@ -268,6 +268,6 @@ def hard_rays(vertices: ArrayLike, faces: ArrayLike, n: int, seed: int = 0) -> H
 
 
 def counts(verdicts: NDArray[Any]) -> dict[Kind, int]:
-    """How often each kind occurs among verdicts of :meth:`Oracle.judge`, the worst first, those that occur."""
+    """How often each kind occurs among verdicts of :meth:`Oracle.judge`, worst first; omits kinds that do not occur."""
     numbers = np.bincount(verdicts["kind"], minlength=len(Kind))
     return {kind: int(numbers[kind]) for kind in Kind if numbers[kind]}

@@ -1,4 +1,4 @@
-"""The studies of Crossbar as lists of records, which ``pandas.DataFrame`` takes."""
+"""The studies of Crossbar as lists of records, for ``pandas.DataFrame``."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from typing import Any
 from . import _native
 from .cards import SHADER_SIZE, CaseLike, _read
 
-#: The systems whose programs :func:`precision` studies besides cases.
+#: The systems whose programs :func:`precision` can study, in addition to cases.
 SYSTEMS = ("ray-engine", "radiosity", "subsurface", "cpca", "all-frequency", "bi-scale")
 
 
 def entries() -> list[dict[str, str]]:
-    """What :func:`reproduce` can reproduce: ``id`` and ``title`` of each table or figure."""
+    """The entries of :func:`reproduce`: ``id`` and ``title`` of each table or figure."""
     return [{"id": name, "title": title} for name, title in _native.entries()]
 
 
 def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
-    """The papers' printed values with ours, judged by bounds whose dates are in the rows.
+    """The papers' printed values and ours, judged by bounds; each row has the date of its bound.
 
     Args:
-        ids: Entries by :func:`entries`, or papers (``cpca``); without any all entries, which takes minutes.
+        ids: Ids from :func:`entries`, or papers (``cpca``); by default all entries, which takes minutes.
         full_size: Compute recorded entries anew: minutes for most, hours for two.
 
     Returns:
-        One dictionary for each printed figure, as in rows.csv of ``crossbar reproduce``: ``entry``, ``figure``,
+        One dictionary per printed figure, as in rows.csv of ``crossbar reproduce``: ``entry``, ``figure``,
         ``ours``, ``low`` and ``high`` (the bound), ``verdict`` and others.
 
     Raises:
@@ -47,23 +47,23 @@ def precision(
     switches: Mapping[str, str] | None = None,
     table: str = "curve",
 ) -> list[dict[str, Any]]:
-    """Search the fewest bits with which a pixel program meets a goal.
+    """Search for the fewest bits with which a pixel program meets a goal.
 
     Args:
         case: A case as for :func:`crossbar_gi.run`, or one of :data:`SYSTEMS`.
         goal: ``MEASURE<=NUMBER``, ``"flip<=0.01"`` for example; by default each code within one (docs/precision.md).
         families: ``"float"``, ``"fixed"`` or both.
-        budget: Runs of the program after which the best so far is taken.
+        budget: Maximum number of runs of the program; then the best result so far is returned.
         device: A device in place of the case's.
         switches: Switches of the device, for a case.
         table: Which table: ``"curve"`` (the measures by format), ``"formats"`` (of cards), ``"measures"``,
             ``"switches"``, or another that the document has.
 
     Returns:
-        The rows of the table, a dictionary each.
+        The rows of the table, one dictionary per row.
 
     Raises:
-        ValueError: if the case or the goal is refused, or the document has no such table.
+        ValueError: if the case or the goal is rejected, or the document has no such table.
     """
     if isinstance(case, str) and case in SYSTEMS:
         text = _native.precision(None, (case, device), goal, list(families), budget)

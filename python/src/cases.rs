@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 use crate::error::{refused, value_error};
 use crate::signals;
 
-/// Case bound to a device, with the inputs that replace its own.
+/// Case bound to a device, with inputs that replace its own.
 #[pyclass(frozen, module = "crossbar_gi._native")]
 pub(crate) struct Case {
     /// Shared with draws that continue after Ctrl-C.
@@ -26,7 +26,7 @@ pub(crate) struct Case {
     pub(crate) name: String,
 }
 
-/// Result of a draw: a document, the targets, the depth buffer.
+/// Result of a draw: a JSON document, the targets, the depth buffer.
 type Drawn<'py> = (String, Vec<Bound<'py, PyArray3<f64>>>, Option<Bound<'py, PyArray2<f64>>>);
 
 fn executor(name: &str) -> PyResult<ExecutorKind> {
@@ -39,7 +39,7 @@ fn executor(name: &str) -> PyResult<ExecutorKind> {
 
 #[pymethods]
 impl Case {
-    /// Reads the case of a file, or of a text whose paths are relative to `folder`.
+    /// Reads a case from a file, or from a text whose paths are relative to `folder`.
     #[new]
     fn new(
         source: (&str, Option<&str>),
@@ -67,7 +67,7 @@ impl Case {
         Ok(Self { setup: Arc::new(read.map_err(|error| refused(&error))?), name: name.to_owned() })
     }
 
-    /// The case with some constants of its pixel program and some textures replaced.
+    /// The case with replacements for some constants of its pixel program and for some textures.
     fn with_inputs(
         &self,
         constants: Vec<(usize, [f64; 4])>,
@@ -80,7 +80,7 @@ impl Case {
                 return Err(value_error(format!("expected a constant from c0 to c255, found c{index}")));
             }
             float.resize(float.len().max(index + 1), [0; 4]);
-            // Rounds to nearest even, as the numbers of a case are.
+            // Rounds to nearest even, like the numbers of a case.
             float[index] = value.map(|number| (number as f32).to_bits());
         }
         for (slot, texels) in textures {
@@ -92,7 +92,7 @@ impl Case {
         Ok(Self { setup: Arc::new(setup), name: self.name.clone() })
     }
 
-    /// Warnings on the case, in words.
+    /// Warnings about the case, as text.
     fn warnings(&self) -> Vec<String> {
         self.setup.warnings.iter().map(ToString::to_string).collect()
     }
@@ -122,7 +122,7 @@ impl Case {
     }
 }
 
-/// Document, targets and depth of a draw.
+/// JSON document, targets and depth of a draw.
 type DrawnArrays = (String, Vec<Array3<f64>>, Option<Array2<f64>>);
 
 fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseError> {
@@ -149,7 +149,7 @@ fn drawn(setup: &Setup, kind: ExecutorKind) -> Result<DrawnArrays, case::CaseErr
     Ok((document.to_string(), targets, depth))
 }
 
-/// A texture's picture, replaced by an array of equal size: red, green, blue, alpha in single precision.
+/// A texture's image, replaced by an array of equal size: red, green, blue, alpha in single precision.
 fn image(old: &Image, slot: usize, texels: &PyReadonlyArray3<'_, f32>) -> PyResult<Image> {
     if !matches!(old.kind(), TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle) || old.levels().len() > 1 {
         let sentence = format!("t{slot}: arrays replace 1d, 2d and rectangle textures of one level, not this one");
@@ -178,7 +178,7 @@ fn modelled(setup: &Setup, log: &[Event]) -> Value {
     json!({ "rates_us": time(Level::Rates), "pipeline_us": time(Level::Pipeline) })
 }
 
-/// Compares one case on two sides; returns JSON. `pixel` traces one pixel in any case, `registers` traces all pixels.
+/// Compares one case on two sides; returns JSON. `pixel` always traces one pixel, `registers` traces all pixels.
 #[pyfunction]
 #[pyo3(signature = (left, right, executors, pixel, registers))]
 pub(crate) fn compare(

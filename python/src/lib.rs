@@ -1,9 +1,10 @@
-//! The compiled part of the Python package `crossbar_gi`: loops over arrays, and the library's studies as documents.
+//! The compiled part of the Python package `crossbar_gi`: loops over arrays, and the library's studies as JSON
+//! documents.
 //!
-//! Users see the Python modules beside it (`crossbar_gi/`), which handle shapes, broadcasting and names. Functions here
-//! take C-order arrays of one type, and return arrays, or documents as JSON.
+//! Users see the Python modules in `crossbar_gi/`, which handle shapes, broadcasting and names. Functions here take
+//! C-order arrays of one type, and return arrays, or JSON documents.
 //!
-//! - `operand`: arrays of the shape of a result, block by block; `signals`: work without the interpreter's lock that
+//! - `operand`: arrays with the shape of a result, block by block; `signals`: work without the interpreter's lock that
 //!   Ctrl-C ends; `error`: errors of the library as Python's. `numbers`: number formats; `matrix`: matrix units;
 //!   `oracle`: exact hits; `cases`: cases on cards; `studies`: studies and pictures.
 

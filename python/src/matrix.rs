@@ -9,7 +9,7 @@ use refsim::num::matrix::{Element, MatrixError, MatrixUnit, Operand, UNITS};
 use crate::error::{refused, value_error};
 use crate::signals::{aside, fill};
 
-/// Name, chips, types, type of c, products of an instruction and of a block, bits kept, result, confidence, source.
+/// Name, chips, types, type of c, products per instruction and per block, bits kept, result, confidence, source.
 type Row = (
     &'static str,
     &'static str,
@@ -74,7 +74,7 @@ impl Numbers<'_> {
     }
 }
 
-/// A unit, and the types of both operands if they are named.
+/// A unit, and the types of both operands if they are given.
 fn unit_with_types(name: &str, types: [Option<String>; 2]) -> PyResult<(MatrixUnit, [Option<Element>; 2])> {
     let unit = MatrixUnit::find(name).map_err(|error| refused(&error))?;
     let element = |wanted: Option<String>| {
@@ -91,8 +91,8 @@ fn unit_with_types(name: &str, types: [Option<String>; 2]) -> PyResult<(MatrixUn
 /// Words of a result, and their width in bits.
 type Words<'py> = (Bound<'py, PyArray1<u64>>, u32);
 
-/// A matrix product, row by row. `bits_promote` holds the kept bits, which replace the unit's, and the number of
-/// products between promotions.
+/// A matrix product, row by row. `bits_promote` holds the number of kept bits, which replaces the unit's, and the
+/// number of products between promotions.
 #[pyfunction]
 pub(crate) fn matmul<'py>(
     py: Python<'py>,

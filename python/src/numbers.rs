@@ -36,7 +36,7 @@ fn parse(text: &str) -> PyResult<Format> {
 }
 
 /// An operation in a format, or rounding alone: in the emulator's vector code if the format has it, otherwise number by
-/// number by the definition.
+/// number from the definition.
 #[derive(Clone)]
 enum Computation {
     Rows(Box<ArrayOperation>),
@@ -75,8 +75,8 @@ impl Computation {
         }
     }
 
-    /// Computes by the definition. Under stochastic rounding, operands are rounded to nearest even, and the random word
-    /// is that of the result's index.
+    /// Computes from the definition. Under stochastic rounding, operands are rounded to nearest even, and the index of
+    /// the result selects the random word.
     fn each<T: Copy + Default>(
         &self,
         operands: [&[T]; 3],
@@ -106,7 +106,7 @@ impl Computation {
     }
 }
 
-/// Runs over the result's elements; `compute` takes parts of the operands and of the result.
+/// Runs over the result's elements; `compute` receives parts of the operands and of the result.
 fn over<T: Element + Copy + Sync + Send, R: Element + Send, C: Clone + Sync>(
     py: Python<'_>,
     operands: &[PyReadonlyArrayDyn<'_, T>],
@@ -126,12 +126,12 @@ fn over<T: Element + Copy + Sync + Send, R: Element + Send, C: Clone + Sync>(
     })
 }
 
-/// Tells if a number is NaN, without a branch per number.
+/// Returns `true` if a number is NaN, without a branch per number.
 fn has_nan(numbers: &[f64]) -> bool {
     numbers.chunks(1 << 12).any(|some| some.iter().fold(false, |found, x| found | x.is_nan()))
 }
 
-/// Refuses NaN where a format has none: `x`, `y` and `z` are the operands' names.
+/// Rejects NaN for a format that has none: `x`, `y` and `z` are the operands' names.
 fn refuse_nan(format: &Format, operands: &[PyReadonlyArrayDyn<'_, f64>]) -> PyResult<()> {
     if format.canonical_nan().is_some() {
         return Ok(());
@@ -142,7 +142,7 @@ fn refuse_nan(format: &Format, operands: &[PyReadonlyArrayDyn<'_, f64>]) -> PyRe
             Some(all) => has_nan(all),
             None => view.iter().any(|x| x.is_nan()),
         };
-        // The search for the index is slow, and needed only for the message.
+        // The search for the index is slow, and only the message needs it.
         if let Some((place, _)) = found.then(|| view.indexed_iter().find(|(_, x)| x.is_nan())).flatten() {
             let place: Vec<String> = place.slice().iter().map(usize::to_string).collect();
             let at = if place.is_empty() { String::new() } else { format!("[{}]", place.join(", ")) };
@@ -154,7 +154,7 @@ fn refuse_nan(format: &Format, operands: &[PyReadonlyArrayDyn<'_, f64>]) -> PyRe
     Ok(())
 }
 
-/// Computes an operation on numbers into `out`.
+/// Computes an operation on numbers, and writes it to `out`.
 #[pyfunction]
 pub(crate) fn compute(
     py: Python<'_>,
@@ -170,7 +170,7 @@ pub(crate) fn compute(
     over(py, &operands, &mut out, &computation, Computation::doubles)
 }
 
-/// Computes an operation on bit patterns into `out`.
+/// Computes an operation on bit patterns, and writes it to `out`.
 #[pyfunction]
 pub(crate) fn compute_patterns(
     py: Python<'_>,
@@ -185,7 +185,7 @@ pub(crate) fn compute_patterns(
     over(py, &operands, &mut out, &computation, Computation::patterns)
 }
 
-/// Rounds numbers to bit patterns into `out`.
+/// Rounds numbers to bit patterns, and writes them to `out`.
 #[pyfunction]
 pub(crate) fn to_patterns(
     py: Python<'_>,
@@ -209,7 +209,7 @@ pub(crate) fn to_patterns(
     })
 }
 
-/// Converts bit patterns to numbers into `out`.
+/// Converts bit patterns to numbers, and writes them to `out`.
 #[pyfunction]
 pub(crate) fn from_patterns(
     py: Python<'_>,
@@ -225,7 +225,7 @@ pub(crate) fn from_patterns(
     })
 }
 
-/// Sums products along rows of `terms` numbers: `x` and `y` have that many for each element of `out`.
+/// Sums products along rows: `x` and `y` have `terms` numbers for each element of `out`.
 #[pyfunction]
 pub(crate) fn dot(
     py: Python<'_>,
@@ -283,7 +283,8 @@ pub(crate) fn format_facts<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'
     facts.set_item("min", number(format.min_finite()))?;
     facts.set_item("has_nan", format.canonical_nan().is_some())?;
     facts.set_item("has_infinity", format.infinity(false).is_some())?;
-    // Positive patterns are ordered as their numbers: the smallest is the first above zero; scales have no zero.
+    // Positive patterns are ordered like their numbers: the smallest number is the first above zero; scales have no
+    // zero.
     let smallest = if format.is_signed() { 1 } else { 0 };
     facts.set_item("smallest", number(smallest))?;
     let one = format.one();

@@ -3,7 +3,7 @@
 use numpy::ndarray::{ArrayViewD, Axis};
 use numpy::{Element, PyReadonlyArrayDyn};
 
-/// Elements of an operand: a contiguous array, one element for all, or a strided array.
+/// Elements of an operand: a contiguous array, a single element for all, or a strided array.
 pub(crate) enum Operand<'a, T> {
     All(&'a [T]),
     One([T; 1]),
@@ -11,7 +11,7 @@ pub(crate) enum Operand<'a, T> {
 }
 
 impl<'a, T: Element + Copy> Operand<'a, T> {
-    /// An array of the result's shape, or of one element.
+    /// An array with the result's shape, or with one element.
     pub(crate) fn new(array: &'a PyReadonlyArrayDyn<'_, T>) -> Self {
         let view = array.as_array();
         // Not `array.as_slice()`, which also succeeds in Fortran order.
@@ -22,7 +22,7 @@ impl<'a, T: Element + Copy> Operand<'a, T> {
         }
     }
 
-    /// `length` elements from `start` on, or the single one; elements of strided operands are collected in the buffer.
+    /// `length` elements from `start`, or the single one; elements of strided operands are collected in the buffer.
     pub(crate) fn part<'b>(&'b self, start: usize, length: usize, buffer: &'b mut Vec<T>) -> &'b [T] {
         match self {
             Self::All(all) => all.get(start..start + length).unwrap_or_default(),

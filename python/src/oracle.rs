@@ -1,4 +1,4 @@
-//! Exact first hits, and the comparison of hits with them.
+//! Exact first hits, and the comparison of other hits with them.
 
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
 use crossbar::oracle::{self as library, Aim, Disagreement, DisagreementKind, JudgedRay, Tolerance};
@@ -73,7 +73,7 @@ impl<'a> RayRows<'a> {
         Ok(rows)
     }
 
-    /// A ray; `None` beyond the last.
+    /// A ray; `None` after the last ray.
     fn get(&self, place: usize) -> Option<Ray> {
         // Every ray was accepted by `new`.
         Ray::new(*self.origins.get(place)?, *self.directions.get(place)?).ok()
@@ -142,7 +142,7 @@ impl<'a> FoundHits<'a> {
     }
 }
 
-/// Verdict on a ray, in plain numbers.
+/// Verdict on a ray, as plain numbers.
 #[derive(Clone, Copy, Default)]
 struct Verdict {
     kind: u8,

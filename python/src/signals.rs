@@ -1,4 +1,4 @@
-//! Long work without the interpreter's lock, which Ctrl-C interrupts.
+//! Long work without the interpreter's lock; Ctrl-C interrupts it.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 const TASK: usize = 1 << 14;
 
 /// Fills an array in tasks of at most `task` elements, `together` of them in parallel; signals are handled in between.
-/// `work` takes its state, the index of the first element and a part of the array.
+/// `work` receives its state, the index of the first element and a part of the array.
 pub(crate) fn fill<T: Send, S>(
     py: Python<'_>,
     out: &mut [T],
@@ -25,7 +25,7 @@ pub(crate) fn fill<T: Send, S>(
     work: impl Fn(&mut S, usize, &mut [T]) + Sync,
 ) -> PyResult<()> {
     if out.len() <= task {
-        // Faster than releasing the lock.
+        // This is faster than releasing the lock.
         work(&mut state(), 0, out);
         return Ok(());
     }
@@ -40,7 +40,7 @@ pub(crate) fn fill<T: Send, S>(
     Ok(())
 }
 
-/// [`fill`] with elements that take nanoseconds.
+/// [`fill`] for elements that take nanoseconds.
 pub(crate) fn fill_quickly<T: Send, S>(
     py: Python<'_>,
     out: &mut [T],

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-# A shell may have begun its background processes without the signal.
+# A shell may have started its background processes with the signal ignored.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 ROOT = Path(__file__).resolve().parents[2]

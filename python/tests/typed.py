@@ -9,7 +9,7 @@ import crossbar_gi as cg
 
 
 def leaks(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> int:
-    """Rays that an intersector which never hits anything misses."""
+    """Rays that an intersector misses if it never hits anything."""
     rays: cg.HardRays = cg.hard_rays(vertices, faces, 60)
     judge: cg.Oracle = cg.oracle(vertices, faces, sides="front")
     nothing = np.full(len(rays.origins), -1)

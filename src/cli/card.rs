@@ -9,7 +9,7 @@ use super::{Problem, switch};
 /// The card of a study.
 #[derive(Debug, clap::Args)]
 pub(super) struct CardArgs {
-    /// The card [default: that of the paper]
+    /// The card [default: the paper's]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
@@ -17,7 +17,7 @@ pub(super) struct CardArgs {
     #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
     switch: Vec<(String, String)>,
 
-    /// Which executor computes; the bits are the same
+    /// Executor; all produce bit-identical results
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
 }
@@ -38,7 +38,7 @@ impl CardArgs {
         self.switch.clone()
     }
 
-    /// The executor, ready to work.
+    /// The executor, ready to run.
     pub(super) fn executor(&self) -> Result<Executor, Problem> {
         self.executor.open()
     }

@@ -1,4 +1,4 @@
-//! `crossbar check`: is this shader legal on that card?
+//! `crossbar check`: checks whether a shader is legal on a card.
 
 use std::path::PathBuf;
 
@@ -13,9 +13,10 @@ Examples:
   crossbar check docs/examples/intersect.psa --device r200
       every rule and limit of the Radeon 8500 that the program breaks, each with its place
   crossbar check docs/examples/intersect.psa --device r200 --switch ray-textures=wide --json
-      the same with an open question of the card answered otherwise, for machines
+      the same with another setting of an open switch of the card, as JSON
 
-Exit codes: 0 the program is legal (warnings say what runs otherwise than it is written), 1 it breaks a rule or limit, 2 it is no program (or there is no such file or device).";
+Exit codes: 0 the program is legal (warnings list what may run differently), 1 it breaks a rule or limit, 2 it is not a program (or there is no such file or \
+    device).";
 
 /// Assemble a shader and report every rule and device limit that it breaks
 #[derive(Debug, clap::Args)]

@@ -17,7 +17,7 @@ use crate::error::InputError;
 use crate::io::atomic::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
 
-/// Width of tables and errors that go to a file or pipe, so that their text does not depend on a terminal.
+/// Width of tables and errors in a file or pipe, so that the text does not depend on a terminal.
 pub(super) const PLAIN_WIDTH: usize = 100;
 
 /// Standard output could not be written.
@@ -26,7 +26,7 @@ pub(super) const PLAIN_WIDTH: usize = 100;
 #[diagnostic(code(crossbar::output))]
 pub struct OutputError(#[from] io::Error);
 
-/// Bad input found by a command, or termination by a signal; modules have their own errors.
+/// Invalid input found by a command, or termination by a signal; modules have their own errors.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum Problem {
@@ -34,22 +34,22 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(code(crossbar::unwritable))]
     Unwritable(#[from] WriteError),
-    /// Input that a module refuses.
+    /// Input that a module rejects.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Input(#[from] InputError),
     /// A signal ended the work before its files were written.
-    #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
+    #[error("interrupted before anything was written; files of earlier runs are unchanged")]
     #[diagnostic(
         code(crossbar::interrupted),
-        help("the same command starts from the beginning, but for what `--resume` or `--record` keeps")
+        help("the same command starts from the beginning, except for results that `--resume` or `--record` stored")
     )]
     Interrupted,
-    /// Options that do not go together.
+    /// Options that conflict.
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]
     Usage {
-        /// The fault.
+        /// Description of the conflict.
         what: String,
         /// Advice for the user.
         help: String,
@@ -57,7 +57,7 @@ pub enum Problem {
 }
 
 impl Problem {
-    /// Options that do not go together.
+    /// Error about options that conflict.
     pub fn usage(what: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Usage { what: what.into(), help: help.into() }
     }
@@ -89,13 +89,13 @@ fn suggested(report: Report) -> Report {
         (Some(error), _) | (_, Some(CaseError::Device(error))) => error.clone(),
         _ => return report,
     };
-    // Keeps the contexts around the error.
+    // Keeps the contexts that were added to the error.
     let (outer, inner) = (report.to_string(), error.to_string());
     let suggestion = Report::from(Suggestion { error });
     if outer == inner { suggestion } else { suggestion.wrap_err(outer) }
 }
 
-/// Colours and box drawing on a terminal; plain text of fixed width anywhere else. No name is broken at a hyphen.
+/// Colors and box drawing on a terminal; otherwise plain text of fixed width. No name is broken at a hyphen.
 fn handler(terminal: bool) -> Box<dyn ReportHandler> {
     if terminal {
         Box::new(MietteHandlerOpts::new().word_splitter(NoHyphenation).build())
@@ -117,7 +117,7 @@ fn render(diagnostic: &dyn Diagnostic, terminal: bool) -> String {
     let more = shown.left_out();
     let mut text = Rendered(shown, handler(terminal)).to_string().trim_end().to_owned();
     if more > 0 {
-        text.push_str(&format!("\n\n... and {more} more: `--json` has every one"));
+        text.push_str(&format!("\n\n... and {more} more: `--json` lists all"));
     }
     text
 }
@@ -160,8 +160,8 @@ pub(super) fn usage_problem(error: &clap::Error) -> Problem {
     Problem::usage(joined(what.trim_start_matches("error: ")), joined(help))
 }
 
-/// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. If a
-/// message quotes characters that are not safe to show, `parse` parses the escaped arguments for another message.
+/// Writes the error about the arguments, or the requested help; as JSON if `--json` is among the arguments. If a
+/// message quotes characters that are not safe to show, `parse` parses the escaped arguments to get another message.
 pub(super) fn print_usage(
     error: &clap::Error,
     arguments: &[OsString],
@@ -179,7 +179,7 @@ pub(super) fn print_usage(
     }
     match parse(safe.into_iter().map(OsString::from).collect()) {
         Some(same) => same.print().ok(),
-        // The escaped arguments parse: the message is shown plain.
+        // The escaped arguments parse: the message is shown as plain text.
         None => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
     };
 }

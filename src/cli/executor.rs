@@ -1,4 +1,4 @@
-//! `--executor`: how the card's programs are run.
+//! `--executor`: the executor of the card's programs.
 
 use clap::ValueEnum;
 use refsim::machine::{Executor, ExecutorKind};
@@ -19,7 +19,7 @@ pub(super) enum DeviceExecutor {
     Wgpu,
 }
 
-/// The GPU of the environment variable `CROSSBAR_ADAPTER`, or the best one.
+/// Opens the GPU that the environment variable `CROSSBAR_ADAPTER` names, or the best one.
 #[cfg(feature = "wgpu")]
 fn open_gpu() -> Result<Executor, Problem> {
     use refsim::exec::gpu::Gpu;
@@ -37,7 +37,7 @@ fn open_gpu() -> Result<Executor, Problem> {
 }
 
 impl DeviceExecutor {
-    /// The executor, ready to work.
+    /// The executor, ready to run.
     pub(super) fn open(self) -> Result<Executor, Problem> {
         Ok(match self {
             Self::Scalar => ExecutorKind::Scalar.into(),
@@ -61,7 +61,7 @@ pub(super) enum Decider {
 }
 
 impl Decider {
-    /// The requested caster; a card that was named, unless the executor says otherwise.
+    /// The requested arithmetic; without a request, the card if one is named, otherwise exact arithmetic.
     pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Self {
         executor.unwrap_or(if device.is_some() { Self::Batch } else { Self::Exact })
     }
@@ -78,10 +78,10 @@ impl Decider {
     }
 }
 
-/// Executor of the Ray Engine's card, where a command's `--executor` decides hits without a caster, too.
+/// Executor of the Ray Engine's card, for a command whose `--executor` also decides hits without a caster.
 ///
 /// # Errors
-/// For an executor of the host caster, and exact arithmetic of the engine.
+/// If an executor is given for the host caster, or exact arithmetic for the engine.
 pub(super) fn engine_executor(caster: &CasterOptions, executor: Option<Decider>) -> Result<Executor, Problem> {
     if caster.is_named() && !caster.is_engine() && executor.is_some() {
         let help = "add `--caster engine`, or leave it out";

@@ -1,9 +1,9 @@
-//! Options that another option makes useless.
+//! Options that other options make useless.
 
 use super::Problem;
 
-/// Refuses the first option that was given; each has `true` if it was. `only_for` completes "is for". Fails with
-/// [`Problem::Usage`].
+/// Rejects the first option that was given; each option is paired with `true` if it was. `only_for` completes the
+/// phrase "is for". Fails with [`Problem::Usage`].
 pub(super) fn refuse<'a>(
     options: impl IntoIterator<Item = (&'a str, bool)>,
     only_for: &str,

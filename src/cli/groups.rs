@@ -12,12 +12,12 @@ const GROUPS: [(&str, &str); 5] = [
     ("Numbers", "alu precision matmul units"),
     ("Tools", "diff merge completions man help"),
 ];
-/// Width of the list: clap's, too, has at most so many columns.
+/// Width of the list; clap also limits its help to this width.
 const WIDTH: usize = 100;
 /// Column at which descriptions begin.
 const COLUMN: usize = 17;
 
-/// The program, whose help lists its commands in groups.
+/// The program with its commands grouped in the help.
 pub(super) fn grouped(program: Command) -> Command {
     let about = |name: &str| match program.find_subcommand(name) {
         Some(command) => command.get_about().map(ToString::to_string).unwrap_or_default(),

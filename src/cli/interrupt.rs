@@ -1,15 +1,15 @@
-//! Termination by a signal: only a message remains.
+//! Termination by a signal: only a message is left.
 
 #[cfg(unix)]
 use super::{Problem, error};
 
-/// Maximum time that the program waits for its last message to be read.
+/// Maximum time that the program waits for someone to read its last message.
 #[cfg(unix)]
 const LAST_WORDS: std::time::Duration = std::time::Duration::from_millis(500);
 
-/// From now on, SIGINT, SIGTERM and SIGHUP remove half-written files, report that the work is lost, and end the program
-/// as the signal would have: shells report 130, 143 and 129. A signal that the caller ignores, as `nohup` does SIGHUP,
-/// stays ignored.
+/// From now on, SIGINT, SIGTERM and SIGHUP remove incomplete files, report that the work is lost, and end the program
+/// as the signal would have: shells report 130, 143 and 129. A signal that the caller ignores, as `nohup` ignores
+/// SIGHUP, stays ignored.
 #[cfg(unix)]
 pub(super) fn clean_up_on_signals(json: bool) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -43,11 +43,11 @@ fn say_what_is_lost(json: bool) {
     }
 }
 
-/// Without signals there is nothing to handle.
+/// On systems without signals, there is nothing to handle.
 #[cfg(not(unix))]
 pub(super) const fn clean_up_on_signals(_json: bool) {}
 
-/// Signals that the process inherited as ignored, signal n as bit n - 1; 0 if the system does not report them.
+/// Signals that the process inherited as ignored: bit n - 1 for signal n; 0 if the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `crossbar intersect`: first hits of your own rays on your own mesh.
+//! `crossbar intersect`: first hits of the user's rays on the user's mesh.
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -58,7 +58,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "R.csv")]
     rays: PathBuf,
 
-    /// Which faces can be hit
+    /// Sides of faces that can be hit
     #[arg(long, default_value = "front", value_parser = sides())]
     sides: Sides,
 
@@ -66,7 +66,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
-    /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
+    /// Arithmetic that decides hits [default: batch if a device is named or with `--caster engine`, otherwise exact]
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
@@ -90,11 +90,11 @@ enum HitSource {
     Caster(CasterChoice),
 }
 
-/// Triangle and t of each hit, and the seconds that building and casting took.
+/// Triangle and t of each hit, and the seconds of building and casting.
 struct Answer {
     hits: Vec<Option<(u32, f64)>>,
     engine: Option<CastRecord>,
-    /// Warning where the card's number format leaves almost no bits of the answer.
+    /// Warning if the card's number format leaves few significant bits of t.
     warning: Option<String>,
     build_s: f64,
     cast_s: f64,
@@ -109,7 +109,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     study::show(&findings(args, &answer), out)
 }
 
-/// The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
+/// Looks up the device even if exact arithmetic does not need it, so that a wrong name is always reported.
 fn choose(args: &Args) -> miette::Result<HitSource> {
     let device = args.device.as_deref();
     let caster = args.caster.choose(engine_executor(&args.caster, args.executor)?)?;
@@ -152,14 +152,14 @@ impl HitSource {
     }
 }
 
-/// An exact t as tables have it: rounded once to f32, or to f64 where it exceeds f32.
+/// An exact t as written to tables: rounded once to f32, or to f64 if it exceeds f32.
 fn written(t: &ExactT) -> f64 {
     let single = t.to_f32();
     if single.is_finite() { f64::from(single) } else { t.to_f64() }
 }
 
-/// The t of a caster's hit; where it exceeds f32, in which casters answer, equation (3) of the Ray Engine in f64. An
-/// infinity to which a smaller t overflowed in the format of a card stays.
+/// The t of a caster's hit. Casters answer in f32; if t exceeds f32, it is computed by equation (3) of the Ray Engine
+/// in f64. An infinity that comes from overflow in the card's format is kept.
 fn beyond_single(mesh: &Mesh, ray: &Ray, hit: Hit) -> f64 {
     let t = mesh
         .corners(hit.triangle)

@@ -36,11 +36,11 @@ Examples:
   crossbar leaks --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --device r300 --out leaks
       rays of your own, as for `crossbar intersect`, on two cards
 
-With --device and --format both, every device runs in every format; what a device file sets stays.
+With both --device and --format, every device runs in every format; other settings of a device file stay.
 Written to --out: index.html (self-contained), rows.csv, edges.csv, programs.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (wrong pixels by kind),
 NAME.exr (t and triangle); rows with the same bits share these files: see same_bits in study.json.";
 
-/// Rows that run with shared edges, too, if no options choose rows.
+/// Rows that also run with shared edges, if no options choose rows.
 const CURED: [&str; 5] = ["r200", "r200-rounding-rne", "fp16", "fp24", "fp32"];
 
 /// Trace the teapot, or a model of your own, in each number format, against exact arithmetic: leaks, false hits, wrong
@@ -69,7 +69,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
     tessellation: u32,
 
-    /// A card to run on; may be repeated [default: r200, as it is and under each of its open switches]
+    /// A card to run on; may be repeated [default: r200, unchanged and with each of its open switches changed]
     #[arg(long, value_name = "D")]
     device: Vec<String>,
 
@@ -92,7 +92,7 @@ pub(super) struct Args {
     #[command(flatten)]
     options: LeakyTeapotOptions,
 
-    /// Which executor computes; the bits are the same
+    /// Executor; all produce bit-identical results
     #[arg(long, value_enum, default_value = "batch")]
     executor: DeviceExecutor,
 }
@@ -144,9 +144,9 @@ impl StudyArgs for Args {
     }
 }
 
-/// The programs, for `--kernel`.
+/// Values of `--kernel`: the programs.
 fn kernels() -> OneOf<EdgeRule> {
-    let paper = ("paper", "The paper's equations, evaluated by each triangle anew", EdgeRule::Paper);
+    let paper = ("paper", "The paper's equations, evaluated separately for each triangle", EdgeRule::Paper);
     let shared = ("shared-edges", "Each edge evaluated once, for both of its triangles", EdgeRule::SharedEdges);
     one_of([paper, shared])
 }

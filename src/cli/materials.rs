@@ -20,9 +20,9 @@ Examples:
 
 Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001.";
 
-/// Distances that are shown, in units of the longest mean free path.
+/// Distances of the table, in units of the longest mean free path.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
-/// Fractions of the light whose radii are shown.
+/// Fractions of the light, for each of which a radius is shown.
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
 
 /// Show scattering media: coefficients, mean free paths, diffuse reflectance by distance
@@ -116,7 +116,7 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// Everything about one medium.
+/// All findings about one medium.
 fn one(shown: &Shown, published: &PublishedMaterial) -> Findings {
     let mut found = Findings::new(shown.name.as_str());
     found.fields(document(shown, published));
@@ -184,7 +184,7 @@ fn document(shown: &Shown, published: &PublishedMaterial) -> Value {
         "sigma_a_per_mm": shown.each(|dipole| dipole.coefficients().sigma_a),
         "alpha_prime": shown.each(Dipole::alpha_prime),
         "mean_free_path_mm": shown.each(Dipole::mean_free_path),
-        // Without absorption it is infinite, which JSON calls null.
+        // Without absorption it is infinite, which JSON writes as null.
         "diffusion_length_mm": shown.each(Dipole::diffusion_length),
         "z_r_mm": shown.each(Dipole::z_r),
         "z_v_mm": shown.each(Dipole::z_v),

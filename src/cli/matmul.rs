@@ -19,7 +19,7 @@ Examples:
       the fewest bits, or the rarest promotion, that keep the error below a hundredth
 
 A is M x K, B is K x N, of f2, f4 or f8, which are quantised to nearest even (types of up to 8 bits saturate; units with scales \
-take OCP's), or patterns of u1, u2 or u4. K need not be whole blocks: zeros are left out of sums, so padding is exact. \
+take OCP's), or patterns of u1, u2 or u4. K need not be a multiple of the block: zeros do not affect sums, so padding is exact. \
 Measures of goals: worst, mean, bits, of_addends, differing. Written to --out: index.html, D of every unit as .npy, \
 errors.csv, curve.csv, addends.csv.
 
@@ -45,15 +45,15 @@ pub(super) struct Args {
     #[arg(long, value_name = "UNIT,...", required = true, value_delimiter = ',', value_parser = MatrixUnit::find)]
     unit: Vec<MatrixUnit>,
 
-    /// Types of A and B, or one of both [default: the first that a unit takes]
+    /// Types of A and B, or one type for both [default: the first that a unit supports]
     #[arg(long = "type", value_name = "TYPE,...", value_delimiter = ',', value_parser = element)]
     types: Vec<Element>,
 
-    /// Also add a partial sum to single precision every so many products
+    /// Also add the partial sum to single precision after each N products
     #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
     promote: Vec<u32>,
 
-    /// What errors are against: exact, or a unit
+    /// Reference for errors: exact, or a unit
     #[arg(long, value_name = "exact|UNIT", default_value = "exact", value_parser = reference)]
     against: MatmulReference,
 
@@ -70,7 +70,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-/// The reference of errors: a unit; `None` for the exact product.
+/// The reference for errors: a unit, or `None` for the exact product.
 #[derive(Clone, Debug)]
 struct MatmulReference(Option<MatrixUnit>);
 

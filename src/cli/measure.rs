@@ -1,4 +1,4 @@
-//! `crossbar measure`: a card's pixels against every setting of a device's switches.
+//! `crossbar measure`: compares a card's pixels with every setting of a device's switches.
 
 use std::path::PathBuf;
 
@@ -27,7 +27,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.csv")]
     file: PathBuf,
 
-    /// The card that drew them, in place of what the cases say
+    /// The card that drew them, in place of the cases' device
     #[arg(long, value_name = "D")]
     device: String,
 

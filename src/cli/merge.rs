@@ -15,9 +15,10 @@ Examples:
       both, in any order: the file that one run of the command writes
 
 Each part records its command. `merge` reruns that command with the stored results instead of computing them, so that the \
-output equals that of one run, byte for byte, but for `--out`. Run it where the paths of the command's input lead to the \
+output equals that of one run, byte for byte, except for \
+`--out`. Run it where the paths of the command's input lead to the \
 same files. `merge` refuses parts that are missing or given twice, parts of other commands, inputs or programs, and \
-parts that have changed since they were written. docs/scaling.md says which commands split, and what it brings.";
+parts that have changed since they were written. docs/scaling.md lists the commands that support parts, and the gain.";
 
 /// Merge the parts of a run that another command wrote with `--part`
 #[derive(Debug, clap::Args)]
@@ -33,7 +34,7 @@ pub(super) struct Args {
 }
 
 impl Args {
-    /// Opens the parts, which must be of this program.
+    /// Opens the parts; fails unless this program wrote them.
     pub(super) fn open(&self) -> miette::Result<PartSet> {
         Ok(PartSet::open(&self.parts, &version::program()?)?)
     }
@@ -46,7 +47,7 @@ impl Args {
         std::iter::once(OsString::from("crossbar")).chain(words).chain([out]).collect()
     }
 
-    /// Refuses a command without `--part`: this program did not write its parts.
+    /// Rejects a command that has no `--part`: this program did not write its parts.
     pub(super) fn require_divisible(&self, program: &clap::Command, parts: &PartSet) -> Result<(), InputError> {
         let mut command = program;
         for word in &parts.command().arguments {

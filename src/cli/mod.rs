@@ -1,8 +1,8 @@
 //! The command line: one file per subcommand, and the only place that prints.
 //!
-//! A command computes, writes its findings to an [`Out`] and says whether its check held ([`Verdict`]); bad input comes
-//! back as a [`miette::Report`]. Studies share one runner, `study`. This file turns the two into exit codes: 0 done, 1
-//! the check failed, 2 bad input or usage. A reader that goes away (`| head`) ends the program quietly.
+//! A command computes, writes its findings to an [`Out`], and returns whether its check passed ([`Verdict`]), or a
+//! [`miette::Report`] for bad input. Studies share one runner, `study`. This file converts both to exit codes: 0 done,
+//! 1 the check failed, 2 bad input or usage. If a reader closes the pipe (`| head`), the program ends quietly.
 
 mod all_frequency;
 mod alu;
@@ -69,7 +69,7 @@ pub use error::{OutputError, Problem};
 pub use out::Out;
 pub use progress::ProgressBar;
 
-/// The answer to nothing.
+/// Message for a call without arguments.
 const WELCOME: &str = "\
 Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
 
@@ -160,7 +160,7 @@ pub fn program() -> clap::Command {
     groups::grouped(outputs::with_common_settings(model_file::with_options(Cli::command())))
 }
 
-/// A parsed command line, the same line with its defaults, and the check that its options go together.
+/// A parsed command line, the same line with its defaults, and the result of the check that its options go together.
 type Parsed = (Cli, CommandLine, Result<(), Problem>);
 
 fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
@@ -183,14 +183,14 @@ pub fn main() -> ExitCode {
         Ok(parsed) => parsed,
         Err(error) => {
             error::print_usage(&error, &arguments, |safe| parse(&safe).err());
-            // Help and `--version` come this way too, with code 0.
+            // Help and `--version` also arrive here, with code 0.
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
         }
     };
     if cli.json || cli.quiet {
         progress::silence();
     }
-    // 0 threads are as many as there are cores. A pool could only be there already, and none is this early.
+    // 0 threads means one per core. Building fails only if a pool exists already, which is impossible this early.
     let threads = cli.threads.map_or(0, usize::from);
     rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().ok();
     if let Err(problem) = fits {
@@ -208,7 +208,7 @@ pub fn main() -> ExitCode {
         Ok(Verdict::Failed) => ExitCode::from(CHECK_FAILED),
         Err(report) if error::reader_left(&report) => ExitCode::SUCCESS,
         Err(report) => {
-            // Findings before the error come first.
+            // Findings made before the error are written first.
             out.flush().ok();
             error::print(report, cli.json);
             ExitCode::from(BAD_INPUT)
@@ -216,7 +216,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Obeys the command of parts, whose results take the place of its work.
+/// Runs the command that produced the parts, with their results in place of its own computation.
 fn merge(args: &merge::Args, out: &mut Out) -> miette::Result<Verdict> {
     let parts: PartSet = args.open()?;
     args.require_divisible(&program(), &parts)?;

@@ -1,4 +1,4 @@
-//! Model files, for all commands that read them: the options, the reading, and the notes on a model.
+//! Model files, for all commands that read them: options, reading, and the notes about a model.
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
@@ -13,15 +13,15 @@ use crate::io::{ModelNote, ModelOptions, UpAxis, load_mesh_with, scene_file};
 use crate::report::visible::visible_line;
 use crate::scene::Scene;
 
-/// Names of arguments that name a model; the first that a command has counts.
+/// Names of arguments that take a model; only the first one that a command has counts.
 const NAMED_BY: [&str; 3] = ["mesh", "scene", "model"];
 const UP: &str = "model_up";
 const STRICT: &str = "strict";
 
-/// How this run reads models.
+/// Options of reading models in this run.
 static OPTIONS: OnceLock<ModelOptions> = OnceLock::new();
 
-/// The program with the options of models at every command that takes one.
+/// Adds the options of models to every command that takes a model.
 pub(super) fn with_options(program: Command) -> Command {
     let names: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
     let program = names.into_iter().fold(program, |program, name| program.mut_subcommand(name, with_options));
@@ -42,13 +42,13 @@ pub(super) fn with_options(program: Command) -> Command {
     program.arg(up).arg(strict)
 }
 
-/// The argument that names the command's model, if it takes one.
+/// The argument that takes the command's model, if there is one.
 fn named_by(command: &Command) -> Option<&'static str> {
     NAMED_BY.into_iter().find(|name| command.get_arguments().any(|arg| arg.get_id() == *name))
 }
 
-/// Takes the options from a command line. Fails with [`Problem::Usage`] if no model is named. The parser does not
-/// report that if a model excludes the option given instead.
+/// Reads the options from a command line. Fails with [`Problem::Usage`] if no model is named; the parser does not
+/// report that if the given option excludes the model.
 pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     // clap keeps the list of a command's arguments only with debug assertions.
@@ -68,7 +68,7 @@ fn options() -> ModelOptions {
     OPTIONS.get().copied().unwrap_or_default()
 }
 
-/// Refuses the options for files that are not models. Fails with [`Problem`] if any was given.
+/// Rejects these options for files that are not models. Fails with a [`Problem`] if any was given.
 pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
     let ModelOptions { up, strict } = options();
     let asked = if up.is_some() { "`--model-up`" } else { "`--strict`" };
@@ -76,7 +76,7 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
         return Ok(());
     }
     Err(Problem::usage(
-        format!("{asked} says how a file is read, and `{name}` is built by the program"),
+        format!("{asked} applies to model files, but the program builds `{name}` itself"),
         "leave it out, or name a file",
     ))
 }
@@ -101,7 +101,7 @@ fn tell(path: &Path, notes: &[ModelNote]) {
     let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
     for note in notes {
         let (path, mut note) = (path.display().to_string(), note.to_string());
-        // Some notes begin with their own place, which may be in another file.
+        // Some notes begin with their own location, which may be in another file.
         if !note.starts_with(&format!("{path}:")) {
             note = format!("{path}: {note}");
         }

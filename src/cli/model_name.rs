@@ -9,7 +9,7 @@ use crate::scene::built::flat_models::MaterialMesh;
 use crate::scene::built::{self, meshes};
 use crate::scene::{Material, Scene};
 
-/// The material of models without one: reflectance 0.5.
+/// The material of models that have none: reflectance 0.5.
 const PLAIN: [f32; 3] = [0.5; 3];
 
 /// A mesh with its own normals, and a material per triangle.
@@ -30,7 +30,7 @@ impl Model {
     }
 }
 
-/// The help of an argument that takes a model, with the names of the stand-ins for models of the papers on transfer.
+/// The help of an argument that takes a model, with the names of the stand-ins for models in the papers on transfer.
 pub(super) fn transfer_model_help() -> String {
     let stands_in = |name: &&str| ["transfer-", "all-frequency-", "bi-scale-"].iter().any(|of| name.starts_with(of));
     let names: Vec<&str> = meshes::names().filter(stands_in).collect();
@@ -46,12 +46,12 @@ pub(super) fn named_file(path: &Path) -> Vec<&Path> {
     if meshes::names().any(|name| path == Path::new(name)) { Vec::new() } else { scene_name::named_file(path) }
 }
 
-/// A mesh of the project, the mesh of a scene of the project, or of a file, with its own normals.
+/// A mesh of the project, or the mesh of a scene of the project or of a file, with its own normals.
 pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
     Ok(model(path)?.mesh)
 }
 
-/// The model, with materials, found by [`mesh`]'s rules.
+/// The model with materials, found by the same rules as [`mesh`].
 pub(super) fn model(path: &Path) -> miette::Result<Model> {
     let name = path.to_str().unwrap_or_default();
     if let Some(MaterialMesh { mesh, materials, material_of }) = meshes::build_with_materials(name) {

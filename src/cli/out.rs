@@ -15,13 +15,13 @@ use crate::report::visible::{visible, visible_json, visible_line};
 pub struct Out {
     stdout: BufWriter<Stdout>,
     json: bool,
-    /// `true` after the output was closed, when the command continues only for its exit code.
+    /// `true` after the reader closed the output, if the command only continues for its exit code.
     deaf: bool,
     outlive_reader: bool,
 }
 
 impl Out {
-    /// Standard output; `json` is the value of `--json`.
+    /// Creates the standard output; `json` is the value of `--json`.
     pub(super) fn new(json: bool) -> Self {
         let stdout = BufWriter::with_capacity(1 << 16, io::stdout());
         Self { stdout, json, deaf: false, outlive_reader: false }
@@ -32,7 +32,7 @@ impl Out {
         self.json
     }
 
-    /// Columns of text: the variable `COLUMNS`, else the width of the terminal, else [`error::PLAIN_WIDTH`].
+    /// Columns of text: the variable `COLUMNS`, otherwise the width of the terminal, otherwise [`error::PLAIN_WIDTH`].
     fn width() -> usize {
         let said =
             std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok()).filter(|columns| *columns > 0);
@@ -40,23 +40,23 @@ impl Out {
         said.or_else(terminal).unwrap_or(error::PLAIN_WIDTH)
     }
 
-    /// From now on a closed pipe does not end the command: it runs to its verdict.
+    /// From now on, a closed pipe does not end the command: it continues to its verdict.
     pub const fn outlive_reader(&mut self) {
         self.outlive_reader = true;
     }
 
-    /// Writes text and ends its line; hidden characters in it are escaped, line ends stay. Fails if standard output
-    /// cannot be written.
+    /// Writes text and a line end; hidden characters in the text are escaped, its line ends stay. Fails if standard
+    /// output cannot be written.
     pub fn line(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
         Ok(writeln!(self, "{}", visible(&text.to_string()))?)
     }
 
-    /// Writes a sentence on lines of the terminal's width. Fails if standard output cannot be written.
+    /// Writes a sentence, wrapped at the terminal's width. Fails if standard output cannot be written.
     pub fn sentence(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
         self.line(wrapped(&visible_line(&text.to_string()), Self::width(), "  ").join("\n"))
     }
 
-    /// Writes a table without its title, within the terminal's width, and notes on folded rows. Fails if standard
+    /// Writes a table without its title, within the terminal's width, and notes about folded rows. Fails if standard
     /// output cannot be written.
     pub fn table(&mut self, table: &Table) -> Result<(), OutputError> {
         self.line(table.text_within(Self::width()))?;
@@ -69,7 +69,7 @@ impl Out {
         self.table(table)
     }
 
-    /// Writes a check's finding in the form of an error. Fails if standard output cannot be written.
+    /// Writes a check's finding in the format of an error. Fails if standard output cannot be written.
     pub fn finding(&mut self, finding: &dyn Diagnostic) -> Result<(), OutputError> {
         let text = error::render_finding(finding);
         Ok(writeln!(self, "{text}")?)

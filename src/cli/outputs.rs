@@ -10,7 +10,7 @@ use super::Problem;
 /// The options whose value is the path of an output.
 const OUTPUTS: [&str; 5] = ["out", "csv", "matrix", "sheet", "perfetto"];
 
-/// Refuses two outputs with one path, since one would overwrite the other. Fails with [`Problem::Usage`].
+/// Rejects two outputs with the same path, since one would overwrite the other. Fails with [`Problem::Usage`].
 pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = obeyed(program, matches);
     let mut seen: Vec<(&str, PathBuf)> = Vec::new();
@@ -38,7 +38,7 @@ pub(super) fn obeyed<'a>(program: &'a Command, matches: &'a ArgMatches) -> (&'a 
     inner.map_or((program, matches), |(command, inner)| obeyed(command, inner))
 }
 
-/// Final path of a file, links followed; `None` for a device or pipe, which takes any number of outputs.
+/// Final path of a file, with links followed; `None` for a device or pipe, which may take any number of outputs.
 fn place(path: &Path) -> Option<PathBuf> {
     if let Ok(whole) = path.canonicalize() {
         return (whole.is_file() || whole.is_dir()).then_some(whole);
@@ -51,15 +51,15 @@ fn place(path: &Path) -> Option<PathBuf> {
 /// Short names of options that many commands have.
 const SHORT: [(&str, char); 3] = [("out", 'o'), ("device", 'd'), ("format", 'f')];
 
-/// Gives common options their short names, and lets every option take `-1` as its value, which then gets its own error
-/// message.
+/// Gives common options their short names, and lets every option take `-1` as its value, so that the option's own error
+/// message appears.
 pub(super) fn with_common_settings(program: Command) -> Command {
     let commands: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
     let program = program.mut_args(|arg| {
         let short = SHORT.into_iter().find(|(long, _)| arg.get_long() == Some(long));
         let arg = short.map_or(arg.clone(), |(_, short)| arg.short(short));
         match arg.get_action().takes_values() && !arg.is_positional() {
-            // An option that takes everything after a hyphen takes numbers too.
+            // An option that accepts everything after a hyphen already accepts numbers.
             true if !arg.is_allow_hyphen_values_set() => arg.allow_negative_numbers(true),
             _ => arg,
         }

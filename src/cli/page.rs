@@ -19,7 +19,7 @@ Examples:
 
 The file stands alone: it loads nothing and sends nothing. On the visitor's GPU it runs operations in eight number \
 formats, the teapot under the Ray Engine's intersection program, and programs of the systems instruction by instruction, \
-in whole numbers, and compares all bits with the emulator's, which it carries; beside them the GPU's own floats. \
+in integers, and compares all bits with the emulator's, which the file contains; the GPU's own floats are shown too. \
 docs/page.md describes it.";
 
 /// Write a page on which a visitor's GPU is compared with the emulated cards, bit for bit
@@ -54,7 +54,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 }
 
 fn read_emulator(path: &Path) -> Result<Vec<u8>, InputError> {
-    /// Largest module, in bytes.
+    /// Maximum size of a module, in bytes.
     const LIMIT: u64 = 32 << 20;
     read_file(path, "WebAssembly module", LIMIT)
 }

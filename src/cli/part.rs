@@ -14,7 +14,7 @@ use crate::report::Findings;
 use crate::split::{PartNumber, SplitCommand, SplitRun, WrittenPart, not_utf8};
 use crate::study::caster::CasterOptions;
 
-/// The option of commands whose work can be split.
+/// The option of commands whose work can be divided.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(super) struct PartArgs {
     /// Compute only part K of N, and write it to --out; `crossbar merge` merges all parts
@@ -28,15 +28,14 @@ impl PartArgs {
         self.part.is_some()
     }
 
-    /// Refuses parts of work whose rays the Ray Engine casts: in short formats its hits depend on which rays wait
-    /// together.
+    /// Rejects parts if the Ray Engine casts the rays: in short formats, its hits depend on which rays wait together.
     pub(super) fn refuse_engine(self, caster: &CasterOptions) -> Result<(), Problem> {
         let part = [("--part", self.part.is_some() && caster.is_engine())];
         given::refuse(part, "rays of the host", "leave it out, or name `--caster host`")
     }
 
-    /// Mode of the command's items: all of them, only those of the part whose file is `out`, or none. Errors: for an
-    /// argument that is not UTF-8, or a program that cannot be told from others.
+    /// How the command's items are computed: all of them, only those of the part with the file `out`, or none. Fails
+    /// for an argument that is not UTF-8, or if the program cannot be identified.
     pub(super) fn split(self, line: &CommandLine, out: &Path) -> Result<SplitRun, InputError> {
         match (&line.parts, self.part) {
             (Some(parts), _) => Ok(SplitRun::Merge(parts.clone())),
@@ -46,8 +45,8 @@ impl PartArgs {
     }
 }
 
-/// The command whose results are kept in files. Errors: for an argument that is not UTF-8, or a program that cannot be
-/// told from others.
+/// The command whose results are stored in files. Fails for an argument that is not UTF-8, or if the program cannot be
+/// identified.
 pub(super) fn command(line: &CommandLine) -> Result<SplitCommand, InputError> {
     let utf8 = |argument: &OsString| argument.to_str().map(str::to_owned).ok_or_else(|| not_utf8(argument));
     let arguments = line.arguments.iter().map(utf8).collect::<Result<_, _>>()?;

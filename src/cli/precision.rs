@@ -38,7 +38,7 @@ tables. docs/precision.md describes what is measured.
 Exit codes: 0 some format meets the goal, 1 none does (of several expressions: for one of them), 2 the case, the \
 expressions or the goal cannot be used.";
 
-/// Runs of a program at most.
+/// Default maximum number of runs of a program.
 const BUDGET: u64 = 10_000;
 
 /// Find the fewest bits that meet a goal: for an expression, or for the pixel programs of a case or a system
@@ -96,11 +96,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME=X,Y,..", value_parser = uniform::parse)]
     uniform: Vec<Uniform>,
 
-    /// Which formats are tried [default: both, or float for expressions]
+    /// Families of formats that are tried [default: both, or float for expressions]
     #[arg(long, value_parser = families())]
     family: Option<Families>,
 
-    /// Runs of the program after which the best so far is taken [default: 10000]
+    /// Maximum number of runs of the program; then the best result so far counts [default: 10000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     budget: Option<u64>,
 
@@ -131,8 +131,8 @@ fn families() -> OneOf<Families> {
 
 fn draws() -> OneOf<InputDraw> {
     one_of([
-        ("floats", "Every number of the format as likely as every other, as in Herbie", InputDraw::Floats),
-        ("reals", "Every real number of the range as likely as every other, then rounded", InputDraw::Reals),
+        ("floats", "Every number of the format is equally likely, as in Herbie", InputDraw::Floats),
+        ("reals", "Every real number of the range is equally likely, then rounded", InputDraw::Reals),
     ])
 }
 
@@ -160,7 +160,7 @@ impl StudyArgs for Args {
 }
 
 impl Args {
-    /// The study of an expression, or of those of a file.
+    /// The study of an expression, or of the expressions in a file.
     fn expressions(&self) -> miette::Result<ExpressionStudy> {
         let of_cases = [
             ("--held-back", self.held_back.is_some()),
@@ -174,7 +174,7 @@ impl Args {
         given::refuse(of_cases, "cases", "leave it out: an expression runs on no device")?;
         let mut study = match (&self.expr, &self.fpcore) {
             (None, Some(path)) => ExpressionStudy::of_file(path, &self.range)?,
-            // The parser of the command line demands one of them.
+            // The command line's parser requires one of them.
             (text, _) => ExpressionStudy::of_formula(text.as_deref().unwrap_or_default(), &self.range)?,
         };
         study.goal.clone_from(&self.goal);
@@ -213,7 +213,7 @@ impl Args {
         Ok(CaseSubject::new(setup, &name)?)
     }
 
-    /// A case on the device of the options, and its name.
+    /// A case on the device that the options choose, and its name.
     fn setup(&self, path: &Path, uniforms: &[Uniform]) -> miette::Result<(Setup, String)> {
         let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
         let (switches, uniforms) = (self.switch.clone(), uniforms.to_vec());

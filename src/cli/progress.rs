@@ -1,5 +1,5 @@
 //! Progress of long work, on standard error: a bar on a terminal, otherwise a plain line from time to time. Long work
-//! announces itself once, with the options that make it faster.
+//! announces itself once, with the options that would make it faster.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,13 +15,13 @@ use crate::report::visible::visible_line;
 const FIRST: Duration = Duration::from_secs(2);
 /// Time between plain lines.
 const EVERY: Duration = Duration::from_secs(10);
-/// Remaining time above which work announces itself.
+/// Estimated remaining time above which work announces itself.
 const LONG: Duration = Duration::from_secs(45);
 
-/// `true` with `--quiet`, and if errors are JSON, which other lines would disturb.
+/// `true` with `--quiet`, and if errors are JSON, which other lines would corrupt.
 static SILENT: AtomicBool = AtomicBool::new(false);
 
-/// Shows no progress from here on.
+/// Shows no progress from now on.
 pub(super) fn silence() {
     SILENT.store(true, Ordering::Relaxed);
 }
@@ -31,15 +31,15 @@ pub(super) fn silence() {
 pub struct ProgressBar {
     /// The bar on standard error, hidden unless that is a terminal.
     bar: indicatif::ProgressBar,
-    /// True if standard error is not a terminal.
+    /// `true` if standard error is not a terminal.
     is_plain: bool,
     pace: Mutex<Pace>,
-    /// Options that make the work faster; empty if there are none.
+    /// Options that would make the work faster; empty if there are none.
     quicker: &'static str,
 }
 
 impl ProgressBar {
-    /// A bar of `total` steps of `what`.
+    /// Creates a bar with `total` steps of `what`.
     pub fn new(what: &str, total: u64) -> Self {
         let bar = indicatif::ProgressBar::new(total).with_message(what.to_owned());
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {human_pos}/{human_len} {eta} left") {
@@ -49,21 +49,21 @@ impl ProgressBar {
         Self { bar, is_plain, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
     }
 
-    /// Sets the options that make long work faster, as in "a smaller `--size`".
+    /// Sets the options that would make long work faster, such as "a smaller `--size`".
     #[must_use]
     pub fn quicker(mut self, quicker: &'static str) -> Self {
         self.quicker = quicker;
         self
     }
 
-    /// A spinner beside `what`.
+    /// Creates a spinner labelled `what`.
     pub fn unending(what: &str) -> Self {
         let bar = indicatif::ProgressBar::new_spinner().with_message(what.to_owned());
         begin(&bar);
         Self { bar, is_plain: false, pace: Mutex::new(Pace::new(Instant::now(), 0)), quicker: "" }
     }
 
-    /// `done` of `total` steps of `what` are done.
+    /// Reports that `done` of `total` steps of `what` are done.
     pub fn show(&self, what: String, done: u64, total: u64) {
         self.bar.set_length(total);
         self.bar.set_position(done);
@@ -71,13 +71,13 @@ impl ProgressBar {
         self.say();
     }
 
-    /// `steps` more are done.
+    /// Reports that `steps` more steps are done.
     pub fn advance(&self, steps: u64) {
         self.bar.inc(steps);
         self.say();
     }
 
-    /// Writes the due messages: that the work will take long, and, without a bar, a plain line.
+    /// Writes the messages that are due: that the work will take long, and, without a bar, a plain line.
     fn say(&self) {
         let (now, done, total) = (Instant::now(), self.bar.position(), self.bar.length().unwrap_or(0));
         // A panic elsewhere leaves this data valid.
@@ -94,7 +94,7 @@ impl ProgressBar {
         }
     }
 
-    /// Writes a line above the bar, or without a bar, a plain one.
+    /// Writes a line above the bar, or a plain line if there is no bar.
     fn announce(&self, line: &str) {
         match self.is_plain {
             false => self.bar.println(line),
@@ -103,7 +103,7 @@ impl ProgressBar {
     }
 }
 
-/// Lets a bar move, or hides it where no progress is shown; returns whether it is hidden.
+/// Shows the bar, or hides it if no progress is shown; returns `true` if it is hidden.
 fn begin(bar: &indicatif::ProgressBar) -> bool {
     let is_silent = SILENT.load(Ordering::Relaxed);
     if is_silent {
@@ -119,11 +119,11 @@ impl Drop for ProgressBar {
     }
 }
 
-/// Speed of steps: each stage of the work is measured anew.
+/// Speed of the steps; it is measured anew for each stage of the work.
 #[derive(Debug)]
 struct Pace {
     start: Instant,
-    /// Start of this stage, steps done at that time, and steps of the stage.
+    /// Start of this stage, number of steps done at that time, and number of steps in the stage.
     stage: (Instant, u64, u64),
     done: u64,
     is_announced: bool,
@@ -145,7 +145,7 @@ impl Pace {
         is_due
     }
 
-    /// Estimated remaining time of a stage, once known; and `true` the first time that it is long.
+    /// Estimated remaining time of a stage, once known; and `true` the first time that this estimate is long.
     fn left(&mut self, now: Instant, done: u64, total: u64) -> (Option<Duration>, bool) {
         if total != self.stage.2 || done < self.done {
             self.stage = (now, done, total);
@@ -164,7 +164,7 @@ impl Pace {
     }
 }
 
-/// A duration to about two digits.
+/// Formats a duration with about two digits.
 fn about(duration: Duration) -> String {
     match duration.as_secs() {
         seconds @ 0..90 => format!("about {} s", seconds.max(1)),
@@ -173,7 +173,7 @@ fn about(duration: Duration) -> String {
     }
 }
 
-/// The line on work that will take long.
+/// Message that the work will take long.
 fn long_work(what: &str, left: Duration, quicker: &str) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "this" } else { &what };
@@ -181,7 +181,7 @@ fn long_work(what: &str, left: Duration, quicker: &str) -> String {
     format!("{what} will take {} at this pace{quicker}", about(left))
 }
 
-/// A line of progress: steps done, of all, and the time left.
+/// A line of progress: steps done, total, and remaining time.
 fn plain_line(what: &str, done: u64, total: u64, left: Option<Duration>) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "working" } else { &what };

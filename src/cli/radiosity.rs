@@ -1,4 +1,4 @@
-//! `crossbar radiosity`: matrix radiosity on a card and on the host, side by side.
+//! `crossbar radiosity`: matrix radiosity on a card and on the host, compared.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `crossbar reproduce`: the papers' tables and figures, ours beside theirs.
+//! `crossbar reproduce`: the papers' tables and figures, compared with ours.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -41,10 +41,10 @@ and ours agrees with one of its values), or too vague to judge. All bounds were 
 Entries that take minutes to hours are recorded runs, which the program contains; --full-size
 computes them anew and compares them with the record. The source of each row says which.
 An interrupted run leaves no incomplete files; the next run starts from the beginning, or from the
-entries that are named. --record goes on: a file that is there stays, and so do the finished pieces
+entries that are named. --record continues: an existing file stays, and so do the finished pieces
 of all-frequency-table-1 and all-frequency-figures, which take hours, in FOLDER/ID.pieces.
 A missed figure is a finding, and docs/papers lists it with the open question: the exit code is 0. It
-is 1 only if --full-size computes a value that is not as recorded.";
+is 1 only if --full-size computes a value that differs from the record.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
 #[derive(Debug, clap::Args)]
@@ -113,7 +113,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     }
     // Checked before the long work, so that an unwritable folder is found at once.
     drop(FileSet::new(folder).map_err(Problem::from)?);
-    let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
+    let bar = ProgressBar::new("", 1).quicker("names of single entries; after an interruption, it continues");
     let mut table = Table::of("Records", "entry record processor_s wall_s");
     for (done, entry) in (0..).zip(&entries) {
         bar.show(entry.id.to_owned(), done, entries.len() as u64);
@@ -133,7 +133,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     study::show(&found, out)
 }
 
-/// Runs an entry at full size, and writes its record. Intermediate results of an interrupted run are beside the record.
+/// Runs an entry at full size, and writes its record. Pieces of an interrupted run are stored next to the record.
 fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
     let arguments = ["reproduce", entry.id, "--record"].map(str::to_owned).to_vec();
     let command = SplitCommand { program: version::program()?, arguments };
@@ -158,7 +158,7 @@ fn hundredths(seconds: f64) -> f64 {
     (100.0 * seconds).round() / 100.0
 }
 
-/// Time that the program has taken so far.
+/// Time that the program has used so far.
 fn clock() -> SpentTime {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     SpentTime { processor_s: processor_time(), wall_s: START.elapsed().as_secs_f64() }
@@ -167,7 +167,7 @@ fn clock() -> SpentTime {
 /// Processor time of all threads so far, in seconds; `None` if the system does not report it.
 fn processor_time() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // After the name, which may have blanks: state, ten numbers, then ticks in the program and in the system.
+    // After the name, which may contain blanks: state, ten numbers, then clock ticks in the program and in the system.
     let (_, rest) = stat.rsplit_once(')')?;
     let ticks = |at: usize| rest.split_whitespace().nth(at)?.parse::<u64>().ok();
     Some((ticks(11)? + ticks(12)?) as f64 / ticks_per_second() as f64)

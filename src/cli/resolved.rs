@@ -1,4 +1,4 @@
-//! The command line as resolved: every option that decides the result, with defaults.
+//! The resolved command line: every option that affects the result, including defaults.
 
 use std::ffi::{OsStr, OsString};
 use std::fmt::Write as _;
@@ -8,13 +8,13 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 
 use crate::split::PartSet;
 
-/// Options that change no result: the output folder, the executor and its adapter, messages.
+/// Options that do not change the result: the output folder, the executor and its adapter, messages.
 const WITHOUT_EFFECT: [&str; 7] = ["out", "executor", "json", "threads", "help", "part", "resume"];
 
-/// A command line as resolved.
+/// A resolved command line.
 #[derive(Debug)]
 pub(super) struct CommandLine {
-    /// For a reader.
+    /// The line as text, for people.
     pub(super) text: String,
     /// Arguments with the same meaning for the parser.
     pub(super) arguments: Vec<OsString>,
@@ -23,7 +23,7 @@ pub(super) struct CommandLine {
 }
 
 /// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. Omits a
-/// default that a given option replaces.
+/// default if a given option replaces it.
 pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLine {
     let mut line = CommandLine { text: program.get_name().to_owned(), arguments: Vec::new(), parts: None };
     let (mut command, mut matches) = (program, matches);
@@ -59,7 +59,7 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
             }
         }
     }
-    // Elsewhere, the parser would take them for options.
+    // Without `--`, the parser would take them for options.
     if !last.is_empty() {
         line.arguments.push("--".into());
         line.arguments.extend(last);

@@ -57,7 +57,7 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// One scene, and its files if a folder is named.
+/// Findings of one scene; writes its files if a folder is named.
 fn one(name: &str, folder: Option<&PathBuf>) -> miette::Result<Findings> {
     let (Some(scene), Some(what)) = (built::build(name), built::description(name)) else {
         let names: Vec<&str> = built::names().collect();

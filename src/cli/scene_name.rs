@@ -33,7 +33,7 @@ pub(super) fn named_file(path: &Path) -> Vec<&Path> {
     if built::names().any(|name| path == Path::new(name)) { Vec::new() } else { vec![path] }
 }
 
-/// A scene of the project by its name, or of a scene file, an OBJ, PLY, STL or glTF file.
+/// A scene of the project by its name, or from a scene file or an OBJ, PLY, STL or glTF file.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     Ok(match by_name(path)? {
         Some(scene) => scene,
@@ -41,7 +41,7 @@ pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     })
 }
 
-/// An eye of the user's own.
+/// A camera chosen by the user.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(super) struct EyeArgs {
     /// Position of the camera [default: far enough to see the whole scene]
@@ -58,20 +58,21 @@ pub(super) struct EyeArgs {
 }
 
 impl EyeArgs {
-    /// Returns `true` without options.
+    /// Returns `true` if no option was given.
     pub(super) fn is_default(&self) -> bool {
         let Self { eye, target, tan_half_height } = *self;
         eye.is_none() && target.is_none() && tan_half_height.is_none()
     }
 
-    /// A camera; without an eye, it sees all of the mesh. Up is z, or y if the eye is straight above or below.
+    /// A camera; without an eye, it sees the whole mesh. Up is z, or y if the eye is directly above or below the
+    /// target.
     pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
         let is_upright = self.eye.zip(self.target).is_some_and(|(eye, target)| eye[..2] == target[..2]);
         let up = if is_upright { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
         view::framing(mesh, size, self.tan_half_height.unwrap_or(0.375), (self.eye, self.target, up))
     }
 
-    /// Refuses options that a view of the scene sets.
+    /// Rejects options that a view of the scene determines.
     fn require_no_lens(&self, view: &str) -> Result<(), Problem> {
         if self.tan_half_height.is_none() {
             return Ok(());
@@ -90,7 +91,8 @@ pub(super) struct Viewpoint<'a> {
 }
 
 impl Viewpoint<'_> {
-    /// The requested view, else the requested eye, else the scene's first view, else a view of the whole scene.
+    /// The requested view, otherwise the requested eye, otherwise the scene's first view, otherwise a view of the whole
+    /// scene.
     pub(super) fn camera(&self, scene: &Scene) -> miette::Result<Camera> {
         let aimed = self.eye.eye.is_some() || self.eye.target.is_some();
         let view = match self.view {

@@ -24,7 +24,7 @@ pub(super) struct ShownError {
     /// Number of omitted related diagnostics.
     more: usize,
     cause: Option<Box<Self>>,
-    /// True if a cause is a diagnostic, so that its code and help are shown.
+    /// `true` if a cause is a diagnostic, so that its code and help are shown.
     cause_is_diagnostic: bool,
 }
 
@@ -34,7 +34,7 @@ impl ShownError {
         Self::within(diagnostic, None, most)
     }
 
-    /// Text of `outer` applies to causes without text of their own.
+    /// The text of `outer` applies to causes that have no text.
     fn within(diagnostic: &dyn Diagnostic, outer: Option<&dyn SourceCode>, most: usize) -> Self {
         let source = diagnostic.source_code().or(outer);
         let labels: Vec<LabeledSpan> = diagnostic.labels().map(Iterator::collect).unwrap_or_default();

@@ -1,7 +1,7 @@
-//! The runner of all studies: progress, an output folder written at once, tables on standard output, the exit code.
+//! The runner of all studies: progress, an output folder written all at once, tables on standard output, the exit code.
 //! Commands that write no page [`show`] their findings in the same form.
 //!
-//! A study's command declares its options and converts them to parameters; [`run`] does the rest.
+//! A study's command declares its options and converts them to parameters; [`run`] does everything else.
 
 use std::fs::File;
 use std::path::Path;
@@ -20,13 +20,13 @@ pub(super) trait StudyArgs {
     /// The study with these options.
     type Study: Study;
 
-    /// Options that make the study faster, shown for long work; empty if there are none.
+    /// Options that would make the study faster, shown for long work; empty if there are none.
     const QUICKER: &'static str = "";
 
     /// The files that the study writes and reads.
     fn files(&self) -> StudyFiles<'_>;
 
-    /// Creates the study, with all names looked up and files read.
+    /// Creates the study: looks up all names, and reads all files.
     fn study(&self) -> miette::Result<Self::Study>;
 }
 
@@ -41,7 +41,8 @@ pub(super) struct StudyFiles<'a> {
 }
 
 impl<'a> StudyFiles<'a> {
-    /// A folder for output, `--part` of commands that have it, and the files that are read.
+    /// Creates the description of files: the output folder, the `--part` option if the command has it, and the input
+    /// files.
     pub(super) fn new(folder: Option<&'a Path>, part: Option<PartArgs>, inputs: Vec<&'a Path>) -> Self {
         Self { folder, part, inputs }
     }
@@ -78,7 +79,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut 
     Ok(found.verdict())
 }
 
-/// Shows the findings of a command without a page: the document, or tables and lines.
+/// Shows the findings of a command without a page: the JSON document, or tables and lines.
 pub(super) fn show(found: &Findings, out: &mut Out) -> miette::Result<Verdict> {
     if out.json() {
         out.document(&found.plain_document())?;
@@ -88,7 +89,7 @@ pub(super) fn show(found: &Findings, out: &mut Out) -> miette::Result<Verdict> {
     Ok(found.verdict())
 }
 
-/// Adds the files that a command wrote: a field for each possible file, a line for each requested one.
+/// Adds the files that a command wrote: a field for each possible file, a line for each requested file.
 pub(super) fn written<'a>(found: &mut Findings, files: impl IntoIterator<Item = (&'a str, Option<&'a Path>)>) {
     for (name, path) in files {
         found.field(name, json!(path));
@@ -98,7 +99,7 @@ pub(super) fn written<'a>(found: &mut Findings, files: impl IntoIterator<Item = 
     }
 }
 
-/// Prints the introduction, each table, and the other lines with the page of a folder, separated by empty lines.
+/// Prints the introduction, each table, and the other lines with the path of the page, separated by empty lines.
 fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Result<()> {
     let mut is_first = found.introduction().is_empty();
     let mut apart = |out: &mut Out| if std::mem::take(&mut is_first) { Ok(()) } else { out.line("") };
@@ -118,7 +119,7 @@ fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Resu
     Ok(())
 }
 
-/// The provenance with digests of the inputs; names of scenes and piped input have none.
+/// The provenance with digests of the inputs; names of scenes and piped input have no digests.
 pub(super) fn with_inputs(mut provenance: Provenance, inputs: &[&Path]) -> Provenance {
     // Opening a pipe would wait for its writer.
     let digest = |path: &Path| sha256(path.is_file().then(|| File::open(path).ok())??).ok();

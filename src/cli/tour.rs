@@ -9,7 +9,7 @@ use crate::study::tour::Parameters;
 const EXAMPLES: &str = "\
 Examples:
   crossbar tour
-      a room lit by matrix radiosity, whose form factors the Ray Engine's rays gave; in it a glossy bunny and a suit of armor of marble
+      a room lit by matrix radiosity, with form factors by the Ray Engine's rays; in it, a glossy bunny and a marble suit of armor
 
 Written to --out: index.html (self-contained), room.png, clock.csv and timeline.json (the modelled time of every step, a trace \
 for https://ui.perfetto.dev or chrome://tracing), formats.csv (what each number format costs each system).";
@@ -22,7 +22,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
 
-    /// Make edges of patches and models so many times as long, for a quick look
+    /// Lengthen edges of patches and models by this factor, for a quick look
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=8))]
     coarser: u32,
 

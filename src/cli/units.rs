@@ -1,4 +1,4 @@
-//! `crossbar units`: matrix units of GPUs, and the evidence for each rule.
+//! `crossbar units`: matrix units of GPUs, and the evidence for each of their rules.
 
 use refsim::num::matrix::{MatrixUnit, UNITS};
 use serde_json::json;
@@ -13,7 +13,7 @@ Examples:
   crossbar units hopper-fp8
       the one of Hopper's FP8, with chips, instructions and sources
 
-docs/matrix_units.md has the rules, and what each loses on one sum.";
+docs/matrix_units.md describes the rules, and the loss of each in one sum.";
 
 /// Show the matrix units of GPUs, Volta to Blackwell and CDNA1 to CDNA3: rules, sources, how sure they are
 #[derive(Debug, clap::Args)]

@@ -1,4 +1,4 @@
-//! Text of `crossbar --version`.
+//! Version text of `crossbar --version`.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -8,14 +8,14 @@ use crate::error::InputError;
 use crate::report::sha256;
 use crate::split::unreadable;
 
-/// Commit that the program was built from. `build.rs` sets it in optimised builds; packagers may set it in any build.
+/// Commit from which the program was built. `build.rs` sets it in optimised builds; packagers may set it in any build.
 pub(super) const COMMIT: &str = match option_env!("CROSSBAR_COMMIT") {
     Some(commit) => commit,
     None if cfg!(debug_assertions) => "development build",
     None => "unknown commit",
 };
 
-/// The version, the program's commit and features: `0.1.0 (8a205f4a1, features cli, wgpu)`.
+/// The version, with the program's commit and features: `0.1.0 (8a205f4a1, features cli, wgpu)`.
 pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
     let optional = [("wgpu", cfg!(feature = "wgpu")), ("wgsl", cfg!(feature = "wgsl"))];
     let features = optional.iter().filter(|(_, has)| *has).fold("cli".to_owned(), |all, (name, _)| all + ", " + name);

@@ -27,8 +27,8 @@ pub(super) fn bad_format(error: FormatError) -> miette::Report {
 /// Position of a camera, its target, and its up vector.
 pub(super) type Placement = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
 
-/// A camera. Without an eye, it looks down a little from the front and sees all of the mesh; without a target too, the
-/// mesh fills the picture.
+/// A camera. Without an eye, it looks down a little from the front and sees the whole mesh; if there is no target
+/// either, the mesh fills the picture.
 pub(super) fn framing(
     mesh: &Mesh,
     size: Size,
@@ -66,14 +66,14 @@ pub(super) fn framing(
 /// Default direction from the target to the eye: from the front, and a little from above.
 const FRONT: [f64; 3] = [0.3, -0.8, 0.52];
 
-/// The fraction of half a picture's width or height that a model fills.
+/// The fraction of half the picture's width or height that a model fills.
 const FILLED: f64 = 0.92;
 
-/// The nearest eye that looks along [`FRONT`] and sees every vertex, and a target beside `middle`; `None` if there is
-/// no such picture, since up is along the line of sight.
+/// The nearest eye that looks along [`FRONT`] and sees every vertex, and a target near `middle`; `None` if no such
+/// picture exists, because up is parallel to the line of sight.
 ///
-/// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at
-/// (e, d). So e lies between max(x + t w) - t d and min(x - t w) + t d, and the least d has the two equal.
+/// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at (e, d).
+/// So e lies between max(x + t w) - t d and min(x - t w) + t d, and the two are equal for the smallest d.
 fn filling(
     mesh: &Mesh,
     up: [f32; 3],
@@ -83,7 +83,7 @@ fn filling(
     let exact = |point: [f32; 3]| DVec3::from(point.map(f64::from));
     let toward = DVec3::from(FRONT).normalize();
     let right = exact(up).cross(toward).try_normalize()?;
-    // To the right and up in the picture, and towards the eye.
+    // Unit vectors to the right and up in the picture, and towards the eye.
     let axes = [right, toward.cross(right), toward];
     let points = || mesh.iter_corners().flatten().map(|v| axes.map(|axis| axis.dot(exact(v))));
     let extreme = |of: &dyn Fn([f64; 3]) -> f64| points().map(of).fold(f64::NEG_INFINITY, f64::max);
@@ -99,14 +99,14 @@ fn filling(
     Some((point(w), point(toward.dot(exact(middle)).min(w - w.abs() * 1e-3))))
 }
 
-/// First hits by exact arithmetic, converted by `rounded`; exact numbers of only some rays are kept at a time.
+/// First hits in exact arithmetic, converted by `rounded`; only some rays' exact numbers are in memory at a time.
 pub(super) fn exact_hits<T>(
     tracer: &Tracer<'_>,
     rays: &[Ray],
     sides: Sides,
     rounded: fn(&ExactT) -> T,
 ) -> Vec<Option<(u32, T)>> {
-    /// Number of rays whose exact numbers are in memory at once.
+    /// Number of rays whose exact numbers are in memory at the same time.
     const AT_ONCE: usize = 1 << 16;
     let mut hits = Vec::with_capacity(rays.len());
     for some in rays.chunks(AT_ONCE) {
@@ -117,7 +117,7 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Reads a picture. Fails with the defect of the file.
+/// Reads a picture. The error says what is wrong with the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
 }

@@ -1,5 +1,5 @@
-//! The studies of Crossbar, one folder per question, the writer of their findings, the values of their options, and
-//! case files with the shaders that they name. `crossbar` re-exports these rooms.
+//! The studies of Crossbar, one folder per question; the writer of their findings, the values of their options, and
+//! case files with their shaders. `crossbar` re-exports these modules.
 
 use crossbar_base::{compare, elementary, error, geom};
 use crossbar_ground::{atlas, card, io, linalg, names, picture, scene, sphere, tracer};

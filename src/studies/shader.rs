@@ -73,7 +73,7 @@ pub enum ShaderError {
         #[label("here")]
         span: Option<SourceSpan>,
     },
-    /// The program breaks rules of its version or limits of the device.
+    /// The program violates rules of its version or limits of the device.
     #[error("`{name}` is not a legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
     #[diagnostic(code("check"))]
     Illegal {
@@ -169,7 +169,7 @@ impl ShaderText {
         }
     }
 
-    /// Line of an instruction; of WGSL, whose lines have several, with its expression alone.
+    /// Line of an instruction; in WGSL, where a line may have several instructions, only its expression.
     pub fn instruction(&self, program: &Program, index: usize) -> Option<SourceLine> {
         let line = self.line(program.instructions.get(index)?.span);
         match program.instruction_text(index).filter(|_| self.is_wgsl()) {
@@ -178,18 +178,18 @@ impl ShaderText {
         }
     }
 
-    /// Text with its name, as errors show it.
+    /// Text with its name, in the form that errors need.
     pub fn named_source(&self) -> Arc<SourceText> {
         self.source.clone()
     }
 
-    /// Returns `true` if the name says that the text is WGSL.
+    /// Returns `true` if the name is that of a WGSL file.
     pub fn is_wgsl(&self) -> bool {
         is_wgsl(Path::new(self.name()))
     }
 
-    /// Assembles the text; WGSL is translated. Errors: all syntax errors; for WGSL the first construct without a
-    /// translation.
+    /// Assembles the text; WGSL is translated. Fails with all syntax errors, or for WGSL with the first construct that
+    /// has no translation.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
         if self.is_wgsl() {
             return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {
@@ -206,7 +206,7 @@ impl ShaderText {
         })
     }
 
-    /// Checks the text's program against its version and a device. Errors: all violations.
+    /// Checks the text's program against its version and a device. Fails with all violations.
     pub fn check(&self, program: Program, profile: &Profile) -> Result<Checked<Program>, ShaderError> {
         check::check(program, profile).map_err(|report| ShaderError::Illegal {
             name: self.name().to_owned(),
@@ -218,7 +218,7 @@ impl ShaderText {
         })
     }
 
-    /// Warnings of the text's program, with its text.
+    /// Warnings about the text's program, with its text.
     pub fn warnings<'a>(&'a self, program: &'a Checked<Program>) -> impl Iterator<Item = ShaderWarning> + 'a {
         program.warnings().iter().map(|warning| {
             let (start, end) = (warning.span.start as usize, warning.span.end as usize);

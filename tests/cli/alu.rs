@@ -145,7 +145,7 @@ fn devices_without_a_measured_unit_compute_by_their_rules() {
         ("ex2 --device nv20", "the vertex unit of NV20 and NV25 has no `ex2`"),
         ("expp --device gt200", "`expp` is an instruction of the vertex units"),
         ("rcc --format fp16", "`rcc` is an instruction of the vertex units"),
-        ("div --device nv20", "`div` is no instruction of a device"),
+        ("div --device nv20", "`div` is not an instruction of any device"),
         ("mul --device nv20 --state legacy", "the vertex arithmetic of `nv20` has no such state"),
         ("mul --device gt200 --state modern", "the pixel arithmetic of `gt200` has no such state"),
         ("mul --device nv20 --stage geometry", "invalid value 'geometry'"),
@@ -154,7 +154,7 @@ fn devices_without_a_measured_unit_compute_by_their_rules() {
         ("mul --format fp32 --state ieee", "`--stage` and `--state` are for `--device` only"),
         ("mul --device nv02", "nv20"),
         ("dp3 --device nv20", "line 1: expected 6 numbers (a.x a.y a.z b.x b.y b.z), found 2 fields"),
-        ("dp3 --device nv20 --verify", "take neither `--verify` nor `--to`"),
+        ("dp3 --device nv20 --verify", "support neither `--verify` nor `--to`"),
     ] {
         let said = alu(arguments, "0 0").refusal(arguments);
         assert!(said.contains(expected), "alu {arguments}: {said}");

@@ -109,12 +109,12 @@ fn lists_of_errors_are_cut_but_for_machines() {
             .and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok())
             .expect("a count");
     assert_eq!((ran.code, shown(&ran.stdout)), (Some(1), 20), "{}", ran.stdout);
-    assert!(ran.stdout.ends_with(" more: `--json` has every one\n"), "{}", ran.stdout);
+    assert!(ran.stdout.ends_with(" more: `--json` lists all\n"), "{}", ran.stdout);
     let document: serde_json::Value =
         serde_json::from_str(&check(&bad_lines(50), &["--json"]).stdout).expect("one JSON document");
     assert_eq!(document["violations"].as_array().map(Vec::len), Some(total));
     let ran = check(&format!("ps_1_4\n{}", "frobnicate\n".repeat(30)), &[]);
-    assert!(ran.stderr.ends_with("... and 10 more: `--json` has every one\n"), "{}", ran.stderr);
+    assert!(ran.stderr.ends_with("... and 10 more: `--json` lists all\n"), "{}", ran.stderr);
 }
 
 /// Measures the program's processor time, which does not depend on other load. Eight times the errors may take eight

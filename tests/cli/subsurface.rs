@@ -252,7 +252,7 @@ fn environment_maps_shine() {
     // The sides see half of the disk at a grazing angle; the slanted face sees none of it.
     assert!(disk[0][0] > 0.05 && disk[1][0] < 0.1 * disk[0][0] && disk[3][0] == 0.0, "from below: {disk:?}");
     assert!(disk[3][1] > 0.0, "light comes through from behind");
-    refused(&["--light", "constant", "--light", "ambient:1,1,1"], "expected one environment map alone");
+    refused(&["--light", "constant", "--light", "ambient:1,1,1"], "expected a single environment map");
     refused(&["--light", "nowhere.exr"], "nowhere.exr");
 }
 

@@ -1,4 +1,4 @@
-//! Programs to begin with, one per language.
+//! Example programs, one per language.
 
 use serde::Serialize;
 

@@ -15,12 +15,12 @@ use crate::examples::{EXAMPLES, Example};
 use crate::scene::{SIDE, Scene};
 use crate::shown::{ShownDifference, ShownTrace};
 
-/// Most characters of a program; a page has no longer ones.
+/// Maximum number of bytes of a program; a page has no longer ones.
 const MAX_TEXT: usize = 1 << 16;
-/// Most instructions that a fragment may execute, so that the page answers.
+/// Maximum number of instructions that a fragment may execute, so that the page responds in time.
 const STEP_BUDGET: u32 = 10_000;
 
-/// A device, with a format for its registers if another is meant.
+/// A device, with a register format if it replaces the device's own.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Device {
     /// Name of a profile.
@@ -43,15 +43,15 @@ pub struct Request {
     pub pixel: Option<[u32; 2]>,
 }
 
-/// An error or warning about the program, with its place.
+/// An error or warning about the program, with its position.
 #[derive(Debug, Serialize)]
 struct Remark {
     message: String,
     help: String,
-    /// Line and column, from 1; 0 if it is about no place.
+    /// Line and column, from 1; 0 if there is no position.
     line: usize,
     column: usize,
-    /// Range in the text, in UTF-16 units as scripts count.
+    /// Range in the text, in UTF-16 units, as scripts count.
     start: usize,
     end: usize,
 }
@@ -77,7 +77,7 @@ struct Answer {
     difference: Option<ShownDifference>,
 }
 
-/// Answers a request in JSON, by JSON. Errors of the program, and of the request, are in the answer.
+/// Answers a request in JSON with JSON. Errors in the program or in the request are part of the answer.
 pub fn answer(request: &str) -> String {
     let mut answer = Answer { side: SIDE, devices: Profile::all_names(), examples: &EXAMPLES, ..Answer::default() };
     match serde_json::from_str::<Request>(request) {
@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(found["drawn"]["format"], "s3.12:rdn");
         let picture = found["drawn"]["picture"].as_array().expect("a picture");
         assert_eq!(picture.len(), (3 * SIDE * SIDE) as usize);
-        // White texels show the color: (s, t, 1 - s) at the center of pixel (9, 1).
+        // White texels leave the color unchanged: (s, t, 1 - s) at the center of pixel (9, 1).
         let at = |x: usize, y: usize| &picture[3 * (y * SIDE as usize + x)..][..3];
         assert_eq!(at(9, 1), [json!(76), json!(12), json!(179)], "{:?}", at(9, 1));
         let steps = found["trace"]["steps"].as_array().expect("steps");
@@ -238,7 +238,7 @@ mod tests {
             "{error}"
         );
         assert!(found["drawn"].is_null());
-        // A rule of the card.
+        // The program breaks a rule of the card.
         let found = asked(&json!({ "text": "ps_2_0\nmov oC0, c0\n", "device": "r200" }));
         assert_eq!(found["errors"][0]["line"], 1, "{found}");
         for request in [
@@ -266,8 +266,8 @@ mod tests {
         }
     }
 
-    /// Digests of the answers that `tests/page` expects of the module in a browser. If a change is meant, replace the
-    /// list by this output.
+    /// Digests of the answers that `tests/page` expects of the module in a browser. After an intended change, replace
+    /// the list by this output.
     #[test]
     fn answers_are_those_of_the_list() {
         let line = |example: &Example| {
@@ -277,7 +277,7 @@ mod tests {
         assert_eq!(EXAMPLES.iter().map(line).collect::<String>(), include_str!("../answers.txt"));
     }
 
-    /// A page answers in time: loops that would run for long end with an error.
+    /// A page answers in time: a loop that would run for long ends with an error.
     #[test]
     fn endless_programs_end() {
         let text =

@@ -94,7 +94,7 @@ fn quad() -> [Vertex; 4] {
     quad
 }
 
-/// Kind of a sampler's texture; `None` for textures that the page lacks, which read (0, 0, 0, 1).
+/// Kind of a sampler's texture; `None` for textures that the page lacks: reading them gives (0, 0, 0, 1).
 fn kind(program: &Checked<Program>, sampler: usize) -> Option<TextureKind> {
     let reads = |instruction: &&Instruction| {
         instruction.sources.iter().any(|source| {

@@ -25,9 +25,9 @@ docs/papers/all_frequency.md explains all of it.";
 /// The part of the work that the card does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum WayArg {
-    /// None: the host makes colors of vertices, which are interpolated
+    /// None: the host computes vertex colors, which are interpolated
     Colors,
-    /// The product with factors of the view, which are in textures, for each pixel
+    /// The product with the view factors, from textures, per pixel
     Products,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Args {
 }
 
 impl Args {
-    /// Where products are computed: maps of signed 16 bits where the card has them, else of 8.
+    /// Where products are computed: with signed 16-bit maps if the card has them, otherwise with 8-bit maps.
     fn place(&self, profile: &Profile) -> ProductPlace {
         if self.way == WayArg::Colors {
             return ProductPlace::Vertices(VertexColors::Bytes);

@@ -74,7 +74,11 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let numbers = 4 * 256 * file.reflectance.terms() as u64;
     if u64::from(args.vectors) > numbers / 4 {
         let what = format!("expected at most {} `--vectors`, found {}", numbers / 4, args.vectors);
-        return Err(Problem::usage(what, "a vertex has no more numbers in a segment; more vectors do not help").into());
+        return Err(Problem::usage(
+            what,
+            "this is how many numbers a vertex has in a segment; more vectors do not help",
+        )
+        .into());
     }
     let options = SegmentOptions {
         points_per_cluster: args.points_per_cluster as usize,

@@ -41,7 +41,9 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let other = load_all_frequency(&args.compressed, Some(&digest))?;
     let (Some(maps), Some(coded)) = (&file.visibility, &other.coded) else {
         let what = "expected a file with visibility, then one with coded transfer, found others";
-        return Err(Problem::usage(what, "name what `crossbar all-frequency precompute` and `compress` wrote").into());
+        return Err(
+            Problem::usage(what, "name files that `crossbar all-frequency precompute` and `compress` wrote").into()
+        );
     };
     if (&file.reflectance, file.hats) != (&other.reflectance, other.hats) {
         let what =

@@ -27,9 +27,9 @@ Examples:
       any table of reflectance times cosine: a row per view, a column per light, by texels of square parabolic maps
 
 Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
-docs/papers/all_frequency.md says what the options are.";
+docs/papers/all_frequency.md explains the options.";
 
-/// Isotropy of Schlick's model, the paper's.
+/// Isotropy of Schlick's model, as in the paper.
 const ISOTROPY: f64 = 0.2;
 /// Exponent of Phong's model.
 const EXPONENT: f64 = 20.0;
@@ -41,13 +41,13 @@ enum ModelArg {
     CookTorrance,
     /// Schlick 1994, anisotropic
     Schlick,
-    /// Phong, as MTL files have it
+    /// Phong, as in MTL files
     Phong,
     /// The same radiance in all directions
     Lambert,
 }
 
-/// Options of a model, which a table has no use for.
+/// Options of a reflectance model, which do not apply to a table.
 const OF_MODEL: [&str; 5] = ["roughness", "fresnel", "denominators", "fresnel_form", "shadowing"];
 
 /// Factor reflectance into functions of view and of light: singular values, errors, tables
@@ -88,7 +88,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=MAX_MAP_SIDE as i64))]
     side: u32,
 
-    /// Terms [default: 10, or the rank of the table where that is less]
+    /// Terms [default: 10, or the rank of the table if that is less]
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..))]
     terms: Option<u32>,
 
@@ -109,7 +109,7 @@ impl Args {
         Ok(FactorSubject::Lobe(lobe))
     }
 
-    /// Refuses figures of other models than this one.
+    /// Rejects options of other models than this one.
     fn refuse_others(&self, model: ModelArg) -> Result<(), Problem> {
         use ModelArg::{CookTorrance, Lambert, Phong, Schlick};
         let figures: [(&str, bool, &[ModelArg]); 5] = [

@@ -14,7 +14,7 @@ use crate::transfer::Vertices;
 use crate::transfer::file::{MeshDigest, require_mesh};
 use crate::transfer::light::Decimation;
 
-/// A file with the model that it was made from.
+/// A file with the model from which it was made.
 pub(super) struct FileOfModel {
     pub(super) file: AllFrequencyFile,
     pub(super) model: Model,
@@ -33,7 +33,7 @@ impl FileOfModel {
     }
 }
 
-/// A file with visibility, of the same mesh and reflectance as another.
+/// A file with visibility, for the same mesh and reflectance as another file.
 fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miette::Result<AllFrequencyFile> {
     let original = load_all_frequency(path, Some(mesh))?;
     if original.visibility.is_none() || original.reflectance != file.reflectance || original.hats != file.hats {
@@ -54,18 +54,18 @@ pub(super) fn color(material: &Material) -> [f64; 3] {
 /// Model, light and camera of `render` and `card`.
 #[derive(Debug, clap::Args)]
 pub(super) struct LitArgs {
-    /// Visibility or coded transfer; coded transfer is drawn where there are both
+    /// Visibility or coded transfer; coded transfer is drawn if there are both
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 
-    /// A file with visibility of the same model: what compression costs
+    /// A file with visibility of the same model, to measure the loss of compression
     #[arg(long, value_name = "X.npz")]
     original: Option<PathBuf>,
 
     #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
     light: DistantLightArg,
 
-    /// Light coefficients that are kept, those of largest area times magnitude [default: all]
+    /// Number of light coefficients kept, largest area times magnitude first [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
     keep: Option<u32>,
 
@@ -74,7 +74,7 @@ pub(super) struct LitArgs {
 }
 
 impl LitArgs {
-    /// The files that are read.
+    /// The input files.
     pub(super) fn inputs(&self) -> Vec<&Path> {
         let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
         files.into_iter().flatten().chain(self.picture.inputs()).collect()

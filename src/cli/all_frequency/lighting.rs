@@ -23,7 +23,7 @@ Examples:
   crossbar all-frequency lighting --light red-and-blue --segments 6 --keep 200 --by magnitude
       six faces instead
   crossbar all-frequency lighting --light disk:1,0,2:5 --keep 40 --out light.csv --json
-      what is left of a small source, as a table of the cube's texels, which `--light light.csv` draws with";
+      what remains of a small source, as a table of the cube's texels, which `--light light.csv` reads";
 
 /// Measure of importance of coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -83,7 +83,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     table.push(["not 0, of 6,144".into(), cut.nonzero.into()]);
     table.push(["kept".into(), cut.kept.into()]);
     table.push(["energy kept (%)".into(), Cell::measured(100.0 * cut.kept_energy)]);
-    table.push(["texels below 0 after that".into(), negative.into()]);
+    table.push(["texels below 0 after truncation".into(), negative.into()]);
     found.table(table);
     written(&mut found, [("out", args.out.as_deref())]);
     Ok(found)

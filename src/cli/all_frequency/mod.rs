@@ -27,7 +27,7 @@ Examples:
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
       the same on an emulated card
 
-docs/npz.md says what is in the files, docs/papers/all_frequency.md what is computed.";
+docs/npz.md describes the files, docs/papers/all_frequency.md the computation.";
 
 /// Precomputed transfer for light of all frequencies, factored, compressed by segments and coded
 #[derive(Debug, clap::Args)]

@@ -26,7 +26,7 @@ use crate::study::prt::{FoundSight, SightOfModel};
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::{Tangents, Vertices};
 
-/// Longest array of factors, in bytes.
+/// Maximum size of an array of factors, in bytes.
 const MAX_FACTORS: u64 = 256 << 20;
 
 const EXAMPLES: &str = "\

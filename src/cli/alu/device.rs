@@ -39,7 +39,7 @@ impl State {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluArithmetic {
     pub(super) format: Format,
-    /// Rules of products and sums: the device's, or else the format's.
+    /// Rules of products and sums: the device's, otherwise the format's.
     pub(super) sums: Option<SumRules>,
 }
 
@@ -48,7 +48,7 @@ impl AluArithmetic {
         Self { format, sums: None }
     }
 
-    /// The arithmetic of a device's stage: by default the stage whose unit was measured, otherwise the pixel stage.
+    /// The arithmetic of a device's stage: by default the stage with a measured unit, otherwise the pixel stage.
     pub(super) fn of_device(name: &str, stage: Option<AluStage>, state: Option<State>) -> miette::Result<Self> {
         let rules = switch::device(name, &[])?.rules;
         let measured = |format: Format| format.unit.is_card();
@@ -60,7 +60,7 @@ impl AluArithmetic {
         if let Some(state) = state {
             format.unit = state.of(format.unit).ok_or_else(|| no_state(name, stage))?;
         }
-        // Measured units have rules of their own, in every state.
+        // Measured units have their own rules, in every state.
         let sums = match stage {
             _ if format.unit.is_card() => SumRules::plain(format),
             AluStage::Vertex => rules.vertex_sums(),
@@ -74,11 +74,11 @@ fn no_state(name: &str, stage: AluStage) -> Problem {
     let stage = if stage == AluStage::Vertex { "vertex" } else { "pixel" };
     Problem::usage(
         format!("the {stage} arithmetic of `{name}` has no such state"),
-        "leave `--state` out, or take `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
+        "leave `--state` out, or use `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
     )
 }
 
-/// Refuses operations that a device's instructions or its unit lack.
+/// Rejects operations that a device's instructions or its unit lack.
 pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<(), Problem> {
     use AluOperation as Alu;
     let name = operation.name();
@@ -92,8 +92,8 @@ pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<
             | Alu::Dequantize
     ) {
         return Err(Problem::usage(
-            format!("`{name}` is no instruction of a device"),
-            "take `--format` with one of the formats that `crossbar alu --help` lists",
+            format!("`{name}` is not an instruction of any device"),
+            "use `--format` with one of the formats that `crossbar alu --help` lists",
         ));
     }
     let newer = matches!(
@@ -104,13 +104,13 @@ pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<
     if format.unit == Unit::Nv2x && newer {
         return Err(Problem::usage(
             format!("the vertex unit of NV20 and NV25 has no `{name}`"),
-            "take `--device nv30`, whose unit has it, or `--format fp32`",
+            "use `--device nv30`, whose vertex unit has it, or `--format fp32`",
         ));
     }
     Ok(())
 }
 
-/// Refuses operations of vertex units in other units' formats.
+/// Rejects operations of vertex units if the format belongs to another unit.
 pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<(), Problem> {
     let vertex = matches!(format.unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x);
     let theirs = matches!(
@@ -123,7 +123,7 @@ pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<
     if !vertex && (theirs || card) {
         return Err(Problem::usage(
             format!("`{}` is an instruction of the vertex units of nv20 to nv35; {format} has none", operation.name()),
-            "take `--device nv20`, `nv25`, `nv30` or `nv35`, with `--stage vertex`",
+            "use `--device nv20`, `nv25`, `nv30` or `nv35`, with `--stage vertex`",
         ));
     }
     Ok(())

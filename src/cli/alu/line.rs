@@ -6,11 +6,11 @@ use crate::error::{InputError, ensure, input_error};
 /// Maximum number of fields of a valid line: three operands, a result and flags.
 const MAX_FIELDS: usize = 5;
 
-/// Error for a line (from 1) with another number of fields.
+/// Error for a line (counted from 1) with a wrong number of fields.
 pub(super) fn other_fields(line: u64, expected: &str, found: usize) -> InputError {
     let fields = if found == 1 { "field" } else { "fields" };
     input_error!("crossbar::alu::fields" => "line {line}: expected {expected}, found {found} {fields}";
-        help "write the fields of one operation on one line, parted by blanks or commas")
+        help "write the fields of one operation on one line, separated by blanks or commas")
 }
 
 /// The fields of a line, separated by blanks or commas.
@@ -33,14 +33,14 @@ pub(super) struct LineFormat {
 pub(super) struct AluLine {
     /// The operands; unused ones are 0.
     pub(super) operands: [u32; 3],
-    /// The expected result, where the format has one.
+    /// The expected result, if the format has one.
     pub(super) result: u32,
-    /// The expected flags, where the line has them.
+    /// The expected flags, if the line has them.
     pub(super) flags: Option<u8>,
 }
 
 impl LineFormat {
-    /// Operands alone.
+    /// Operands only.
     pub(super) const fn compute(unit: &AluUnit) -> Self {
         Self {
             operands: unit.op.operands(),
@@ -50,7 +50,7 @@ impl LineFormat {
         }
     }
 
-    /// Operands, result and flags; without `flags` the last may be missing.
+    /// Operands, result and flags; without `flags`, the flags may be missing.
     pub(super) const fn verify(unit: &AluUnit, flags: bool) -> Self {
         let mut format = Self::compute(unit);
         format.after = if flags { (2, 2) } else { (1, 2) };
@@ -96,12 +96,12 @@ impl LineFormat {
         match self.after {
             (0, _) => operands,
             (2, _) => format!("{operands}, result and flags"),
-            _ => format!("{operands}, result and perhaps flags"),
+            _ => format!("{operands}, result and optionally flags"),
         }
     }
 }
 
-/// The number that the hexadecimal digits of `field` write, if it has at most `width` bits.
+/// Parses hexadecimal digits. Fails if the number has more than `width` bits.
 pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError> {
     let found = || String::from_utf8_lossy(field).chars().take(40).collect::<String>();
     let mut value = 0_u64;
@@ -117,7 +117,7 @@ pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError
                 ));
             }
         };
-        // Clamped below 2^36, so that no number of digits overflows.
+        // Clamped to at most 2^32, so that any number of digits is safe.
         value = (value << 4 | u64::from(digit)).min(1 << 32);
     }
     let digits = width.div_ceil(4);
@@ -126,11 +126,11 @@ pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError
         "line {line}: expected at most {digits} hexadecimal digits ({width} bits), found `{}`", found();
         help "check that `--format` is the format of the lines"
     );
-    // At most 32 bits, as just checked.
+    // At most 32 bits, as checked above.
     Ok(value as u32)
 }
 
-/// Appends `value` in as many digits as `width` bits need.
+/// Appends `value` with the number of digits that `width` bits need.
 pub(super) fn push_hex(text: &mut Vec<u8>, value: u32, width: u32) {
     for place in (0..width.div_ceil(4)).rev() {
         text.push(b"0123456789ABCDEF"[(value >> (4 * place) & 15) as usize]);

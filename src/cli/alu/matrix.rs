@@ -13,7 +13,7 @@ fn shortened(cell: &str) -> String {
     cell.chars().take(40).collect()
 }
 
-/// Numbers of a cell, first to last, without separators.
+/// Numbers in a cell, first to last, without separators.
 fn codes(cell: &str, element: Element, line: u64) -> Result<Vec<u64>, InputError> {
     let (digits, name) = (element.digits(), element.name);
     ensure!(
@@ -21,7 +21,7 @@ fn codes(cell: &str, element: Element, line: u64) -> Result<Vec<u64>, InputError
         "crossbar::alu::hex" => "line {line}: expected numbers of {name} of {digits} hexadecimal digits each, found `{}`",
         shortened(cell); help "write the numbers one after the other, without separators"
     );
-    // Digits are ASCII, as just checked.
+    // Digits are ASCII, as checked above.
     let words = (0..cell.len()).step_by(digits).map(|at| u64::from_str_radix(&cell[at..at + digits], 16).unwrap_or(0));
     let words: Vec<u64> = words.collect();
     let fits = words.iter().all(|&word| u128::from(word) >> element.width() == 0);
@@ -30,8 +30,8 @@ fn codes(cell: &str, element: Element, line: u64) -> Result<Vec<u64>, InputError
     Ok(words)
 }
 
-/// Computes the word of line `number` (from 1), and reads its expected result, if any; `None` if the line is blank, or
-/// the header of a table.
+/// Computes the word of line `number` (counted from 1), and reads its expected result, if any; `None` if the line is
+/// blank, or is the header of a table.
 fn compute<'a>(
     unit: &MatrixUnit,
     text: &'a str,
@@ -47,7 +47,7 @@ fn compute<'a>(
     let types = if unit.operands.len() > 1 { 2 } else { 0 };
     let scales = if unit.scaling.is_some() { 2 } else { 0 };
     let operands = types + 3 + scales;
-    // With a result, the tables of vectors have a class before it.
+    // In the tables of vectors, a class precedes the result.
     if !(count == operands && !verify || verify && (operands + 1..=operands + 2).contains(&count)) {
         let columns = [&["ta tb"][..types / 2], &["a b c"], &["sa sb"][..scales / 2], &["result"][..verify.into()]];
         return Err(other_fields(number, &columns.concat().join(" "), count));
@@ -62,7 +62,7 @@ fn compute<'a>(
     };
     let [ta, tb] = [element(0)?, element(1)?];
     let [a, b] = [codes(cells[types], ta, number)?, codes(cells[types + 1], tb, number)?];
-    // One number. A short type may be in a longer word, whose upper bits are ignored.
+    // One number. A short type may be stored in a longer word, whose upper bits are ignored.
     let (digits, is_short) = (cells[types + 2].len(), unit.addend.digits() < 8);
     let word = u64::from_str_radix(cells[types + 2], 16).ok().filter(|_| digits == 8 || is_short && digits < 8);
     let c = word.map_or_else(|| codes(cells[types + 2], unit.addend, number), |word| Ok(vec![word]))?;
@@ -83,7 +83,7 @@ fn compute<'a>(
     Ok(Some((unit.dot(a, b, c[0]), last)))
 }
 
-/// Writes the word of every line, or compares it with the line's expected result; any NaN matches `nan`.
+/// Writes the word of every line, or compares it with the line's expected result; `nan` matches any NaN.
 pub(super) fn run(unit: &MatrixUnit, verify: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
     let json = out.json();
     let digits = unit.result.element.digits();

@@ -37,7 +37,7 @@ Examples:
   echo 3C008C00 3C000C00 00000000 | crossbar alu dot --unit hopper-f16
       1 * 1 - 2^-12 * 2^-12 on a tensor core of Hopper: prints 3f7fffff; on Volta 3f800000
 
-Lines: hexadecimal operands parted by blanks or commas, as TestFloat writes them; blank lines are skipped. A result has as many \
+Lines: hexadecimal operands separated by blanks or commas, as TestFloat writes them; blank lines are skipped. A result has as many \
 digits as its format needs; a comparison gives 0 or 1. Flags are two digits: 01 inexact, 02 underflow, 04 overflow, \
 08 division by zero, 10 invalid.
 
@@ -61,11 +61,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "F", required_unless_present_any = ["device", "unit"])]
     format: Option<Format>,
 
-    /// A device, in place of a format: its instruction of this name, by the unit that was measured or by its rules
+    /// A device, in place of a format: its instruction of this name, by its measured unit or its rules
     #[arg(long, value_name = "D", conflicts_with = "format")]
     device: Option<String>,
 
-    /// The stage of the device; by default the one whose unit was measured, or else pixels
+    /// The stage of the device; by default the one with a measured unit, otherwise pixels
     #[arg(long, requires = "device", value_parser = stages())]
     stage: Option<AluStage>,
 
@@ -81,7 +81,7 @@ pub(super) struct Args {
           conflicts_with_all = ["format", "device", "to", "block", "accumulator", "summation", "flags", "seed"])]
     unit: Option<MatrixUnit>,
 
-    /// The format that `convert` goes to
+    /// The result format of `convert`
     #[arg(long, value_name = "F2")]
     to: Option<Format>,
 
@@ -89,7 +89,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "B", value_parser = blocks())]
     block: Option<BlockFormat>,
 
-    /// The format in which `dot` rounds products and sums; by default that of the operands
+    /// The format in which `dot` rounds products and sums; by default the operands' format
     #[arg(long, value_name = "A")]
     accumulator: Option<Format>,
 
@@ -108,7 +108,7 @@ pub(super) struct Args {
     #[arg(long)]
     verify: bool,
 
-    /// Write the exception flags behind each result, or compare them
+    /// Write the exception flags after each result, or compare them
     #[arg(long)]
     flags: bool,
 
@@ -117,17 +117,17 @@ pub(super) struct Args {
     seed: Option<u64>,
 }
 
-/// The value of `--summation`.
+/// Parses the value of `--summation`.
 fn summation(text: &str) -> Result<DotOrder, String> {
     DotOrder::named(text).ok_or_else(|| "expected sequential, tree, exact, or aligned:F with F from 0 to 28".to_owned())
 }
 
-/// The stages, for `--stage`.
+/// Values of `--stage`.
 fn stages() -> OneOf<AluStage> {
     one_of([("vertex", "vertex programs", AluStage::Vertex), ("pixel", "pixel programs", AluStage::Pixel)])
 }
 
-/// The states of units, for `--state`.
+/// Values of `--state`: the states of units.
 fn states() -> OneOf<State> {
     one_of([
         ("legacy", "nv30, nv35: as GL_NV_vertex_program", State::Legacy),
@@ -137,7 +137,7 @@ fn states() -> OneOf<State> {
     ])
 }
 
-/// The block formats, for `--block`.
+/// Values of `--block`: the block formats.
 fn blocks() -> OneOf<BlockFormat> {
     one_of(BlockFormat::ALL.map(|block| (block.name(), "OCP Microscaling: 32 elements and a scale", block)))
 }
@@ -146,7 +146,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if let Some(unit) = &args.unit {
         let others = [("--unit", args.op != AluOperation::Dot)];
         given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
-        // The parser accepts these with a unit, although --device excludes it.
+        // The parser accepts these options with a unit, although it excludes --device.
         let of_device = [("--stage", args.stage.is_some()), ("--state", args.state.is_some())];
         given::refuse(of_device, "`--device`", "leave it out: a matrix unit has one rule")?;
         return matrix::run(unit, args.verify, io::stdin().lock(), out);
@@ -162,7 +162,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
 }
 
-/// The arithmetic: a format, or a stage of a device.
+/// The arithmetic of a format, or of a device's stage.
 fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
     let arithmetic = match (&args.device, args.format) {
         (Some(device), _) => {
@@ -170,7 +170,7 @@ fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
             refuse_lacking(args.op, arithmetic.format)?;
             arithmetic
         }
-        // The parser requires a format or a device, but accepts these with a format.
+        // The parser requires a format or a device, but accepts these options with a format.
         (None, _) if args.stage.is_some() || args.state.is_some() => {
             return Err(Problem::usage(
                 "`--stage` and `--state` are for `--device` only",
@@ -189,7 +189,7 @@ fn by_chance(format: &Format) -> bool {
     matches!(format.rounding, Rounding::Stochastic(_))
 }
 
-/// Refuses options that do not fit the operation or the formats.
+/// Rejects options that do not fit the operation or the formats.
 fn refuse_others(args: &Args, format: &Format) -> Result<(), Problem> {
     let needs_seed = by_chance(format) || args.to.as_ref().is_some_and(by_chance);
     let seed = [("--seed", args.seed.is_some() && !needs_seed)];
@@ -201,7 +201,7 @@ fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miet
     Ok(Verdict::Done)
 }
 
-/// Checks that the options fit together, and returns the unit of an operation that reads many numbers per line (`dot`,
+/// Checks that the options go together, and returns the unit of an operation that reads many numbers per line (`dot`,
 /// `quantize`, `dequantize`); `None` for other operations.
 fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<Option<RowUnit>, Problem> {
     if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
@@ -234,7 +234,7 @@ fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Resul
     };
     if args.verify || args.to.is_some() {
         return Err(Problem::usage(
-            "operations on lines of many numbers take neither `--verify` nor `--to`",
+            "operations on lines of many numbers support neither `--verify` nor `--to`",
             "leave the option out; `--format` is the format of the plain numbers",
         ));
     }
@@ -242,21 +242,21 @@ fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Resul
     if formats.iter().any(by_chance) {
         return Err(Problem::usage(
             "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
-            "take another rounding, or round each number on a line of its own",
+            "use another rounding, or round each number on its own line",
         ));
     }
     if let RowOperation::Dot(DotOrder::Aligned(_), accumulator) = operation
         && accumulator.is_fixed()
     {
         return Err(Problem::usage(
-            format!("`--summation aligned` goes by exponents: expected sums in a float format, found `{accumulator}`"),
+            format!("`--summation aligned` compares exponents: expected sums in a float format, found `{accumulator}`"),
             "leave it out: sums of fixed point are exact; or add a float `--accumulator`",
         ));
     }
     Ok(Some(RowUnit { operation, env: format.tininess(Tininess::After) }))
 }
 
-/// The unit that the options describe, after checking that they fit together.
+/// Checks that the options go together, and returns the unit that they describe.
 fn unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<AluUnit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {
@@ -264,8 +264,8 @@ fn unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<Al
         None if !convert => format,
         None => {
             return Err(Problem::usage(
-                "`convert` needs the format it goes to",
-                "add for example `--to fp16`; `--format` is the format it comes from",
+                "`convert` needs a result format",
+                "add for example `--to fp16`; `--format` is the source format",
             ));
         }
         Some(_) => {

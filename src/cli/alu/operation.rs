@@ -9,24 +9,24 @@ use crate::options::one_of::{OneOf, one_of};
 /// An operation that the command has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AluOperation {
-    /// One of the emulator's table.
+    /// An operation of the emulator's table.
     Table(Op),
     RoundToInt,
     Convert,
-    /// Numbers to a block with a shared scale; `Dequantize` is the reverse.
+    /// Converts numbers to a block with a shared scale; `Dequantize` is the reverse.
     Quantize,
     Dequantize,
     /// The sum of any number of products.
     Dot,
-    /// `a * b + c`, as the format or device does it.
+    /// `a * b + c`, as the format or device computes it.
     Mad,
     /// A copy.
     Mov,
     /// The clamped reciprocal of the vertex units.
     Rcc,
-    /// A comparison that gives one or zero, with its operands swapped or not.
+    /// A comparison that gives one or zero; `true` swaps its operands.
     Set(Op, bool),
-    /// An instruction on vectors, with a line of words.
+    /// An instruction on vectors; a line holds their words.
     Vector(VectorOperation),
 }
 
@@ -42,7 +42,7 @@ pub(super) enum VectorOperation {
     Lit,
 }
 
-/// The operations under TestFloat's names, if it has them, and their help.
+/// The operations, with TestFloat's names if it has them, and their help.
 const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Add), "add", "two operands, rounded once"),
     (AluOperation::Table(Op::Sub), "sub", "two operands, rounded once"),
@@ -55,13 +55,13 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Less), "lt", "a < b, as 0 or 1; any NaN is invalid"),
     (AluOperation::Table(Op::Min), "min", "the lesser"),
     (AluOperation::Table(Op::Max), "max", "the greater"),
-    (AluOperation::Table(Op::Floor), "floor", "the next whole number below"),
+    (AluOperation::Table(Op::Floor), "floor", "rounded down to a whole number"),
     (AluOperation::Table(Op::Frc), "frc", "a - floor(a)"),
     (AluOperation::Table(Op::Rcp), "rcp", "1 / a"),
     (AluOperation::Table(Op::Rsq), "rsq", "1 / sqrt(a)"),
     (AluOperation::RoundToInt, "roundToInt", "to a whole number, by the rounding of the format"),
     (AluOperation::Convert, "convert", "to the format of --to, rounded by its rules"),
-    (AluOperation::Mad, "mad", "a * b + c, as the device does it; in a format product and sum are rounded"),
+    (AluOperation::Mad, "mad", "a * b + c by the device's rules; in a format, product and sum are each rounded"),
     (AluOperation::Mov, "mov", "a copy"),
     (AluOperation::Set(Op::SetLess, false), "slt", "a < b, as the numbers 1 and 0"),
     (AluOperation::Set(Op::SetLessEqual, true), "sge", "a >= b, likewise"),
@@ -106,7 +106,7 @@ impl AluOperation {
             Self::RoundToInt | Self::Convert | Self::Mov | Self::Rcc => 1,
             Self::Set(..) => 2,
             Self::Mad => 3,
-            // On lines of many numbers, by `super::row`.
+            // These operations read lines of many numbers: see `super::row`.
             Self::Dot | Self::Quantize | Self::Dequantize | Self::Vector(_) => 0,
         }
     }
@@ -132,12 +132,12 @@ pub(super) struct AluUnit {
 }
 
 impl AluUnit {
-    /// Bits of an operand.
+    /// Width of an operand in bits.
     pub(super) const fn operand_width(&self) -> u32 {
         self.env.format.width()
     }
 
-    /// Bits of a result.
+    /// Width of a result in bits.
     pub(super) const fn result_width(&self) -> u32 {
         if self.op.is_comparison() { 1 } else { self.to.width() }
     }
@@ -147,8 +147,8 @@ impl AluUnit {
         !self.op.is_comparison() && self.to.is_nan(result)
     }
 
-    /// Returns the result for operands of the format's width; surplus operands are ignored. Stochastic rounding takes
-    /// the random word of `index`.
+    /// Returns the result for operands of the format's width; surplus operands are ignored. Stochastic rounding uses
+    /// the random word number `index`.
     pub(super) fn evaluate(&self, operands: [u32; 3], index: u64) -> Outcome {
         let (mut env, mut to, [a, b, c]) = (self.env, self.to, operands);
         for format in [&mut env.format, &mut to] {
@@ -176,7 +176,7 @@ impl AluUnit {
     }
 }
 
-/// A comparison as a number: by a card's unit, otherwise as a quiet comparison.
+/// A comparison as a number: computed by a card's unit if it has one, otherwise as a quiet comparison.
 fn set(env: Env, operation: Op, [a, b]: [u32; 2]) -> Outcome {
     operation.evaluate(env, [a, b, 0]).unwrap_or_else(|| {
         let holds = match operation {

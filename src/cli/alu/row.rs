@@ -19,7 +19,7 @@ pub(super) enum RowOperation {
     Quantize(BlockFormat),
     /// The numbers of a block.
     Dequantize(BlockFormat),
-    /// The sum of the products of neighbours, in an accumulator of this format.
+    /// The sum of the products of neighboring numbers, in an accumulator with this format.
     Dot(DotOrder, Format),
     /// An instruction on vectors.
     Vector(VectorOperation, SumRules),
@@ -33,7 +33,7 @@ pub(super) struct RowUnit {
     pub(super) env: Env,
 }
 
-/// The patterns of a line, and the flags that they raise together.
+/// The patterns of a line, and the union of the flags that they raise.
 #[derive(Debug, PartialEq, Eq)]
 struct Converted {
     /// The scale of a quantized block.
@@ -43,7 +43,7 @@ struct Converted {
 }
 
 impl RowUnit {
-    /// Converts line `number` (from 1); `None` if it is blank.
+    /// Converts line `number` (counted from 1); `None` if it is blank.
     fn convert(&self, text: &[u8], number: u64) -> Result<Option<Converted>, InputError> {
         let fields: Vec<&[u8]> = fields(text).collect();
         if fields.is_empty() {
@@ -94,7 +94,7 @@ impl RowUnit {
         }))
     }
 
-    /// Bits of a pattern of the result.
+    /// Width of a pattern of the result, in bits.
     fn width(&self) -> u32 {
         match self.operation {
             RowOperation::Quantize(block) => block.element().width(),

@@ -1,7 +1,8 @@
-//! Lines in, lines out, in order and in parallel.
+//! Lines are read and written in order, and processed in parallel.
 //!
-//! The lines of one read are processed at once, so that a program at the other end of two pipes may send a line and
-//! wait for the answer. A file is read by the mebibyte, and its lines are shared among the threads.
+//! All lines of one read are processed before the next read, so that a program at the other end of two pipes may send a
+//! line and wait for the answer. A file is read in blocks of a mebibyte, and its lines are distributed among the
+//! threads.
 
 use std::io::{ErrorKind, Read, Write as _};
 
@@ -20,7 +21,7 @@ use crate::error::{InputError, input_error};
 const READ: usize = 1 << 20;
 const TASK_LINES: usize = 4096;
 
-/// Output for consecutive lines, and the first error, after which no line was processed.
+/// Output for consecutive lines, and the first error, after which no more lines were processed.
 #[derive(Default)]
 pub(super) struct TaskOutput {
     pub(super) text: Vec<u8>,
@@ -50,7 +51,7 @@ fn each_line(
             })?,
         };
         buffer.truncate(held + got);
-        // The last line of the input may lack its end; any other incomplete line waits for the rest.
+        // The last line of the input may have no line end; any other incomplete line waits for its rest.
         let whole = if got == 0 {
             buffer.len()
         } else {
@@ -168,7 +169,7 @@ pub(super) fn verified(
     out.outlive_reader();
     let json = out.json();
     let (mut passed, mut failed) = (0_u64, 0_u64);
-    // JSON is written whole or not at all: the last line may be an error.
+    // JSON is written completely or not at all: the last line may be an error.
     let mut mismatches = Vec::new();
     each_line(input, work, |part| {
         if json {
@@ -180,7 +181,7 @@ pub(super) fn verified(
         failed += part.failed;
         Ok(())
     })?;
-    // A check without any line must not pass: the generator of the lines may have failed.
+    // A check without any lines must not pass: the generator of the lines may have failed.
     if passed + failed == 0 {
         let empty = input_error!("crossbar::alu::empty" => "expected at least one line to verify, found none";
             help "pipe lines in, as from `testfloat_gen f16_add`");

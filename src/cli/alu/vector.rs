@@ -1,4 +1,4 @@
-//! Instructions on vectors: a line of words, components first to last, all of `a`, then `b`.
+//! Instructions on vectors: a line of words, components first to last, first all of `a`, then all of `b`.
 
 use refsim::device::SumRules;
 use refsim::num::{Env, NumberOperation as Op, Outcome};
@@ -6,7 +6,7 @@ use refsim::num::{Env, NumberOperation as Op, Outcome};
 use super::operation::VectorOperation;
 
 impl VectorOperation {
-    /// The number of words of a line, and the message if it has another number.
+    /// The number of words per line, and the message for a line with a different number.
     pub(super) const fn words(self) -> (usize, &'static str) {
         match self {
             Self::Dp3 => (6, "6 numbers (a.x a.y a.z b.x b.y b.z)"),
@@ -19,7 +19,7 @@ impl VectorOperation {
     /// The result: one number, or four components. `words` has [`Self::words`] words.
     pub(super) fn evaluate(self, env: Env, sums: SumRules, words: &[u32]) -> Vec<Outcome> {
         let one = Outcome::exact(env.format.one());
-        // The caller refuses formats whose unit has no such instruction.
+        // The caller rejects formats whose unit lacks the instruction.
         let unit = |operation: Op, operands| operation.evaluate(env, operands).unwrap_or(Outcome::exact(0));
         match self {
             Self::Dp3 | Self::Dp4 => vec![dot(env, sums, words)],
@@ -43,14 +43,15 @@ impl VectorOperation {
     }
 }
 
-/// The dot product of both halves of the words.
+/// The dot product of the two halves of the words.
 fn dot(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let (a, b) = words.split_at(words.len() / 2);
     let terms: Vec<(u32, u32)> = a.iter().copied().zip(b.iter().copied()).collect();
     sums.dot(env, env.format, &terms)
 }
 
-/// DPH: in a card's unit, a fourth product by 1; otherwise the dot product of three components, and a sum.
+/// DPH: in a card's unit, with 1 as the fourth component of `a`; otherwise the dot product of three components, and a
+/// sum.
 fn homogeneous(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let mut words = words.to_vec();
     if env.format.unit.is_card() {

@@ -61,7 +61,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// The biclusters of a matrix, with progress on its entries.
+/// Computes the biclusters of a matrix, and shows its progress by entries.
 fn made(matrix: &SparseMatrix) -> Result<Biclustering, InputError> {
     let total = matrix.nonzeros() as u64;
     let bar = ProgressBar::new("non-zeros", total);
@@ -107,7 +107,8 @@ impl Summary<'_> {
         ]
     }
 
-    /// Number of bicluster columns whose value rounds in single precision, and of columns beyond its range.
+    /// Number of bicluster columns whose value must be rounded to single precision, and number of columns beyond its
+    /// range.
     fn rounded(&self) -> [usize; 2] {
         let mut rounded = [0; 2];
         for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {
@@ -150,8 +151,8 @@ impl Summary<'_> {
         table.push(["biclusters".into(), self.biclusters.len().into()]);
         table.push(["their rows".into(), self.biclusters.row_entries().into()]);
         table.push(["their columns".into(), self.biclusters.column_entries().into()]);
-        table.push(["operations of the matrix".into(), before.into()]);
-        table.push(["operations of biclusters".into(), after.into()]);
+        table.push(["operations per product, matrix".into(), before.into()]);
+        table.push(["operations per product, biclusters".into(), after.into()]);
         if before > 0 {
             table.push(["share (%)".into(), Cell::measured(100.0 * after as f64 / before as f64)]);
         }
@@ -162,7 +163,7 @@ impl Summary<'_> {
         for (what, count) in rounded.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
             table.push([what.into(), count.into()]);
         }
-        table.push(["places where the sum differs".into(), self.residual.count.into()]);
+        table.push(["entries where the biclusters' sum differs from the matrix".into(), self.residual.count.into()]);
         if self.residual.count > 0 {
             table.push(["largest difference".into(), Cell::measured(self.residual.largest)]);
         }

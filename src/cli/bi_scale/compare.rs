@@ -1,4 +1,4 @@
-//! `crossbar bi-scale compare`: biclusters beside other ways to store transfer.
+//! `crossbar bi-scale compare`: biclusters compared with other ways to store transfer.
 
 use std::path::PathBuf;
 
@@ -21,14 +21,14 @@ use crate::transfer::grid::LIGHT_TEXELS;
 const EXAMPLES: &str = "\
 Examples:
   crossbar bi-scale compare docs/examples/step_biclusters.npz --clusters 4 --vectors 2 --sample 300
-      bytes and errors of compressed rows, clusters of rows, wavelets and harmonics beside biclusters
+      bytes and errors of compressed rows, clusters of rows, wavelets and harmonics, compared with biclusters
   crossbar bi-scale compare docs/examples/step_biclusters.npz --model docs/examples/step.obj --light disk:1,0,2:5 --clusters 4 --sample 300 --json
       also methods that rotate light into frames of vertices; the figures as JSON
 
 Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
 docs/papers/bi_scale.md describes each method.";
 
-/// Order of spherical harmonics, the paper's.
+/// Order of spherical harmonics, as in the paper.
 const HARMONICS_ORDER: usize = 5;
 
 /// Compare biclusters with other ways to store transfer: bytes, and the error of the light that arrives
@@ -39,7 +39,7 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    /// The model that the file was made from: compares also harmonics on both sides, and reshuffled visibility
+    /// The model from which the file was made: also compares harmonics on both sides, and reshuffled visibility
     #[arg(long, value_name = "MODEL")]
     model: Option<PathBuf>,
 
@@ -54,7 +54,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=6144))]
     vectors: u32,
 
-    /// Rows that the first clusters are found from
+    /// Number of rows from which the first clusters are found
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     sample: u32,
 }

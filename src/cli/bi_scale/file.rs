@@ -31,14 +31,14 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
     Err(format!("expected an angle from 0 to 180 degrees, found `{text}`"))
 }
 
-/// Loads a model; a crease angle in degrees recomputes its normals, smooth over edges up to this angle.
+/// Loads a model. A crease angle in degrees recomputes its normals, smooth over edges up to this angle.
 pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette::Result<Model> {
     let model = load_model(path, tangents)?;
     let Some(degrees) = crease else { return Ok(model) };
     Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
 }
 
-/// The vertices of the model that a file was made from.
+/// The vertices of the model from which a file was made.
 pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMeaning>) -> miette::Result<Vertices> {
     let mesh = meaning.map(|meaning| meaning.mesh).ok_or_else(|| {
         let what = format!("{}: expected transfer of a model, found a matrix without a model", file.display());
@@ -53,7 +53,7 @@ pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMea
     Ok(vertices)
 }
 
-/// Returns `true` if a file's name is that of a matrix as text.
+/// Returns `true` if a file name is that of a matrix in text form.
 fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
 }
@@ -71,9 +71,9 @@ pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
         .map_err(|reason| Problem::usage(format!("{}: {reason}", path.display()), "name another matrix"))?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
 }
-/// Refuses a matrix with more rows and columns than any model has, even if few of them have entries.
+/// Rejects a matrix with more rows and columns than any model has, even if few of them have entries.
 fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem> {
-    /// A row or a column takes some 32 bytes.
+    /// A row or a column needs some 32 bytes.
     const MOST: usize = 1 << 28;
     if rows.saturating_add(columns) <= MOST {
         return Ok(());
@@ -87,7 +87,7 @@ pub(super) fn cube_of(light: &DistantLightArg, verb: &str) -> miette::Result<Cub
     Ok(cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar bi-scale {verb} --help`")))?)
 }
 
-/// Writes a matrix as text.
+/// Writes a matrix in text form.
 pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) -> Result<(), Problem> {
     let size = [matrix.rows(), matrix.columns(), matrix.nonzeros()];
     write_file(path, |out| {
@@ -107,7 +107,7 @@ pub(super) fn value_counts(matrix: &SparseMatrix) -> Vec<(f64, u64)> {
     counts.into_iter().map(|(value, count)| (matrix.value(value), count)).collect()
 }
 
-/// Values with their counts, as many as fit into a table.
+/// Table of values with their counts; a limited number of rows.
 pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
     const MOST: usize = 17;
     let mut table = Table::new("Values", &["value", "count"]);

@@ -1,4 +1,4 @@
-//! `crossbar bi-scale`: transfer in two scales, one file per verb.
+//! `crossbar bi-scale`: transfer at two scales, one file per verb.
 
 mod bicluster;
 mod card;
@@ -30,7 +30,7 @@ Examples:
   crossbar bi-scale card docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
       the same on an emulated card
 
-docs/npz.md says what is in the files, docs/papers/bi_scale.md what is computed.";
+docs/npz.md describes the files, docs/papers/bi_scale.md the computation.";
 
 /// Bi-scale transfer: a sparse matrix of visibility as biclusters, times bidirectional textures
 #[derive(Debug, clap::Args)]

@@ -1,4 +1,4 @@
-//! `crossbar bi-scale multiply`: light times bi-scale transfer.
+//! `crossbar bi-scale multiply`: product of light and bi-scale transfer.
 
 use std::path::{Path, PathBuf};
 
@@ -66,7 +66,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// L~; fails if the matrix is not transfer.
+/// Computes L~. Fails if the matrix is not transfer.
 fn multiply(path: &Path, file: &BiScaleFile, light: &CubeLight) -> Result<LocalLight, Problem> {
     let of_matrix = file.matrix.as_ref().map(SparseMatrix::columns);
     let columns = file.biclusters.as_ref().map(|biclusters| biclusters.matrix_size()[1]).or(of_matrix);
@@ -82,7 +82,7 @@ fn multiply(path: &Path, file: &BiScaleFile, light: &CubeLight) -> Result<LocalL
     Ok(product)
 }
 
-/// Writes a line per row, with the vertex and its local direction if known.
+/// Writes one line per row, with the vertex and its local direction if known.
 fn write_values(local: &[[f64; 3]], directions: Option<usize>, path: &Path) -> Result<(), Problem> {
     write_file(path, |out| {
         writeln!(out, "{},r,g,b", if directions.is_some() { "vertex,direction" } else { "row" })?;

@@ -1,4 +1,4 @@
-//! Patches of a surface by name or from a file of heights.
+//! Surface patches, by name or from a height file.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::names::did_you_mean;
 const PLAIN: &str = "plain";
 /// Maximum length of a table of heights, in bytes (1 GiB).
 const MAX_BYTES: u64 = 1 << 30;
-/// Height of a picture's white above its black, in edges of the patch.
+/// Height of white above black in a picture, in edges of the patch.
 const PICTURE_DEPTH: f64 = 0.1;
 /// Reflectance of `plain` and of patches from a file.
 const COLOR: [f64; 3] = [0.5; 3];

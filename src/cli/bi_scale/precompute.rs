@@ -24,7 +24,7 @@ use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 
-/// The logarithm of the samples along an edge of a light texel: 2 x 2, for five values of visibility.
+/// Base-2 logarithm of the samples per side of a light texel: 2 x 2 samples give five values of visibility.
 const LOG2_SAMPLES: u32 = 1;
 
 const EXAMPLES: &str = "\
@@ -42,7 +42,7 @@ pub(super) struct Args {
     #[arg(value_name = "MODEL", help = transfer_model_help())]
     model: PathBuf,
 
-    /// Local directions along an edge of the square that is mapped to the hemisphere
+    /// Local directions per side of the square that is mapped to the hemisphere
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
     directions: u8,
 

@@ -53,7 +53,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// Writes the matrix of a file as text.
+/// Writes the matrix of a file in text form.
 fn write_text(file: &BiScaleFile, name: &Path, path: &Path) -> Result<(), Problem> {
     let comment = format!("of {}, by crossbar bi-scale show", name.display());
     match (&file.matrix, &file.biclusters) {
@@ -72,7 +72,7 @@ fn rows(file: &BiScaleFile) -> usize {
     file.matrix.as_ref().map_or_else(of_biclusters, SparseMatrix::rows)
 }
 
-/// Frequency of each value in a matrix, or in the columns of biclusters times their rows.
+/// Frequency of each value in a matrix, or, for biclusters, in their columns multiplied by their rows.
 fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
     match (&file.matrix, &file.biclusters) {
         (Some(matrix), _) => value_counts(matrix),

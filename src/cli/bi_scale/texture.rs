@@ -34,15 +34,15 @@ pub(super) struct Args {
     #[arg(value_name = "PATCH")]
     source: PathBuf,
 
-    /// Texels along an edge; the paper has 32 and 64
+    /// Texels per side; the paper uses 32 and 64
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1024))]
     texels: u32,
 
-    /// Directions of light along an edge of the square that is mapped to the hemisphere: as for transfer
+    /// Light directions per side of the square that is mapped to the hemisphere, as for transfer
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
     directions: u8,
 
-    /// Directions of the view along an edge of such a square
+    /// View directions per side of such a square
     #[arg(long, value_name = "K", default_value_t = 12, value_parser = clap::value_parser!(u8).range(1..=64))]
     views: u8,
 
@@ -96,7 +96,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// Mean over texels and views of the radiance under uniform light of radiance 1.
+/// Mean radiance over texels and views, under uniform light of radiance 1.
 fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for sample in texture.samples() {
@@ -107,11 +107,11 @@ fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
     sum.map(|sum| sum / of_texel)
 }
 
-/// The patches of a view, placed by light direction in the square, rows from the lower edge up; each has v upwards.
+/// The patches of a view, arranged by light direction in the square, rows from the lower edge up; v points up in each.
 fn sheet(texture: &BidirectionalTexture, view: usize) -> RgbImage {
     let (side, size) = (texture.light().side(), texture.size());
     let width = side * size;
-    // A white Lambert surface, lit along its normal, appears white; brighter lobes are clipped.
+    // A white Lambert surface lit along its normal appears white; brighter lobes are clipped.
     let scale = std::f64::consts::PI;
     let pixel = |at: usize| {
         let (x, y) = (at % width, width - 1 - at / width);

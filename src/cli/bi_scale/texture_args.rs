@@ -13,7 +13,7 @@ use crate::names::did_you_mean;
 use crate::scene::Material;
 use crate::study::prt::SurfaceTexture;
 
-/// Textures, and how patches are sampled.
+/// Textures, and the sampling of patches.
 #[derive(Debug, clap::Args)]
 pub(super) struct TextureArgs {
     /// The bidirectional texture of a material, or of all that have none of their own: a file (.npy) that `crossbar
@@ -25,7 +25,7 @@ pub(super) struct TextureArgs {
     pub(super) patches: PatchArgs,
 }
 
-/// A texture, and the material that it belongs to.
+/// A texture, and the material to which it belongs.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureArg {
     material: Option<String>,
@@ -60,7 +60,7 @@ impl TextureArgs {
         Ok((transfer, texture_of))
     }
 
-    /// The files that pictures are made from: transfer, model, light, textures.
+    /// The input files of a picture: transfer, model, light, textures.
     pub(super) fn inputs<'a>(
         &'a self,
         transfer: &'a Path,
@@ -72,7 +72,7 @@ impl TextureArgs {
         [transfer].into_iter().chain(picture.inputs()).chain(light.file()).chain(files).collect()
     }
 
-    /// Index of the texture of each material among those given.
+    /// Index of the texture of each material.
     fn of_materials(&self, materials: &[Material]) -> Result<Vec<u32>, Problem> {
         for (at, TextureArg { material, .. }) in self.texture.iter().enumerate() {
             if self.texture[..at].iter().any(|before| before.material == *material) {
@@ -98,7 +98,7 @@ impl TextureArgs {
         materials.iter().map(of).collect()
     }
 
-    /// The textures, those of patches sampled in a transfer's local directions.
+    /// The textures; patches are sampled in a transfer's local directions.
     pub(super) fn textures(&self, light: &LocalDirections) -> miette::Result<Vec<SurfaceTexture>> {
         self.texture.iter().map(|texture| self.patches.texture(&texture.source, light)).collect()
     }

@@ -1,4 +1,4 @@
-//! Texture options that `crossbar bi-scale render` and `card` share, and the transfer of a model, which both need.
+//! Options of textures that `crossbar bi-scale render` and `card` share, and the transfer of a model.
 
 use std::path::Path;
 
@@ -16,18 +16,18 @@ use crate::transfer::Vertices;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::file::require_mesh;
 
-/// How patches are sampled, and where they lie.
+/// Sampling of patches, and their placement.
 #[derive(Debug, clap::Args)]
 pub(super) struct PatchArgs {
     /// Repetitions of a texture per unit of texture coordinates
     #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
     pub(super) repeat: f64,
 
-    /// Texels along an edge of the textures of patches [default: 64]
+    /// Texels per side of textures of patches [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     texture_size: Option<u32>,
 
-    /// Directions of the view along an edge of the square, of the textures of patches [default: 12]
+    /// View directions per side of the square, for textures of patches [default: 12]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
     texture_views: Option<u8>,
 
@@ -37,14 +37,14 @@ pub(super) struct PatchArgs {
 }
 
 impl PatchArgs {
-    /// Refuses options of patches if no texture is a patch. The [`Problem`] names the option.
+    /// Rejects options of patches if no texture is a patch. The [`Problem`] names the option.
     pub(super) fn require_patch(&self) -> Result<(), Problem> {
         let of_patches =
             [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];
         given::refuse(of_patches, "textures of patches, found files only", "leave it out: a file has its own size")
     }
 
-    /// A texture from its file, or of a patch by its name, sampled in a transfer's local directions.
+    /// A texture, read from its file, or sampled from a named patch in a transfer's local directions.
     pub(super) fn texture(&self, source: &Path, light: &LocalDirections) -> miette::Result<SurfaceTexture> {
         let name = source.display().to_string();
         let Some(kind) = patch_kind(source) else {
@@ -72,12 +72,12 @@ pub(super) fn patch_kind(source: &Path) -> Option<PatchKind> {
     source.to_str().and_then(|name| name.parse().ok())
 }
 
-/// Transfer with the model that it was made from.
+/// Transfer with the model from which it was made.
 pub(super) struct TransferOfModel {
     pub(super) file: BiScaleFile,
     pub(super) model: Model,
     pub(super) vertices: Vertices,
-    /// The local directions of its rows.
+    /// The local directions of the transfer's rows.
     pub(super) light: LocalDirections,
 }
 

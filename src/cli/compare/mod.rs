@@ -1,4 +1,4 @@
-//! `crossbar compare`: one case on two sides, and where they part.
+//! `crossbar compare`: one case on two sides, and the first difference.
 
 mod show;
 
@@ -21,7 +21,7 @@ Examples:
 
 Sides are compared by the results of the draw: every stored bit of targets and depth buffer, and the counts. Where \
 they differ, the first differing pixel is followed on both sides to the first pass, stage, instruction and component. \
-docs/compare.md says what is compared how, and what an ULP is between two formats.
+docs/compare.md describes the comparison, and ULPs between two formats.
 
 Exit codes: 0 the sides are equal, 1 they differ, 2 the case cannot be run.";
 
@@ -36,11 +36,11 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_enum, value_name = "EXECUTOR")]
     left: Option<DeviceExecutor>,
 
-    /// Executor on the right [default: batch, or as on the left where the sides differ in something else]
+    /// Executor on the right [default: batch, or the left side's if the sides differ in another setting]
     #[arg(long, value_enum, value_name = "EXECUTOR")]
     right: Option<DeviceExecutor>,
 
-    /// Device on the left, in place of what the case says
+    /// Device on the left, in place of the case's
     #[arg(long, value_name = "D")]
     left_device: Option<String>,
 
@@ -73,7 +73,7 @@ pub(in crate::cli) struct Args {
     registers: bool,
 }
 
-/// One side as requested.
+/// One side, as requested.
 #[derive(Debug)]
 struct SideRequest {
     name: &'static str,
@@ -82,7 +82,7 @@ struct SideRequest {
 }
 
 impl Args {
-    /// The two sides, which must differ in something.
+    /// The two sides; fails if they do not differ in any setting.
     fn sides(&self) -> miette::Result<[SideRequest; 2]> {
         let left = (self.left_device.as_deref(), self.left_format.as_deref(), self.left_switch.as_slice());
         let right = (self.right_device.as_deref(), self.right_format.as_deref(), self.right_switch.as_slice());

@@ -166,9 +166,9 @@ impl ShownComparison<'_> {
             let differs = difference.operands.iter().any(|operand| operand.differs);
             out.line("")?;
             out.line(if differs {
-                "what it read, which differs already (before swizzle and modifiers):"
+                "its operands, which already differ (before swizzle and modifiers):"
             } else {
-                "what it read, the same on both sides (before swizzle and modifiers):"
+                "its operands, the same on both sides (before swizzle and modifiers):"
             })?;
             out.table(&operands_table(&difference.operands))?;
         }

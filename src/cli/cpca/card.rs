@@ -76,7 +76,7 @@ impl StudyArgs for Args {
     }
 }
 
-/// Options of the card: maps of signed 16 bits if it has them, else of 8.
+/// Options of the card: signed 16-bit maps if it has them, otherwise signed 8-bit maps.
 fn options(formats: &[TexelFormat]) -> PrtCardOptions {
     let fine = formats.contains(&TexelFormat::Rgba16Snorm);
     let map_format = if fine { TexelFormat::Rgba16Snorm } else { TexelFormat::Rgba8Snorm };

@@ -1,4 +1,4 @@
-//! Clusters that are coherent on a mesh: vertices reclassified, clusters drawn together.
+//! Optimisation of clusters for drawing on a mesh: vertices are reclassified, clusters are drawn together.
 
 use std::path::{Path, PathBuf};
 
@@ -55,12 +55,12 @@ impl CoherenceArgs {
         Ok(Some(model_of(signal, mesh, model)?.1))
     }
 
-    /// Returns whether reclassification and superclusters are requested.
+    /// Returns `true` for reclassification, and for superclusters, if requested.
     pub(super) const fn given(&self) -> [bool; 2] {
         [self.reclassify.is_some(), self.supercluster_size.is_some()]
     }
 
-    /// The options that were given, for the file.
+    /// The options that were given, as the file stores them.
     pub(super) fn provenance(&self) -> Vec<String> {
         let reclassify = self.reclassify.map(|share| format!("reclassify={share}"));
         let size = self.supercluster_size.map(|size| format!("supercluster-size={size}"));

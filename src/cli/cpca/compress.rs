@@ -29,9 +29,9 @@ Examples:
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.npz
       fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
 
-CSV and NumPy arrays hold a row per point. The file that is written holds the clusters and how they were made.";
+CSV and NumPy arrays hold a row per point. The output file holds the clusters and their provenance.";
 
-/// Maximum number of iterations for each number of vectors, and of rounds of redistribution.
+/// Maximum number of iterations per number of vectors, and maximum number of rounds of redistribution.
 const ITERATIONS: usize = 10;
 /// Seed of the start points.
 const SEED: u64 = 1;
@@ -92,7 +92,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
 }
 
 impl Args {
-    /// Refuses options that other options make useless.
+    /// Rejects options that other options make useless.
     fn refuse_idle(&self) -> Result<(), Problem> {
         let no_vectors = [("--method", self.vectors == Some(0) && self.method.is_some())];
         given::refuse(
@@ -134,7 +134,7 @@ impl Args {
         })
     }
 
-    /// Provenance of the clusters for the file: the actual values, not the limits.
+    /// Provenance of the clusters, for the file: the actual values, not the limits.
     fn provenance(&self, options: &CpcaOptions, clustering: &Clustering, steps: &[CpcaStep]) -> String {
         let vectors = steps.last().map_or(options.vectors, |step| step.vectors);
         let mut parts = vec![

@@ -13,7 +13,7 @@ const fn word(kind: CpcaStepKind) -> &'static str {
     }
 }
 
-/// The last step of each number of vectors, and every redistribution; the document has all steps.
+/// Table of the last step for each number of vectors, and every redistribution; the document has all steps.
 pub(super) fn table(steps: &[CpcaStep], energy: f64) -> Table {
     let mut table = Table::new("Steps", &["steps", "vectors", "ends", "squared error", "of the signal (%)"]);
     let last = |at: usize| steps.get(at + 1).is_none_or(|next| next.vectors != steps[at].vectors);

@@ -14,7 +14,7 @@ use crate::transfer::load_signal;
 const EXAMPLES: &str = "\
 Examples:
   crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz
-      squared error of all vertices, the largest, and how many have how much
+      squared error of all vertices, the largest, and a histogram
   crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz --json
       the same as JSON";
 

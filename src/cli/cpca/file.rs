@@ -10,11 +10,11 @@ use crate::transfer::Vertices;
 use crate::transfer::file::require_mesh;
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 
-/// A `.npz` file with the model that it was made from.
+/// A `.npz` file with the model from which it was made.
 pub(super) struct FileOfModel {
     pub(super) file: PrtFile,
     pub(super) model: Model,
-    /// The points of the file, with the file's choice of tangents.
+    /// The points of the file, with the tangents that the file specifies.
     pub(super) vertices: Vertices,
     pub(super) digest: MeshDigest,
 }
@@ -27,7 +27,7 @@ impl FileOfModel {
     }
 }
 
-/// The model of a file's mesh, with its vertices: the file's points.
+/// The model with a file's mesh, and its vertices, which are the file's points.
 pub(super) fn model_of(
     path: &Path,
     mesh: Option<MeshDigest>,
@@ -41,7 +41,7 @@ pub(super) fn model_of(
     Ok((model, vertices, digest))
 }
 
-/// The order of the light that a file's transfer takes.
+/// The order of the light that a file's transfer needs.
 pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
     match file.meaning {
         PrtMeaning::Transfer { light_order, .. } => Ok(light_order as usize),
@@ -59,7 +59,7 @@ pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
     Ok((file, clustering))
 }
 
-/// Takes the clusters out of a file.
+/// Moves the clusters out of a file.
 pub(super) fn clusters_of(file: &mut PrtFile, path: &Path) -> miette::Result<Clustering> {
     Ok(file.clustering.take().ok_or_else(|| {
         let what = format!("{}: expected clusters, found transfer only", path.display());

@@ -20,15 +20,15 @@ Examples:
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
       the same by 8 clusters of 3 vectors
   crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz
-      what compression costs
+      the error of compression
   crossbar cpca show docs/examples/step_small.npz
-      what is in a file
+      the contents of a file
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
       pictures of it
   crossbar cpca card docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
       the same on an emulated card
 
-docs/npz.md says what is in the files, docs/papers/cpca.md what is computed.";
+docs/npz.md describes the files, docs/papers/cpca.md the computation.";
 
 /// Precomputed radiance transfer in harmonics, compressed by clustered principal components
 #[derive(Debug, clap::Args)]

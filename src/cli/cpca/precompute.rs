@@ -44,7 +44,7 @@ run leaves nothing, and cannot be resumed.";
 
 /// Order of incident radiance in harmonics, as in the paper.
 const INCIDENT_ORDER: usize = 5;
-/// The solid angle below which vertices that scatter count as one point, in steradians.
+/// The solid angle, in steradians, below which scattering vertices count as one point.
 const SOLID_ANGLE: f64 = 0.05;
 
 /// Precompute how each vertex of a model transfers distant light
@@ -111,7 +111,7 @@ pub(super) struct Args {
     caster: CasterOptions,
 }
 
-/// The channels of transfer, for `--channels`: red, green and blue are 0, 1 and 2.
+/// Values of `--channels`: the channels of transfer; red, green and blue are 0, 1 and 2.
 fn channels_of() -> OneOf<&'static [usize]> {
     let scalar = ("scalar", "One for all, with the reflectances of green", &[1][..]);
     one_of([scalar, ("rgb", "Red, green and blue", &[0, 1, 2])])
@@ -151,7 +151,9 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         record.report(&mut findings);
         findings.field("off_host", json!({ "coefficients": differing, "relative_rms": off }));
         let [differing, off] = [counted(differing as usize), measured(off)];
-        findings.print(format!("engine: {differing} coefficients differ from those by the host's rays, {off} of all in the root mean square"));
+        findings.print(format!(
+            "engine: {differing} coefficients differ from those by the host's rays, with a relative RMS of {off}"
+        ));
     }
     Ok(findings)
 }
@@ -174,7 +176,7 @@ fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {
     Ok(Some(Scatterer { dipoles, options: ScatteringOptions { mm_per_unit, solid_angle: SOLID_ANGLE } }))
 }
 
-/// Per channel a BRDF of each material.
+/// For each channel, a BRDF of each material.
 fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Problem> {
     let of = |channel: usize| {
         let brdfs: Result<Vec<Brdf>, Problem> = (model.materials.iter())
@@ -210,7 +212,7 @@ fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
         found.print(format!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")));
     }
     let more = [
-        (buried.len(), "vertices lie inside of something: all their rays are blocked, most from behind"),
+        (buried.len(), "vertices lie inside a solid: all their rays are blocked, mostly from behind"),
         (dark.len() - buried.len().min(dark.len()), "more vertices see no sky at all"),
         (unclear.len(), "vertices lie on triangles that face each other"),
     ];

@@ -15,7 +15,7 @@ pub(super) enum KindArg {
     Glossy,
 }
 
-/// Functions of exit radiance: all of an order, or all but (1, 0).
+/// Functions of exit radiance: all functions of an order, or all but (1, 0).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RowsArg {
     order: usize,
@@ -32,7 +32,7 @@ impl FromStr for RowsArg {
         });
         let found = found.map(|(order, is_whole)| Self { order, is_whole });
         found.ok_or_else(|| {
-            format!("expected a square from 1 to 100, or from 4 on one less (without l = 1, m = 0), found `{text}`")
+            format!("expected a square from 1 to 100, or one less than a square from 4 on (without l = 1, m = 0), found `{text}`")
         })
     }
 }

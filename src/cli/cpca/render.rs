@@ -25,7 +25,7 @@ Written to --out: index.html (self-contained), pictures, picture.exr. Vertex rad
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// Transfer or clusters; clusters are drawn where there are both
+    /// Transfer or clusters; clusters are drawn if there are both
     #[arg(value_name = "FILE.npz")]
     file: PathBuf,
 

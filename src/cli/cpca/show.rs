@@ -78,7 +78,7 @@ fn all(file: &PrtFile, found: &mut Findings) {
     found.table(spectra(clustering, file.superclusters.as_deref()));
 }
 
-/// Clusters with their sizes and largest eigenvalues.
+/// Table of clusters with their sizes and largest eigenvalues.
 fn spectra(clustering: &Clustering, superclusters: Option<&[u32]>) -> Table {
     let mut headings = vec!["cluster".to_owned(), "points".to_owned(), "vectors".to_owned()];
     headings.extend(superclusters.map(|_| "supercluster".to_owned()));
@@ -94,7 +94,7 @@ fn spectra(clustering: &Clustering, superclusters: Option<&[u32]>) -> Table {
     table
 }
 
-/// Points of each cluster.
+/// Number of points of each cluster.
 fn sizes(clustering: &Clustering) -> Vec<usize> {
     let mut sizes = vec![0; clustering.subspaces().len()];
     clustering.of_point().iter().for_each(|&cluster| sizes[cluster as usize] += 1);
@@ -117,7 +117,7 @@ fn header_document(file: &PrtFile) -> Value {
     json!({ "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some() })
 }
 
-/// The words of a line of provenance, by name.
+/// The words of a provenance line, by name.
 fn made_document(line: &str) -> BTreeMap<&str, &str> {
     line.split(' ').map(|word| word.split_once('=').unwrap_or((word, "yes"))).collect()
 }

@@ -102,7 +102,7 @@ fn summary(profile: &Profile) -> Value {
     })
 }
 
-/// The formats of single instructions of a device file.
+/// Table of the formats of single instructions in a device file.
 fn instructions(profile: &Profile) -> FoundTable {
     let mut table = Table::new("Formats of single instructions", &["program", "instruction", "format"]);
     for (digest, formats) in profile.instruction_formats().iter() {
@@ -113,7 +113,7 @@ fn instructions(profile: &Profile) -> FoundTable {
     table.into()
 }
 
-/// The formats of storages and sums of a device file.
+/// Table of the formats of storages and sums in a device file.
 fn storages(profile: &Profile) -> FoundTable {
     let mut table = Table::new("Formats of storages and sums", &["storage", "format"]);
     let storages = profile.rules.storage.iter().map(|(storage, format)| (storage.name(), format));
@@ -123,7 +123,7 @@ fn storages(profile: &Profile) -> FoundTable {
     table.into()
 }
 
-/// Everything about one device.
+/// All findings about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
     found.fields(json!({

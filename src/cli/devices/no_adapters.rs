@@ -2,12 +2,12 @@
 
 use crate::cli::{Out, Problem};
 
-/// `devices --adapters`
+/// Fails for `devices --adapters`.
 pub(super) fn list(_: &mut Out) -> miette::Result<()> {
     Err(missing().into())
 }
 
-/// The reason.
+/// Error that names the missing feature.
 pub(in crate::cli) fn missing() -> Problem {
     Problem::usage(
         "this build has no GPU support: the feature `wgpu` is off",

@@ -44,12 +44,12 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// The card of a mesh without `--renderer`, and of an environment map; `exact` arithmetic needs none
+    /// The card for a mesh without `--renderer`, and for an environment map; `exact` arithmetic needs none
     /// [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
-    /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
+    /// Arithmetic that decides hits [default: batch if a device is named or with `--caster engine`, otherwise exact]
     #[arg(long, value_enum)]
     pub(super) executor: Option<Decider>,
 
@@ -57,7 +57,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "DIR", default_value = "out/render")]
     pub(super) out: PathBuf,
 
-    // Last, because its heading also covers the options after it.
+    // Last, because its heading also covers the options that follow it.
     #[command(flatten)]
     pub(super) light: LightArgs,
 
@@ -72,7 +72,7 @@ pub(super) enum Renderer {
     Eye,
     /// Point lights, hard shadows, mirrors, glass
     Whitted,
-    /// The same, but mirrors show a cube map of what is around them, drawn by `--device`
+    /// The same, but mirrors show a cube map of their surroundings, drawn by `--device`
     Environment,
     /// Soft shadows, gloss, depth of field; no light between diffuse surfaces
     Distributed,
@@ -146,7 +146,7 @@ impl LightArgs {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some()
     }
 
-    /// Refuses options that a renderer does not use; `None` is a mesh that is shaded without light.
+    /// Rejects options that a renderer does not use; `None` stands for a mesh shaded without lights.
     pub(super) fn refuse_others(&self, renderer: Option<Renderer>) -> Result<(), Problem> {
         let is_photon = renderer == Some(Renderer::Photon);
         let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];

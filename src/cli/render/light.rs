@@ -26,7 +26,7 @@ use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
 use crate::tracer::offset::SINGLE;
 
-/// The random seed where none is given.
+/// The default random seed.
 const SEED: u64 = 1;
 
 pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
@@ -74,7 +74,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     study::show(&findings, out)
 }
 
-/// The rays that were cast, kind by kind.
+/// Table of the rays that were cast, by kind.
 fn rays(picture: &RenderedPicture) -> Table {
     let mut table = Table::of("Rays", "kind rays");
     for (kind, count) in picture.counts.kinds().into_iter().filter(|kind| kind.1 > 0) {
@@ -83,8 +83,8 @@ fn rays(picture: &RenderedPicture) -> Table {
     table
 }
 
-/// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are
-/// single precision.
+/// Half a step between numbers of a format near 1, or a whole step if the format truncates; not less than single
+/// precision's, since rays are in single precision.
 fn unit_roundoff(format: Format) -> f64 {
     let step = match format.kind {
         FormatKind::Fixed { frac_bits: bits, .. } | FormatKind::Float { man_bits: bits, .. } => {
@@ -96,7 +96,7 @@ fn unit_roundoff(format: Format) -> f64 {
     (if nearest { step / 2.0 } else { step }).max(SINGLE)
 }
 
-/// Refuses a scene without lights that the renderer knows: the picture would be black.
+/// Rejects a scene without lights that the renderer supports: the picture would be black.
 fn check_lights(renderer: Renderer, scene: &Scene) -> Result<(), Problem> {
     let (points, emitters) = (!scene.point_lights.is_empty(), !scene.emitters().is_empty());
     let dark = match renderer {

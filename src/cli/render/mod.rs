@@ -64,7 +64,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     study::show(&findings, out)
 }
 
-/// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.
+/// The requested camera; without an eye, one that looks down a little from the front and sees the whole mesh.
 fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
     args.eye.framing(mesh, args.size)
 }

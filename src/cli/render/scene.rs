@@ -8,11 +8,11 @@ use crate::scene::{Camera, Scene};
 /// A scene to be lit.
 pub(super) struct LitScene {
     pub(super) scene: Scene,
-    /// True if it has lights and views of its own.
+    /// `true` if it has its own lights and views.
     pub(super) lit: bool,
 }
 
-/// The scene, if it is to be lit; `None` for an OBJ, PLY, STL or glTF file by its eye rays on a card.
+/// The scene, if it is to be lit; `None` for an OBJ, PLY, STL or glTF file whose eye rays a card casts.
 pub(super) fn lit(args: &Args) -> miette::Result<Option<LitScene>> {
     if let Some(scene) = scene_name::by_name(&args.scene)? {
         return Ok(Some(LitScene { scene, lit: true }));

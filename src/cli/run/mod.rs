@@ -23,13 +23,13 @@ Examples:
   crossbar run fixtures/cases/transform.toml --trace 2,2
       and shows what every instruction wrote at column 2, row 2
   crossbar run docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3
-      a fragment shader in WGSL, on a device of single precision (a build with the feature wgsl)
+      a fragment shader in WGSL, on a single-precision device (needs the feature wgsl)
 
-docs/cases.md describes what a case may say. Unsigned targets are written as PNG, all others and the depth buffer as \
-EXR. The counts say how much work there was, in instruction slots and bytes; `crossbar timeline` says how long a card \
+docs/cases.md describes the case format. Unsigned targets are written as PNG, all others and the depth buffer as \
+EXR. The counts measure the work, in instruction slots and bytes; `crossbar timeline` says how long a card \
 takes.
 
-Exit codes: 0 done, 1 a probe found something else than it expected, 2 the case cannot be run.";
+Exit codes: 0 done, 1 a probe did not find the expected value, 2 the case cannot be run.";
 
 /// Draw a case: any shader on any textures, constants and geometry; pictures, probes, counts
 #[derive(Debug, clap::Args)]
@@ -47,7 +47,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Executor; the bits are the same
+    /// Executor; all produce bit-identical results
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 

@@ -13,7 +13,7 @@ use crate::{
 pub(super) struct ShownTrace<'a>(pub(super) Traced<'a>);
 
 impl ShownTrace<'_> {
-    /// Reports that nothing covers the pixel, with advice.
+    /// Reports, with advice, that nothing covers the pixel.
     fn nothing(&self) -> String {
         let [x, y] = self.0.trace.pixel;
         let text = format!("no triangle of the draw covers pixel {x}, {y}");
@@ -71,7 +71,7 @@ impl ShownTrace<'_> {
     }
 
     fn steps(&self, fragment: &FragmentTrace) -> Table {
-        // An expression of WGSL is longer than an instruction.
+        // Expressions of WGSL are longer than instructions.
         let is_wgsl = self.0.setup.pixel_text.is_wgsl();
         let places = if is_wgsl { "step line,_expression" } else { "instruction line text" };
         let flags = if self.0.knows_flags { "flags" } else { "" };
@@ -99,7 +99,7 @@ impl ShownTrace<'_> {
         table
     }
 
-    /// One line with the fragment's result.
+    /// One line with the result of the fragment.
     fn result(&self, fragment: &FragmentTrace) -> String {
         let own = fragment.shading.output.depth.map(|depth| {
             let number = Number { format: depth.format, bits: depth.bits };

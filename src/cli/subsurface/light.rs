@@ -12,7 +12,7 @@ use crate::study::subsurface::Lighting;
 use crate::subsurface::on_card::Light;
 use crate::transfer::light::{CubeLight, Decimation};
 
-/// A light of pass 1, or distant light as in the commands on transfer.
+/// A light of pass 1, or distant light as in the commands about transfer.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum LightArg {
     /// `ambient:R,G,B`, `directional:X,Y,Z:R,G,B` or `point:X,Y,Z:R,G,B[:K0,K1,K2]`.
@@ -53,21 +53,21 @@ impl FromStr for LightArg {
                 Light::Point { position, intensity, attenuation }
             }
             ["ambient" | "directional" | "point", ..] => return Err(wrong()),
-            // A word that no light begins with; a single letter is a drive.
+            // A word that does not begin a light; a single letter is a drive.
             [word, _, ..] if word.len() > 1 && !["disk", "constant", "sky"].contains(&word) => return Err(wrong()),
             _ => return text.parse().map(Self::Environment).map_err(|_| wrong()),
         }))
     }
 }
 
-/// A coefficient for all channels, or one for each.
+/// A coefficient for all channels, or one per channel.
 pub(super) fn coefficient(text: &str) -> Result<[f64; 3], String> {
     let one = || text.trim().parse().ok().filter(|value: &f64| value.is_finite()).map(|value| [value; 3]);
     let found = one().or_else(|| three_finite(text)).filter(|values| values.iter().all(|&value| value >= 0.0));
     found.ok_or_else(|| format!("expected a number of at least 0, or three as R,G,B, per mm, found `{text}`"))
 }
 
-/// The requested light; otherwise a white light from above and beside the eye.
+/// The requested light; by default, a white light above and beside the eye.
 pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Lighting> {
     if let [LightArg::Environment(light)] = asked {
         return environment(light).map(Lighting::Environment);
@@ -77,7 +77,7 @@ pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Li
         let lights: Option<Vec<Light>> = asked.iter().map(of_pass).collect();
         return Ok(Lighting::Lights(lights.ok_or_else(|| {
             let help = "lights of pass 1 may be repeated; an environment map takes their place";
-            Problem::usage("expected one environment map alone, found other `--light` beside it", help)
+            Problem::usage("expected a single environment map, found another `--light` in addition", help)
         })?));
     }
     let unit = |v: DVec3| v.normalize_or_zero();
@@ -85,7 +85,7 @@ pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Li
     Ok(Lighting::Lights(vec![Light::Directional { towards: towards.to_array(), irradiance: [1.0; 3] }]))
 }
 
-/// Distant light in the texels of a cube.
+/// Distant light, sampled at the texels of a cube.
 fn environment(light: &DistantLightArg) -> miette::Result<CubeLight> {
     let refused = |found: String| Problem::usage(found, "docs/papers/cpca.md says which pictures are lights");
     let cube = light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle);

@@ -1,4 +1,4 @@
-//! `crossbar subsurface`: links over an atlas, three passes on a card, all pairs beside them.
+//! `crossbar subsurface`: links over an atlas, three passes on a card, compared with all pairs.
 
 mod light;
 
@@ -33,7 +33,7 @@ Examples:
 Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of every vertex of the model, in every \
 way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
 
-/// The index of refraction where coefficients come without one.
+/// The default index of refraction for coefficients given on the command line.
 const ETA: f64 = 1.3;
 
 /// Subsurface scattering (Carr, Hall, Hart 2003) on an emulated card, compared with brute force
@@ -115,7 +115,11 @@ impl StudyArgs for Args {
         let camera = self.eye.framing(&mesh, self.size)?;
         let lighting = lighting(&self.light, &camera)?;
         let idle = self.caster.is_named() && matches!(lighting, Lighting::Lights(_));
-        given::refuse([("--caster", idle)], "shadows of an environment map", "leave it out, or add one by `--light`")?;
+        given::refuse(
+            [("--caster", idle)],
+            "shadows of an environment map",
+            "leave it out, or add an environment map with `--light`",
+        )?;
         self.part.refuse_engine(&self.caster)?;
         Ok(Parameters {
             model: self.model.display().to_string(),
@@ -134,7 +138,7 @@ impl StudyArgs for Args {
 }
 
 impl Args {
-    /// A published medium, or coefficients.
+    /// A published medium, or the given coefficients.
     fn material(&self) -> miette::Result<Material> {
         match (&self.material, self.sigma_s, self.sigma_a) {
             (Some(name), ..) => {

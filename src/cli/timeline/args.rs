@@ -49,7 +49,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, default_value = "both", value_parser = models())]
     pub(super) timing: &'static [Level],
 
-    /// Read-back mode: the host waits, or not [default: as the run says]
+    /// Read-back mode: the host waits, or not [default: the run's]
     #[arg(long, value_name = "MODE", value_parser = readback())]
     pub(super) readback: Option<ReadBackMode>,
 
@@ -70,7 +70,7 @@ pub(in crate::cli) struct Args {
     pub(super) perfetto: Option<PathBuf>,
 }
 
-/// The models, for `--timing`.
+/// Values of `--timing`: the models.
 fn models() -> OneOf<&'static [Level]> {
     one_of([
         ("rates", "Fill rate and bus rates", &[Level::Rates][..]),
@@ -79,7 +79,7 @@ fn models() -> OneOf<&'static [Level]> {
     ])
 }
 
-/// Modes of read-back, for `--readback`.
+/// Values of `--readback`: modes of read-back.
 fn readback() -> OneOf<ReadBackMode> {
     one_of([
         ("sync", "The host waits for all earlier work and the transfer", ReadBackMode::Synchronous),
@@ -87,7 +87,7 @@ fn readback() -> OneOf<ReadBackMode> {
     ])
 }
 
-/// `64x64`, or `64,64`.
+/// Parses `64x64` or `64,64`.
 fn parse_rays(text: &str) -> Result<Size, BadSize> {
     text.replace(',', "x").parse()
 }

@@ -23,12 +23,12 @@ use crate::scene::Camera;
 
 /// The default card for rays.
 const DEFAULT_DEVICE: &str = "r200";
-/// Quads along each side of each patch of the teapot.
+/// Quads per side of each patch of the teapot.
 const TESSELLATION: u32 = 8;
 /// Tangent of half the vertical field of view, for meshes.
 const TANGENT: f32 = 0.375;
 
-/// A case, or rays on a mesh.
+/// A case, or rays and a mesh.
 pub(super) enum Input {
     Case(Box<Setup>),
     Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch>, name: String },
@@ -99,7 +99,7 @@ impl Input {
     }
 }
 
-/// A figure that the timing model needs and the device lacks.
+/// Error for a figure that the timing model needs but the device lacks.
 fn no_figure(error: TimingError) -> Problem {
     Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
 }
@@ -119,7 +119,7 @@ fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, Strin
     }
 }
 
-/// A log under one timing model.
+/// A log timed by one model.
 pub(super) struct TimedLog {
     pub(super) model: Model,
     pub(super) replay: Replay,

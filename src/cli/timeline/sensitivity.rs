@@ -1,4 +1,4 @@
-//! Sensitivity of the total to each guess.
+//! Sensitivity of the total time to each guess.
 
 use miette::IntoDiagnostic as _;
 use refsim::event::Event;
@@ -21,7 +21,7 @@ pub(super) fn sensitivity(model: &Model, log: &[Event], options: &Options<'_>) -
         Ok(replay(log, model, options)?.timeline.makespan())
     };
     let constants = model.constants();
-    // In the rates model commands cost nothing; these figures have no effect.
+    // In the rates model, commands cost nothing, so these figures have no effect.
     let queue = if model.level() == Level::Pipeline { options.queue.rows() } else { Vec::new() };
     let guesses = model.guesses();
     let bar = ProgressBar::new("halving and doubling", (guesses.len() + queue.len()) as u64);

@@ -14,7 +14,7 @@ use crate::cli::Out;
 use crate::report::visible::visible_line;
 use crate::report::{Cell, Table};
 
-/// Maximum number of draws in the table; the document has all.
+/// Maximum number of draws in the table; the document has all draws.
 const MAX_DRAWS: usize = 16;
 
 pub(super) fn print(
@@ -68,17 +68,17 @@ fn us(time: Picoseconds) -> Cell {
     Cell::measured(time.0 as f64 / 1e6)
 }
 
-/// Cell of a part in per cent.
+/// Cell with a part in percent.
 fn percent(part: i128, whole: Picoseconds) -> Cell {
     Cell::percent(100.0 * part as f64 / whole.0.max(1) as f64)
 }
 
-/// Cell of a part's share of a total.
+/// Cell with a part's share of a total, in percent.
 fn share(part: Picoseconds, whole: Picoseconds) -> Cell {
     percent(part.0.into(), whole)
 }
 
-/// Cell of the change of a total.
+/// Cell with the change of a total, in percent.
 fn change(from: Picoseconds, to: Picoseconds) -> Cell {
     percent(i128::from(to.0) - i128::from(from.0), from)
 }
@@ -115,7 +115,7 @@ fn draws(log: &[Event], timed: &TimedLog) -> Table {
     table
 }
 
-/// The generations of mip levels of a log, each with its cost.
+/// Generations of mip levels in a log, each with its cost.
 fn generations<'a>(log: &'a [Event], timed: &'a TimedLog) -> impl Iterator<Item = (&'a MipmapRecord, &'a DrawCost)> {
     let records = log.iter().filter_map(|event| match event {
         Event::GenerateMipmaps(record) => Some(record),

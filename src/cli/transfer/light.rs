@@ -1,4 +1,4 @@
-//! `--light`: distant light by name, by figures or from a picture.
+//! `--light`: distant light by name, by parameters or from a picture.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -13,7 +13,7 @@ use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
 
-/// Forms of light in harmonics, and those of light on the texels of a cube, for help.
+/// Forms of light in harmonics, and forms of light on the texels of a cube, for help texts.
 pub(in crate::cli) const HARMONIC_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
      radius), sky:X,Y,Z (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture";
 pub(in crate::cli) const CUBE_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
@@ -30,7 +30,7 @@ const ZENITH: [f64; 3] = [0.25, 0.4, 0.7];
 const GROUND: [f64; 3] = [0.1; 3];
 const SUN: [f64; 3] = [4e4, 3.7e4, 3.2e4];
 
-/// A light, before its projection to an order of harmonics.
+/// A light before its projection to harmonics of an order.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::cli) enum DistantLightArg {
     Constant([f64; 3]),
@@ -73,12 +73,12 @@ impl DistantLightArg {
         Ok(Self::Disk { towards, degrees, radiance })
     }
 
-    /// The file that the light is read from, if any.
+    /// The file from which the light is read, if any.
     pub(in crate::cli) fn file(&self) -> Option<&Path> {
         if let Self::Picture(path) = self { Some(path) } else { None }
     }
 
-    /// Its name in a few words.
+    /// A short name of the light.
     pub(in crate::cli) fn name(&self) -> String {
         match self {
             Self::Constant(_) => "a constant light".to_owned(),
@@ -115,7 +115,7 @@ impl DistantLightArg {
         })
     }
 
-    /// The light, projected to an order.
+    /// The light, projected to harmonics of an order.
     pub(in crate::cli) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
         let made = match self {
             Self::Constant(radiance) => HarmonicLight::constant(order, *radiance),

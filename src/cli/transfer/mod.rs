@@ -1,4 +1,4 @@
-//! Options of the commands on transfer, `cpca`, `all-frequency` and `bi-scale`: a model and its vertices, distant
+//! Options of the commands about transfer, `cpca`, `all-frequency` and `bi-scale`: a model and its vertices, distant
 //! light, reflectance, and pictures.
 
 pub(super) mod light;

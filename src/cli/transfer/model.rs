@@ -1,4 +1,4 @@
-//! The model of a `.npz` file: its mesh, and the vertices that transfer belongs to.
+//! The model of a `.npz` file: its mesh, and the vertices to which the transfer belongs.
 
 use std::path::Path;
 
@@ -21,13 +21,13 @@ pub(in crate::cli) fn load(path: &Path, tangents: Tangents) -> miette::Result<Mo
     model_name::model(path)
 }
 
-/// The vertices that transfer is computed at.
+/// The vertices at which transfer is computed.
 pub(in crate::cli) fn vertices(model: &Model, tangents: Tangents) -> miette::Result<Vertices> {
     Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
 }
 
 /// Adds unusual vertices of a model to the findings of `precompute`: vertices without a triangle, vertices without a
-/// tangent, and the non-zero counts of `more`.
+/// tangent, and the nonzero counts of `more`.
 pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, more: &[(usize, &str)]) {
     found.fields(json!({ "unused_vertices": vertices.unused, "replaced_tangents": vertices.replaced_tangents }));
     let of_model = [
@@ -39,12 +39,12 @@ pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, m
     }
 }
 
-/// Reason why transfer of a model cannot be computed.
+/// Reason why the transfer of a model cannot be computed.
 pub(in crate::cli) fn refused(error: InputError) -> Problem {
     Problem::usage(error.to_string(), "see this command's `--help`")
 }
 
-/// The materials of a model, and the material of each triangle; a file read as a mesh is read again for them.
+/// The materials of a model, and the material of each triangle; a file that was read as a mesh is read again for them.
 pub(in crate::cli) fn materials_of(path: &Path, model: &Model) -> miette::Result<(Vec<Material>, Vec<u32>)> {
     if !path.is_file() {
         return Ok((model.materials.clone(), model.material_of.clone()));

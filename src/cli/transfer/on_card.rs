@@ -5,7 +5,7 @@ use refsim::texture::TexelFormat;
 use crate::cli::card::CardArgs;
 use crate::study::prt::CardSetting;
 
-/// The card, and what of it is varied.
+/// The card, and the option to vary its settings.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct OnCardArgs {
     /// Vary number formats, maps and targets, one at a time, and show the error of each
@@ -17,7 +17,7 @@ pub(in crate::cli) struct OnCardArgs {
 }
 
 impl OnCardArgs {
-    /// The card that draws: the requested one, or `device`.
+    /// The card that draws: the requested one, otherwise `device`.
     pub(in crate::cli) fn setting(&self, device: &str) -> miette::Result<CardSetting> {
         let Self { sweep, card } = self;
         let (profile, executor) = (card.profile(device)?, card.executor()?);

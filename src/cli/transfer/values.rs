@@ -11,7 +11,7 @@ use crate::transfer::brdf::Brdf;
 const BRDF: &str = "lambert:ALBEDO, phong:ALBEDO,SPECULAR,EXPONENT, cook-torrance:ALBEDO,SPECULAR,ROUGHNESS,F0, \
                     schlick:ALBEDO,SPECULAR,ROUGHNESS,ISOTROPY,F0, ward:ALBEDO,SPECULAR,ROUGHNESS_X,ROUGHNESS_Y or ashikhmin-shirley:ALBEDO,SPECULAR,EXPONENT_U,EXPONENT_V";
 
-/// A BRDF with its parameters, equal in all channels.
+/// A BRDF with its parameters, the same in all channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::cli) struct BrdfArg(pub(in crate::cli) Brdf);
 

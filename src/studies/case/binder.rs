@@ -13,14 +13,15 @@ use super::{CaseError, error::CaseText, value::Number};
 pub struct Overrides {
     /// Replaces `device`, or `shader_model` and `format`. Switches of the case that this device lacks are ignored.
     pub device: Option<Profile>,
-    /// Replaces the format of the pixel registers; what device file and case set stays ([`Profile::replace_format`]).
+    /// Replaces the format of the pixel registers; other settings of device file and case stay
+    /// ([`Profile::replace_format`]).
     pub format: Option<String>,
-    /// Switches set after those of the case.
+    /// Switches that are set after the case's.
     pub switches: Vec<(String, String)>,
-    /// Maximum number of instructions that a program may execute per pixel or vertex; replaces the settings of case and
-    /// device.
+    /// Maximum number of instructions that a program may execute per pixel or vertex; replaces the settings of the case
+    /// and of the device.
     pub step_budget: Option<u32>,
-    /// Values of uniforms of the pixel program, as IEEE singles, in place of the case's: as many as the type has.
+    /// Values of uniforms of the pixel program, as IEEE singles, in place of the case's: one per component of the type.
     pub uniforms: Vec<(String, Vec<u32>)>,
 }
 
@@ -40,7 +41,7 @@ impl Overrides {
     }
 }
 
-/// Context of binding: text for error messages, and folder of files.
+/// Context of binding: the text for error messages, and the folder of files.
 pub(super) struct Binder<'a> {
     pub(super) place: CaseText,
     pub(super) name: &'a str,

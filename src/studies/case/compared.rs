@@ -1,4 +1,4 @@
-//! A comparison in words, and as a document.
+//! A comparison as sentences, and as a JSON document.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ pub struct ComparedSides<'a> {
     pub comparison: &'a Comparison,
 }
 
-/// Instance, triangle and part of a pass, in words.
+/// Instance, triangle and part of a pass, as text.
 pub fn pass_text(pass: &FragmentPass) -> String {
     let part = if pass.part > 0 { format!(", part {}", pass.part) } else { String::new() };
     format!("instance {}, triangle {}{part}", pass.instance, pass.triangle)
@@ -40,7 +40,7 @@ impl ComparedSides<'_> {
         self.setup().title.clone().unwrap_or_else(stem)
     }
 
-    /// The stage in words, and the instruction it is about.
+    /// The stage as text, and the index of its instruction, if it has one.
     pub fn stage(&self, difference: &TraceDifference) -> (String, Option<usize>) {
         let name = difference.values.first().map_or("nothing", |v| v.name.as_str());
         match &difference.stage {
@@ -66,10 +66,10 @@ impl ComparedSides<'_> {
             TraceStage::Flow { left, right } => {
                 let side = |next: &Option<usize>| next.map_or("the end".to_owned(), |i| format!("instruction {i}"));
                 let sides = format!("{} on the left, {} on the right", side(left), side(right));
-                (format!("stage: flow control: what runs next is {sides}"), left.or(*right))
+                (format!("stage: flow control: the next instruction is {sides}"), left.or(*right))
             }
             TraceStage::Output { instruction } => {
-                let text = format!("stage: what the program leaves behind: {name}");
+                let text = format!("stage: results of the program: {name}");
                 (text, *instruction)
             }
             TraceStage::Test { left, right } => {
@@ -154,7 +154,7 @@ impl ComparedSides<'_> {
     }
 }
 
-/// The stage in one word.
+/// The stage as one word.
 const fn stage_name(stage: &TraceStage) -> &'static str {
     match stage {
         TraceStage::Vertex { .. } => "vertices",

@@ -21,13 +21,13 @@ enum ConstantTarget {
     Float(usize),
     Int(usize),
     Bool(usize),
-    /// A constant with a name, of so many components.
+    /// A constant with a name and this number of components.
     Named(usize),
 }
 
 impl Binder<'_> {
-    /// Binds the constants of a table to a program: `c0`, `i0`, `b0`; for OpenGL's programs the names that they use,
-    /// and those that they declare.
+    /// Binds the constants of a table to a program: `c0`, `i0`, `b0`; for OpenGL programs, the names that they use, and
+    /// the names that they declare.
     pub(super) fn constants(
         &self,
         written: &BTreeMap<String, Spanned<Constant>>,
@@ -43,7 +43,7 @@ impl Binder<'_> {
                 (ConstantTarget::Named(width), Constant::Vector(numbers)) => {
                     let singles: Vec<u32> = numbers.iter().map(|number| number.single()).collect();
                     let value = of_width(name, width, &singles);
-                    let help = "a scalar has one number, a vector as many as components, a matrix a vector per column";
+                    let help = "a scalar has one number, a vector one per component, a matrix one vector per column";
                     let value = value.map_err(|message| self.place.wrong(span, message, help))?;
                     constants.named.insert(name.clone(), value);
                 }
@@ -55,7 +55,8 @@ impl Binder<'_> {
                     *place_at(&mut constants.boolean, number) = *value;
                 }
                 _ => {
-                    let message = format!("the value of `{name}` does not fit the register, or there is no such one");
+                    let message =
+                        format!("the value of `{name}` does not fit the register, or there is no such register");
                     return self.odd(span, message);
                 }
             }
@@ -108,7 +109,7 @@ impl Binder<'_> {
     }
 }
 
-/// The value of a constant with a name; refuses another count of numbers than its components.
+/// The value of a named constant; rejects a number of values that differs from its number of components.
 pub(super) fn of_width(name: &str, width: usize, numbers: &[u32]) -> Result<[u32; 4], String> {
     if numbers.len() != width {
         let expected = counted(width as u64, "number", "numbers");

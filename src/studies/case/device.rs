@@ -1,4 +1,4 @@
-//! Selection of a case's device: its own, or a replacement.
+//! Selection of a case's device: the one it names, or a replacement.
 
 use refsim::{
     device::{DeviceError, Profile},

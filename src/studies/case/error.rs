@@ -89,7 +89,7 @@ pub enum CaseWarning {
         #[label("here")]
         span: SourceSpan,
     },
-    /// Formats of instructions on the device that change nothing.
+    /// Formats of instructions on the device that have no effect.
     #[error("`{device}` has {formats}, which {reason}")]
     #[diagnostic(code(crossbar::device), severity(Warning), help("{help}"))]
     Formats { device: String, formats: String, reason: &'static str, help: String },
@@ -116,7 +116,7 @@ impl CaseText {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }
 
-    /// Of another text, which a case names.
+    /// Creates errors for another text, to which a case refers.
     pub(super) fn of(source: Source) -> Self {
         Self { source }
     }
@@ -125,7 +125,7 @@ impl CaseText {
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
         let message = error.message().trim_end().replace('\n', ", ");
         CaseError::Schema {
-            help: format!("{}docs/cases.md describes what a case may say", did_you_mean_field(&message)),
+            help: format!("{}docs/cases.md describes the case format", did_you_mean_field(&message)),
             message,
             source_code: self.source.clone(),
             span: error.span().map(|span| self.clamp(span)),

@@ -19,7 +19,7 @@ use super::{
 type FourNumbers = Exactly<Number, 4>;
 type FourRows = Exactly<FourNumbers, 4>;
 
-/// OpenGL's state, where it differs from the default.
+/// OpenGL's state; everything else has its default.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateTable {

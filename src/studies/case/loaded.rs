@@ -119,12 +119,12 @@ impl<'s> Loaded<'s> {
     }
 }
 
-/// Constants of the pixel program as instructions read them.
+/// Constants of the pixel program, as instructions read them.
 pub(super) fn constants(setup: &Setup) -> ResolvedConstants {
     ResolvedConstants::pixel(&setup.pixel, &setup.profile.rules, &setup.pixel_constants)
 }
 
-/// Converts an error of the machine: one about a program gets the position in its text.
+/// Converts an error of the machine; an error about a program gets its position in the text.
 fn placed(setup: &Setup, error: MachineError) -> CaseError {
     let MachineError::StepBudget { place, span, .. } = error else { return error.into() };
     let (text, key) = match place {
@@ -133,8 +133,8 @@ fn placed(setup: &Setup, error: MachineError) -> CaseError {
     };
     let Some(text) = text else { return error.into() };
     let help = format!(
-        "let it end sooner, or allow more steps: `step_budget` in the case; the budget of a device is its \
-         `limits.{key}_step_budget`, {DEFAULT_STEP_BUDGET} where it states none"
+        "shorten the program, or raise the limit: `step_budget` in the case, or `limits.{key}_step_budget` of the \
+         device (default {DEFAULT_STEP_BUDGET})"
     );
     let span = (span.start as usize, span.end.saturating_sub(span.start) as usize).into();
     CaseError::StepBudget { error: Box::new(error), help, source_code: text.named_source(), span }

@@ -1,9 +1,9 @@
 //! Cases: one shader, its inputs, its geometry, and the expected results, in one TOML file.
 //!
-//! A case passes through three stages. [`schema`] defines the file format. [`Setup`] binds it to a device: files are
-//! read, programs assembled and checked, images decoded, names and lengths checked. [`run`] draws once and evaluates
-//! the probes; [`Loaded`] is the loaded card, and [`compare`] runs a case on two sides. Every error names the file and
-//! the place in it. docs/cases.md describes the format.
+//! A case passes through three stages. [`schema`] defines the file format. [`Setup`] binds it to a device: reads files,
+//! assembles and checks programs, decodes images, checks names and lengths. [`run`] draws once and evaluates the
+//! probes; [`Loaded`] is the loaded card, and [`compare`] runs a case on two sides. Every error names the file and the
+//! position in it. docs/cases.md describes the format.
 
 mod binder;
 mod compared;

@@ -41,7 +41,7 @@ pub struct ShaderSlots {
     pub arithmetic: u64,
     /// Sum of both over all shaded fragments.
     pub total: u64,
-    /// Minimum number of clocks of the pixel pipelines; `None` where the profile states no issue rates.
+    /// Minimum number of clocks of the pixel pipelines; `None` if the profile has no issue rates.
     pub cycles: Option<u64>,
 }
 
@@ -140,7 +140,7 @@ fn slots(cost: SlotCount, fragments: u64, rates: &Rates) -> ShaderSlots {
     ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }
 }
 
-/// Minimum number of clocks by the profile's issue rates, if texture and arithmetic slots issue in parallel, every
+/// Minimum number of clocks at the profile's issue rates, if texture and arithmetic slots issue in parallel, every
 /// pipeline is always busy, and memory takes no time.
 fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> Option<u64> {
     let clocks = |slots: u64, rate: Option<u64>| Some(slots.div_ceil(rate.filter(|r| *r > 0)?));

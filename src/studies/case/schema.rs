@@ -86,7 +86,7 @@ pub struct Texture {
     pub kind: TextureKind,
     /// Texel format.
     pub format: Spanned<String>,
-    /// Width, height, depth, as many as the kind has axes; not required with `file`.
+    /// Width, height and depth, one per axis of the kind; not required with `file`.
     pub size: Option<Spanned<Vec<u32>>>,
     /// Path of a PNG file, relative to the folder of the case.
     pub file: Option<Spanned<PathBuf>>,
@@ -115,7 +115,7 @@ pub struct Texture {
     pub lod_bias: Option<Number>,
     /// Most detailed level that is read.
     pub max_mip_level: Option<Spanned<u32>>,
-    /// Coordinate by which `tex`, `texbem` and `texbeml` of ps_1_1 to 1_3 divide the others.
+    /// Coordinate by which `tex`, `texbem` and `texbeml` of ps_1_1 to 1_3 divide the other coordinates.
     pub projected: Option<Spanned<Projection>>,
 }
 
@@ -139,7 +139,7 @@ pub struct Bump {
 pub struct Geometry {
     /// Primitive topology.
     pub primitive: Option<Spanned<Primitive>>,
-    /// Vertices: attribute name to up to four numbers.
+    /// Vertices: maps from attribute name to up to four numbers.
     #[serde(default)]
     pub vertices: Vec<Spanned<BTreeMap<String, Spanned<Vec<Number>>>>>,
     /// Draws one quad over the whole target in place of vertices, with `t0` from (0, 0) in row 0 to (1, 1).
@@ -189,7 +189,7 @@ pub struct TargetTable {
     pub format: Spanned<OneOrMany>,
     /// Clear color of every target; defaults to (0, 0, 0, 0).
     pub clear: Option<Spanned<Vec<Number>>>,
-    /// Channels that are written, some of `rgba`.
+    /// Channels that are written: some letters of `rgba`.
     pub write: Option<Spanned<String>>,
 }
 
@@ -246,7 +246,7 @@ pub struct Probe {
     pub target: Option<Spanned<u32>>,
     /// Red, green, blue, alpha as numbers; omitted trailing channels are not checked.
     pub expected: Option<Spanned<Vec<Number>>>,
-    /// Stored channels as integers, to the bit.
+    /// Stored channels as integers, compared exactly.
     pub raw: Option<Spanned<Vec<u32>>>,
     /// Depth as a number.
     pub depth: Option<Number>,

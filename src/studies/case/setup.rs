@@ -80,12 +80,12 @@ pub struct Setup {
     pub blend: Option<BlendState>,
     /// Expected results.
     pub probes: Vec<Probe>,
-    /// Warnings on the case.
+    /// Warnings about the case.
     pub warnings: Vec<CaseWarning>,
 }
 
 impl Setup {
-    /// Reads a case and all files that it names. Fails with [`CaseError`] for the first error in the case.
+    /// Reads a case and all files that it names. Fails with a [`CaseError`] for the first error in the case.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         Self::read_with(path, &Overrides::default())
     }
@@ -107,8 +107,8 @@ impl Setup {
         Self::from_bytes_with(&path.display().to_string(), &bytes, folder, overrides)
     }
 
-    /// This case on another device, for which its programs are checked again. Fails if a program breaks rules of
-    /// the device.
+    /// This case on another device, for which its programs are checked again. Fails if a program violates rules of the
+    /// device.
     pub fn on_device(&self, profile: Profile) -> Result<Self, CaseError> {
         let pixel = self.pixel_text.check((*self.pixel).clone(), &profile)?;
         let vertex = match (&self.vertex, &self.vertex_text) {
@@ -151,7 +151,7 @@ fn too_long() -> InputError {
         help "keep texels in image files")
 }
 
-/// Warnings on formats of instructions and storages that the device has for other programs.
+/// Warnings about formats of instructions and storages that the device has for other programs.
 fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) -> Vec<CaseWarning> {
     let programs: Vec<&Program> = [pixel].into_iter().chain(vertex).collect();
     let own: Vec<String> = programs.iter().map(|program| format!("{:016x}", program.digest())).collect();
@@ -163,7 +163,7 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
         },
         reason: if index.is_some() { "takes none" } else { "the case does not run" },
         help: match index {
-            Some(_) => "only instructions that write numbers to a register take one".to_owned(),
+            Some(_) => "only instructions that write numbers to a register can have one".to_owned(),
             None => format!("a changed program has another digest; here they are {}", own.join(" and ")),
         },
     };
@@ -185,7 +185,7 @@ fn reads_fog(pixel: &Program) -> bool {
 impl Binder<'_> {
     fn bind(&self, case: Case) -> Result<Setup, CaseError> {
         let (profile, model, left_out) = self.profile(&case)?;
-        // A trial card, whose errors are reported at their positions in the case.
+        // A trial card, whose errors are reported at the positions in the case.
         let mut card = Machine::new(profile.clone(), ExecutorKind::default());
         let (pixel, pixel_text) = self.program(&case.pixel, "pixel", Stage::Pixel, &profile, model)?;
         let vertex = case

@@ -48,7 +48,7 @@ pub struct Comparison {
     pub different: u64,
     /// Counts that differ.
     pub counts: Vec<CountDifference>,
-    /// Number of pixels traced on both sides, and how many of them differ.
+    /// Numbers of pixels traced on both sides, and of those that differ.
     pub followed: [u64; 2],
     /// First difference; `None` if there is none.
     pub first: Option<First>,
@@ -73,7 +73,7 @@ pub struct First {
     /// Column and row of the first pixel that differs, row by row from the top left.
     pub pixel: [u32; 2],
     /// First difference of its fragments' traces. `None` if the traces are equal although the results of the draws
-    /// differ: then the draw of one side differs from its own trace.
+    /// differ: then one side's draw differs from its own trace.
     pub difference: Option<TraceDifference>,
 }
 
@@ -150,7 +150,7 @@ impl<'s> DrawnSide<'s> {
     }
 }
 
-/// Traces pixels on both sides, counts those that differ and keeps the first.
+/// Traces pixels on both sides, counts those that differ, and stores the first one.
 fn follow(sides: &[DrawnSide<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Comparison) -> Result<(), CaseError> {
     let setup = sides[0].setup;
     let shape = TargetFormats { targets: &setup.targets, depth: setup.depth.map(|(format, ..)| format) };
@@ -171,7 +171,7 @@ fn follow(sides: &[DrawnSide<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Co
     Ok(())
 }
 
-/// Attributes a difference in coverage or input to the vertex stage, if the corners differ.
+/// Attributes a difference in coverage or input to the vertex stage if the corners differ.
 fn from_vertices(sides: &[DrawnSide<'_>; 2], difference: TraceDifference) -> Result<TraceDifference, CaseError> {
     if !matches!(difference.stage, TraceStage::Coverage { .. } | TraceStage::Input) {
         return Ok(difference);

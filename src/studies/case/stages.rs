@@ -57,7 +57,7 @@ pub(super) fn project(
     Ok(())
 }
 
-/// Warns of the stages whose bump state the program reads and the case does not set.
+/// Warns of stages whose bump state the program reads but the case does not set.
 pub(super) fn unset(
     binder: &Binder<'_>,
     shader: &Spanned<schema::ShaderSource>,

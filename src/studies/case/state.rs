@@ -28,9 +28,9 @@ pub struct Probe {
 /// Expected value of a probe.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expected {
-    /// Red, green, blue, alpha, from the first on, as numbers.
+    /// The first components of red, green, blue and alpha, as numbers.
     Color(Vec<f64>),
-    /// Stored channels, to the bit.
+    /// Stored channels, compared exactly.
     Raw(Vec<u32>),
     /// Depth as a number.
     Depth(f64),
@@ -65,7 +65,7 @@ pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -
     for letter in write.get_ref().chars() {
         let Some(channel) = "rgba".find(letter).filter(|channel| mask >> channel & 1 == 0) else {
             let message = format!("expected some of `rgba`, each once, found `{}`", write.get_ref());
-            return Err(binder.place.wrong(write.span(), message, "`write = \"rgb\"` leaves alpha as it is"));
+            return Err(binder.place.wrong(write.span(), message, "`write = \"rgb\"` leaves alpha unchanged"));
         };
         mask |= 1 << channel;
     }
@@ -96,7 +96,7 @@ fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result
         return Ok(number.get_ref().single());
     }
     let message = format!("expected {what} from 0 to 1, found {value}");
-    Err(binder.place.wrong(number.span(), message, "the card takes nothing else"))
+    Err(binder.place.wrong(number.span(), message, "the card accepts no other value"))
 }
 
 /// Binds the alpha test.
@@ -116,7 +116,7 @@ pub(super) fn blend(blend: &schema::Blend) -> BlendState {
     BlendState { color, alpha }
 }
 
-/// Binds the probes: inside the target, one expectation each.
+/// Binds the probes; each must lie inside the target and have one expectation.
 pub(super) fn probes(
     binder: &Binder<'_>,
     probes: &[Spanned<schema::Probe>],
@@ -139,11 +139,11 @@ pub(super) fn probes(
         }
         if let (Some(_), Some(target)) = (written.depth, &written.target) {
             let help = "leave `target` out: there is one depth buffer";
-            return Err(binder.place.wrong(target.span(), "`target` beside `depth`", help));
+            return Err(binder.place.wrong(target.span(), "both `target` and `depth`", help));
         }
         if let (Some(_), Some(tolerance)) = (&written.raw, &written.tolerance) {
             let help = "`raw` compares to the bit: leave `tolerance` out, or expect numbers";
-            return Err(binder.place.wrong(tolerance.span(), "`tolerance` beside `raw`", help));
+            return Err(binder.place.wrong(tolerance.span(), "both `tolerance` and `raw`", help));
         }
         let expected = expected(binder, probe, has_depth)?;
         let tolerance = written.tolerance.as_ref().map_or(0.0, |tolerance| tolerance.get_ref().double());

@@ -62,7 +62,7 @@ fn mipmaps(written: &schema::Texture) -> Option<&Mipmaps> {
     written.mipmaps.as_ref().map(Spanned::get_ref)
 }
 
-/// Texels of levels 1 and up that the case lists.
+/// Texels that the case lists for levels 1 and up.
 fn listed_levels(written: &schema::Texture) -> &[Spanned<Vec<Vec<Number>>>] {
     match mipmaps(written) {
         Some(Mipmaps::Texels(levels)) => levels,
@@ -117,7 +117,7 @@ fn from_texels(
 }
 
 /// Encodes a texel from a list of codes, one per channel in the order red, green, blue, alpha (luminance first). Signed
-/// channels take negative codes as two's complement. The error is a description of the expected list.
+/// channels use two's complement for negative codes. The error describes the expected list.
 fn stored(format: TexelFormat, codes: &[Number]) -> Result<u128, String> {
     let channels = format.record().stored();
     if codes.len() != channels.len() {
@@ -228,11 +228,15 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture, image: &Image) -> Res
         None => Ok(()),
     };
     if written.min.is_some() && written.mag.is_some() {
-        unused(written.filter.as_ref().map(Spanned::span), "`filter` beside `min` and `mag`", "it has nothing to say")?;
+        unused(
+            written.filter.as_ref().map(Spanned::span),
+            "`filter` in addition to `min` and `mag`",
+            "it has no effect",
+        )?;
     }
     let border = written.border.as_ref().map(Spanned::span);
     let bordered = written.address.as_ref().is_some_and(|address| address.get_ref().0.iter().any(|a| a == "border"));
-    unused(border.filter(|_| !bordered), "`border` without `address = \"border\"`", "no read comes that far")?;
+    unused(border.filter(|_| !bordered), "`border` without `address = \"border\"`", "no read reaches the border")?;
     let levels = image.levels().len() as u32;
     let beyond = written.max_mip_level.as_ref().filter(|level| *level.get_ref() >= levels).map(Spanned::span);
     unused(beyond, "the texture has no such level", "`mipmaps` lists the levels from 1 on")?;

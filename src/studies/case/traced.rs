@@ -1,4 +1,4 @@
-//! A traced pixel as rows of named values, and as a document.
+//! A traced pixel as rows of named values, and as a JSON document.
 
 use refsim::{
     exec::{FragmentFormats, Step, inputs_read},
@@ -14,7 +14,7 @@ use serde_json::{Map, Value, json};
 use super::{PixelTrace, Setup};
 use crate::{compare::Number, report::Table};
 
-/// A trace with the case that it is of.
+/// A trace with its case.
 #[derive(Clone, Copy, Debug)]
 pub struct Traced<'a> {
     /// Case.
@@ -54,7 +54,7 @@ impl Traced<'_> {
         self.setup.profile.rules.format
     }
 
-    /// The program's inputs from the rasteriser, as far as they can be read, and the depth.
+    /// The program's inputs from the rasterizer that the program may read, and the depth.
     pub fn interpolated(&self, fragment: &FragmentTrace) -> Vec<TraceRow> {
         let reads = inputs_read(&self.setup.pixel);
         let input = &fragment.shading.input;
@@ -100,7 +100,7 @@ impl Traced<'_> {
         step.mask.components().map(shown).collect()
     }
 
-    /// The fragment's depth, if the program decides one, and the targets before and after.
+    /// The fragment's depth, if the program writes one, and the targets before and after the fragment.
     pub fn stored(&self, fragment: &FragmentTrace) -> Table {
         let mut table = Table::new("Targets", &["surface", "before", "after"]);
         let (before, after) = (&fragment.before, &fragment.after);
@@ -183,7 +183,7 @@ impl Traced<'_> {
     }
 }
 
-/// The stage at which a fragment ended.
+/// The stage at which a fragment ended, as text.
 pub const fn fate(fate: FragmentFate) -> &'static str {
     match fate {
         FragmentFate::KilledByShader => "is killed by the program",

@@ -1,4 +1,4 @@
-//! Shaders in WGSL: the case of one without a case file, and the values of uniforms.
+//! Shaders in WGSL: the case for a shader without a case file, and the values of uniforms.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,11 +11,11 @@ use crate::error::input_error;
 use crate::names::did_you_mean;
 use crate::shader::ShaderText;
 
-/// Examples of values, by the number of components.
+/// Example values, by number of components.
 const NUMBERS: [&str; 4] = ["0.5", "1,0.5", "1,0.5,0", "1,0.5,0,1"];
 
-/// The text of the case of a shader alone: in single precision over 64 x 64 pixels of 8 bits a channel, its
-/// `@location(0)` going from (0, 0) in row 0 to (1, 1).
+/// The text of a case for a lone shader: in single precision over 64 x 64 pixels with 8 bits per channel;
+/// `@location(0)` runs from (0, 0) in row 0 to (1, 1).
 pub(super) fn lone_shader(path: &Path) -> String {
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let file = toml::Value::String(file.into_owned());
@@ -27,7 +27,8 @@ pub(super) fn lone_shader(path: &Path) -> String {
 }
 
 impl Binder<'_> {
-    /// Adds uniforms of the command line to a program's constants, and holds that a shader in WGSL has all it reads.
+    /// Adds uniforms from the command line to a program's constants, and checks that a shader in WGSL has all that it
+    /// reads.
     pub(super) fn uniforms(
         &self,
         mut constants: Constants,
@@ -67,7 +68,7 @@ impl Binder<'_> {
         }
     }
 
-    /// Holds that the case has all textures that a shader in WGSL reads; cards read black where there is none.
+    /// Checks that the case has all textures that a shader in WGSL reads; cards read black from a missing texture.
     pub(super) fn has_textures(
         &self,
         program: &CheckedProgram,

@@ -11,7 +11,7 @@ use toml::Spanned;
 /// Number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
-    /// Written as a number; rounded to nearest even where a single is expected.
+    /// Written as a number; rounded to nearest even if a single is expected.
     Value(f64),
     /// Written as a bit pattern.
     Bits(u32),
@@ -23,7 +23,7 @@ impl Number {
         match self {
             Self::Bits(bits) => bits,
             Self::Value(value) if value.is_nan() => 0x7fc0_0000,
-            // A cast rounds to nearest even, and gives infinity beyond the range.
+            // A cast rounds to nearest even, and gives infinity for numbers out of range.
             Self::Value(value) => (value as f32).to_bits(),
         }
     }
@@ -75,7 +75,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// List of exactly N elements. (serde's arrays accept longer lists and drop the rest.)
+/// List of exactly N elements. (serde's arrays accept longer lists and ignore the rest.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exactly<T, const N: usize>(pub [T; N]);
 

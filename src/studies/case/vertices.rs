@@ -82,7 +82,7 @@ pub(super) fn bind(
     };
     if let (true, Some(primitive)) = (written.full_screen, &written.primitive) {
         let help = "leave `primitive` out: the screen is one quad";
-        return Err(binder.place.wrong(primitive.span(), "`primitive` beside `full_screen`", help));
+        return Err(binder.place.wrong(primitive.span(), "both `primitive` and `full_screen`", help));
     }
     let primitive = match (&written.primitive, written.full_screen) {
         (_, true) => Primitive::QuadList,
@@ -99,7 +99,7 @@ pub(super) fn bind(
 /// Position and `t0` of a corner of the screen.
 type Corner = ([u32; 4], [u32; 4]);
 
-/// Corners of the screen in order; `t0` grows with columns and rows, and row 0 is the upper one in Direct3D only.
+/// Corners of the screen in order; `t0` grows with columns and rows, and row 0 is at the top only in Direct3D.
 fn corners(convention: Convention) -> [Corner; 4] {
     [(0, 0), (ONE, 0), (ONE, ONE), (0, ONE)].map(|(s, t)| {
         let x = if s == 0 { MINUS_ONE } else { ONE };
@@ -135,8 +135,8 @@ impl Reader<'_> {
         vertex.texcoords[0] = t0;
         for (name, value) in self.all {
             if name == "position" {
-                let help = "the corners of a full-screen quad have places of their own";
-                return Err(self.binder.place.wrong(value.span(), "`position` beside `full_screen`", help));
+                let help = "the corners of a full-screen quad have fixed positions";
+                return Err(self.binder.place.wrong(value.span(), "both `position` and `full_screen`", help));
             }
             self.set(&mut vertex, name, value)?;
         }
@@ -162,7 +162,7 @@ impl Reader<'_> {
             }
             _ => {
                 let message = format!("expected position, v0, v1, t0 to t7 or fog, found `{name}`");
-                let help = "without [vertex] vertices are what the pixel program gets";
+                let help = "without [vertex], the pixel program gets the vertices";
                 return Err(self.binder.place.wrong(value.span(), message, help));
             }
         }
@@ -190,7 +190,7 @@ impl Reader<'_> {
             registers[number] = self.bits(value)?;
         }
         registers[self.attribute("position", geometry.span())?] = position;
-        // Only a program that reads texture coordinates receives them.
+        // Only a program that declares texture coordinates receives them.
         if let Some(number) = self.declared("t0") {
             registers[number] = t0;
         }
@@ -224,7 +224,7 @@ impl Reader<'_> {
     fn bits(&self, value: &Spanned<Vec<Number>>) -> Result<[u32; 4], CaseError> {
         vector(value.get_ref()).ok_or_else(|| {
             let message = format!("expected 1 to 4 numbers, found {}", value.get_ref().len());
-            self.binder.place.wrong(value.span(), message, "what is left out is 0, 0, 0, 1")
+            self.binder.place.wrong(value.span(), message, "missing components are 0, 0, 0, 1")
         })
     }
 }

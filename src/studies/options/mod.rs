@@ -9,7 +9,7 @@ pub use size::{BadSize, Size};
 use crate::geom::exact::Sides;
 use one_of::{OneOf, one_of};
 
-/// The sides that can be hit, for `--sides`.
+/// Values of `--sides`: the sides of a face that can be hit.
 pub fn sides() -> OneOf<Sides> {
     let front = ("front", "The side from which the corners run counter-clockwise", Sides::Front);
     one_of([front, ("both", "Both sides", Sides::Both)])

@@ -25,18 +25,18 @@ pub fn share(text: &str) -> Result<f64, String> {
     if is_share { Ok(number) } else { Err(format!("expected a number above 0 and below 1, found `{text}`")) }
 }
 
-/// A number of at least 0 that single precision holds.
+/// A number of at least 0 that fits single precision.
 pub fn not_negative_single(text: &str) -> Result<f64, String> {
     let number = not_negative(text)?;
     to_f32(number).map(|_| number).map_err(|error| wrong(error, text))
 }
 
-/// A finite number of single precision.
+/// A finite number in single precision.
 pub fn single(text: &str) -> Result<f32, String> {
     parse_f32(text.trim()).map_err(|error| wrong(error, text))
 }
 
-/// `1,2.5,-3` as three numbers of single precision; `form` describes how they are written.
+/// `1,2.5,-3` as three numbers in single precision; `form` describes the expected form.
 pub fn three(text: &str, form: &str) -> Result<[f32; 3], String> {
     let parts: Vec<&str> = text.split(',').collect();
     let [x, y, z] = parts[..] else { return Err(format!("expected three numbers {form}, found `{text}`")) };

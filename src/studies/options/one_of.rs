@@ -1,4 +1,4 @@
-//! Options whose values have names: a parser for the enums of the library, and for values that are listed.
+//! Options whose values have names: a parser for enums of the library, and for listed values.
 
 use std::ffi::OsStr;
 
@@ -11,7 +11,7 @@ use strum::{EnumMessage, IntoEnumIterator};
 #[derive(Clone)]
 pub struct OneOf<T>(Vec<(PossibleValue, T)>);
 
-/// The variants of an enum under the names that `strum` gives them. The help of a variant is the first paragraph of its
+/// The variants of an enum with the names that `strum` gives them. The help of a variant is the first paragraph of its
 /// documentation.
 pub fn variants<T: IntoEnumIterator + EnumMessage>() -> OneOf<T> {
     let named = |value: T| {
@@ -26,12 +26,12 @@ pub fn name<T: EnumMessage>(value: &T) -> &'static str {
     value.get_serializations().first().copied().unwrap_or_default()
 }
 
-/// Values with their names and the help of each.
+/// Values with their names and their help texts.
 pub fn one_of<T>(values: impl IntoIterator<Item = (&'static str, &'static str, T)>) -> OneOf<T> {
     OneOf(values.into_iter().map(|(name, help, value)| (PossibleValue::new(name).help(help), value)).collect())
 }
 
-/// The first paragraph as one line, without its full stop, as clap writes help.
+/// The first paragraph as one line without its full stop, in the style of clap's help.
 fn summary(documentation: &str) -> String {
     let lines = documentation.lines().map(str::trim).take_while(|line| !line.is_empty());
     lines.collect::<Vec<_>>().join(" ").trim_end_matches('.').to_owned()

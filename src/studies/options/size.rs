@@ -2,7 +2,7 @@
 
 use std::{fmt, str::FromStr};
 
-/// Longest side of a picture, in pixels.
+/// Maximum side of a picture, in pixels.
 const LONGEST: u32 = 16384;
 
 /// The size of a picture in pixels, each side 1 to 16384.

@@ -18,7 +18,7 @@ pub enum Cell {
     Real(Figure),
     /// Boolean, shown as yes or no.
     Flag(bool),
-    /// Summary of rows that were omitted because they found the same as a row above.
+    /// Summary of rows that were omitted because their results equal a row's above.
     Folded(Folded),
     /// Empty cell.
     Empty,
@@ -31,7 +31,7 @@ pub struct Figure {
     pub value: f64,
     /// Kind of quantity: determines the digits shown to people.
     pub quantity: Quantity,
-    /// Mark behind the number, `*` for example; usually empty.
+    /// Mark after the number, for example `*`; usually empty.
     pub mark: &'static str,
     /// Strength of the color behind the number on a page, in [0, 1]; usually 0.
     pub heat: f64,
@@ -58,7 +58,7 @@ impl Cell {
         Self::real(value, Quantity::Ratio)
     }
 
-    /// [`Quantity::Percent`]; `value` is already in per cent.
+    /// [`Quantity::Percent`]; `value` is already in percent.
     pub const fn percent(value: f64) -> Self {
         Self::real(value, Quantity::Percent)
     }
@@ -77,7 +77,7 @@ impl Cell {
         }
     }
 
-    /// Colors a number on a page by a share, clamped to [0, 1]; other cells are unchanged.
+    /// Colors a number on a page by a fraction, clamped to [0, 1]; other cells are unchanged.
     #[must_use]
     pub fn heated(self, share: f64) -> Self {
         match self {

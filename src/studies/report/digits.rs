@@ -1,19 +1,19 @@
-//! Number formatting for people: the digits depend on the kind of quantity, on terminal and page alike. Programs get
-//! all digits.
+//! Number formatting for people: the digits depend on the kind of quantity, both on a terminal and on a page. Programs
+//! get all digits.
 
 /// Kind of quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quantity {
-    /// Setting, or value that is shown in full: the shortest text that reads back to the same number.
+    /// A setting, or a value shown in full: the shortest text that reads back to the same number.
     #[default]
     Exact,
-    /// Printed value of a paper, or our value of it: this many digits after the point.
+    /// Printed value of a paper, or our value of it: this many decimals.
     Decimals(u8),
     /// Measured or computed time, rate or size: four significant digits, and at least the integer part.
     Measured,
     /// Quotient of two quantities: three significant digits.
     Ratio,
-    /// Percentage: one digit after the point; below 1 %, two significant digits.
+    /// Percentage: one decimal; below 1 %, two significant digits.
     Percent,
     /// Error or deviation: three significant digits.
     Error,
@@ -74,7 +74,7 @@ pub(super) fn grouped(text: &str) -> String {
     out + rest
 }
 
-/// Formats with a fixed number of digits after the point; never as -0.
+/// Formats with a fixed number of decimals; never as -0.
 fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {

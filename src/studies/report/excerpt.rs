@@ -10,7 +10,7 @@ use unicode_width::UnicodeWidthChar as _;
 use super::SourceText;
 use super::visible::{is_hidden, visible_line};
 
-/// Maximum columns of a line, with escapes as written and without the marks of truncation.
+/// Maximum columns of a line, including escapes but not the marks of truncation.
 const WIDTH: usize = 80;
 /// Minimum number of characters before a label in a truncated line.
 const BEFORE: usize = 20;
@@ -19,7 +19,7 @@ const CUT: &str = "...";
 /// Maximum number of lines shown of a label; a longer label shows only its first line.
 const LINES: usize = 8;
 
-/// Excerpt of a text in the form that a renderer of diagnostics takes, with its position in the text.
+/// Excerpt of a text in the form that a renderer of diagnostics needs, with its position in the text.
 #[derive(Clone, Debug)]
 pub struct Excerpt {
     piece: SourceText,
@@ -31,8 +31,8 @@ pub struct Excerpt {
 }
 
 impl Excerpt {
-    /// Extracts the lines of `source` around `labels`; also returns the labels' positions in the excerpt. `None`
-    /// without labels, or if a label lies outside the text.
+    /// Extracts the lines of `source` around `labels`; also returns the labels' positions in the excerpt. `None` if
+    /// there are no labels, or a label lies outside the text.
     pub fn new(source: &dyn SourceCode, labels: &[LabeledSpan]) -> Option<(Self, Vec<LabeledSpan>)> {
         let low = labels.iter().map(LabeledSpan::offset).min()?;
         let high = labels.iter().map(|label| label.offset().saturating_add(label.len())).max()?;
@@ -93,15 +93,15 @@ impl SourceCode for Excerpt {
     }
 }
 
-/// Formats a line for quotation in a table: trimmed, tabs replaced by blanks, truncated around the byte `focus` if it
-/// is long.
+/// Formats a line for quotation in a table: trimmed, tabs replaced by blanks, and truncated around the byte `focus` if
+/// it is long.
 pub fn quoted_line(line: &str, focus: usize) -> String {
     let mut text = String::new();
     push_line(&mut text, line.as_bytes(), 0, slice::from_ref(&(focus..focus)), slice::from_mut(&mut (0..0)));
     text.replace('\t', " ").trim().to_owned()
 }
 
-/// Returns the byte ranges of the lines of a text without their ends.
+/// Returns the byte ranges of the lines of a text, without line ends.
 fn line_ranges(text: &[u8]) -> Vec<Range<usize>> {
     let mut lines = Vec::new();
     let mut start = 0;
@@ -123,7 +123,7 @@ fn meets(span: &Range<usize>, line: &Range<usize>) -> bool {
     span.start <= line.end && (line.start < span.end || line.start <= span.start)
 }
 
-/// Clips a span of too many lines to the first of them.
+/// Clips a span of too many lines to its first line.
 fn clip(span: Range<usize>, lines: &[Range<usize>]) -> Range<usize> {
     let first = lines.partition_point(|line| line.end < span.start);
     let last = lines.partition_point(|line| line.start < span.end);
@@ -170,7 +170,7 @@ fn push_line(text: &mut String, line: &[u8], start: usize, spans: &[Range<usize>
     }
 }
 
-/// Range of a line's bytes that is shown: all of a short line, otherwise those around `focus`.
+/// Range of a line's bytes that is shown: all of a short line, otherwise the bytes around `focus`.
 fn window(line: &[u8], focus: Option<usize>) -> Range<usize> {
     let fits = line.len() <= 4 * WIDTH && width(line) <= WIDTH;
     if fits {
@@ -216,7 +216,7 @@ impl Piece {
     /// Width in terminal columns. Zero-width characters count as one, which bounds the length of a line.
     fn width(&self) -> usize {
         match self {
-            // Renderers write a tab as blanks, four at most.
+            // Renderers write a tab as at most four blanks.
             Self::Character('\t') => 4,
             Self::Character(c) if is_hidden(*c) => c.escape_default().len(),
             Self::Character(c) => c.width().unwrap_or(1).max(1),

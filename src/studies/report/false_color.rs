@@ -1,4 +1,4 @@
-//! False-color pictures in colormaps that are suitable for all kinds of color vision, with a color bar.
+//! False-color pictures with colormaps suitable for all kinds of color vision, with a color bar.
 
 use colorous::{Gradient, MAGMA, RED_BLUE};
 
@@ -8,20 +8,20 @@ use crate::picture::{RgbImage, rgb8};
 const NOT_FINITE: [u8; 3] = [0, 0, 0];
 const NOT_FINITE_MAGNITUDE: [u8; 3] = [0, 158, 115];
 
-/// Ending for the caption of a [`signed`] picture: explains black pixels; empty if all values are finite.
+/// Suffix for the caption of a [`signed`] picture: explains black pixels; empty if all values are finite.
 pub fn not_finite(values: &[f64]) -> &'static str {
     if values.iter().all(|value| value.is_finite()) { "" } else { "; black where not finite" }
 }
 
-/// Maps signed numbers to colors, rows from the top: from blue at `-scale` or below over white at 0 to red at `scale`
-/// or above; black where they are not finite. Below the picture a color bar runs from `-scale` on the left to `scale`
-/// on the right.
+/// Maps signed numbers to colors, rows from the top: from blue at `-scale` or below through white at 0 to red at
+/// `scale` or above; black if not finite. Below the picture, a color bar runs from `-scale` on the left to `scale` on
+/// the right.
 pub fn signed(width: u32, values: &[f64], scale: f64) -> RgbImage {
     with_bar(width, values, (RED_BLUE, NOT_FINITE), |value| 0.5 - 0.5 * value / scale)
 }
 
-/// Maps numbers in [0, 1] to colors, rows from the top: from black over purple and orange to a pale yellow; green
-/// where they are not finite. Below the picture a color bar runs from 0 on the left to 1 on the right.
+/// Maps numbers in [0, 1] to colors, rows from the top: from black through purple and orange to a pale yellow; green if
+/// not finite. Below the picture, a color bar runs from 0 on the left to 1 on the right.
 pub fn magnitude(width: u32, values: &[f64]) -> RgbImage {
     with_bar(width, values, (MAGMA, NOT_FINITE_MAGNITUDE), |value| value)
 }

@@ -38,7 +38,7 @@ pub(super) enum Passage {
     Paragraph(String),
     Table(usize),
     Chart(usize),
-    /// Side by side.
+    /// Pictures side by side.
     Pictures(Range<usize>),
     Legend(Legend),
 }
@@ -58,7 +58,7 @@ pub struct FoundTable {
 }
 
 impl From<Table> for FoundTable {
-    /// Creates a table that the command prints, and that is written to no file.
+    /// Creates a table that the command prints, and that is not written to a file.
     fn from(table: Table) -> Self {
         Self { table, whole: None, csv: None, field: None, printed: true }
     }
@@ -114,10 +114,10 @@ pub struct NamedChart {
 }
 
 /// Findings of a study. [`Findings::heading`] and similar methods append to the page, from top to bottom; `keep_*`
-/// methods add what is only written to a file. Every picture and chart is encoded once, for its file and the page.
+/// methods add what is only written to a file. Every picture and chart is encoded once, for both its file and the page.
 ///
-/// The page begins with conclusion and tally, followed by everything appended before the first heading, and then the
-/// table of contents: a study shows its most important picture or chart there.
+/// The page begins with the conclusion and the tally, followed by everything appended before the first heading, and
+/// then the table of contents: a study shows its most important picture or chart there.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     pub(super) title: String,
@@ -142,13 +142,12 @@ impl Findings {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Appends a sentence to the conclusion at the top of the page. It is computed from the rows, never written by
-    /// hand.
+    /// Appends a sentence to the conclusion at the top of the page. Compute it from the rows; never write it by hand.
     pub fn conclusion(&mut self, sentence: impl Into<String>) {
         self.conclusion.push(sentence.into());
     }
 
-    /// Appends a count to the tally under the conclusion, with the name of the counted things in the singular and the
+    /// Appends a count to the tally below the conclusion, with the name of the counted things in the singular and the
     /// plural.
     pub fn tally(&mut self, count: u64, [one, many]: [&str; 2], tone: Tone) {
         let what = if count == 1 { one } else { many };
@@ -165,7 +164,7 @@ impl Findings {
         self.text.push(Passage::Heading(text.into(), tally));
     }
 
-    /// Appends lines to the page, each on a part of the study.
+    /// Appends lines to the page, each about a part of the study.
     pub fn summary_lines(&mut self, lines: Vec<SummaryLine>) {
         self.text.push(Passage::SummaryLines(lines));
     }
@@ -175,7 +174,7 @@ impl Findings {
         self.text.push(Passage::Paragraph(text.into()));
     }
 
-    /// Appends a table to the page, if it has rows, and a note on the rows folded in it.
+    /// Appends a table to the page, if it has rows, and a note about its folded rows.
     pub fn table(&mut self, table: impl Into<FoundTable>) {
         let table = table.into();
         if !table.table.rows().is_empty() {
@@ -217,7 +216,7 @@ impl Findings {
         self.tables.push(table.into().unprinted());
     }
 
-    /// Adds a picture of numbers, written to `NAME.exr`.
+    /// Adds a picture of numeric channels, written to `NAME.exr`.
     pub fn keep_layers(&mut self, name: impl Into<String>, picture: Picture) {
         self.layers.push((name.into(), picture));
     }

@@ -1,11 +1,11 @@
-//! Folding of table rows that have the results of an earlier row.
+//! Folding of table rows whose results equal those of an earlier row.
 
 /// Cell that replaces folded rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folded {
     /// Noun for the rows, singular and plural: `switch`, `switches`.
     pub rows: [&'static str; 2],
-    /// Common property with the row above: `the same bits`.
+    /// What the rows share with the row above: `the same bits`.
     pub same: &'static str,
     /// Name of the row above.
     pub first: String,

@@ -1,9 +1,9 @@
 //! Layout of tables as text within a width: words and numbers are not broken.
 //!
-//! Columns share the width. If it is too narrow for all of them, the table is split into several, each with the key
-//! columns, or with the first column alone if the key columns leave no room. If no column fits beside the first, every
-//! row becomes a list of its cells. Only lists break a word longer than a line; numbers are never broken from
-//! [`MIN_WIDTH`] columns on.
+//! Columns share the width. If it is too narrow for all of them, the table is split into several tables, each with the
+//! key columns, or only with the first column if the key columns leave no room. If no column fits next to the first,
+//! every row becomes a list of its cells. Only lists break a word longer than a line; numbers are never broken if there
+//! are at least [`MIN_WIDTH`] columns.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use textwrap::core::{Word, display_width};
@@ -13,7 +13,7 @@ use textwrap::{Options, WordSeparator, WordSplitter, WrapAlgorithm};
 pub const MIN_WIDTH: usize = 40;
 /// Minimum width of a text column whose text is at least this long.
 const MIN_TEXT_WIDTH: usize = 12;
-/// Length from which words, for example addresses, may be broken after a slash.
+/// Length from which words, for example web addresses, may be broken after a slash.
 const LONG_WORD: usize = 24;
 /// Width between two columns: a rule and a blank on each side.
 const RULE: usize = 3;
@@ -21,7 +21,7 @@ const RULE: usize = 3;
 /// Column of a table, as text.
 pub(super) struct Column {
     heading: String,
-    /// Cells, each with `true` if it is a number: numbers are right-aligned at their points.
+    /// Cells, each with `true` if it is a number: numbers are right-aligned at their decimal points.
     cells: Vec<(String, bool)>,
     /// Length of the longest unbreakable piece, minimum width, and useful width.
     widths: [usize; 3],
@@ -31,7 +31,7 @@ impl Column {
     /// Creates a column of cells; `true` marks a number.
     pub(super) fn new(heading: String, cells: Vec<(String, bool)>) -> Self {
         let cells = aligned(cells);
-        // Blanks that align a number's point belong to the number.
+        // Blanks that align a decimal point belong to the number.
         let piece = |(text, number): &(String, bool)| if *number { display_width(text) } else { longest_piece(text) };
         let longest = cells.iter().map(piece).fold(longest_piece(&heading), usize::max);
         let most = cells.iter().map(|(text, _)| display_width(text)).fold(display_width(&heading), usize::max);
@@ -46,7 +46,7 @@ impl Column {
     }
 }
 
-/// Pads numbers to one length, so that their points are aligned.
+/// Pads numbers to one length, so that their decimal points are aligned.
 fn aligned(cells: Vec<(String, bool)>) -> Vec<(String, bool)> {
     let numbers = || cells.iter().filter(|(_, number)| *number).map(|(text, _)| halves(text));
     let left = numbers().map(|(whole, _)| display_width(whole)).max().unwrap_or(0);
@@ -58,7 +58,7 @@ fn aligned(cells: Vec<(String, bool)>) -> Vec<(String, bool)> {
     cells.into_iter().map(align).collect()
 }
 
-/// Splits a number before its point.
+/// Splits a number before its decimal point or exponent.
 fn halves(number: &str) -> (&str, &str) {
     number.split_at(number.find(['.', 'e', ' ']).unwrap_or(number.len()))
 }
@@ -81,7 +81,7 @@ fn longest_piece(text: &str) -> usize {
     pieces(text).map(|word| display_width(word.word)).max().unwrap_or(0)
 }
 
-/// Wraps text to lines of at most `width` columns, between words, and within a word only if that alone is longer.
+/// Wraps text to lines of at most `width` columns between words; breaks a word only if it is longer than a line.
 pub fn wrapped(text: &str, width: usize, indent: &str) -> Vec<String> {
     let options = Options::new(width)
         .subsequent_indent(indent)
@@ -97,7 +97,7 @@ pub(super) fn within(columns: &[Column], keys: usize, width: usize) -> String {
     let parts = |keys: usize| cut(columns, keys, width).map(|parts| (keys, parts));
     match parts(keys).or_else(|| parts(1)) {
         Some((keys, parts)) => {
-            // The smallest width with as many parts balances the parts.
+            // The smallest width with the same number of parts balances the parts.
             let narrower = (MIN_WIDTH..width).filter_map(|less| cut(columns, keys, less));
             let even = { narrower }.find(|even| even.len() == parts.len());
             let parts: Vec<String> = even.unwrap_or(parts).iter().map(|part| side_by_side(part, width)).collect();
@@ -107,8 +107,8 @@ pub(super) fn within(columns: &[Column], keys: usize, width: usize) -> String {
     }
 }
 
-/// Splits the columns into as few groups as fit, each with the first `keys` columns; `None` if some column does not fit
-/// beside them.
+/// Splits the columns into the fewest groups that fit, each with the first `keys` columns; `None` if some column does
+/// not fit next to them.
 fn cut(columns: &[Column], keys: usize, width: usize) -> Option<Vec<Vec<&Column>>> {
     let fits = |group: &[&Column], least: usize| taken(group.iter().map(|column| column.widths[least])) <= width;
     let (keys, others) = columns.split_at_checked(keys.min(columns.len()))?;
@@ -131,7 +131,7 @@ fn taken(widths: impl Iterator<Item = usize>) -> usize {
     widths.map(|width| width + RULE).sum::<usize>() + 1
 }
 
-/// Distributes the width: every column gets its useful width, except for the widest, which get equal shares.
+/// Distributes the width: every column gets its useful width, except for the widest columns, which get equal shares.
 fn shares(columns: &[&Column], width: usize) -> Vec<usize> {
     let at = |level: usize| -> Vec<usize> {
         columns.iter().map(|column| level.clamp(column.widths[0], column.widths[2])).collect()
@@ -161,7 +161,7 @@ fn side_by_side(columns: &[&Column], width: usize) -> String {
     table.set_header(columns.iter().zip(&widths).map(heading));
     for row in 0..columns.first().map_or(0, |column| column.cells.len()) {
         table.add_row(columns.iter().zip(&widths).map(|(column, width)| {
-            // Blanks around a number align its point.
+            // Blanks around a number align its decimal point.
             let (text, number) = &column.cells[row];
             entry(if *number { text.clone() } else { lines(text, *width) }, *number)
         }));
@@ -169,7 +169,7 @@ fn side_by_side(columns: &[&Column], width: usize) -> String {
     table.trim_fmt()
 }
 
-/// Formats each row as a list: its first cell, and below it the others by their headings.
+/// Formats each row as a list: its first cell, and below it the other cells with their headings.
 fn lists(columns: &[Column], width: usize) -> String {
     let Some((first, others)) = columns.split_first() else { return String::new() };
     let list = |row: usize| {

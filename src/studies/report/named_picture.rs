@@ -9,7 +9,7 @@ pub struct NamedPicture {
     pub name: String,
     /// Picture in display encoding.
     pub image: RgbImage,
-    /// Caption, also the text alternative.
+    /// Caption; it is also the alternative text.
     pub caption: String,
 }
 

@@ -61,7 +61,7 @@ impl Provenance {
     }
 }
 
-/// Computes the SHA-256 of a reader's contents, in hexadecimal. Errors: those of the reader.
+/// Computes the SHA-256 of a reader's contents, in hexadecimal. Fails if the reader does.
 pub fn sha256(mut contents: impl Read) -> io::Result<String> {
     let (mut digest, mut buffer) = (Sha256::new(), vec![0; 1 << 16]);
     loop {

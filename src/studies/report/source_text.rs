@@ -1,4 +1,4 @@
-//! Named text for error messages, with an index of its lines, so that many messages find their lines fast.
+//! Named text for error messages, with an index of its lines for fast look-up.
 
 use std::ops::Range;
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Evaluation of a tally's count.
+/// Evaluation of an outcome in a tally.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
     /// Desirable.
@@ -44,7 +44,7 @@ pub struct TallyEntry {
     pub tone: Tone,
 }
 
-/// Part of a study in one line at the top of its page: title and counts.
+/// One line about a part of a study, at the top of its page: title and counts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SummaryLine {
     /// Title.

@@ -28,7 +28,7 @@ impl Table {
         Self { title: title.into(), headings, ..Self::default() }
     }
 
-    /// Creates an empty table whose columns are named by the words of a text.
+    /// Creates an empty table; `columns` has its headings, separated by blanks.
     pub fn of(title: impl Into<String>, columns: &str) -> Self {
         Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
@@ -40,7 +40,8 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Adds a row with a name for links to it, unique among all tables of a page and without blanks.
+    /// Adds a row with a name for links to it. The name must be unique among all tables of a page and contain no
+    /// blanks.
     pub fn push_named(&mut self, name: String, row: impl IntoIterator<Item = Cell>) {
         self.names.insert(self.rows.len(), name);
         self.push(row);
@@ -94,7 +95,7 @@ impl Table {
         within(&columns, self.key_columns(), width)
     }
 
-    /// Number of leading key columns, which distinguish the rows, if they hold words; otherwise one.
+    /// Number of leading key columns: the columns that distinguish the rows, if they hold words; otherwise one.
     fn key_columns(&self) -> usize {
         let words = |column: usize| self.rows.iter().all(|row| matches!(row[column], Cell::Text(_) | Cell::Empty));
         let rows: Vec<&Vec<Cell>> =
@@ -108,9 +109,9 @@ impl Table {
         (1..=leading).find(apart).unwrap_or(1)
     }
 
-    /// Folds rows with the results of an earlier row into one row. `first[i]` is the first row with the result of row
-    /// i. `called` names a row; `rows` and `same` are as in [`Folded`]. A table whose number of rows is not that of
-    /// `first` is unchanged.
+    /// Folds rows whose results equal an earlier row's into one row. `first[i]` is the first row with the result of row
+    /// i. `called` names a row; `rows` and `same` are as in [`Folded`]. A table is unchanged if its number of rows
+    /// differs from the length of `first`.
     #[must_use]
     pub fn folded(
         &self,
@@ -166,8 +167,8 @@ impl Table {
         String::from_utf8(bytes).map_err(|error| not_encoded("CSV", error))
     }
 
-    /// Converts the rows to a JSON array of objects by [`Table::keys`]; `marked` lists the columns whose numbers have a
-    /// mark, if any has.
+    /// Converts the rows to a JSON array of objects with [`Table::keys`]; `marked` lists the columns whose numbers have
+    /// a mark, if there are any.
     pub fn json(&self) -> Value {
         let keys = self.keys();
         let row = |row: &Vec<Cell>| {

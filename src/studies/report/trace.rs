@@ -20,7 +20,7 @@ pub struct Slice {
     pub lane: usize,
     /// Name.
     pub name: String,
-    /// Category, which viewers filter by.
+    /// Category, by which viewers filter.
     pub category: String,
     /// Start, in picoseconds.
     pub start: u64,
@@ -33,7 +33,7 @@ pub struct Slice {
 /// Arrow from a moment of one slice to a moment of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrow {
-    /// Lane and picosecond of its start; inside a slice or at one of its ends.
+    /// Lane and picosecond of its start, which lies inside a slice or at one of its ends.
     pub from: (usize, u64),
     /// Lane and picosecond of its end.
     pub to: (usize, u64),
@@ -46,7 +46,7 @@ pub struct Trace {
     pub title: String,
     /// Names of the lanes, from the top.
     pub lanes: Vec<String>,
-    /// Slices; those of one lane are disjoint or nested.
+    /// Slices; slices in one lane are disjoint or nested.
     pub slices: Vec<Slice>,
     /// Arrows.
     pub arrows: Vec<Arrow>,
@@ -69,7 +69,7 @@ enum Event<'a> {
 }
 
 impl Trace {
-    /// Writes the file: slices in the order of time, one event per line. Errors: those of `out`.
+    /// Writes the file: slices in order of time, one event per line. Fails if `out` does.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{{\"displayTimeUnit\":\"ns\",\"otherData\":{},", Value::Object(self.about.clone()))?;
         write!(out, "\"traceEvents\":[")?;
@@ -119,7 +119,7 @@ fn nanosecond(picosecond: u64) -> u64 {
     picosecond / 1000
 }
 
-/// A double keeps three digits after the point up to 9007199 s.
+/// A double keeps three decimals up to 9007199 s.
 fn microseconds(nanoseconds: u64) -> f64 {
     nanoseconds as f64 / 1e3
 }

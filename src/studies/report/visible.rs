@@ -1,4 +1,4 @@
-//! Sanitising of external text for display: nothing in it moves a cursor, changes a color or reorders letters.
+//! Escaping of external text for display: nothing in it moves a cursor, changes a color or reorders letters.
 //!
 //! Every renderer uses this: messages, tables, pages, and printed output. A message that arrives escaped stays
 //! unchanged.
@@ -20,7 +20,7 @@ pub const fn is_hidden(c: char) -> bool {
     )
 }
 
-/// Escapes text of several lines: line ends are kept, all other [`is_hidden`] characters are escaped as in `\u{1b}`.
+/// Escapes text of several lines: line ends stay, all other [`is_hidden`] characters become escapes such as `\u{1b}`.
 pub fn visible(text: &str) -> Cow<'_, str> {
     escaped(text, |c| c != '\n' && is_hidden(c))
 }
@@ -30,8 +30,8 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
     escaped(text, is_hidden)
 }
 
-/// Escapes the hidden characters of a JSON document by JSON's own escapes, `\u001b`. Readers get the same text: a
-/// finished document has hidden characters, apart from the line ends between its parts, only inside strings.
+/// Escapes the hidden characters of a JSON document with JSON's own escapes, such as `\u001b`. Readers get the same
+/// text: in a finished document, hidden characters other than line ends occur only inside strings.
 pub fn visible_json(document: &str) -> Cow<'_, str> {
     let hidden = |c: char| c != '\n' && is_hidden(c);
     if !document.contains(hidden) {

@@ -1,7 +1,7 @@
 //! The file of a part.
 //!
 //! Layout: a line with the version, a line of JSON ([`PartHeader`]), the results in postcard's encoding, and the 32
-//! bytes of the SHA-256 of everything before. Numbers keep their bits.
+//! bytes of the SHA-256 of everything before. Numbers keep all their bits.
 
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -24,13 +24,13 @@ const VERSION: u32 = 1;
 /// Bytes of the digest at the end.
 const DIGEST: usize = 32;
 
-/// The command that is split, and the program that runs it.
+/// The command that is split, and the program version that runs it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SplitCommand {
     /// The program: version, and commit or digest.
     pub program: String,
-    /// The arguments without the program's name: defaults filled in, without options that change no result, without
-    /// `--part` and `--out`.
+    /// The arguments without the program's name: with defaults filled in, and without `--part`, `--out` and other
+    /// options that change no result.
     pub arguments: Vec<String>,
 }
 
@@ -41,16 +41,16 @@ impl SplitCommand {
     }
 }
 
-/// Description of a part: the run that it is a part of, and its place in it.
+/// Description of a part: its run, and its position in the run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartHeader {
     /// The command.
     pub command: SplitCommand,
-    /// Number of the part, and the total number of parts.
+    /// Number of this part, and total number of parts.
     pub part: PartNumber,
-    /// The SHA-256 of every file that was read, by its path as it was opened.
+    /// The SHA-256 of every input file, by its path as opened.
     pub inputs: BTreeMap<String, String>,
-    /// The items that are split, in the plural.
+    /// Noun for the items that are split, in the plural.
     pub items: String,
     /// Number of items in all parts.
     pub count: u64,
@@ -59,7 +59,7 @@ pub struct PartHeader {
 }
 
 impl PartHeader {
-    /// A header for results that are still to be encoded.
+    /// Creates a header for results that are not encoded yet.
     pub(super) fn new(
         command: SplitCommand,
         part: PartNumber,
@@ -74,11 +74,11 @@ impl PartHeader {
         Self { bytes: 0, ..self.clone() } == Self { bytes: 0, ..other.clone() }
     }
 
-    /// Writes a part, whole or not at all, and returns the length of the file.
+    /// Writes a part atomically, and returns the length of the file.
     pub(super) fn write(mut self, results: &[u8], path: &Path) -> Result<u64, InputError> {
         self.bytes = results.len() as u64;
         let mut head = format!("{MAGIC}{VERSION}\n").into_bytes();
-        // Text and numbers always encode.
+        // Strings and numbers always encode.
         serde_json::to_writer(&mut head, &self).map_err(|reason| unreadable(path, reason.into()))?;
         head.push(b'\n');
         let digest = Sha256::new().chain_update(&head).chain_update(results).finalize();
@@ -91,8 +91,8 @@ impl PartHeader {
         Ok((head.len() + results.len() + DIGEST) as u64)
     }
 
-    /// Reads a part, and checks that it is whole: its header, and its results as they are encoded. Fails if it cannot
-    /// be read, is not a part, or was changed.
+    /// Reads a part, and checks its digest; returns its header, and its results, still encoded. Fails if it cannot be
+    /// read, is not a part, or was changed.
     pub(super) fn read(path: &Path) -> Result<(Self, Vec<u8>), InputError> {
         let mut bytes = fs::read(path).map_err(|source| unreadable(path, source))?;
         let wrong = |found: String, help| InputError::new("crossbar::part::file", found).at(path).with_help(help);
@@ -131,8 +131,8 @@ impl PartHeader {
     }
 }
 
-/// The digests of all files that were read so far, by their paths. Fails for input that cannot be read a second time,
-/// and for names that are not UTF-8.
+/// The digests of all files that were read so far, by their paths. Fails if input cannot be read a second time, or a
+/// name is not UTF-8.
 pub(super) fn inputs_read() -> Result<BTreeMap<String, String>, InputError> {
     let digest = |path: std::path::PathBuf| {
         let name = path.to_str().ok_or_else(|| not_utf8(path.as_os_str()))?;

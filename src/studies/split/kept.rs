@@ -1,4 +1,4 @@
-//! Results that are kept in a folder during long work, so that interrupted work continues from them.
+//! Results stored in a folder during long work, so that interrupted work can continue from them.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -13,7 +13,7 @@ use super::number::PartNumber;
 use crate::error::{InputError, input_error};
 use crate::io::WriteError;
 
-/// Folder of results of one command: a part file per result, whose items are named after the result.
+/// Folder with the results of one command: one part file per result; the name of its items is the result's name.
 #[derive(Debug)]
 pub struct KeptResults {
     folder: PathBuf,
@@ -23,29 +23,29 @@ pub struct KeptResults {
     taken: Cell<usize>,
     /// Reading of the clock when this run began.
     start: SpentTime,
-    /// Time that the runs before this one spent until they kept their last result.
+    /// Time that earlier runs spent until they stored their last result.
     before: Cell<SpentTime>,
 }
 
 /// Time in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SpentTime {
-    /// Processor time of all threads; none if the system does not report it.
+    /// Processor time of all threads, in seconds; `None` if the system does not report it.
     pub processor_s: Option<f64>,
-    /// Time on the wall clock.
+    /// Wall-clock time, in seconds.
     pub wall_s: f64,
 }
 
 impl KeptResults {
-    /// Results of a command in a folder, which is created with the first result. They depend on the files read until
-    /// now. `clock` returns the time since a fixed moment. Fails if a file cannot be read a second time.
+    /// Results of a command in a folder, which is created with the first result. They depend on the files read so far.
+    /// `clock` returns the time since a fixed moment. Fails if a file cannot be read a second time.
     pub fn new(folder: PathBuf, command: SplitCommand, clock: fn() -> SpentTime) -> Result<Self, InputError> {
         let (inputs, taken, before) = (inputs_read()?, Cell::default(), Cell::default());
         Ok(Self { folder, command, inputs, clock, taken, start: clock(), before })
     }
 
-    /// Refuses a folder with results of other work, which would be lost. Errors: names the first such result; also for
-    /// a path that is not a folder.
+    /// Rejects a folder with results of other work, which would be lost. The error names the first such result. Also
+    /// fails for a path that is not a folder.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {
@@ -55,12 +55,12 @@ impl KeptResults {
         let mut paths = files.map(|file| Ok(file?.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
         paths.sort();
         for path in paths {
-            // Other files are left alone, and damaged results are computed again.
+            // Other files are ignored, and damaged results are computed again.
             let Ok((header, _)) = PartHeader::read(&path) else { continue };
             if let Some([expected, found]) = self.difference(&header) {
                 let other = input_error!(
                     "crossbar::part::other" => "expected a result of\n{expected}\nfound one of\n{found}";
-                    help "go on with the command, the inputs and the program of the first run, or name another folder"
+                    help "continue with the command, the inputs and the program of the first run, or name another folder"
                 );
                 return Err(other.at(path.as_path()));
             }
@@ -88,12 +88,12 @@ impl KeptResults {
         inputs.iter().flat_map(|inputs| inputs.keys()).find(differs).map(of)
     }
 
-    /// Number of results that were taken from the folder.
+    /// Number of results that were read from the folder.
     pub fn taken(&self) -> usize {
         self.taken.get()
     }
 
-    /// Time of this run so far, plus that of earlier runs for reused results.
+    /// Time of this run so far, plus the time that earlier runs spent on reused results.
     pub fn spent(&self) -> SpentTime {
         let (now, start, before) = ((self.clock)(), self.start, self.before.get());
         let processor = now.processor_s.zip(start.processor_s).map(|(now, start)| now - start);
@@ -103,9 +103,9 @@ impl KeptResults {
         }
     }
 
-    /// Takes a result from the folder; computes and keeps it if it is missing, damaged, or of another command, program
-    /// or input. The result must depend only on the command and the name, which is a file name. Errors: those of
-    /// `compute`, and if a result cannot be kept.
+    /// Reads a result from the folder; computes and stores it if it is missing, damaged, or of another command, program
+    /// or input. The result must depend only on the command and the name, which is a file name. Fails if `compute`
+    /// does, or a result cannot be stored.
     pub fn get<T: Serialize + DeserializeOwned, E: From<InputError>>(
         &self,
         name: &str,
@@ -117,7 +117,7 @@ impl KeptResults {
             && found.is_of(&header)
             && let Ok(((spent, result), [])) = postcard::take_from_bytes::<(SpentTime, T)>(&bytes)
         {
-            // The last file taken has the most results.
+            // The last file read has the largest time.
             if spent.wall_s > self.before.get().wall_s {
                 self.before.set(spent);
             }
@@ -125,13 +125,13 @@ impl KeptResults {
             return Ok(result);
         }
         let result = compute()?;
-        // Numbers, texts and lists of them always encode.
+        // Numbers, strings and lists of them always encode.
         let bytes = postcard::to_stdvec(&(self.spent(), &result)).expect("a result that can be encoded");
         header.write(&bytes, &path)?;
         Ok(result)
     }
 
-    /// Removes the folder, when the work is done. Fails if it cannot be removed.
+    /// Removes the folder when the work is done. Fails if it cannot be removed.
     pub fn remove(&self) -> Result<(), InputError> {
         match fs::remove_dir_all(&self.folder) {
             Err(source) if source.kind() != io::ErrorKind::NotFound => {

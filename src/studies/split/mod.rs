@@ -1,11 +1,11 @@
-//! Runs of a command that are divided into parts, which may be computed on different machines.
+//! Runs of a command divided into parts, which may be computed on different machines.
 //!
 //! A command reaches its independent items (vertices, segments, rows) in one place, [`SplitRun::compute`]. An ordinary
 //! run computes all of them there. A part computes a range and writes it to a file, with a [`PartHeader`] that
-//! identifies the run. A merge reads the parts of a [`PartSet`] instead of computing, and continues as an ordinary run
-//! does. So a merge writes what one run writes, byte for byte. docs/decisions/0031-parts-of-a-run.md explains this.
+//! identifies the run. A merge reads the parts of a [`PartSet`] instead of computing, and then continues like an
+//! ordinary run. So a merge writes the same bytes as one run. docs/decisions/0031-parts-of-a-run.md explains this.
 //!
-//! [`KeptResults`] are for work that is interrupted and continued, in files of the same layout.
+//! [`KeptResults`] stores the results of work that may be interrupted and continued, in files of the same layout.
 
 mod file;
 mod kept;

@@ -1,4 +1,4 @@
-//! Number of the part, and the total number of parts.
+//! Number of a part, and total number of parts.
 
 use std::fmt;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Maximum number of parts of a run.
 const MAX_PARTS: u32 = 1_000_000;
 
-/// Part K of N: 1 to N.
+/// Part K of N; K is from 1 to N.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartNumber {
     number: u32,
@@ -20,7 +20,7 @@ impl PartNumber {
     /// Part 1 of 1.
     pub(super) const ONLY: Self = Self { number: 1, of: 1 };
 
-    /// Part `number` of `of`; `None` unless `number` is from 1 to `of`, and `of` at most a million.
+    /// Creates part `number` of `of`; `None` unless `number` is from 1 to `of`, and `of` at most a million.
     pub fn new(number: u32, of: u32) -> Option<Self> {
         (1 <= number && number <= of && of <= MAX_PARTS).then_some(Self { number, of })
     }
@@ -35,8 +35,8 @@ impl PartNumber {
         self.of
     }
 
-    /// The part's items among `count`: ranges of all parts follow each other, and their lengths differ by one at most.
-    /// With more parts than items, some parts have no items.
+    /// The part's items among `count`: the ranges of all parts follow each other, and their lengths differ by one at
+    /// most. If there are more parts than items, some parts have no items.
     pub fn range(self, count: usize) -> Range<usize> {
         // At most `count`, so it fits.
         let end = |number: u32| (count as u128 * u128::from(number) / u128::from(self.of)) as usize;

@@ -1,4 +1,4 @@
-//! The one place where a command's items are computed, divided, or taken from parts.
+//! The one place where a command's items are computed, divided, or read from parts.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -12,9 +12,9 @@ use super::set::{self, PartSet};
 use crate::error::{InputError, input_error};
 use crate::io::FileSet;
 
-/// Results of consecutive items, which are stored with their bits and put together in order.
+/// Results of consecutive items, which are stored without loss of bits and joined in order.
 pub trait Concatenate: Serialize + DeserializeOwned {
-    /// Returns `true` for complete results of the items of a range. A wrong part is refused, not merged.
+    /// Returns `true` for complete results of the items of a range. A wrong part is rejected, not merged.
     fn are_of(&self, range: &Range<usize>) -> bool;
 
     /// Appends the results of the next items.
@@ -31,7 +31,7 @@ impl<T: Serialize + DeserializeOwned> Concatenate for Vec<T> {
     }
 }
 
-/// Mode in which a command's items are computed.
+/// How a command's items are computed: all, only a part, or read from parts.
 #[derive(Clone, Debug, Default)]
 pub enum SplitRun {
     /// Computes all items.
@@ -41,7 +41,7 @@ pub enum SplitRun {
     Part {
         /// The part.
         part: PartNumber,
-        /// The command that is divided.
+        /// The command, which is divided into parts.
         command: SplitCommand,
         /// The file.
         path: PathBuf,
@@ -53,11 +53,11 @@ pub enum SplitRun {
 /// A part that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenPart {
-    /// Number of the part, and the total number of parts.
+    /// Number of this part, and total number of parts.
     pub part: PartNumber,
-    /// The items that are split, in the plural.
+    /// Noun for the items that are split, in the plural.
     pub items: &'static str,
-    /// Number of items of all parts.
+    /// Number of items in all parts.
     pub count: usize,
     /// The items of this part.
     pub range: Range<usize>,
@@ -70,14 +70,14 @@ pub struct WrittenPart {
 /// Results of all items, or the part that was computed and written.
 #[derive(Clone, Debug)]
 pub enum Computed<T> {
-    /// All items: the command continues.
+    /// Results of all items; the command continues.
     Whole(T),
-    /// A part: the command ends.
+    /// The part that was written; the command ends.
     Part(WrittenPart),
 }
 
 impl<T> Computed<T> {
-    /// Goes on with the results of all items. Errors: those of `then`.
+    /// Continues with the results of all items. Fails if `then` does.
     pub fn and_then<U, E>(self, then: impl FnOnce(T) -> Result<U, E>) -> Result<Computed<U>, E> {
         match self {
             Self::Whole(results) => then(results).map(Computed::Whole),
@@ -95,7 +95,7 @@ impl<T> Computed<T> {
 }
 
 impl SplitRun {
-    /// [`Self::compute`] for commands that compute items as they need them: `None` in an ordinary run. Fails as
+    /// Like [`Self::compute`], for commands that compute items as they need them: `None` in an ordinary run. Fails as
     /// [`Self::compute`] does.
     pub fn known<T: Concatenate, E: From<InputError>>(
         &self,
@@ -109,14 +109,14 @@ impl SplitRun {
         }
     }
 
-    /// True if a part is computed, and the command's own results are not.
+    /// Returns `true` if only a part is computed, without the command's own results.
     pub fn is_part(&self) -> bool {
         matches!(self, Self::Part { .. })
     }
 
-    /// Computes `count` items by `compute`, which takes a range of them. A part computes only its range, and writes the
-    /// results; a merge takes all results from parts. The result must depend only on the item and on earlier input. A
-    /// command calls this once. Fails as `compute` does, and if a part cannot be written or parts do not fit.
+    /// Computes `count` items by `compute`, which receives a range of them. A part computes only its range, and writes
+    /// the results; a merge reads all results from parts. The result must depend only on the item and on earlier input.
+    /// A command calls this once. Fails as `compute` does, and if a part cannot be written or parts do not fit.
     pub fn compute<T: Concatenate, E: From<InputError>>(
         &self,
         items: &'static str,
@@ -141,10 +141,10 @@ impl SplitRun {
     }
 }
 
-/// Checks before long work that a file can be written.
+/// Checks, before long work, that a file can be written.
 fn require_writable(path: &Path) -> Result<(), InputError> {
     match path.parent() {
-        // A device or a pipe is written directly, not beside itself.
+        // A device or a pipe is written directly, without a temporary file.
         Some(folder) if path.is_file() || !path.exists() => FileSet::new(folder).map(drop).map_err(unwritable),
         _ => Ok(()),
     }

@@ -16,8 +16,8 @@ pub struct PartSet {
 }
 
 impl PartSet {
-    /// Opens the parts of a run, in any order, and checks that each is whole, that all are of `program` and of one
-    /// command, and that none is missing and none twice. Errors: names the files that do not fit.
+    /// Opens the parts of a run, in any order. Checks that each is whole, that all are of `program` and of one command,
+    /// and that none is missing or duplicate. The error names the files that do not fit.
     pub fn open(paths: &[PathBuf], program: &str) -> Result<Self, InputError> {
         let mut parts: Vec<(PathBuf, PartHeader)> = Vec::with_capacity(paths.len());
         for path in paths {
@@ -54,7 +54,8 @@ impl PartSet {
         &self.parts
     }
 
-    /// Checks that every part was computed from the files that have now been read. Errors: names the part and the file.
+    /// Checks that every part was computed from the files that have now been read. The error names the part and the
+    /// file.
     pub(super) fn check_inputs(&self, now: &BTreeMap<String, String>) -> Result<(), InputError> {
         for (path, header) in &self.parts {
             let names = header.inputs.keys().chain(now.keys());
@@ -74,7 +75,7 @@ impl PartSet {
     }
 }
 
-/// Checks that two parts are of one command and one division.
+/// Checks that two parts are of the same command and the same division.
 fn same_run(paths: [&PathBuf; 2], [one, other]: [&PartHeader; 2]) -> Result<(), InputError> {
     let [path, another] = paths.map(|path| path.display());
     ensure!(

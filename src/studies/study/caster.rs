@@ -21,7 +21,7 @@ use crate::study::configuration::Configuration;
 use crate::tracer::octree::OctreeParameters;
 use crate::tracer::{CastError, Caster, HostTracer, is_occluder};
 
-/// Rays whose exact hits are in memory at once.
+/// Number of rays whose exact hits are in memory at the same time.
 const JUDGED_AT_ONCE: usize = 1 << 16;
 
 /// Options of a command's ray caster; all but `--caster` are for the Ray Engine (its sections 5.2, 6.2 and 6.3).
@@ -44,11 +44,11 @@ pub struct CasterOptions {
     #[arg(long, value_name = "TRIANGLES,DEPTH")]
     octree: Option<CountPair>,
 
-    /// Least and most triangles of a cell that the card tests [default: 5,15]
+    /// Minimum and maximum number of triangles of a cell that the card tests [default: 5,15]
     #[arg(long, value_name = "LEAST,MOST")]
     pass_triangles: Option<CountPair>,
 
-    /// Rays of a pass on the card; the host tests rays of cells that fewer meet [default: 64]
+    /// Rays per pass on the card; the host tests the rays of cells that fewer rays meet [default: 64]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pass_rays: Option<u32>,
 
@@ -58,7 +58,7 @@ pub struct CasterOptions {
     readback: Option<Readback>,
 }
 
-/// The casters, for `--caster`: true for the engine.
+/// Values of `--caster`; `true` is the engine.
 fn casters() -> OneOf<bool> {
     let host = ("host", "The host's octree, in single precision", false);
     one_of([host, ("engine", "The Ray Engine, host and card together", true)])
@@ -100,10 +100,11 @@ impl CasterOptions {
         self.caster == Some(true)
     }
 
-    /// The caster; the engine's programs are run by `executor`.
+    /// Returns the caster; `executor` runs the engine's programs.
     ///
     /// # Errors
-    /// For options of the engine without it, several formats, an unknown device or format, and numbers out of range.
+    /// If engine options are given without the engine, there are several formats, a device or format is unknown, or a
+    /// number is out of range.
     pub fn choose(&self, executor: Executor) -> Result<CasterChoice, StudyError> {
         match &mut self.choose_each(executor)?[..] {
             [one] => Ok(std::mem::take(one)),
@@ -111,10 +112,10 @@ impl CasterOptions {
         }
     }
 
-    /// A caster for each `--caster-format`.
+    /// Returns a caster for each `--caster-format`.
     ///
     /// # Errors
-    /// As [`Self::choose`], except for several formats.
+    /// As for [`Self::choose`], but several formats are allowed.
     pub fn choose_each(&self, executor: Executor) -> Result<Vec<CasterChoice>, StudyError> {
         let Self { caster_device, caster_format, octree, pass_triangles, pass_rays, readback, .. } = self;
         if !self.is_engine() {
@@ -176,11 +177,11 @@ pub enum CasterChoice {
 /// A Ray Engine, to be built over a mesh.
 #[derive(Clone, Debug)]
 pub struct EngineChoice {
-    /// Its card.
+    /// Card of the engine.
     pub card: Configuration,
     /// Executor of the card's programs.
     pub executor: Executor,
-    /// Scheduling; faces are those of [`CasterChoice::open`].
+    /// Scheduling; the culling mode is the one given to [`CasterChoice::open`].
     pub parameters: EngineParameters,
 }
 
@@ -198,7 +199,7 @@ impl CasterChoice {
         }
     }
 
-    /// Name: `host`, or that of the engine's card and format.
+    /// Name: `host`, or the name of the engine's card and format.
     pub fn label(&self) -> &str {
         match self {
             Self::Host => "host",
@@ -214,7 +215,7 @@ impl CasterChoice {
     /// Builds the structures over a mesh: the octree, and for the engine its GPU cells and the card.
     ///
     /// # Errors
-    /// If the card runs no intersection program.
+    /// If the card cannot run an intersection program.
     pub fn open<'a>(&self, mesh: &'a Mesh, sides: Sides) -> Result<OpenCaster<'a>, EngineError> {
         Ok(OpenCaster(match self {
             Self::Host => OpenKind::Host(Box::new(HostTracer::new(mesh, sides))),
@@ -230,7 +231,7 @@ impl CasterChoice {
         }))
     }
 
-    /// The same; answers of the engine are compared with exact arithmetic: see [`CastRecord::differing`].
+    /// As [`Self::open`], but compares the engine's answers with exact arithmetic: see [`CastRecord::differing`].
     ///
     /// # Errors
     /// As [`Self::open`].
@@ -244,7 +245,7 @@ impl CasterChoice {
     }
 }
 
-/// A caster with its structures.
+/// A caster with its acceleration structures, built over a mesh.
 pub struct OpenCaster<'a>(OpenKind<'a>);
 
 enum OpenKind<'a> {
@@ -260,22 +261,22 @@ struct OpenEngine<'a> {
     record: CastRecord,
 }
 
-/// What the Ray Engine did.
+/// Statistics of the Ray Engine.
 #[derive(Clone, Debug)]
 pub struct CastRecord {
     /// Name of the card and its format.
     pub label: String,
-    /// Rays, passes and tests.
+    /// Numbers of rays, passes and tests.
     pub counts: EngineCounts,
-    /// Modelled time of the passes without the host's tests; `None` for cards without rates.
+    /// Modelled time of the passes, without the tests on the host; `None` for cards without rates.
     pub card: Option<Picoseconds>,
-    /// Answers other than those of exact arithmetic: another triangle or none; of shadow rays, lit or not. `None` if
-    /// nobody compared.
+    /// Number of answers that differ from exact arithmetic: another triangle or none; for shadow rays, lit or not.
+    /// `None` if the answers were not compared.
     pub differing: Option<u64>,
 }
 
 impl OpenCaster<'_> {
-    /// What the engine did so far; `None` for the host.
+    /// Statistics of the engine so far; `None` for the host.
     pub fn record(&self) -> Option<CastRecord> {
         match &self.0 {
             OpenKind::Host(_) => None,

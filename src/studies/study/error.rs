@@ -40,17 +40,17 @@ impl Cause {
 }
 
 impl StudyError {
-    /// An error that the study itself found: the sentence says the place, the expected and the found value.
+    /// An error that the study itself found: the sentence states the location, the expected and the found value.
     pub fn new(code: &'static str, sentence: impl Into<String>) -> Self {
         Self(Box::new(ErrorParts { code: Some(code), sentence: Some(sentence.into()), ..ErrorParts::default() }))
     }
 
-    /// An error of options that do not go together, under the code of the program's usage.
+    /// An error about options that conflict, with the code `crossbar::usage`.
     pub fn usage(sentence: impl Into<String>, help: impl Into<String>) -> Self {
         Self::new("crossbar::usage", sentence).with_help(help)
     }
 
-    /// A library's error with its own sentence, under a code of the study.
+    /// A library's error with its own message, under a code of the study.
     pub fn coded(code: &'static str, error: impl Error + Send + Sync + 'static) -> Self {
         let cause = Some(Cause::Error(Box::new(error)));
         Self(Box::new(ErrorParts { code: Some(code), cause, ..ErrorParts::default() }))
@@ -146,7 +146,7 @@ impl Diagnostic for StudyError {
     }
 }
 
-/// Converts errors of libraries: diagnostics are shown as they are, others under a code, with help if there is some.
+/// Converts errors of libraries: diagnostics are shown unchanged, others under a code, with help if given.
 macro_rules! library_errors {
     ($($error:ty $(=> $code:literal $(, $help:literal)?)?;)*) => {
         $(impl From<$error> for $crate::study::StudyError {

@@ -1,4 +1,4 @@
-//! Framing: the view from an eye that a model fills.
+//! Framing: the view from an eye position in which a model fills the picture.
 
 use glam::{DVec2, DVec3};
 

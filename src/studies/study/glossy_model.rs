@@ -1,4 +1,4 @@
-//! A glossy model by clustered principal components, drawn by a card: small inputs of studies.
+//! A glossy model, compressed by clustered principal components and drawn by a card: a small input for studies.
 
 use refsim::device::Profile;
 use refsim::machine::Executor;
@@ -20,17 +20,17 @@ use crate::study::{ProgressFn, StudyError};
 use crate::transfer::Vertices;
 use crate::transfer::brdf::{Brdf, ExitBasis};
 
-/// Colors of pixels, with the modelled time of the frame; `None` for cards without rates.
+/// Pixel colors, and the modelled time of the frame (`None` for cards without rates).
 pub(super) type Drawn = (Vec<[f64; 3]>, Option<Picoseconds>);
 
-/// How a model's transfer is computed and compressed.
+/// Parameters of a model's transfer and of its compression.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GlossyTransfer {
     pub(super) brdf: Brdf,
     /// Orders of light and of exit radiance.
     pub(super) order: usize,
     pub(super) exit_order: usize,
-    /// Clusters, and their vectors besides the mean.
+    /// Number of clusters, and of vectors per cluster in addition to the mean.
     pub(super) clusters: usize,
     pub(super) vectors: usize,
     /// Iterations of the clustering, for each number of vectors.
@@ -38,7 +38,7 @@ pub(super) struct GlossyTransfer {
 }
 
 impl GlossyTransfer {
-    /// The transfer by rays of a caster, without compression.
+    /// Computes the transfer with a ray caster, without compression.
     pub(super) fn precompute(
         &self,
         (mesh, vertices): (&Mesh, &Vertices),
@@ -61,7 +61,7 @@ impl GlossyTransfer {
         Ok((found, open.record()))
     }
 
-    /// The model with its transfer compressed.
+    /// Builds the model with its transfer compressed.
     pub(super) fn model(&self, vertices: Vertices, transfer: Precomputed) -> GlossyModel {
         let signal = transfer.file.transfer.expect("transfer that was computed");
         let options = CpcaOptions {
@@ -100,7 +100,7 @@ impl GlossyModel {
         PrtCard::new(profile.clone(), executor.clone(), transfer, options).map_err(no_cpca_card)
     }
 
-    /// Colors of pixels.
+    /// Draws the model, and returns the colors of pixels.
     pub(super) fn draw(
         &self,
         light: &HarmonicLight,
@@ -112,7 +112,7 @@ impl GlossyModel {
         Ok(card.view_texels(light, view).map_err(no_cpca_card)?.colors())
     }
 
-    /// The same with the time of a frame.
+    /// Like `draw`, but also models the time of the frame.
     pub(super) fn timed(
         &self,
         light: &HarmonicLight,

@@ -1,4 +1,4 @@
-//! A model of marble by subsurface scattering, drawn by a card: small inputs of studies.
+//! A marble model with subsurface scattering, drawn by a card: a small input for studies.
 
 use std::fmt;
 
@@ -17,7 +17,7 @@ use crate::subsurface::on_card::{
 };
 use crate::subsurface::{Dipole, materials};
 
-/// Largest relative error of factors.
+/// Maximum relative error of link factors.
 const TOLERANCE: f64 = 0.05;
 
 /// A model of marble, ready to be lit and drawn.
@@ -35,7 +35,8 @@ impl fmt::Debug for MarbleModel {
 }
 
 impl MarbleModel {
-    /// Over an atlas, of so many mm per unit; a factor per color channel and link, or green's for all.
+    /// Builds the model over an atlas. `rgb` computes a link factor per color channel; otherwise, green's factor serves
+    /// all.
     pub(super) fn new(atlas: &Atlas, mm_per_unit: f64, choice: LinkChoice, rgb: bool) -> Result<Self, StudyError> {
         let material = materials::named("marble").expect("a published medium").material();
         let [red, green, blue] = material.channels;
@@ -53,7 +54,7 @@ impl MarbleModel {
         Atlas::new(mesh, side).map_err(no_atlas)
     }
 
-    /// Colors of pixels under light, with textures of these floats.
+    /// Draws the model under a light; all float textures have the format `texels`.
     pub(super) fn draw(
         &self,
         light: impl FnOnce(&mut SubsurfaceCard) -> Result<(), CardError>,

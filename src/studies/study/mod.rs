@@ -36,9 +36,9 @@ pub trait Study {
     /// Runs the study. Fails if the input does not suit the study, or a library refuses it.
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError>;
 
-    /// The same where the study's items can be split: of all of them, of those of a part, or out of parts. Without such
-    /// items, [`Self::findings`]. Errors: those of [`Self::findings`], and [`InputError`](crate::error::InputError) of
-    /// parts.
+    /// Runs a study whose items can be split: on all items, on those of a part, or merged from parts. A study without
+    /// such items runs [`Self::findings`]. Fails as [`Self::findings`] does, or with an
+    /// [`InputError`](crate::error::InputError) if a part is invalid.
     fn findings_split(&self, _: &SplitRun, progress: &mut ProgressFn<'_>) -> Result<Computed<Findings>, StudyError> {
         self.findings(progress).map(Computed::Whole)
     }

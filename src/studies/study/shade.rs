@@ -1,7 +1,7 @@
 //! Shading of first hits: smooth normals, two lights, a plain background.
 //!
-//! A study's picture must show where hits are wrong and nothing else, so shading depends on the ray and the reported
-//! triangle, never on the reported t.
+//! A study's picture must show wrong hits and nothing else, so shading depends on the ray and the reported triangle,
+//! never on the reported t.
 
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ const BACKGROUND: DVec3 = DVec3::new(0.012, 0.016, 0.024);
 /// Albedo of the surface, a clay: linear RGB.
 const ALBEDO: DVec3 = DVec3::new(0.78, 0.60, 0.42);
 
-/// Normals of the corners, averaged over the adjoining triangles and weighted by area.
+/// Vertex normals: area-weighted averages over the adjoining triangles.
 pub struct TeapotShader<'a> {
     mesh: &'a Mesh,
     normals: Vec<DVec3>,
@@ -40,7 +40,8 @@ impl<'a> TeapotShader<'a> {
         let Some(corners) = self.mesh.corners(triangle) else { return DVec3::new(1.0, 0.0, 1.0) };
         let crossing = paper::intersect(origin, direction, corners.map(wide));
         let weights = DVec3::new(crossing.w, crossing.u, crossing.v);
-        // u belongs to b, v to c, w to a. Rays that miss their reported triangle are clamped to its border.
+        // u belongs to b, v to c, w to a. If a ray misses its reported triangle, its weights are clamped to the
+        // triangle's border.
         let sign = if crossing.n_dot_d < 0.0 { 1.0 } else { -1.0 };
         let barycentric = area_weights(weights.map(|x| (x * sign).max(0.0)));
         let indices = self.mesh.triangles()[triangle as usize];

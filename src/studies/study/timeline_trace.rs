@@ -16,7 +16,7 @@ library_errors! {
     ReplayError;
 }
 
-/// Encodes the timeline of a log by the pipeline model as a trace; `None` for devices without timing. `what` names the
+/// Encodes the timeline of a log in the pipeline model as a trace; `None` for devices without timing. `what` names the
 /// log.
 pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u8>>, StudyError> {
     let model = match Model::new(Level::Pipeline, profile) {
@@ -31,8 +31,8 @@ pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u
     Ok(Some(bytes))
 }
 
-/// Builds a trace with spans and waits on a lane per unit, and arrows where the critical path changes units. `model` is
-/// the timing model, `what` names the log.
+/// Builds a trace with spans and waits on one lane per unit, and arrows where the critical path changes units. `model`
+/// is the timing model, `what` names the log.
 pub fn trace(profile: &Profile, model: &str, what: &str, timeline: &Timeline) -> Trace {
     let spans = timeline.spans().iter().map(|span| Slice {
         lane: span.unit.index(),

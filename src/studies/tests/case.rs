@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar_studies::case::Setup;
 
-/// The first component of `c0` of a case that gives it as `text`, as an IEEE single.
+/// The first component of `c0` as an IEEE single, in a case that defines it by `text`.
 fn single(text: &str) -> Result<u32, String> {
     let case = format!(
         "device = \"ideal-fp32\"\n[pixel]\nsource = \"ps_2_0\\nmov oC0, c0\"\n[constants]\nc0 = [{text}, 0, 0, 0]\n\

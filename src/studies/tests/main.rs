@@ -1,4 +1,4 @@
-//! Integration tests of the studies, and of the rooms below them, through what the library offers.
+//! Integration tests of the studies and of the modules that they use, through the public interface of the library.
 
 mod case;
 mod options;

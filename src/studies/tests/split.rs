@@ -1,4 +1,4 @@
-//! Parts of a run, and results that are kept while long work runs.
+//! Parts of a run, and results that long work stores.
 
 use std::cell::Cell;
 use std::fs;
@@ -43,7 +43,7 @@ fn clock() -> SpentTime {
     SpentTime { processor_s: Some(2.0 * NOW.get()), wall_s: NOW.get() }
 }
 
-/// Bits of reused results equal those of kept ones; each result is computed once.
+/// A result read back from the folder is bit-identical to the computed one, and each result is computed only once.
 #[test]
 fn work_that_was_stopped_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -82,7 +82,7 @@ fn work_that_was_stopped_goes_on() {
     kept("1", "a").remove().expect("nothing to remove");
 }
 
-/// The time of a continued run includes the time of earlier runs until their last results, each once.
+/// The time of a continued run includes the time of each earlier run until its last result, once.
 #[test]
 fn time_is_that_of_all_runs() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -134,7 +134,7 @@ fn a_folder_that_cannot_be_made_is_said() {
     assert!(error.starts_with("cannot write into the folder "), "{error}");
 }
 
-/// A run that reuses another run's segments, or its model, gives the same result as a run without pieces.
+/// A run that reuses another run's segments, or its model, gives the same result as a run that stores no pieces.
 #[test]
 fn pieces_make_the_same_model() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -21,7 +21,7 @@ pub enum Scale {
 const MAX_LINEAR_FACTOR: f64 = 8.0;
 
 impl Scale {
-    /// Chooses the scale for positive values: logarithmic where they differ by a large factor.
+    /// Chooses the scale for positive values: logarithmic if they differ by a large factor.
     pub fn fitting(values: impl IntoIterator<Item = f64>) -> Self {
         let positive = values.into_iter().filter(|value| *value > 0.0 && value.is_finite());
         let [least, most] = ends(positive);
@@ -56,8 +56,8 @@ const MAX_FACTOR_FROM_0: f64 = 4.0;
 const MAX_INTERVALS: usize = 8;
 
 impl Axis {
-    /// Builds a horizontal axis for values that its scale admits. It omits 0 where all values are far from it. `None`
-    /// if the range is empty.
+    /// Builds a horizontal axis for values that its scale admits. It omits 0 if all values are far from 0. `None` if
+    /// the range is empty.
     pub(super) fn rightward(scale: Scale, values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
         let [least, most] = ends(values.clone());
         let margin = (MARGIN - 1.0) * (most - least);
@@ -65,7 +65,7 @@ impl Axis {
         if far { Self::between(scale, least - margin, most + margin) } else { Self::over(scale, values) }
     }
 
-    /// Builds an axis for values that its scale admits; a linear one includes 0. `None` if the range is empty.
+    /// Builds an axis for values that its scale admits; a linear axis includes 0. `None` if the range is empty.
     pub(super) fn over(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Self> {
         let [least, most] = ends(values);
         match scale {

@@ -8,7 +8,7 @@ use super::style::SeriesStyle;
 pub struct Series {
     /// Label.
     pub label: String,
-    /// Points, x and y, finite.
+    /// Finite points, x and y.
     pub points: Vec<(f64, f64)>,
 }
 

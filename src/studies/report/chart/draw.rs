@@ -1,4 +1,4 @@
-//! Drawing of a chart by plotters: axes by its mesh, everything else in pixels.
+//! Drawing of a chart with plotters: it draws the axes; everything else is drawn in pixels.
 
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -110,7 +110,7 @@ impl<'a> Drawing<'a> {
             .collect())
     }
 
-    /// Draws a category name below the axis, in two lines where one would overlap its neighbours.
+    /// Draws a category name below the axis, in two lines if one line would overlap its neighbors.
     fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> DrawResult<B> {
         let room = (PLOT.0 - 82) / signed(self.chart.ticks.len().max(1));
         let long = signed(name.chars().count()) * LETTER > room;
@@ -141,7 +141,7 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// Splits a name into two lines as short as possible; into one if it is one word.
+/// Splits a name into two lines so that the longer one is shortest; a single word stays one line.
 fn halves(name: &str) -> Vec<&str> {
     let longer = |(space, _): &(usize, &str)| (*space).max(name.len() - space - 1);
     let best = name.match_indices(' ').min_by_key(longer);
@@ -166,7 +166,7 @@ impl PixelSeries<'_> {
         }
     }
 
-    /// Draws the markers: all points, or some along a line, with a different start on each line.
+    /// Draws the markers: all points, or some points along a line, starting at a different point on each line.
     fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> DrawResult<B> {
         let few = !self.series.joined || self.points.len() <= 10;
         let mut last = self.points.first().map_or(0, |p| p.0) - (signed(n) * 19).rem_euclid(APART);

@@ -9,8 +9,8 @@ pub(super) fn signed(count: usize) -> i32 {
     i32::try_from(count).unwrap_or(MOST).min(MOST)
 }
 
-/// Places labels near the heights at which their lines end, in the order of these: at least a pitch apart, between
-/// `top` and `bottom` if there is room for all, otherwise downward from `top`.
+/// Places labels near the heights at which their lines end, in the same order: at least a pitch apart, between `top`
+/// and `bottom` if there is room for all, otherwise downward from `top`.
 pub(super) fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by_key(|&n| (wanted[n], n));

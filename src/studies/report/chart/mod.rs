@@ -1,6 +1,6 @@
 //! Line charts as SVG.
 //!
-//! Each series has its own style and its label beside its end, in a column that is also the legend.
+//! Each series has its own style; its label is next to its end, in a column that is also the legend.
 
 mod axis;
 mod data;
@@ -22,7 +22,8 @@ use super::visible::visible;
 use crate::error::InputError;
 
 impl Chart {
-    /// Encodes the chart as an SVG file. Fails if there is nothing to draw, or more series than distinguishable styles.
+    /// Encodes the chart as an SVG file. Fails if there is nothing to draw, or there are more series than
+    /// distinguishable styles.
     pub fn svg(&self) -> Result<String, InputError> {
         let fail = |reason: String| not_encoded("SVG", reason);
         let count = self.lines.len() + self.dots.len();

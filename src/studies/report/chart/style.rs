@@ -1,8 +1,8 @@
 //! Styles of series: each has its own combination of color, dash and marker, on a light page and on a dark one.
 //!
-//! Colours are those of Okabe and Ito (2008), which readers with red-green color blindness can distinguish; on a light
-//! page, sky blue and reddish purple are darkened for contrast, and orange to brown. Yellow is omitted, and black is
-//! reserved for the papers' points.
+//! The colors are those of Okabe and Ito (2008), which readers with red-green color blindness can distinguish; on a
+//! light page, sky blue and reddish purple are darkened for contrast, and orange to brown. Yellow is omitted, and black
+//! is reserved for the papers' points.
 
 use plotters::style::RGBColor;
 
@@ -23,7 +23,7 @@ const COLORS: [(Color, Color); 6] = [
     // Sky blue.
     ([0x42, 0x98, 0xd0], [0x8c, 0xcd, 0xf2]),
 ];
-/// Lengths of dashes and of the gaps between them, in pixels; none for a solid line.
+/// Lengths of dashes and of the gaps between them, in pixels; `None` for a solid line.
 const DASHES: [Option<(i32, i32)>; 5] = [None, Some((9, 5)), Some((2, 4)), Some((18, 6)), Some((5, 11))];
 const MARKERS: [Marker; 7] = [
     Marker::Disc,
@@ -77,7 +77,7 @@ pub(super) const fn rgb([r, g, b]: Color) -> RGBColor {
 }
 
 /// CSS rules for the colors of a dark page. Colors are attributes, so that a viewer without style sheets shows the
-/// light ones.
+/// light colors.
 pub(super) fn dark_rules() -> String {
     let of = |theme: &Theme| [theme.paper, theme.ink, theme.quiet, theme.rule];
     let pairs = of(&LIGHT).into_iter().zip(of(&DARK)).chain(COLORS);

@@ -7,10 +7,10 @@ use maud::{Markup, PreEscaped, html};
 
 use super::super::NamedPicture;
 
-/// Width up to which a smaller picture is enlarged by a whole factor, in pixels, and the largest factor.
+/// Width in pixels up to which a picture is enlarged by a whole factor, and the largest factor.
 const SMALL: u32 = 320;
 const LARGEST: u32 = 8;
-/// Width of a picture that is shown alone, in pixels.
+/// Width in pixels of a picture that is shown alone.
 const ZOOMED: u32 = 1200;
 
 /// Renders a chart; the SVG is our own and inserted unescaped.
@@ -24,8 +24,8 @@ pub(super) fn drawing(svg: &str, caption: &str) -> Markup {
 }
 
 /// Renders pictures side by side at native resolution, as many per row as fit; small ones are enlarged by a whole
-/// factor. A narrow screen shows a picture scaled down and smoothed, which preserves the share of marked pixels. A
-/// click shows all pixels. The script adds a slider between pictures of equal size.
+/// factor. A narrow screen shows a picture scaled down and smoothed, which preserves the fraction of marked pixels. A
+/// click shows all pixels. The script adds a slider between pictures of the same size.
 pub(super) fn pictures(all: &[NamedPicture], pngs: &[Vec<u8>], places: Range<usize>) -> Markup {
     html! { div.figures { @for place in places { (figure(&all[place], &pngs[place], place)) } } }
 }

@@ -19,7 +19,7 @@ use crate::error::InputError;
 /// Adds search, choices and sorting to tables, and comparison to pictures: the page is complete without it.
 const SCRIPT: &str = include_str!("page.js");
 
-/// Renders the page as one self-contained HTML file: pictures (`pngs`), charts (`drawings`), style and script are
+/// Renders the page as one self-contained HTML file, with pictures (`pngs`), charts (`drawings`), style and script
 /// embedded. Conclusion and tally come first, the provenance last.
 pub(super) fn html(
     findings: &Findings,

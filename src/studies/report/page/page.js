@@ -1,5 +1,5 @@
 "use strict";
-// The page is complete without this: it adds search, choices and sorting to tables, and a slider between pictures.
+// The page is complete without this script. It adds search, choices and sorting to tables, and a slider to pictures.
 (() => {
   const LONG = 12; // rows from which a table gets search and choices
   const CHOICES = 8; // most different texts of a column that become choices
@@ -11,7 +11,7 @@
     return element;
   };
   const textOf = (row, column) => (row.cells[column]?.textContent ?? "").trim();
-  // Numbers are shown with commas between thousands, and marks may follow.
+  // Numbers have commas between thousands, and marks may follow them.
   const numberOf = (text) => {
     const plain = text.replace(/,/g, "");
     const infinite = /^(-?)inf/.exec(plain);
@@ -84,7 +84,7 @@
     apply();
   };
 
-  // Opens two pictures one over the other, the second to the right of a border that follows the pointer.
+  // Shows two pictures one over the other; the second is visible to the right of a border that follows the pointer.
   const compare = (pictures) => {
     const dialog = add(document.body, "dialog", { className: "compare" });
     const bar = add(dialog, "form");
@@ -134,7 +134,7 @@
 
   document.querySelectorAll(".scroll > table").forEach((table) => {
     const rows = [...table.tBodies[0].rows];
-    // A row that stands for several has no place but below the one that it equals.
+    // A row that represents several rows must stay below the row that it equals.
     if (rows.length < 2 || rows.some((row) => row.classList.contains("folded"))) { return; }
     if (rows.length >= LONG) { filtered(table, rows); }
     sortable(table, rows);

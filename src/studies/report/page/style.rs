@@ -1,4 +1,4 @@
-//! Style sheet of a page: colors from the palette, the rest from `page.css`.
+//! Style sheet of a page: colors from the palette, and everything else from `page.css`.
 
 use super::super::palette::{Color, DARK, LIGHT, Theme};
 

@@ -12,7 +12,7 @@ const VERDICT: &str = "verdict";
 /// Maximum number of rows of a table shown in full; a longer table scrolls in a box as high as the window.
 const LONG: usize = 25;
 
-/// Renders a table in a box that scrolls; `place` makes its id, and `tally` gives the tone of each verdict.
+/// Renders a table in a box that scrolls; `place` determines its id, and `tally` gives the tone of each verdict.
 ///
 /// The script of the page adds search, choices and sorting.
 pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Markup {
@@ -61,7 +61,7 @@ fn others(count: usize, verdict: Option<usize>) -> impl Iterator<Item = usize> {
     (1..count).filter(move |column| Some(*column) != verdict)
 }
 
-/// Color behind a number, translucent so that text can be read on light and dark pages.
+/// Color behind a number, translucent so that the text is readable on light and dark pages.
 fn heat(cell: &Cell) -> Option<String> {
     let Cell::Real(Figure { heat, .. }) = cell else { return None };
     let [red, green, blue] = okabe_ito::VERMILION;

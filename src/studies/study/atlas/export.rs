@@ -6,10 +6,10 @@ use crate::atlas::Atlas;
 use crate::geom::Mesh;
 use crate::geom::vector::narrow;
 
-/// Encodes the mesh with every face in two halves, for exact texture coordinates: u to the right and v up, from 0 to 1
-/// over the atlas.
+/// Encodes the mesh as OBJ, with every face split into two triangles for exact texture coordinates: u to the right and
+/// v up, from 0 to 1 over the atlas.
 pub(super) fn obj(mesh: &Mesh, atlas: &Atlas) -> String {
-    let mut text = format!("# {} faces in halves\nmtllib atlas.mtl\n", mesh.len());
+    let mut text = format!("# {} faces, each split into two triangles\nmtllib atlas.mtl\n", mesh.len());
     // Writing to a string does not fail.
     let mut line = |arguments: std::fmt::Arguments<'_>| writeln!(text, "{arguments}").unwrap_or_default();
     for [x, y, z] in mesh.positions() {

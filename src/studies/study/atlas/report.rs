@@ -11,11 +11,11 @@ use crate::report::words::{counted, percent};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 
 const COMPACTNESS: &str = "Compactness is the area of a cluster over that of a disc with the radius of its ball: 1 for \
-    a flat disc, 0.64 for a flat square, 0.41 for an equilateral triangle; more where the surface is folded, as the \
-    whole of a closed one is. One cluster in twenty is below the low figure. The last columns count the nodes of the \
+    a flat disc, 0.64 for a flat square, 0.41 for an equilateral triangle; more where the surface is folded, as all of \
+    a closed surface is. One cluster in twenty is below the low compactness. The last columns count the nodes of the \
     tree that have the size of a texel of the level and more than one face.";
 
-const EVENNESS: &str = "Areas are over the mean of all texels. A face owns a whole rectangle whose sides are powers of \
+const EVENNESS: &str = "Areas are relative to the mean over all texels. A face owns a whole rectangle whose sides are powers of \
     two, and can only get twice or half as many texels: areas vary by about a factor of 2 even where all faces are alike.";
 
 pub(super) fn findings(asked: &AtlasStudy, atlas: &Atlas, quality: &AtlasQuality) -> Findings {

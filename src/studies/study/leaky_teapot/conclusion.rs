@@ -40,8 +40,8 @@ pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUni
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 
-/// Warnings about formats with too few bits, each once, with the rows that they apply to; of many different ones, their
-/// range.
+/// Warnings about formats with too few bits, each once, with the rows that they apply to; if there are many different
+/// warnings, their range.
 fn limits(rows: &[(&str, FormatLimits)]) -> Vec<String> {
     let mut warnings: Vec<(String, Vec<&str>)> = Vec::new();
     for (name, warning) in rows.iter().filter_map(|(name, limits)| Some((*name, limits.warning()?))) {
@@ -76,7 +76,7 @@ fn limit_ranges(rows: &[(&str, FormatLimits)]) -> Vec<String> {
     said
 }
 
-/// Smallest and largest of some counts, or the one that all are.
+/// Smallest and largest of some counts as text, or one count if all are equal.
 fn range(limits: &[FormatLimits], of: fn(&FormatLimits) -> u64) -> String {
     let (least, most) = limits.iter().map(of).fold((u64::MAX, 0), |(least, most), n| (least.min(n), most.max(n)));
     if least == most { count(most) } else { format!("{} to {}", count(least), count(most)) }
@@ -89,7 +89,7 @@ fn names(rows: &[&str]) -> String {
     }
 }
 
-/// Sentence on the rows that are correct everywhere.
+/// Sentence about the rows that are correct everywhere.
 fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
     let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
@@ -107,10 +107,10 @@ fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     })
 }
 
-/// The finding: how much of the surface the row that leaks most loses, and, if they were traced, how much the same card
-/// loses rounded to nearest, and with each edge evaluated once. `None` if no row leaks.
+/// The finding: the fraction of the surface that the leakiest row loses, and, if they were traced, the fractions that
+/// the same card loses rounded to nearest, and with each edge evaluated once. `None` if no row leaks.
 fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
-    // The first of equals.
+    // The first one on a tie.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
     let loses = |row: &TeapotRow| percent(row.tally.leak_share());
@@ -133,7 +133,8 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     ))
 }
 
-/// Returns `true` for the row of a card with a rule for edges, rounded to nearest or as the card rounds.
+/// Returns `true` for the row with this card and edge rule, rounded to nearest if `nearest`, otherwise as the card
+/// rounds.
 pub(super) fn is_row(row: &TeapotRow, card: &str, edges: EdgeRule, nearest: bool) -> bool {
     let switch = row.configuration.switch.as_ref().map(|(name, value)| (name.as_str(), value.as_str()));
     row.edge_rule == edges && row.configuration.profile.name == card && switch == nearest.then_some(("rounding", "rne"))
@@ -155,7 +156,7 @@ pub(super) fn name(row: &TeapotRow) -> String {
     format!("{card}{switch}{edges}")
 }
 
-/// Name of a row, with the arithmetic of a card that was not changed.
+/// Name of a row; if it is an unchanged card, with its arithmetic.
 fn arithmetic(row: &TeapotRow) -> String {
     let Format { kind, rounding, .. } = row.configuration.profile.rules.format;
     let bits = row.configuration.profile.rules.format.width();
@@ -176,7 +177,7 @@ fn arithmetic(row: &TeapotRow) -> String {
     format!("The {bits}-bit {kind} arithmetic of the {name}{rounded}")
 }
 
-/// Sentence on the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the
+/// Sentence about the rows with shared edges; `None` if there are none, or no rays were aimed at the inside of the
 /// surface.
 fn cured(rows: &[TeapotRow]) -> Option<String> {
     let shared = || rows.iter().filter(|row| row.edge_rule == EdgeRule::SharedEdges);
@@ -195,7 +196,7 @@ fn cured(rows: &[TeapotRow]) -> Option<String> {
     })
 }
 
-/// Sentence on the rays aimed at edges, by the paper's program; `None` if there were none.
+/// Sentence about the rays aimed at edges, by the paper's program; `None` if there were none.
 fn seams(rows: &[TeapotRow]) -> Option<String> {
     let rows: Vec<&TeapotRow> = rows.iter().filter(|row| row.edge_rule == EdgeRule::Paper).collect();
     let shares = rows.iter().filter(|row| row.edges.surface > 0).map(|row| row.edges.leak_share());

@@ -19,7 +19,7 @@ pub struct IntersectionCost {
 }
 
 impl IntersectionCost {
-    /// Cost of the program that a device runs on rays of one origin, or of any.
+    /// Cost of the program that a device runs on rays with one common origin, or with any origins.
     pub(super) fn of(profile: &Profile, one_origin: bool, sides: Sides, edges: EdgeRule) -> Result<Self, EngineError> {
         let kernel = match edges {
             EdgeRule::Paper => Kernel::choose(profile, one_origin, sides)?,

@@ -9,11 +9,11 @@ use crate::ray_engine::BitsLeft;
 use crate::report::digits::count;
 use crate::report::words::{counted, percent};
 
-/// Fraction of triangles without a normal from which a warning is given.
+/// Minimum fraction of triangles without a normal for a warning.
 const MUCH: f64 = 0.25;
 /// Minimum number of hits for counting the values of t.
 const SOME_HITS: u64 = 100;
-/// Hits per distinct value of t from which a warning is given.
+/// Minimum number of hits per distinct value of t for a warning.
 const HITS_PER_VALUE: u64 = 20;
 
 /// Loss of information to a card's number format, in the scene and in the hits.

@@ -109,7 +109,7 @@ struct ConfigurationHits {
     vertices: Vec<Option<Hit>>,
 }
 
-/// Rays aimed at edges and at vertices; none without a common origin of the rays, or if none are requested.
+/// Rays aimed at edges and at vertices; empty if the rays have no common origin or none are requested.
 fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
     let eye = parameters.view.common_origin().filter(|_| parameters.options.rays_per_edge > 0);
     let rays = |aimed: Vec<Aimed>| aimed.into_iter().map(|aimed| aimed.ray).collect();
@@ -119,7 +119,7 @@ fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
     [edges, vertices].map(Option::unwrap_or_default)
 }
 
-/// The hits of a configuration's card.
+/// Traces all rays with a configuration's card.
 fn hits(
     parameters: &Parameters,
     crossbar: &Crossbar,
@@ -152,7 +152,7 @@ fn crossbar(parameters: &Parameters, configuration: &Configuration, edges: EdgeR
         .edges(edges)
 }
 
-/// The hits of a range of the cases.
+/// Traces a range of the cases.
 fn of_range(
     parameters: &Parameters,
     [edges, vertices]: &[Vec<Ray>; 2],

@@ -43,11 +43,12 @@ pub struct LeakyTeapotOptions {
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub rays_per_edge: u32,
 
-    /// Which faces can be hit.
+    /// Sides of faces that can be hit.
     #[arg(long, default_value = "front", value_parser = sides())]
     pub sides: Sides,
 
-    /// Every ray against every triangle; without it, buckets of 32 x 32 rays meet the triangles near them.
+    /// Tests every ray against every triangle; otherwise, buckets of 32 x 32 rays are tested against the triangles near
+    /// them.
     #[arg(skip)]
     pub all_pairs: bool,
 }
@@ -70,7 +71,7 @@ impl Parameters {
     }
 }
 
-/// Ending of the names of rows with shared edges.
+/// Suffix of the names of rows with shared edges.
 pub(super) const SHARED: &str = "-shared-edges";
 
 /// Counts of verdicts over a set of rays.
@@ -90,7 +91,7 @@ pub struct Tally {
     pub wrong_triangle: u64,
     /// Number of these hits on triangles that touch the correct triangle.
     pub wrong_adjacent: u64,
-    /// Largest |t - exact t| where both hit, in multiples of the ray's direction.
+    /// Largest |t - exact t| where both hit; t counts multiples of the ray's direction.
     pub largest_t_error: f64,
 }
 
@@ -146,10 +147,10 @@ pub struct TeapotRow {
     pub edges: Tally,
     /// Verdicts of rays aimed at vertices.
     pub vertices: Tally,
-    /// Eye rays, rays aimed at shared edges and rays aimed at vertices that meet the inside of the surface; none
-    /// without a common origin.
+    /// Counts of eye rays, rays aimed at shared edges and rays aimed at vertices that meet the inside of the surface; 0
+    /// if the rays have no common origin.
     pub holes: [Holes; 3],
-    /// Loss to the number format.
+    /// Information lost to the number format.
     pub limits: FormatLimits,
 }
 

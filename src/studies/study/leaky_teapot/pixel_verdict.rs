@@ -6,7 +6,7 @@ use crate::geom::classify::HitVerdict;
 use crate::report::Legend;
 use crate::report::palette::{Color, okabe_ito};
 
-/// Verdict on a pixel, from the least to the worst.
+/// Verdict on a pixel, in ascending order of severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum PixelVerdict {
     /// Correct miss.
@@ -66,7 +66,7 @@ impl PixelVerdict {
         }
     }
 
-    /// Legend of the map, the worst first.
+    /// Legend of the map, worst verdict first.
     pub(super) fn legend() -> Legend {
         Self::VARIANTS.iter().rev().map(|verdict| (verdict.color(), verdict.words().to_owned())).collect()
     }

@@ -99,12 +99,13 @@ fn programs(outcome: &TeapotOutcome) -> Table {
     programs
 }
 
-/// Returns `true` if rays were aimed at edges and vertices: there are some for each edge, and one eye.
+/// Returns `true` if rays were aimed at edges and vertices: some are requested per edge, and the eye rays have one
+/// origin.
 fn aimed(parameters: &Parameters) -> bool {
     parameters.options.rays_per_edge > 0 && parameters.view.common_origin().is_some()
 }
 
-/// For each row the first one with bit-identical hits, and the same counts of aimed rays.
+/// For each row, the index of the first row with bit-identical hits and the same counts of aimed rays.
 fn first_alike(outcome: &TeapotOutcome) -> Vec<usize> {
     let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
     let alike = |a: &TeapotRow, b: &TeapotRow| {
@@ -143,14 +144,14 @@ fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
     groups
 }
 
-/// Per row without files of its own, the row with the same bits whose files stand for it.
+/// Maps each row without files of its own to the row with the same bits whose files represent it.
 fn same_bits(groups: &[Group<'_>]) -> Value {
     let pair = |row: &TeapotRow, other: &TeapotRow| (row.configuration.label.clone(), json!(other.configuration.label));
     groups.iter().flat_map(|group| group.same.iter().map(|row| pair(row, group.row))).collect::<Map<_, _>>().into()
 }
 
 impl Group<'_> {
-    /// Sentence on the other rows, which the tables name: `. The same bits with a and b`
+    /// Lists the other rows, which the tables name: `. The same bits with a and b`
     fn others(&self) -> String {
         let names: Vec<String> = self.same.iter().map(|row| called(row)).collect();
         match names.len() {
@@ -213,7 +214,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     found.heading("The figures");
     found.paragraph(
         "largest_t_error is in multiples of the ray's direction. A pixel differs if its shaded colour does. r200 rows: the \
-         card as its profile has it, then each open question of the hardware answered otherwise, one at a time.",
+         card as in its profile, then with each open switch of the hardware changed, one at a time.",
     );
     found.table(rows.csv("rows").field("rows"));
     if aimed(parameters) {
@@ -221,7 +222,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
         found.paragraph(
             "The paper's equations are evaluated once for each triangle, and on a shared edge the two evaluations need not \
              agree: a ray can miss both neighbours, in any precision. These rays are aimed from the eye at random points of \
-             every shared edge, and at every vertex; counted are those that truly hit.",
+             every shared edge, and at every vertex; only rays that truly hit are counted.",
         );
     }
     found.table(edges.csv("edges").field("edges"));
@@ -231,21 +232,21 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
             "Rows with shared edges sort the corners of each triangle, and compute an edge from its own two corners alone, by \
              the same operations in both of its triangles: both get the same bits, one asks for at least 0, the other for at \
              most 0, so no ray is outside both. Near a vertex every edge of the fan can still be rounded to the same side. \
-             Counted are rays whose first hit lies where all triangles around face the eye: beside an outline a miss may be \
-             right for the rounded ray.",
+             Only rays are counted whose first hit lies where all surrounding triangles face the eye: near an outline, a \
+             miss may be right for the rounded ray.",
         );
         found.table(FoundTable::from(programs).csv("programs").field("programs"));
     }
     Ok(found)
 }
 
-/// The group that leaks most, the first of equals.
+/// The group with the most leaks; the first one if several have as many.
 fn worst(groups: &[Group<'_>]) -> Option<usize> {
     groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(at, _)| at)
 }
 
-/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared edges
-/// as the paper has it, the same rounded to nearest, and the same with shared edges.
+/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared-edge
+/// rows, with the paper's program, with the same rounded to nearest, and with shared edges.
 fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
     let find = |wanted: &dyn Fn(&TeapotRow) -> bool| {
         groups.iter().position(|group| std::iter::once(&group.row).chain(&group.same).any(|row| wanted(row)))
@@ -258,8 +259,8 @@ fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
     differ.then_some(three)
 }
 
-/// Adds the pictures of the page: of the card that leaks and its cure, or of the row that leaks most, and the exact one
-/// first, then of all others. One picture and one map of each group are shown on the page.
+/// Adds the pictures of the page: first the card that leaks with its cure, or the row that leaks most, and the exact
+/// picture; then all others. One picture and one map of each group are shown on the page.
 fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutcome) {
     let mut groups = groups(outcome);
     let mut lead: Vec<NamedPicture> = Vec::new();

@@ -32,15 +32,15 @@ impl SumsAt {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Blame {
     pub(super) place: [usize; 2],
-    /// Sums before and after the block; equal k if the sums never differ.
+    /// Sums before and after the block; both have the same k if the sums never differ.
     pub(super) block: [SumsAt; 2],
     /// Sums at the end.
     pub(super) end: SumsAt,
-    /// Addends in ascending k, those of the unit first; empty for units without an aligned adder.
+    /// Addends in ascending k, the unit's before the reference's; empty for units without an aligned adder.
     pub(super) addends: Vec<AddendFate>,
 }
 
-/// Index k and the sum before each block and after the last: a word and its type.
+/// Index k and the sum (a word and its type), before each block and after the last.
 type Sums = Vec<(usize, (u64, Element))>;
 
 fn trace(operands: &MatrixOperands, [row, column]: [usize; 2]) -> Sums {

@@ -19,7 +19,7 @@ pub struct MatrixOperands {
     pub(super) b: MatrixRows,
     /// C, row by row, in the type of the unit; zeros if there is none.
     pub(super) c: Vec<u64>,
-    /// The numbers of A and B, with their scales.
+    /// Numbers of A and B, multiplied by their scales.
     numbers: [Vec<f64>; 2],
 }
 
@@ -58,7 +58,7 @@ impl ExactSum {
 
 impl MatrixOperands {
     /// Quantises A, B and C for a unit; `elements` are the types of A and B, by default the unit's first. Fails if
-    /// shapes do not fit, or the unit does not take such operands.
+    /// shapes do not match, or the unit does not accept such operands.
     pub fn new(
         unit: MatrixUnit,
         [a, b]: [&MatrixInput; 2],

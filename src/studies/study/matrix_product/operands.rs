@@ -1,4 +1,4 @@
-//! Matrices: numbers that are quantised, or patterns.
+//! Matrices of numbers, which are quantised, or of bit patterns.
 
 use std::path::Path;
 
@@ -23,13 +23,13 @@ library_errors! {
 pub struct MatrixInput {
     /// Name in messages.
     pub name: String,
-    /// Numbers or patterns, row by row.
+    /// Numbers or bit patterns, row by row.
     pub data: NumbersOrCodes,
 }
 
 impl MatrixInput {
-    /// Reads a matrix from an array of NumPy's. Fails if the file cannot be read, is longer than 1 GiB, or holds no
-    /// array of two axes.
+    /// Reads a matrix from a NumPy file. Fails if the file cannot be read, is longer than 1 GiB, or does not hold a
+    /// two-dimensional array.
     pub fn load(path: &Path) -> Result<Self, InputError> {
         let made = Self { name: path.display().to_string(), data: load_numbers_or_codes(path, "matrix", MAX_BYTES)? };
         match made.shape() {
@@ -39,7 +39,7 @@ impl MatrixInput {
         }
     }
 
-    /// Rows and columns. Fails if there are not two axes, or one is empty.
+    /// Number of rows and columns. Fails if the array is not two-dimensional, or an axis is empty.
     pub fn shape(&self) -> Result<[usize; 2], MatrixError> {
         let shape = match &self.data {
             NumbersOrCodes::Numbers(array) => &array.shape,

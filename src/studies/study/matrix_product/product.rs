@@ -18,13 +18,13 @@ const MAX_BITS: u32 = 40;
 pub struct MatrixProduct {
     /// A and B.
     pub factors: [MatrixInput; 2],
-    /// C; zeros without.
+    /// C; zeros if it is `None`.
     pub addend: Option<MatrixInput>,
     /// The units, at least one.
     pub units: Vec<MatrixUnit>,
-    /// Types of A and B; by default the first that a unit has.
+    /// Types of A and B; by default the first types of each unit.
     pub elements: [Option<Element>; 2],
-    /// Products after which a partial sum is added to single precision; `None` for one accumulator.
+    /// Number of products after which a partial sum is added to single precision; `None` for one accumulator.
     pub promotions: Vec<Option<usize>>,
     /// Reference unit of the errors; `None` for the exact product of the quantised operands.
     pub against: Option<MatrixUnit>,
@@ -48,7 +48,7 @@ pub(super) struct Errors {
     pub(super) of_addends: f64,
     /// Elements that differ from the reference.
     pub(super) differing: usize,
-    /// Elements that are not finite on a side; the errors exclude them.
+    /// Elements that are not finite in the product or the reference; the errors exclude them.
     pub(super) not_finite: usize,
 }
 

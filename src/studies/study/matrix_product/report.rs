@@ -9,7 +9,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
 
-/// Maximum number of addends printed: those that lose most.
+/// Maximum number of addends printed; those with the largest loss are printed.
 const MOST_ADDENDS: usize = 10;
 const MOST_LINES: usize = 12;
 
@@ -80,7 +80,7 @@ pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result
     Ok(found)
 }
 
-/// The largest and the smallest error in words.
+/// Reports the largest and the smallest error in words.
 fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     let [rows, depth, columns] = outcome.shape;
     let order = |x: &&ProductRow, y: &&ProductRow| x.last().worst.total_cmp(&y.last().worst);
@@ -89,7 +89,7 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     };
     let (errors, elements) = (worst.last(), rows * columns);
     if errors.differing == 0 {
-        found.conclusion(format!("All {elements} elements are those of {reference}."));
+        found.conclusion(format!("All {elements} elements equal those of {reference}."));
         return;
     }
     let mut sentence = format!(
@@ -101,7 +101,7 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
         errors.differing,
     );
     if best.last().worst < errors.worst {
-        sentence += &format!(" The least error is that of {}: up to {}.", best.name(), error(best.last().worst));
+        sentence += &format!(" The smallest error is that of {}: up to {}.", best.name(), error(best.last().worst));
     }
     found.conclusion(sentence);
 }
@@ -123,7 +123,7 @@ fn errors(title: &str, outcome: &ProductOutcome, skipped: usize) -> Table {
     table
 }
 
-/// Worst error over depth; none without errors at two depths.
+/// Chart of the worst error over depth; `None` unless errors are known at two depths or more.
 fn chart(outcome: &ProductOutcome) -> Option<NamedChart> {
     let line = |row: &ProductRow| {
         let points = outcome.depths.iter().zip(&row.errors).map(|(&depth, errors)| (depth as f64, errors.worst));
@@ -154,9 +154,9 @@ fn add_blame(found: &mut Findings, study: &MatrixProduct, blame: &Blame) {
     let products = format!("products {} to {}", before.k, behind.k.saturating_sub(1));
     let [from, to] = [before, behind].map(|sums| error(sums.ours - sums.theirs));
     let sentence = match study.against {
-        _ if before.k == behind.k => format!("Element ({row}, {column}): {unit} and {other} do not part."),
-        Some(_) => format!("{ends}. The sums first part in the {products}, by {to}."),
-        None => format!("{ends}. The {products} add most to it: behind them it is {to}, before them {from}."),
+        _ if before.k == behind.k => format!("Element ({row}, {column}): {unit} and {other} do not differ."),
+        Some(_) => format!("{ends}. The sums first differ in the {products}, by {to}."),
+        None => format!("{ends}. The {products} add most to it: after them it is {to}, before them {from}."),
     };
     found.heading("One element");
     found.paragraph(sentence.clone());

@@ -62,9 +62,7 @@ pub fn load_measurement(path: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
     };
     let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
         let found = format!("{}: expected a table of at most {MAX_BYTES} bytes, found more", path.display());
-        return Err(
-            StudyError::new("crossbar::measure::file", found).with_help("share the pixels out to several files")
-        );
+        return Err(StudyError::new("crossbar::measure::file", found).with_help("split the pixels into several files"));
     };
     parse_measurement(&bytes, path)
 }

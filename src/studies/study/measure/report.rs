@@ -1,4 +1,4 @@
-//! Findings on measured pixels.
+//! Findings about measured pixels.
 
 use serde_json::json;
 
@@ -10,7 +10,7 @@ use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 /// Maximum number of settings, and of codes, shown.
 const MOST_SHOWN: usize = 20;
 
-/// Tables of values and settings; the verdict holds if a setting draws every measured code.
+/// Tables of values and settings; the verdict is positive if a setting draws every measured code.
 pub(super) fn findings(measure: &Measure, survey: &Survey) -> Findings {
     let fitting: Vec<&Setting> = survey.fitting().collect();
     let pixels: usize = measure.cases.iter().map(|case| case.pixels.len()).sum();
@@ -96,7 +96,7 @@ fn settings(survey: &Survey) -> Table {
 
 /// Codes that the best setting gets wrong.
 fn wrong(survey: &Survey) -> Table {
-    let title = format!("Codes that the best setting draws otherwise: {}", survey.wrong.len());
+    let title = format!("Codes that the best setting gets wrong: {}", survey.wrong.len());
     let mut table = Table::of(title, "line column measured drawn");
     for code in survey.wrong.iter().take(MOST_SHOWN) {
         table.push([code.line.into(), CODES[code.column].into(), code.measured.into(), code.drawn.into()]);

@@ -13,7 +13,7 @@ use crate::study::{ProgressFn, StudyError};
 /// Maximum number of settings drawn per case, and of settings counted for all cases.
 const MOST: [usize; 2] = [4096, 1 << 20];
 
-/// Switch with its values; a setting has an index into these.
+/// Switch with its possible values; a setting stores an index into them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Question {
     pub(super) name: String,
@@ -30,7 +30,7 @@ pub(super) struct Survey {
     pub(super) questions: Vec<Question>,
     /// Switches that some measured code depends on, by index.
     pub(super) relevant: BTreeSet<usize>,
-    /// Settings of the relevant switches with the codes that each draws right, the best first.
+    /// Settings of the relevant switches with the number of codes that each reproduces, best first.
     pub(super) settings: Vec<(Setting, u64)>,
     /// Number of measured codes.
     pub(super) codes: u64,
@@ -48,7 +48,7 @@ pub(super) struct WrongCode {
     pub(super) drawn: u32,
 }
 
-/// One case: the switches that matter to it, and the codes that each of their settings draws right.
+/// Counts for one case: its relevant switches, and the number of codes that each of their settings reproduces.
 struct CaseCounts {
     relevant: BTreeSet<usize>,
     right: BTreeMap<Setting, u64>,
@@ -90,7 +90,7 @@ impl Survey {
         self.settings.iter().filter(|(_, right)| *right == self.codes).map(|(setting, _)| setting)
     }
 
-    /// Most codes that a setting with this value of a switch draws right.
+    /// Maximum number of codes that a setting with this value of a switch reproduces.
     pub(super) fn best_with(&self, question: usize, value: usize) -> u64 {
         let with = self.settings.iter().filter(|(setting, _)| setting.get(&question) == Some(&value));
         with.map(|(_, right)| *right).max().unwrap_or(0)
@@ -144,7 +144,7 @@ impl MeasuredDraws<'_> {
         let relevant = self.relevant()?;
         let mut right = BTreeMap::new();
         for setting in product(self.questions, &relevant, MOST[0])? {
-            // The card drew the case, so its setting is not one that cannot.
+            // The card drew the case, so a setting that cannot draw it is not the card's.
             let drawn = self.draw(&setting).unwrap_or_default();
             let equal = drawn.iter().zip(&expected).filter(|(drawn, expected)| drawn == expected).count();
             right.insert(setting, equal as u64);
@@ -191,7 +191,7 @@ impl MeasuredDraws<'_> {
         Ok(codes(&setup, &self.case.pixels)?)
     }
 
-    /// Refuses pixels and channels that the case does not draw.
+    /// Rejects pixels and channels that the case does not draw.
     fn require_places(&self, setup: &Setup) -> Result<(), StudyError> {
         let channels = setup.targets[0].record().stored().len();
         let found = |pixel: &MeasuredPixel| {

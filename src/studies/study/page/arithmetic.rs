@@ -89,7 +89,7 @@ pub(super) struct FormatColumn {
     words: [u32; 8],
     width: u32,
     bits: PatternBits,
-    /// The adapter's own type of this format.
+    /// The adapter's own type with this format.
     native: Option<&'static str>,
 }
 

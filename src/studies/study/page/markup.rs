@@ -7,7 +7,7 @@ use super::teapot::{FixedView, VerdictColor};
 use crate::report::page_style;
 use crate::report::words::counted;
 
-/// Script of the page, in the order in which its parts need each other.
+/// Script of the page, in order of dependency.
 const SCRIPT: [&str; 11] = [
     include_str!("assets/helpers.js"),
     include_str!("assets/arithmetic.js"),
@@ -208,7 +208,7 @@ fn fixed_views(views: &[FixedView]) -> Markup {
     }
 }
 
-/// A program of the visitor's own; without the emulator a paragraph that explains how to get it.
+/// Section for a program of the visitor's own; without the emulator, a paragraph that explains how to get it.
 fn playground(has_emulator: bool) -> Markup {
     html! {
         section aria-labelledby="playground" {

@@ -12,7 +12,7 @@ pub(super) struct PatternBits {
     high: u32,
     /// Mantissa field, or fraction bits.
     low: u32,
-    /// Bits in which an operand may differ from the one before it.
+    /// Bits in which an operand may differ from the previous one.
     near: u32,
     /// Lowest bit of the exponent field.
     shift: u32,

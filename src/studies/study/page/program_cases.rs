@@ -31,7 +31,7 @@ pub(super) struct ProgramCase {
 }
 
 impl ProgramCase {
-    /// The case file, with registers in the given format, otherwise in the device's.
+    /// The case file, with registers in `format`, or in the device's own format if it is `None`.
     pub(super) fn text(&self, format: Option<&str>) -> String {
         let [head, rest] = self.parts();
         let line = format.map_or_else(String::new, |format| format!("format = \"{format}\"\n"));

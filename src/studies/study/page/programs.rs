@@ -96,7 +96,7 @@ struct Entry {
     format: usize,
 }
 
-/// Indices of a trace's buffers in [`PagePrograms::buffers`], and their sizes in words where larger than the contents.
+/// Indices of a trace's buffers in [`PagePrograms::buffers`], and their sizes in words if larger than their contents.
 #[derive(Debug, Serialize)]
 struct TraceJob {
     draw: usize,
@@ -110,7 +110,7 @@ struct TraceJob {
     count_words: usize,
 }
 
-/// Buffers by contents.
+/// Buffers, indexed by their contents.
 #[derive(Default)]
 struct Buffers {
     all: Vec<String>,

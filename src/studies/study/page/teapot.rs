@@ -1,5 +1,5 @@
-//! The teapot under the Ray Engine's intersection programs: shaders and programs in the machine's code for any format,
-//! fixed views with the hits of the batch executor and the exact ones.
+//! The teapot under the Ray Engine's intersection programs: shaders, programs in the machine's code for any format, and
+//! fixed views with the hits of the batch executor and the exact hits.
 
 use refsim::device::Profile;
 use refsim::exec::wgsl::INTERFACE;
@@ -31,7 +31,7 @@ const TESSELLATION: u32 = 2;
 const SIDE: u32 = 128;
 /// Formats of the fixed views.
 const FORMATS: [&str; 3] = ["s3.12", "e5m10", "e7m16"];
-/// Fixed views: name, eye, target. The first is that of the study.
+/// Fixed views: name, eye, target. The first is the view of the study.
 const VIEWS: [(&str, [f32; 3], [f32; 3]); 2] = [
     ("from the front", [2.125, -5.625, 3.875], [0.625, 0.0, 1.3125]),
     ("from above", [-2.5, -2.25, 6.25], [0.375, 0.0, 1.0]),
@@ -41,12 +41,12 @@ const TAN_HALF_HEIGHT: f32 = 0.5625;
 /// Samplers of the intersection programs.
 const SAMPLERS: usize = 3;
 
-/// All that the page needs for the teapot.
+/// Everything that the page needs for the teapot.
 #[derive(Debug, Serialize)]
 pub(super) struct Teapot {
     side: u32,
     tan_half_height: f32,
-    /// Text that traces, and text that makes ray textures.
+    /// WGSL that traces, and WGSL that fills ray textures.
     shaders: [String; 2],
     /// Corners and indices, as words.
     positions: String,
@@ -75,7 +75,7 @@ pub(super) struct FixedView {
     pub(super) name: &'static str,
     eye: [f32; 3],
     target: [f32; 3],
-    /// Exact first triangle per pixel, as words; `u32::MAX` where there is none.
+    /// Exact first triangle per pixel, as words; `u32::MAX` if there is none.
     exact: String,
     /// Pixels with several exact first triangles, and their triangles.
     ties: Vec<(usize, Vec<u32>)>,
@@ -91,7 +91,7 @@ pub(super) struct FixedPicture {
     hits: String,
     /// FNV-1a of these words' bytes, 64 bits.
     pub(super) digest: String,
-    /// Leaks, as the batch executor draws them.
+    /// Number of leaks that the batch executor draws.
     pub(super) leaks: usize,
     /// The picture as a PNG file, for the page's markup.
     #[serde(skip)]
@@ -132,7 +132,7 @@ impl Teapot {
 }
 
 impl MachineProgram {
-    /// The program of a format, with the words that differ in `other`, in which 1 has another pattern.
+    /// The program of a format, with the words that differ in `other`, a format in which 1 has another pattern.
     fn for_formats_like(format: &str, other: &str) -> Result<(Self, Parts), StudyError> {
         let (name, code) = microcode(format, 0.5)?;
         let differing = |other: &Microcode| {
@@ -151,7 +151,7 @@ fn microcode(format: &str, depth_scale: f32) -> Result<(&'static str, Microcode)
     let profile = Profile::named(&format!("ideal-{format}"))?;
     let kernel = Kernel::choose(&profile, true, Sides::Front)?;
     let constants = Constants { float: vec![[depth_scale.to_bits(), 0, 0, 0]], ..Constants::default() };
-    // Any texture will do: the code reads it by the number of its sampler.
+    // Any texture will do: the code addresses it by the number of its sampler.
     let image = Image::new_2d(TexelFormat::Rg16Snorm, 1, 1).map_err(|error| refused(&error))?;
     let mut bindings = PixelBindings::new(&constants);
     bindings.samplers[..SAMPLERS].fill(Some(SamplerBinding { image: &image, state: SamplerState::NEAREST_CLAMP }));
@@ -228,7 +228,7 @@ fn hit_words(hits: &[Option<Hit>]) -> Vec<u32> {
     triangles.chain(hits.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t).to_bits())).collect()
 }
 
-/// FNV-1a of the words' bytes, the lowest byte first.
+/// FNV-1a of the words' bytes, lowest byte first.
 fn fnv(words: &[u32]) -> u64 {
     words
         .iter()

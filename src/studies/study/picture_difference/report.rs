@@ -41,7 +41,7 @@ pub(super) fn findings(study: &PictureDifference, outcome: DifferenceOutcome) ->
     Ok(found)
 }
 
-/// Sentence on the number of channels that differ.
+/// Sentence about the number of channels that differ.
 fn conclusion(channels: &[ChannelDifference]) -> String {
     let all = channels.len();
     match channels.iter().filter(|channel| channel.differing > 0).count() {
@@ -74,7 +74,7 @@ fn table(channels: &[ChannelDifference]) -> Table {
     table
 }
 
-/// Adds SSIM and FLIP, in words and for programs.
+/// Adds SSIM and FLIP, as sentences and as fields of the JSON.
 fn add_metrics(found: &mut Findings, study: &PictureDifference, perceptual: &PerceptualDifference) {
     let (flip, ppd) = (&perceptual.flip, shown(study.options.pixels_per_degree(), Quantity::Measured));
     let [mean, maximum] = [flip.mean, flip.maximum].map(|value| shown(value, Quantity::Error));

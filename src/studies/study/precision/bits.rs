@@ -34,7 +34,7 @@ impl FormatFamily {
         }
     }
 
-    /// Bits that decide the range: those of the exponent, or of the integer part.
+    /// Numbers of bits that decide the range: of the exponent, or of the integer part.
     pub(super) fn range_bits(self) -> RangeInclusive<u8> {
         match self {
             Self::Float => 2..=8,
@@ -42,7 +42,8 @@ impl FormatFamily {
         }
     }
 
-    /// Bits that decide the precision, where `range` bits decide the range: those of the mantissa, or of the fraction.
+    /// Numbers of bits that decide the precision of a format with `range` bits of range: of the mantissa, or of the
+    /// fraction.
     pub(super) fn digit_bits(self, range: u8) -> RangeInclusive<u8> {
         match self {
             Self::Float => 1..=23,
@@ -91,7 +92,7 @@ impl FormatBits {
         1 + u32::from(self.range) + u32::from(self.digits)
     }
 
-    /// Formats with one bit less, of precision or of range, in this order.
+    /// Formats with one bit less: first of precision, then of range.
     pub(super) fn narrower(self) -> impl Iterator<Item = Self> {
         let legal = |bits: &Self| {
             bits.family.range_bits().contains(&bits.range) && bits.family.digit_bits(bits.range).contains(&bits.digits)
@@ -102,11 +103,11 @@ impl FormatBits {
         digits.into_iter().chain(range).filter(legal)
     }
 
-    /// Format with `bits` more bits of range and of precision, as far as the family has them.
+    /// Format with `bits` more bits of range and of precision, up to the maximum of the family.
     pub(super) fn wider(self, bits: u8) -> Self {
         let range = (self.range + bits).min(*self.family.range_bits().end());
         let digits = (self.digits + bits).min(*self.family.digit_bits(range).end());
-        // In fixed point both share one width: the bits of precision must not decrease.
+        // In fixed point both share one width: precision must not lose bits.
         if digits < self.digits { self } else { Self { range, digits, ..self } }
     }
 

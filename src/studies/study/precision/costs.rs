@@ -16,10 +16,10 @@ const WIDEST: u32 = 32;
 const HELP: &str =
     "the header is `bits,cost`; the costs do not fall with the bits, and the last row has 32 bits or more";
 
-/// Costs by width: the width itself, or those of a table.
+/// Costs by width: the width itself, or the costs of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FormatCosts {
-    /// Costs by width in bits, rising; empty if the cost is the width.
+    /// Costs by width in bits, ascending; empty if the cost is the width.
     by_width: BTreeMap<u32, f64>,
 }
 
@@ -50,7 +50,7 @@ impl FormatCosts {
         })
     }
 
-    /// Parses the table; an error is a line and its defect.
+    /// Parses the table; an error is a line and what is wrong with it.
     fn parse(bytes: &[u8]) -> Result<Self, (u64, String)> {
         let broken = |error: csv::Error| {
             let line = error.position().map_or(1, csv::Position::line);
@@ -91,7 +91,7 @@ impl FormatCosts {
         listed.unwrap_or_else(|| f64::from(bits.width()))
     }
 
-    /// Sum over all instructions.
+    /// Sum of costs over all instructions.
     pub(super) fn sum(&self, formats: &[FormatBits]) -> f64 {
         formats.iter().fold(0.0, |sum, bits| sum + self.of(*bits))
     }

@@ -9,7 +9,7 @@ use super::goal::Goal;
 use super::runs::RunError;
 use crate::report::words::counted;
 
-/// Bits that a curve is computed at first, as far as they are in its range; its ends are added.
+/// Numbers of bits at which a curve is computed first, if its range contains them; the ends of the range are added.
 const FIRST: [u8; 9] = [2, 3, 5, 7, 10, 12, 15, 16, 20];
 
 /// Search for the fewest bits that meet a goal.
@@ -17,15 +17,15 @@ const FIRST: [u8; 9] = [2, 3, 5, 7, 10, 12, 15, 16, 20];
 pub(super) struct BitScan {
     /// Values of the goal's measure, by bits.
     pub(super) points: BTreeMap<u8, f64>,
-    /// Fewest bits from which on every computed number of bits meets the goal.
+    /// Fewest bits such that every computed number of bits from there on meets the goal.
     pub(super) smallest: Option<u8>,
     /// A number of bits, and a larger one with a worse value. If such a pair is found, all points are computed.
     pub(super) counterexample: Option<[u8; 2]>,
 }
 
 impl BitScan {
-    /// Searches by bisection between the points `first` and the ends. Where more bits are worse than fewer, computes
-    /// all points.
+    /// Searches by bisection between the points `first` and the ends. If more bits are worse than fewer, computes all
+    /// points.
     fn run(
         &mut self,
         range: RangeInclusive<u8>,
@@ -77,7 +77,7 @@ impl BitScan {
         Ok(())
     }
 
-    /// Fewer bits and more bits that are worse, of neighboring points.
+    /// Two neighboring points, fewer bits and more bits, of which more bits are worse.
     fn worsening(&self, goal: &Goal) -> Option<[u8; 2]> {
         let worse = |(a, b): &((&u8, &f64), (&u8, &f64))| goal.badness(*b.1) > goal.badness(*a.1);
         self.points.iter().zip(self.points.iter().skip(1)).find(worse).map(|((a, _), (b, _))| [*a, *b])
@@ -91,31 +91,31 @@ impl BitScan {
     }
 }
 
-/// Formats of one family, all instructions alike.
+/// Results for one family of formats, with every instruction in the same format.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
     pub(super) family: FormatFamily,
-    /// Bits of the range of all points: enough of them.
+    /// Bits of range of all points; chosen large enough not to matter.
     pub(super) range: u8,
     /// Values by bits of precision.
     pub(super) scan: BitScan,
     /// Smallest uniform format: the fewest bits of precision, then the fewest of range.
     pub(super) minimum: Option<FormatBits>,
-    /// `true` if all points were computed that the search needs.
+    /// `true` if the study computed all points that the search needs.
     pub(super) is_complete: bool,
 }
 
-/// Integer bits beyond the fewest that meet the goal: at the end of its range a wide format saturates by less than
-/// single precision shows, and a narrower one by more.
+/// Integer bits in addition to the fewest that meet the goal: at the end of its range a wide format saturates by less
+/// than single precision shows, and a narrower one by more.
 const SPARE: u8 = 2;
 
 impl Curve {
-    /// Curve without points.
+    /// Creates a curve without points.
     pub(super) fn empty(family: FormatFamily) -> Self {
         Self { family, range: *family.range_bits().end(), scan: BitScan::default(), minimum: None, is_complete: false }
     }
 
-    /// Computes the points, as far as the budget allows. `value` is that of the goal's measure in a format.
+    /// Computes the points, as far as the budget allows. `value` computes the goal's measure in a format.
     pub(super) fn compute(
         &mut self,
         goal: &Goal,
@@ -150,7 +150,8 @@ impl Curve {
     }
 }
 
-/// Fewest integer bits with which 31 bits meet the goal, and [`SPARE`] more; without any, those with the best value.
+/// Fewest integer bits with which a 31-bit format meets the goal, plus [`SPARE`]; if none does, the number with the
+/// best value.
 fn enough_integer_bits(
     goal: &Goal,
     value: &mut impl FnMut(FormatBits) -> Result<f64, RunError>,

@@ -14,7 +14,7 @@ impl SubjectExecutors {
         Self { batch: ExecutorKind::Batch.into(), scalar: ExecutorKind::Scalar.into() }
     }
 
-    /// Executor of a kind; all except the scalar one are batch.
+    /// Executor of a kind; every kind except scalar runs on the batch executor.
     pub(super) fn of(&self, kind: ExecutorKind) -> &Executor {
         if kind == ExecutorKind::Scalar { &self.scalar } else { &self.batch }
     }

@@ -28,8 +28,8 @@ pub(super) fn per_instruction(
         found.paragraph(format!(
             "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
              Errors are in units in the last place of {minimum}, against the exact results of the same operands. Blame \
-             is the share of the loss with all instructions in {} that comes when only this one is; regained is the \
-             share that goes when only this one is exact. The shares of blame sum to {}: {}.",
+             is the share of the loss with all instructions in {} that remains if only this one is; regained is the \
+             share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
             blamed.bits,
             percent(sum),
             additivity(sum),
@@ -49,12 +49,12 @@ pub(super) fn per_instruction(
     }
     match family.spare {
         Some(spare @ 1..) => found.paragraph(format!(
-            "With {} more of range and as many of precision for every instruction, the input that was held back meets \
+            "With {} more of range and the same number of precision for every instruction, the held-back input meets \
              it too.",
             counted(spare.into(), "bit", "bits"),
         )),
         None if family.held_back.is_some() => {
-            found.paragraph(format!("It misses it with {MOST_SPARE} bits more for every instruction, too."));
+            found.paragraph(format!("With {MOST_SPARE} bits more for every instruction, it still misses the goal."));
         }
         _ => {}
     }
@@ -73,7 +73,7 @@ pub(super) fn per_instruction(
 /// Explains the sum of the blame shares.
 fn additivity(sum: f64) -> &'static str {
     match sum {
-        ..0.99 => "errors that are small alone add up, or one opens the way for another",
+        ..0.99 => "errors that are small alone add up, or one enables another",
         ..=1.01 => "errors add up",
         _ => {
             "more than all together, because errors cancel, or one hides another, as a clamp or a code of a target does"

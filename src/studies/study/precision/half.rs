@@ -9,36 +9,36 @@ use super::runs::{RunError, Runs};
 use super::subject::WorstPlace;
 use crate::shader::ShaderText;
 
-/// The format of f16.
+/// The format f16.
 const HALF: FormatBits = FormatBits::float(5, 10);
 
 /// Expression in half precision.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct HalfExpression {
-    /// Index of its place.
+    /// Index of its instruction place.
     pub(super) place: usize,
-    /// Value of the goal's measure when it alone is f16.
+    /// Value of the goal's measure if only this expression is f16.
     pub(super) alone: f64,
     /// `true` if it is f16 in the largest set that was found to meet the goal.
     pub(super) together: bool,
-    /// Place of the largest error of the run that refuted it.
+    /// Location of the largest error of the run that refuted it.
     pub(super) worst: Option<WorstPlace>,
 }
 
-/// The operations of a text, by their places in it; none if it is not WGSL.
+/// The operations of a text by their spans; empty if it is not WGSL.
 fn operations(text: &ShaderText) -> BTreeMap<[u32; 2], WgslOperation> {
     let found = if text.is_wgsl() { wgsl_operations(text.named_source().text()) } else { Ok(Vec::new()) };
     found.into_iter().flatten().map(|operation| ([operation.span.start, operation.span.end], operation)).collect()
 }
 
-/// Places in the text of the instructions of a place.
+/// Spans in the text of the instructions of a place.
 fn spans(place: usize, runs: &Runs<'_>) -> impl Iterator<Item = [u32; 2]> {
     let place = &runs.places[place];
     let program = runs.programs[place.program].program;
     place.instructions().map(|at| program.instructions[at].span).map(|span| [span.start, span.end])
 }
 
-/// Tries each expression alone; then adds one after the other, the harmless first, as long as the goal is met.
+/// Tries each expression alone; then adds one after the other, least harmful first, as long as the goal is met.
 pub(super) fn half_expressions(runs: &mut Runs<'_>, found: &mut Vec<HalfExpression>) -> Result<(), RunError> {
     let [studied] = runs.programs[..] else { return Ok(()) };
     let known = operations(studied.text);
@@ -66,7 +66,7 @@ pub(super) fn half_expressions(runs: &mut Runs<'_>, found: &mut Vec<HalfExpressi
     Ok(())
 }
 
-/// The text with the expressions in f16 that may be so together.
+/// The text with f16 expressions, as many as may be f16 together.
 pub(super) fn rewritten(found: &[HalfExpression], runs: &Runs<'_>) -> Option<ShaderText> {
     let [studied] = runs.programs[..] else { return None };
     let known = operations(studied.text);

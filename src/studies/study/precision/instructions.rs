@@ -8,11 +8,11 @@ use super::ulps::LocalError;
 /// Findings on one instruction, in one family of formats.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct InstructionNeeds {
-    /// Fewest bits of precision with all other instructions exact.
+    /// Fewest bits of precision if all other instructions are exact.
     pub(super) alone: Option<u8>,
-    /// Fewest bits of precision with all other instructions in the smallest uniform format.
+    /// Fewest bits of precision if all other instructions have the smallest uniform format.
     pub(super) in_company: Option<u8>,
-    /// Error of its results in the smallest uniform format, against the exact results of the same operands.
+    /// Error of its results in the smallest uniform format, compared with the exact results of the same operands.
     pub(super) local: Option<LocalError>,
     /// Share of the loss when only this instruction is rounded.
     pub(super) blame: Option<f64>,
@@ -24,14 +24,14 @@ pub(super) struct InstructionNeeds {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BlamedFormat {
     pub(super) bits: FormatBits,
-    /// Loss of the goal with all instructions in it.
+    /// Loss of the goal with all instructions in this format.
     pub(super) loss: f64,
 }
 
 /// Loss of the goal when all instructions have one bit less than the smallest uniform format.
 pub(super) fn blamed_format(minimum: FormatBits, runs: &mut Runs<'_>) -> Result<BlamedFormat, RunError> {
     runs.step("blame");
-    // The narrowest format cannot lose a bit.
+    // The narrowest format has no narrower neighbor.
     let bits = minimum.narrower().next().unwrap_or(minimum);
     Ok(BlamedFormat { bits, loss: loss(runs, &runs.uniform(bits))? })
 }
@@ -68,7 +68,7 @@ pub(super) fn blame(
     Ok(())
 }
 
-/// Finds the fewest bits of precision of one instruction, with as many bits of range as the points of the curve.
+/// Finds the fewest bits of precision of one instruction, with the same bits of range as the points of the curve.
 pub(super) fn fewest_bits(
     needs: &mut InstructionNeeds,
     place: usize,

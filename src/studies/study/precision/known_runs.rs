@@ -1,4 +1,4 @@
-//! Runs of an earlier study of one subject: a longer search continues where the last ended.
+//! Known runs of a subject from an earlier study: a longer search continues where the last one ended.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
@@ -42,7 +42,7 @@ struct KnownRun {
 }
 
 impl KnownRuns {
-    /// Reads the runs of the study that was written to a folder; empty if there is no file, or a damaged one.
+    /// Reads the runs of a study in its folder; empty if the file is missing or damaged.
     pub fn of_folder(folder: &Path) -> Self {
         let bytes = read_kept(&folder.join(FILE), MAX_BYTES).ok().flatten().unwrap_or_default();
         serde_json::from_slice(&bytes).unwrap_or_default()
@@ -54,7 +54,7 @@ impl KnownRuns {
         if self.subject == digest { self.clone() } else { Self { subject: digest, ..Self::default() } }
     }
 
-    /// Adds the runs that parts have made.
+    /// Adds the runs made by parts.
     pub(super) fn with_parts(self, parts: Self) -> Self {
         let known = if self.subject == parts.subject { self } else { Self::default() };
         Self { subject: parts.subject, of_parts: parts.runs, ..known }
@@ -67,7 +67,7 @@ impl KnownRuns {
         }
     }
 
-    /// Value and place of the largest error of a run; `None` if it is not known or must be repeated.
+    /// Value and location of the largest error of a run; `None` if it is not known or must be repeated.
     pub(super) fn get(&mut self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
         let key = digest(assignment);
         let run = self.runs.get(&key).or_else(|| self.of_parts.get(&key))?.clone();
@@ -79,7 +79,7 @@ impl KnownRuns {
         Some((f64::from_bits(run.bits), run.worst))
     }
 
-    /// Adds a run that was made. If the known value differs, discards all known runs.
+    /// Adds a new run. If the known value differs, discards all known runs.
     pub(super) fn insert(&mut self, assignment: &Assignment, value: f64, worst: Option<WorstPlace>) {
         let run = KnownRun { bits: value.to_bits(), worst };
         let key = digest(assignment);

@@ -1,7 +1,7 @@
 //! Study of precision: how many bits a goal needs, and which instruction decides.
 //!
-//! A [`PrecisionSubject`] is run again and again with a number format per instruction. The exact run has registers of
-//! single precision; a uniform run has all instructions in one format. docs/precision.md describes what is measured.
+//! A [`PrecisionSubject`] is run repeatedly with a number format per instruction. The exact run has single-precision
+//! registers; a uniform run has all instructions in one format. docs/precision.md describes what is measured.
 
 mod bits;
 mod case;

@@ -1,4 +1,4 @@
-//! Parameters and course of the study.
+//! Parameters, and the steps of the study.
 
 use refsim::machine::ExecutorKind;
 
@@ -20,12 +20,12 @@ use crate::names::did_you_mean;
 use crate::report::words::listed;
 use crate::study::{ProgressFn, StudyError};
 
-/// Runs that a curve takes, about.
+/// Approximate number of runs per curve.
 const RUNS_PER_CURVE: u64 = 30;
-/// Runs that an instruction takes in one family of formats, about.
+/// Approximate number of runs per instruction in one family of formats.
 const RUNS_PER_INSTRUCTION: u64 = 55;
 
-/// Largest number of bits that are added for input that was held back.
+/// Maximum number of bits added for held-back input.
 pub(super) const MOST_SPARE: u8 = 6;
 
 /// Parameters of the study.
@@ -36,19 +36,19 @@ pub struct Precision {
     pub goal: Option<Goal>,
     /// Families of formats, each once; at least one.
     pub families: Vec<FormatFamily>,
-    /// Largest number of runs.
+    /// Maximum number of runs.
     pub budget: u64,
     /// Costs of formats.
     pub costs: FormatCosts,
-    /// Runs that need not be made again.
+    /// Runs that are known from earlier.
     pub known: KnownRuns,
 }
 
-/// Findings in one family of formats.
+/// Results for one family of formats.
 #[derive(Debug)]
 pub(super) struct FamilyOutcome {
     pub(super) curve: Curve,
-    /// Format with a bit less than the smallest uniform one.
+    /// Format with one bit less than the smallest uniform format.
     pub(super) blamed: Option<BlamedFormat>,
     /// Findings by instruction.
     pub(super) needs: Vec<InstructionNeeds>,
@@ -56,12 +56,12 @@ pub(super) struct FamilyOutcome {
     pub(super) mixed: Option<MixedFormats>,
     /// Value of the goal's measure with this assignment on the scalar executor.
     pub(super) checked: Option<f64>,
-    /// Value on input that was held back from the search.
+    /// Value on the input held back from the search.
     pub(super) held_back: Option<f64>,
-    /// Bits of range and of precision, so many of each for every instruction, with which that input meets the goal too;
-    /// `None` if [`MOST_SPARE`] are too few.
+    /// Number of bits to add to the range and to the precision of every instruction so that the held-back input meets
+    /// the goal too; `None` if [`MOST_SPARE`] bits are not enough.
     pub(super) spare: Option<u8>,
-    /// Traces of the formats that were refuted.
+    /// Traces of the refuted formats.
     pub(super) refutations: Vec<RefutationTrace>,
 }
 
@@ -70,22 +70,22 @@ pub(super) struct FamilyOutcome {
 pub(super) struct PrecisionOutcome {
     /// Value of the exact run.
     pub(super) exact: f64,
-    /// Value of the device as given.
+    /// Value on the unchanged device.
     pub(super) given: Option<f64>,
     /// Values of formats of cards.
     pub(super) named: Vec<(&'static str, FormatBits, f64)>,
-    /// Expressions in half precision, of a shader in WGSL.
+    /// Expressions that may be in half precision, for a shader in WGSL.
     pub(super) half: Vec<HalfExpression>,
     pub(super) families: Vec<FamilyOutcome>,
     /// Ranges of results by instruction; empty if the subject has no traces.
     pub(super) ranges: Vec<Option<ResultRange>>,
     pub(super) switches: Vec<SwitchRow>,
-    /// `true` if the budget ended before the study.
+    /// `true` if the budget was spent before the study ended.
     pub(super) budget_spent: bool,
 }
 
 impl PrecisionOutcome {
-    /// Cheapest of the families' assignments.
+    /// Cheapest assignment of the families.
     pub(super) fn cheapest(&self) -> Option<&FamilyOutcome> {
         let cost = |family: &&FamilyOutcome| family.mixed.as_ref().map_or(f64::INFINITY, |mixed| mixed.cost);
         self.families.iter().filter(|family| family.mixed.is_some()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
@@ -93,7 +93,7 @@ impl PrecisionOutcome {
 }
 
 impl Precision {
-    /// Goal of the study. Fails if the subject does not have its measure.
+    /// Goal of the study. Fails if the subject does not have the goal's measure.
     pub(super) fn goal(&self) -> Result<Goal, StudyError> {
         let Some(goal) = &self.goal else { return Ok(self.subject.default_goal()) };
         let names: Vec<&str> = self.subject.measures().iter().map(|measure| measure.name).collect();
@@ -132,7 +132,7 @@ impl Precision {
         Ok(runs)
     }
 
-    /// Runs the study until its end or that of the budget. Fails if the exact run misses the goal, or the subject
+    /// Runs the study until it ends or its budget is spent. Fails if the exact run misses the goal, or the subject
     /// cannot be run.
     pub(super) fn outcome(&self, runs: &mut Runs<'_>) -> Result<PrecisionOutcome, StudyError> {
         let mut outcome = PrecisionOutcome::default();
@@ -200,20 +200,20 @@ fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
 }
 
 impl FamilyOutcome {
-    /// Without findings.
+    /// Creates an outcome without findings.
     pub(super) fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
         let refutations = Vec::new();
         Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None, refutations }
     }
 
-    /// Place and share of blame of the instruction with the largest; the first of equals.
+    /// Index and share of blame of the most blamed instruction; the first one on a tie.
     pub(super) fn most_blamed(&self) -> Option<(usize, f64)> {
         let shares = self.needs.iter().enumerate().filter_map(|(place, needs)| Some((place, needs.blame?)));
         shares.min_by(|a, b| b.1.total_cmp(&a.1))
     }
 
-    /// Runs the mixed formats on the scalar executor and on held-out input, and traces the pixels that refuted
+    /// Runs the mixed formats on the scalar executor and on held-back input, and traces the pixels that refuted
     /// narrower formats.
     fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
         let Some(mixed) = &self.mixed else { return Ok(()) };
@@ -252,7 +252,7 @@ impl FamilyOutcome {
         Ok(())
     }
 
-    /// Computes the blame of each instruction; returns the least blamed first.
+    /// Computes the blame of each instruction; returns their indices, least blamed first.
     fn share_blame(&mut self, minimum: FormatBits, runs: &mut Runs<'_>) -> Result<Vec<usize>, RunError> {
         let blamed = blamed_format(minimum, runs)?;
         self.blamed = Some(blamed);
@@ -265,7 +265,8 @@ impl FamilyOutcome {
         Ok(order)
     }
 
-    /// Makes the runs of one search of [`Self::run`], and those for the bits of as large a share of the instructions.
+    /// Makes the runs of one search of [`Self::run`], and the runs that find the bits of an equal share of the
+    /// instructions.
     pub(super) fn run_share(
         &mut self,
         number: usize,

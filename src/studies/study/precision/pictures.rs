@@ -9,7 +9,7 @@ use super::tables::{self, number};
 use crate::report::{Findings, NamedPicture, false_color};
 use crate::study::StudyError;
 
-/// Adds the pictures: exact, in the smallest uniform format, with a bit less.
+/// Adds the pictures: exact, in the smallest uniform format, and with one bit less.
 pub(super) fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<(), StudyError> {
     let profile = runs.subject.profile();
     let mut pictures = Vec::new();
@@ -36,7 +36,7 @@ pub(super) fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &
     Ok(())
 }
 
-/// Errors of the pixels when only the instruction most to blame is rounded.
+/// Errors of the pixels if only the most blamed instruction is rounded.
 fn of_most_blamed(family: &FamilyOutcome, runs: &Runs<'_>) -> Result<Option<NamedPicture>, StudyError> {
     let (Some(blamed), Some((place, _))) = (family.blamed, family.most_blamed()) else { return Ok(None) };
     let device = runs.device(runs.subject.profile(), &runs.alone(place, blamed.bits));

@@ -10,7 +10,7 @@ use crate::report::{Cell, Table, digits};
 /// The trace of the most blamed instruction that has one.
 pub(super) fn most_blamed<'t>(traces: &'t [RefutationTrace], family: &FamilyOutcome) -> Option<&'t RefutationTrace> {
     let blame = |trace: &RefutationTrace| family.needs[trace.refuted.place].blame.unwrap_or(0.0);
-    // The first of equals.
+    // The first one on a tie.
     traces.iter().min_by(|a, b| blame(b).total_cmp(&blame(a)))
 }
 
@@ -23,11 +23,11 @@ pub(super) fn title(trace: &RefutationTrace, runs: &Runs<'_>) -> String {
 /// Columns of a trace.
 const COLUMNS: &str = "fragment line instruction component exact mixed one_bit_less one_bit_less_differs";
 
-/// Number of rows above which a trace shows only results that differ with one bit less.
+/// Number of rows above which a trace shows only results that one bit less changes.
 const LONG: usize = 1000;
 
-/// Table of one trace: a row for each component of each step that all three runs execute; above [`LONG`] rows, only
-/// rows in which the last two runs differ.
+/// Table of one trace: a row per component of each step that all three runs execute; above [`LONG`] rows, only rows in
+/// which the last two runs differ.
 pub(super) fn table(title: String, trace: &RefutationTrace, runs: &Runs<'_>) -> Table {
     let mut table = Table::of(title, COLUMNS);
     rows(trace, runs).for_each(|row| table.push(row));

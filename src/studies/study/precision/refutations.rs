@@ -13,7 +13,7 @@ pub(super) struct RefutationTrace {
     pub(super) traced: PixelSteps,
 }
 
-/// Traces each format that was refuted, as far as the subject has traces.
+/// Traces each refuted format, if the subject has traces.
 pub(super) fn traces(mixed: &MixedFormats, runs: &Runs<'_>) -> Result<Vec<RefutationTrace>, StudyError> {
     let mut found = Vec::new();
     let formats: Assignment = mixed.formats.iter().copied().map(Some).collect();

@@ -85,7 +85,9 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
             continue;
         };
         if minimum == FormatBits::narrowest(family.curve.family) {
-            found.conclusion(format!("Every {name} format meets the goal, down to {minimum}: it tells nothing."));
+            found.conclusion(format!(
+                "Every {name} format meets the goal, down to {minimum}: the goal does not distinguish formats."
+            ));
             continue;
         }
         found.conclusion(format!("Smallest {name} format of all instructions: {minimum}, {} bits.", minimum.width()));
@@ -123,7 +125,7 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
     }
 }
 
-/// Chart of the curves, if they span an axis.
+/// Chart of the curves, if there are points enough for an axis.
 fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
     let lines: Vec<Series> = outcome
         .families

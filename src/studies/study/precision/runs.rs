@@ -16,10 +16,10 @@ use super::subject::{
 };
 use crate::study::{ProgressFn, StudyError};
 
-/// End of a search.
+/// Reason why a search ends.
 #[derive(Debug)]
 pub(super) enum RunError {
-    /// No runs are left.
+    /// The budget is spent.
     Budget,
     /// The subject failed.
     Study(StudyError),
@@ -37,13 +37,13 @@ pub(super) struct Runs<'a> {
     pub(super) goal: &'a Goal,
     pub(super) programs: Vec<StudiedProgram<'a>>,
     pub(super) places: Vec<InstructionPlace>,
-    /// Largest number of runs.
+    /// Maximum number of runs.
     budget: u64,
     /// Number of runs made.
     pub(super) made: u64,
-    /// Values of the goal's measure, and the place of the largest error.
+    /// Values of the goal's measure, and the location of the largest error.
     values: BTreeMap<Assignment, (f64, Option<WorstPlace>)>,
-    /// Runs that an earlier study made, and those of this one.
+    /// Known runs: of an earlier study, and of this one.
     pub(super) known: KnownRuns,
     /// Number of runs that the study is likely to make, for progress.
     pub(super) expected: u64,
@@ -87,12 +87,12 @@ impl<'a> Runs<'a> {
         self.places.len()
     }
 
-    /// All instructions in one format.
+    /// Assigns one format to all instructions.
     pub(super) fn uniform(&self, bits: FormatBits) -> Assignment {
         vec![Some(bits); self.count()]
     }
 
-    /// One instruction in a format, all others exact.
+    /// Assigns a format to one instruction; all others are exact.
     pub(super) fn alone(&self, place: usize, bits: FormatBits) -> Assignment {
         (0..self.count()).map(|other| (other == place).then_some(bits)).collect()
     }
@@ -142,7 +142,7 @@ impl<'a> Runs<'a> {
         Ok(value)
     }
 
-    /// Value of a run that was made, and the place of its largest error.
+    /// Value of a run that was made, and the location of its largest error.
     pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
         self.values.get(assignment).cloned()
     }
@@ -163,7 +163,7 @@ impl<'a> Runs<'a> {
         self.subject.measure(device, executor, None)
     }
 
-    /// Results of all instructions in the exact run, and of those that are rounded: one run.
+    /// Results of all instructions in the exact run, and of the rounded instructions: counts as one run.
     pub(super) fn results(&mut self, rounded: &[RoundedInstruction]) -> Result<SampledResults, RunError> {
         self.spend()?;
         let exact = self.uniform_device(self.subject.profile(), None);
@@ -180,7 +180,7 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// Device with registers in single precision, rounding to nearest, and no formats of single instructions.
+/// Device with registers in single precision, rounding to nearest, and without formats of single instructions.
 pub(super) fn exact<'p>(given: &Profile, programs: impl IntoIterator<Item = &'p Program>) -> Profile {
     let mut device = given.clone();
     let single = Format::FP32.with_specials(given.rules.format.specials);

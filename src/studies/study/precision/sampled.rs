@@ -5,12 +5,12 @@ use super::runs::{RunError, Runs};
 use super::subject::RoundedInstruction;
 use super::ulps::{LocalError, ResultRange, errors_of, local_error, range_of};
 
-/// Findings in a sample, by instruction; `None` where an instruction was not executed.
+/// Results of sampling, by instruction; `None` for an instruction that was not executed.
 #[derive(Debug)]
 pub(super) struct SampleFindings {
     /// Ranges of the exact results.
     pub(super) ranges: Vec<Option<ResultRange>>,
-    /// Errors of results in each format, against the exact results of the same operands.
+    /// Errors of results in each format, compared with the exact results of the same operands.
     pub(super) errors: Vec<Vec<Option<LocalError>>>,
 }
 

@@ -1,4 +1,4 @@
-//! A format per instruction that together meet the goal with few bits.
+//! Search for a format per instruction such that together they meet the goal with few bits.
 
 use std::ops::RangeInclusive;
 
@@ -8,8 +8,8 @@ use super::curve::BitScan;
 use super::runs::{RunError, Runs};
 use super::subject::WorstPlace;
 
-/// Bits of precision beyond those of the smallest uniform format from which a search starts: bits saved by some
-/// instructions can be spent on others.
+/// Bits of precision that a search adds to the smallest uniform format at its start: bits spent on some instructions
+/// may save more on others.
 pub(super) const STARTS: [u8; 3] = [0, 1, 2];
 
 /// Formats of all instructions that meet the goal.
@@ -17,7 +17,7 @@ pub(super) const STARTS: [u8; 3] = [0, 1, 2];
 pub(super) struct MixedFormats {
     /// Format of each instruction.
     pub(super) formats: Vec<FormatBits>,
-    /// Sum of their costs.
+    /// Sum of the formats' costs.
     pub(super) cost: f64,
     /// `true` if one bit less in any one instruction misses the goal.
     pub(super) is_minimal: bool,
@@ -33,7 +33,7 @@ pub(super) struct RefutedFormat {
     pub(super) bits: FormatBits,
     /// Value of the goal's measure.
     pub(super) value: f64,
-    /// Place of the largest error.
+    /// Location of the largest error.
     pub(super) worst: Option<WorstPlace>,
 }
 
@@ -44,7 +44,7 @@ fn assignment(formats: &[FormatBits]) -> Assignment {
 /// Searches from formats with `more` bits of precision than the smallest uniform format, and stores a cheaper result in
 /// `best`.
 ///
-/// The instructions are narrowed one after the other, the least blamed first: `order`. Then single bits are removed
+/// The instructions are narrowed one after the other, in this `order`: least blamed first. Then single bits are removed
 /// until none can be.
 pub(super) fn search(
     (minimum, more): (FormatBits, u8),
@@ -71,14 +71,14 @@ pub(super) fn search(
     result
 }
 
-/// Narrows formats until one bit less anywhere misses the goal. Meets it after every step.
+/// Narrows formats until one bit less in any instruction misses the goal. The goal is met after every step.
 fn descend(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> Result<(), RunError> {
     for &place in order {
         let FormatBits { family, range, digits } = formats[place];
         let fewest = *family.digit_bits(range).start();
         narrow(formats, place, fewest..=digits, runs, |digits| FormatBits { family, range, digits })?;
         let digits = formats[place].digits;
-        // A fixed-point format needs a bit besides its sign.
+        // A fixed-point format needs at least one bit in addition to its sign.
         let fewest = if digits == 0 { range.min(1) } else { *family.range_bits().start() };
         narrow(formats, place, fewest..=range, runs, |range| FormatBits { family, range, digits })?;
     }
@@ -107,8 +107,7 @@ fn narrow(
     found
 }
 
-/// Removes single bits, one instruction after the other and from the last to the first again, until every further bit
-/// misses the goal.
+/// Removes single bits, cycling through the instructions, until every further bit misses the goal.
 fn remove_bits(formats: &mut [FormatBits], order: &[usize], runs: &mut Runs<'_>) -> Result<(), RunError> {
     let mut refuted = 0;
     for &place in order.iter().cycle() {

@@ -12,7 +12,7 @@ use super::search::STARTS;
 use crate::split::Concatenate;
 use crate::study::StudyError;
 
-/// Runs that consecutive searches have made.
+/// Runs that were made for consecutive searches.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct RunsOfSearches {
     searches: usize,
@@ -36,7 +36,7 @@ impl Precision {
         self.families.len() * STARTS.len()
     }
 
-    /// Makes the runs of a range of searches. If the budget ends, the merge continues.
+    /// Makes the runs of a range of searches. If the budget is spent, the merge continues.
     pub(super) fn runs_of(&self, range: Range<usize>, runs: &mut Runs<'_>) -> Result<RunsOfSearches, StudyError> {
         match range.clone().try_for_each(|number| self.search_of(number, runs)) {
             Ok(()) | Err(RunError::Budget) => Ok(RunsOfSearches { searches: range.len(), known: runs.known.clone() }),
@@ -44,7 +44,8 @@ impl Precision {
         }
     }
 
-    /// Makes the runs of one search. Runs for curve and blame, which all searches of a family need, are made once.
+    /// Makes the runs of one search. Runs for the curve and the blame, which all searches of a family need, are made
+    /// once.
     fn search_of(&self, number: usize, runs: &mut Runs<'_>) -> Result<(), RunError> {
         exact_run(runs)?;
         let family = self.families[number / STARTS.len()];

@@ -8,8 +8,8 @@ use refsim::num::to_f64;
 
 use super::subject::{InstructionResults, RoundedInstruction, StepResult};
 
-/// Results of the instructions of a fragment that write registers, component by component; `program` has its index
-/// among the subject's, `fragment` its number within the trace.
+/// Results of a fragment's instructions that write registers, component by component; `program` is its index among the
+/// subject's programs, `fragment` its number within the trace.
 pub(super) fn step_results(
     profile: &Profile,
     (index, program): (usize, &Program),
@@ -33,7 +33,7 @@ pub(super) fn step_results(
     results
 }
 
-/// Device of the exact run with the format of one instruction.
+/// Device of the exact run, with a format for one instruction.
 pub(super) fn with_rounded(exact: &Profile, program: &Program, rounded: RoundedInstruction) -> Profile {
     let mut device = exact.clone();
     // Always succeeds: searches use register formats, and a device can hold one format.

@@ -1,4 +1,4 @@
-//! Interface to that whose precision is studied.
+//! Interface to the subject of a precision study.
 
 use std::collections::BTreeMap;
 use std::fmt::Debug;
@@ -17,7 +17,7 @@ use crate::study::StudyError;
 /// Pixel program whose instructions get formats of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct StudiedProgram<'a> {
-    /// The program, as the device checked it.
+    /// The program, as checked for the device.
     pub program: &'a Program,
     /// Its text.
     pub text: &'a ShaderText,
@@ -43,7 +43,7 @@ pub(super) const NOT_FINITE: PrecisionMeasure = PrecisionMeasure {
 pub struct Measured {
     /// Values by the names of their measures.
     pub values: Vec<(&'static str, f64)>,
-    /// Place of the largest error; `None` if nothing differs.
+    /// Location of the largest error; `None` if nothing differs.
     pub worst: Option<WorstPlace>,
     /// Picture of the result.
     pub picture: Option<RgbImage>,
@@ -51,12 +51,12 @@ pub struct Measured {
     pub errors: Option<ErrorMap>,
 }
 
-/// Place where a run differs most from the expected result.
+/// Location where a run differs most from the expected result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WorstPlace {
-    /// The place, with the found and the expected value.
+    /// The location, with the found and the expected value.
     pub text: String,
-    /// Column and row of its pixel, if the place is one of [`PrecisionSubject::steps`].
+    /// Column and row of its pixel, if [`PrecisionSubject::steps`] can trace it.
     pub pixel: Option<[u32; 2]>,
 }
 
@@ -67,7 +67,7 @@ pub struct ErrorMap {
     pub width: u32,
     /// Unit of the errors, in the plural.
     pub unit: &'static str,
-    /// Largest error of a channel of each pixel; infinite where a value is not finite.
+    /// Largest error of a channel, per pixel; infinite if a value is not finite.
     pub values: Vec<f64>,
 }
 
@@ -89,11 +89,11 @@ pub struct StepResult {
 /// Three devices that differ in the formats of instructions.
 #[derive(Clone, Copy, Debug)]
 pub struct RefutingDevices<'a> {
-    /// That of the exact run.
+    /// Device of the exact run.
     pub exact: &'a Profile,
-    /// That of the formats that meet the goal.
+    /// Device with the formats that meet the goal.
     pub mixed: &'a Profile,
-    /// That with one bit less in one instruction, which misses it.
+    /// Device with one bit less in one instruction, which misses the goal.
     pub less: &'a Profile,
     /// Index of that instruction's program.
     pub program: usize,
@@ -106,12 +106,12 @@ impl<'a> RefutingDevices<'a> {
     }
 }
 
-/// Results of all instructions that are executed for a pixel, fragment by fragment in the order of execution.
+/// Results of all instructions executed for a pixel, fragment by fragment, in order of execution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PixelSteps {
     /// Column and row in the target.
     pub pixel: [u32; 2],
-    /// Those of the exact run, with the mixed formats, and with one bit less.
+    /// Results in the exact run, with the mixed formats, and with one bit less.
     pub steps: [Vec<StepResult>; 3],
 }
 
@@ -122,13 +122,13 @@ impl Measured {
     }
 }
 
-/// Results of one instruction: by the number of the fragment and the component, the first in that fragment.
+/// Results of one instruction by fragment number and component: the first result in that fragment.
 pub type FragmentResults = BTreeMap<(u32, u8), f64>;
 
 /// Results of the instructions of one program, by the index of the instruction.
 pub type InstructionResults = BTreeMap<usize, FragmentResults>;
 
-/// Instruction that has a format of its own while all others are exact.
+/// Instruction with its own format while all others are exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundedInstruction {
     /// Index of the program.
@@ -139,16 +139,16 @@ pub struct RoundedInstruction {
     pub format: Format,
 }
 
-/// Results of instructions, of the same fragments in each of its fields.
+/// Results of instructions; all fields have the same fragments.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SampledResults {
-    /// For the exact run, by program.
+    /// Results in the exact run, by program.
     pub exact: Vec<InstructionResults>,
-    /// For each rounded instruction, in draws with the input of the exact run.
+    /// Results of each rounded instruction, in draws with the input of the exact run.
     pub rounded: Vec<FragmentResults>,
 }
 
-/// Pixel programs with their input, run on a device again and again in other number formats.
+/// Pixel programs with their input, run on a device repeatedly in different number formats.
 ///
 /// Every run is compared with the same reference, which does not depend on the device of the run. The same device gives
 /// the same values.
@@ -156,7 +156,7 @@ pub trait PrecisionSubject {
     /// Title.
     fn title(&self) -> String;
 
-    /// Device as given. The exact run is on this device with registers of single precision.
+    /// Unchanged device. The exact run is on this device with single-precision registers.
     fn profile(&self) -> &Profile;
 
     /// Pixel programs, each once.
@@ -168,68 +168,68 @@ pub trait PrecisionSubject {
     /// Goal if none is given.
     fn default_goal(&self) -> Goal;
 
-    /// Everything that decides the values of a run beside its device, for a digest.
+    /// Everything except the device that decides the values of a run, for a digest.
     fn content(&self) -> &dyn Debug;
 
-    /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`. Fails if the
-    /// device cannot run the programs.
+    /// Runs on a device, and measures: one measure, or, if `wanted` is `None`, all of them, with the picture. Fails if
+    /// the device cannot run the programs.
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
-    /// Runs another text of the only pixel program on the device of the exact run, and measures; `None` if the subject
-    /// has several.
+    /// Runs another text in place of the only pixel program on the device of the exact run, and measures; `None` if the
+    /// subject has several programs.
     ///
     /// # Errors
-    /// If the text is no program of the device.
+    /// If the text is not a program that the device can run.
     fn measure_text(&self, text: &ShaderText, wanted: &str) -> Result<Option<Measured>, StudyError> {
         let _ = (text, wanted);
         Ok(None)
     }
 
     /// Returns `true` if the exact run on this device, which differs in a switch, draws with pixel programs that are
-    /// none of the subject's. Fails if the device cannot run the programs.
+    /// not the subject's. Fails if the device cannot run the programs.
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
         let _ = profile;
         Ok(false)
     }
 
-    /// Measures on held-out input; `None` if there is none. Fails if the device cannot run the programs.
+    /// Measures on held-back input; `None` if there is none. Fails if the device cannot run the programs.
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
         let _ = profile;
         Ok(None)
     }
 
-    /// Results of instructions of a sample of fragments: of all in the exact run, and of rounded ones; empty if the
+    /// Results in a sample of fragments: of all instructions in the exact run, and of the rounded ones; empty if the
     /// subject has no traces. Fails if the device cannot run the programs.
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
         let _ = (exact, rounded);
         Ok(SampledResults::default())
     }
 
-    /// Follows a pixel on three devices: `worst`, that of the largest error of the last of them, or a pixel of an
-    /// earlier pass or another ray if `worst` does not run the program; `None` if the subject has no traces. Fails if a
-    /// device cannot run the programs.
+    /// Follows a pixel on three devices: `worst`, the pixel of the largest error on the last device, or, if `worst`
+    /// does not run the program, a pixel of an earlier pass or another ray. `None` if the subject has no traces. Fails
+    /// if a device cannot run the programs.
     fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
         let _ = (devices, worst);
         Ok(None)
     }
 
-    /// Sentences on the subject for the page.
+    /// Sentences about the subject for the page.
     fn notes(&self) -> Vec<String> {
         Vec::new()
     }
 }
 
-/// Number of instructions with the same text from which on they are an unrolled loop and share a format.
+/// Number of instructions with the same text from which they count as an unrolled loop and share a format.
 const UNROLLED: usize = 8;
 
-/// Instruction of a subject, by the indices of program and instruction; of an expression of WGSL, and of an unrolled
-/// loop, all that have its text.
+/// Instruction of a subject, by the indices of program and instruction. For an expression of WGSL or an unrolled loop:
+/// all instructions of its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct InstructionPlace {
     pub(super) program: usize,
-    /// The first of them.
+    /// The first of these instructions.
     pub(super) at: usize,
-    /// The others.
+    /// The other instructions.
     pub(super) alike: Vec<usize>,
 }
 
@@ -239,22 +239,22 @@ impl InstructionPlace {
     }
 }
 
-/// Instructions that can have a format of their own, in the order of the texts.
+/// Instructions that can have their own format, in the order of the texts.
 pub(super) fn places(programs: &[StudiedProgram<'_>]) -> Vec<InstructionPlace> {
     programs.iter().enumerate().flat_map(|(program, studied)| places_of(program, *studied)).collect()
 }
 
 fn places_of(program: usize, StudiedProgram { program: studied, text }: StudiedProgram<'_>) -> Vec<InstructionPlace> {
-    // Moves of a translated shader bring components together: no operation of the text.
+    // Moves in a translated shader bring components together: they are no operations of the text.
     let is_move = |instruction: &Instruction| {
         text.is_wgsl() && instruction.opcode == Opcode::Mov && instruction.fragment.precision.is_none()
     };
     let takes = |at: &usize| takes_format(&studied.instructions[*at]) && !is_move(&studied.instructions[*at]);
-    // By text, and by place in the text: an expression of a translated shader may be several instructions.
+    // By text, and by span: an expression of a translated shader may be several instructions.
     let mut by_text: BTreeMap<String, BTreeMap<[u32; 2], Vec<usize>>> = BTreeMap::new();
     for at in (0..studied.instructions.len()).filter(takes) {
         let (text, span) = (studied.instruction_text(at), studied.instructions[at].span);
-        // Instructions that tests build have no place.
+        // Instructions that tests build have no span.
         let place = if text.is_some() { [span.start, span.end] } else { [0, at as u32] };
         by_text.entry(text.unwrap_or_default()).or_default().entry(place).or_default().push(at);
     }

@@ -12,23 +12,24 @@ pub(super) struct SwitchRow {
     pub(super) value: String,
     /// `true` if the device has this value.
     pub(super) is_current: bool,
-    /// Findings, or why the device cannot run the subject with this value.
+    /// Findings, or the reason why the device cannot run the subject with this value.
     pub(super) found: Result<SwitchFindings, String>,
 }
 
-/// Findings under a value of a switch.
+/// Findings with one value of a switch.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SwitchFindings {
-    /// Value of the goal's measure on the device as given, except for the switch.
+    /// Value of the goal's measure on the device, unchanged except for the switch.
     pub(super) given: f64,
     /// Value of the exact run.
     pub(super) exact: f64,
-    /// Smallest uniform format with as many bits of range as the points of the curve; `None` if none meets the goal.
+    /// Smallest uniform format with the same bits of range as the points of the curve; `None` if no format meets the
+    /// goal.
     pub(super) minimum: Option<FormatBits>,
 }
 
 impl SwitchRow {
-    /// Returns `true` if both rows found the same.
+    /// Returns `true` if both rows have the same findings.
     pub(super) fn same_as(&self, other: &Self) -> bool {
         match (&self.found, &other.found) {
             (Ok(a), Ok(b)) => {
@@ -40,7 +41,7 @@ impl SwitchRow {
     }
 }
 
-/// Runs under each value of each switch that has several. `minimum` is the smallest uniform format of the curve's
+/// Runs with each value of each switch that has several values. `minimum` is the smallest uniform format of the curve's
 /// range.
 pub(super) fn sensitivity(
     minimum: Option<FormatBits>,
@@ -89,7 +90,7 @@ fn under(
         Ok::<_, RunError>(runs.measure(&device)?.value(&goal.measure))
     };
     let all = family.digit_bits(range);
-    // Most switches change nothing: then the smallest format meets the goal, and one bit less does not.
+    // Most switches change nothing: the smallest format meets the goal, and one bit less misses it.
     let is_same = goal.met(value(digits)?) && (digits == *all.start() || !goal.met(value(digits - 1)?));
     if !is_same {
         let mut scan = BitScan::default();

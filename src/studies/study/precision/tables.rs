@@ -28,20 +28,20 @@ fn source_line(program: usize, instruction: usize, runs: &Runs<'_>) -> SourceLin
     studied.text.instruction(studied.program, instruction).unwrap_or_else(|| studied.text.line(Span::default()))
 }
 
-/// Line number and text of the instruction at a place; with the program's name if there are several.
+/// Line number and text of the instruction at a place, with the program's name if there are several programs.
 pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
     let place = &runs.places[place];
     line_cells(place.program, place.at, runs)
 }
 
-/// As [`named_line`], by the indices of program and instruction.
+/// Like [`named_line`], by the indices of program and instruction.
 pub(super) fn line_cells(program: usize, instruction: usize, runs: &Runs<'_>) -> [Cell; 2] {
     let SourceLine { file, line, text, .. } = source_line(program, instruction, runs);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }
 
-/// Uniform runs in formats of cards.
+/// Table of uniform runs in the formats of cards.
 pub(super) fn named(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
     let measure = runs.goal.measure.as_str();
     let mut table = Table::new("All instructions in formats of cards", &["format", "layout", "bits", measure, "met"]);
@@ -52,7 +52,7 @@ pub(super) fn named(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
     table
 }
 
-/// Points of the curves.
+/// Table of the curves' points.
 pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
     let measure = runs.goal.measure.as_str();
     let mut table = Table::new("Points of the curves", &["family", "format", "bits", "precision_bits", measure, "met"]);
@@ -72,7 +72,7 @@ pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
     table
 }
 
-/// A row per instruction.
+/// Table with a row per instruction.
 pub(super) fn instructions(
     family: &FamilyOutcome,
     minimum: FormatBits,
@@ -114,7 +114,7 @@ fn note(needs: &InstructionNeeds, minimum: FormatBits, not_finite: bool) -> Opti
     }
 }
 
-/// The mixed assignment.
+/// Table of the mixed formats.
 pub(super) fn mixed(mixed: &MixedFormats, study: &Precision, runs: &Runs<'_>) -> Table {
     let mut table = Table::of("A format per instruction", "line instruction format bits cost");
     for (place, &bits) in mixed.formats.iter().enumerate() {
@@ -124,7 +124,7 @@ pub(super) fn mixed(mixed: &MixedFormats, study: &Precision, runs: &Runs<'_>) ->
     table
 }
 
-/// Each format with one bit less.
+/// Table of each format with one bit less.
 pub(super) fn refuted(mixed: &MixedFormats, runs: &Runs<'_>) -> Table {
     let measure = runs.goal.measure.as_str();
     let mut table =
@@ -141,7 +141,7 @@ pub(super) fn refuted(mixed: &MixedFormats, runs: &Runs<'_>) -> Table {
     table
 }
 
-/// The values of switches, with the first row that found the same as each, and the names of the rows.
+/// Table of switch values, the index of the first row with the same findings per row, and the names of the rows.
 pub(super) fn switches(outcome: &PrecisionOutcome) -> (Table, Vec<usize>, Vec<String>) {
     let mut table = Table::of("Values of open switches", "switch value current as_given exact minimum note");
     let rows = &outcome.switches;
@@ -161,7 +161,7 @@ pub(super) fn switches(outcome: &PrecisionOutcome) -> (Table, Vec<usize>, Vec<St
     (table, (0..rows.len()).map(first).collect(), names)
 }
 
-/// Meanings of the measures.
+/// Table of the measures' meanings.
 pub(super) fn measures(runs: &Runs<'_>) -> Table {
     let mut table = Table::of("Measures, against the exact run", "measure meaning");
     for measure in runs.subject.measures() {

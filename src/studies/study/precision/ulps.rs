@@ -15,18 +15,18 @@ pub(super) struct LocalError {
 /// Range of an instruction's results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ResultRange {
-    /// Smallest and largest binary exponent of the results that are neither 0 nor infinite nor NaN.
+    /// Smallest and largest binary exponent of the results, except for 0, infinities and NaN.
     pub(super) exponents: Option<[i32; 2]>,
     /// `true` if a result is infinite or NaN.
     pub(super) not_finite: bool,
 }
 
-/// Binary exponent of a number: that of the largest power of two in it. `None` for 0, infinities and NaN.
+/// Binary exponent of a number: floor of log2 of its magnitude. `None` for 0, infinities and NaN.
 fn exponent(value: f64) -> Option<i32> {
     if value == 0.0 || !value.is_finite() {
         return None;
     }
-    // Results are single precision, whose subnormal numbers are normal doubles.
+    // Results are in single precision, whose subnormal numbers are normal doubles.
     Some(((value.to_bits() >> 52) & 0x7ff) as i32 - 1023)
 }
 
@@ -42,7 +42,7 @@ pub(super) fn range_of<'r>(results: impl IntoIterator<Item = &'r f64>) -> Result
     range
 }
 
-/// Unit in the last place of a format at a value: the distance of its neighbors there.
+/// Unit in the last place of a format at a value: the distance between neighboring numbers there.
 fn unit(bits: FormatBits, value: f64) -> f64 {
     let digits = i32::from(bits.digits);
     match bits.family {
@@ -54,7 +54,7 @@ fn unit(bits: FormatBits, value: f64) -> f64 {
     }
 }
 
-/// Errors of results in a format against exact results, where both exist.
+/// Errors of results in a format compared with exact results, where both exist.
 ///
 /// A finite result that should be infinite or NaN, or the reverse, has an infinite error.
 pub(super) fn errors_of<'r>(
@@ -76,7 +76,7 @@ pub(super) fn errors_of<'r>(
     })
 }
 
-/// Median and largest of errors; `None` without any.
+/// Median and largest of errors; `None` if there are none.
 pub(super) fn local_error(errors: impl Iterator<Item = f64>) -> Option<LocalError> {
     let mut errors: Vec<f64> = errors.collect();
     errors.sort_by(f64::total_cmp);

@@ -4,7 +4,7 @@ use crate::clustering::{Clustering, Signal};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
 
-/// Powers of ten that the histogram distinguishes, as shares of a point's mean square.
+/// Powers of ten that the histogram distinguishes, relative to a point's mean square.
 const DECADES: std::ops::RangeInclusive<i32> = -10..=-1;
 
 /// The squared error of every point.
@@ -21,7 +21,7 @@ pub struct CompressionError {
 }
 
 impl CompressionError {
-    /// Errors of a clustering with as many points, and numbers per point, as the signal.
+    /// Errors of a clustering with the same number of points, and of numbers per point, as the signal.
     pub fn new(signal: &Signal, clustering: &Clustering) -> Self {
         let squared: Vec<f64> = (0..signal.points()).map(|point| clustering.squared_error_of(point, signal)).collect();
         let square = |&value: &f32| f64::from(value) * f64::from(value);
@@ -30,12 +30,12 @@ impl CompressionError {
         Self { squared, total, energy, dimension: signal.dimension() }
     }
 
-    /// Total error relative to the signal's sum of squares; 0 without error.
+    /// Total error relative to the signal's sum of squares; 0 if there is no error.
     pub fn relative(&self) -> f64 {
         if self.total > 0.0 { self.total / self.energy } else { 0.0 }
     }
 
-    /// Root mean square over all numbers.
+    /// RMS over all numbers.
     pub fn root_mean_square(&self) -> f64 {
         (self.total / (self.squared.len() * self.dimension) as f64).sqrt()
     }
@@ -46,7 +46,7 @@ impl CompressionError {
         (0..self.squared.len()).fold(0, larger)
     }
 
-    /// Points by their squared error, in powers of ten of a point's mean square.
+    /// Histogram of points by their squared error, in powers of ten of a point's mean square.
     pub fn histogram(&self) -> Table {
         let mean = self.energy / self.squared.len() as f64;
         let edge = |decade: i32| format!("1e{decade}").parse().unwrap_or(0.0);

@@ -10,7 +10,7 @@ use crate::study::StudyError;
 use crate::transfer::Vertices;
 use crate::transfer::file::PrtMeaning;
 
-/// Meaning of the numbers of a vertex, with a light of as many functions.
+/// Meaning of the numbers at a vertex, and a light with the same number of functions.
 pub(in crate::study) struct Lit<'a> {
     channels: usize,
     functions: &'a [u16],
@@ -19,14 +19,14 @@ pub(in crate::study) struct Lit<'a> {
 }
 
 impl<'a> Lit<'a> {
-    /// `None` if the numbers are not transfer.
+    /// Returns `None` if the numbers are not transfer.
     pub(in crate::study) fn new(meaning: &'a PrtMeaning, light: &'a HarmonicLight) -> Option<Self> {
         let PrtMeaning::Transfer { channels, exit_functions, light_order, .. } = meaning else { return None };
         let columns = (light_order * light_order) as usize;
         Some(Self { channels: *channels as usize, functions: exit_functions, columns, light })
     }
 
-    /// Exit coefficients M l of a matrix, or of some of its rows: red, green and blue per row.
+    /// Exit coefficients M l for a matrix, or for some of its rows: red, green and blue per row.
     fn product(&self, matrix: &[f64]) -> Vec<[f64; 3]> {
         let rows = self.functions.len();
         let dot = |row: &[f64], channel: usize| {
@@ -92,7 +92,7 @@ impl<'a> Lit<'a> {
     }
 }
 
-/// Error of a signal that is not transfer.
+/// Error for a signal that is not transfer.
 pub(super) fn no_transfer() -> StudyError {
     let help = "compress a file that `crossbar cpca precompute` wrote";
     StudyError::new("crossbar::prt::meaning", "expected transfer, found a signal that is not transfer").with_help(help)

@@ -12,24 +12,24 @@ use crate::scene::Camera;
 use crate::tracer::HostTracer;
 use crate::transfer::Vertices;
 
-/// The surface point in each pixel: corners of a triangle with weights that sum to 1, or none.
+/// The surface point at each pixel: corners of a triangle and weights with sum 1, or `None`.
 pub(in crate::study) struct SeenSurface {
     pixels: Vec<Option<([u32; 3], DVec3)>>,
 }
 
 impl SeenSurface {
-    /// Casts a camera's rays; front faces only.
+    /// Casts a camera's rays, front faces only.
     pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
         Self::of_parts(&[(mesh, vertices)], camera)
     }
 
-    /// Takes the surface points of a device's raster.
+    /// Uses the surface points that a device's rasterizer produced.
     pub(super) fn by_raster(pixels: &[Option<SeenPixel>]) -> Self {
         let pixel = |pixel: &SeenPixel| (pixel.corners, DVec3::from(pixel.weights));
         Self { pixels: pixels.iter().map(|seen| seen.as_ref().map(pixel)).collect() }
     }
 
-    /// The nearest of several meshes; vertex indices continue from mesh to mesh.
+    /// Finds the nearest of several meshes; vertex indices continue from mesh to mesh.
     pub(super) fn of_parts(parts: &[(&Mesh, &Vertices)], camera: &Camera) -> Self {
         let rays = camera.rays();
         let mut nearest: Vec<Option<(f32, [u32; 3], DVec3)>> = vec![None; rays.len()];
@@ -56,7 +56,7 @@ impl SeenSurface {
         Self { pixels: pixels.collect() }
     }
 
-    /// Pixels that show the model.
+    /// Number of pixels that show the model.
     pub(super) fn count(&self) -> usize {
         self.pixels.iter().flatten().count()
     }
@@ -71,8 +71,8 @@ impl SeenSurface {
         self.pixels.par_iter().map(color).collect()
     }
 
-    /// Radiance of each pixel's exit coefficients towards its view vector, both interpolated, as on a card without
-    /// rounding. `functions` fills in the functions of exit radiance at a direction.
+    /// Radiance of each pixel: exit coefficients towards the view vector, both interpolated as on a card, but without
+    /// rounding. `functions` evaluates the functions of exit radiance at a direction.
     pub(super) fn radiance(
         &self,
         exit: &[Vec<[f64; 3]>],
@@ -93,7 +93,7 @@ impl SeenSurface {
         self.pixels.par_iter().map(color).collect()
     }
 
-    /// The vertex that weighs most at each pixel.
+    /// The vertex with the largest weight at each pixel.
     pub(in crate::study) fn nearest(&self) -> impl Iterator<Item = Option<u32>> + '_ {
         let nearest = |weights: DVec3| {
             if weights.x >= weights.max_element() {

@@ -1,4 +1,4 @@
-//! Picture of a distant light, beside the pictures that it lights.
+//! Picture of a distant light, shown with the pictures that it lights.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,11 +13,11 @@ use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
 
 /// Width of the picture in pixels, twice its height.
 const WIDTH: u32 = 320;
-/// Linear light of the median non-black pixel.
+/// Linear value of the median non-black pixel.
 const MIDDLE_GREY: f64 = 0.18;
 
-/// Lat-long picture of the radiance from every direction, as `--light` reads it: its middle is +y, its right +x, and up
-/// is +z. The median non-black pixel is 18 % grey.
+/// Lat-long picture of the radiance from every direction, in the layout that `--light` reads: its middle is +y, its
+/// right is +x, and up is +z. The median non-black pixel is 18 % grey.
 pub(in crate::study) fn light_picture(
     name: impl Into<String>,
     light: &str,

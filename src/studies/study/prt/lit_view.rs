@@ -1,4 +1,4 @@
-//! The view of a lit model that pictures of all systems on transfer share.
+//! The view of a lit model, shared by the pictures of all transfer systems.
 
 use glam::DVec3;
 use serde_json::json;
@@ -11,7 +11,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, NamedPicture, false_color};
 use crate::scene::Camera;
 
-/// Mean of the pixels that are not black under auto-exposure.
+/// Mean value of the non-black pixels under auto-exposure.
 const MIDDLE_GREY: f64 = 0.18;
 
 /// A model under a light, seen by a camera.
@@ -23,12 +23,12 @@ pub struct LitView {
     pub light: String,
     /// The camera.
     pub camera: Camera,
-    /// Factor of radiance; `None` for auto-exposure: 18 % grey on average.
+    /// Factor for radiance; `None` for auto-exposure: 18 % grey on average.
     pub exposure: Option<f64>,
 }
 
 impl LitView {
-    /// The exposure of linear radiance of pixels.
+    /// Returns the exposure for linear radiance of pixels.
     pub(super) fn exposure_of(&self, linear: &[[f64; 3]]) -> f64 {
         self.exposure.unwrap_or_else(|| auto_exposure(linear))
     }
@@ -50,7 +50,7 @@ impl LitView {
         light_picture("light", &self.light, radiance)
     }
 
-    /// Findings that begin with a drawn picture and that of its light; returns the exposure too.
+    /// Findings that begin with a drawn picture and a picture of its light; returns the exposure too.
     pub(super) fn findings(
         &self,
         title: &str,
@@ -68,8 +68,8 @@ impl LitView {
         Ok((found, exposure))
     }
 
-    /// Pictures from uncompressed transfer and of the difference of `drawn`, named by `less`; the difference of each
-    /// pixel's mean channel, and the largest one.
+    /// Adds the picture from uncompressed transfer, and the difference of `drawn` from it, named by `less`. Returns the
+    /// difference of each pixel's mean channel, and the largest.
     pub(super) fn against_original(
         &self,
         drawn: &[[f64; 3]],
@@ -90,14 +90,14 @@ impl LitView {
         Ok((pictures, difference, largest))
     }
 
-    /// Sentence on the number of pixels that show the model.
+    /// Sentence about the number of pixels that show the model.
     pub(super) fn sentence(&self, shown: usize) -> String {
         let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
         format!("{shown} of {pixels} pixels show {}.", self.caption())
     }
 }
 
-/// Exposure that brings visible pixels to 18 % grey on average.
+/// Exposure that makes visible pixels 18 % grey on average.
 pub(in crate::study) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
     let lit: Vec<f64> =
         colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&value| value > 0.0).collect();

@@ -1,8 +1,8 @@
-//! Precomputed radiance transfer from a model to a file ([`Precomputation`]), errors of compression
+//! Precomputed radiance transfer: from a model to a file ([`Precomputation`]), errors of compression
 //! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and factors of a
-//! reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`], [`SegmentedCompression`],
-//! [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. Bi-scale transfer: pictures ([`BiScaleRendering`],
-//! [`BiScaleOnCard`]), and ways to store it side by side ([`StoredComparison`]).
+//! reflectance ([`BrdfFactors`]). The same for all-frequency transfer: [`SightOfModel`], [`SegmentedCompression`],
+//! [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. For bi-scale transfer: pictures ([`BiScaleRendering`],
+//! [`BiScaleOnCard`]), and a comparison of ways to store it ([`StoredComparison`]).
 
 mod all_frequency;
 mod bi_scale;
@@ -52,13 +52,13 @@ library_errors! {
     LightSizeError => "crossbar::prt::segments";
 }
 
-/// Error of a card that displays compressed transfer.
+/// Error of a card that should display compressed transfer.
 pub(super) fn no_cpca_card(error: CardError) -> StudyError {
     let help = "`crossbar cpca render` draws on the host, without a card's limits; `crossbar devices` lists cards";
     StudyError::from(error).with_help(help)
 }
 
-/// Error of a card that displays all-frequency transfer.
+/// Error of a card that should display all-frequency transfer.
 pub(super) fn no_all_frequency_card(error: CardError) -> StudyError {
     StudyError::from(error).with_help(
         "`--way colors` runs on every card; `crossbar all-frequency render` draws on the host, without a card's limits",

@@ -1,4 +1,4 @@
-//! Results at ranges of vertices, which are joined.
+//! Results for ranges of vertices, and their concatenation.
 
 use std::ops::Range;
 
@@ -18,11 +18,11 @@ impl Concatenate for VisibilityMaps {
     }
 }
 
-/// Rays of the vertices of a range, and their matrices of direct light.
+/// Ray hits for the vertices of a range, and their matrices of direct light.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct VertexTransfer {
     pub(super) answers: RayAnswers,
-    /// Per channel: matrices of the vertices, and matrices of light transmitted below the surface, if any.
+    /// Per channel: matrices of the vertices, and matrices of the light that enters below the surface, if any.
     pub(super) channels: Vec<(Vec<f32>, Vec<f32>)>,
 }
 

@@ -1,4 +1,4 @@
-//! From a model to the transfer of its vertices.
+//! Computes the transfer of a model's vertices.
 
 use std::ops::Range;
 
@@ -18,21 +18,21 @@ use crate::transfer::Vertices;
 use crate::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
 
-/// Degree up to which a rule of many heights is exact: that of products of two functions of the largest order.
+/// Degree up to which a rule of many heights is exact: the degree of products of two functions of the largest order.
 const EXACT_DEGREE: usize = 2 * MAX_ORDER - 2;
 
-/// How exit radiance is expressed.
+/// Representation of exit radiance.
 #[derive(Clone, Debug)]
 pub enum ExitRadiance {
-    /// By itself: diffuse transfer.
+    /// Without a basis: diffuse transfer.
     Diffuse,
     /// In harmonics: glossy transfer.
     Glossy {
-        /// Their functions.
+        /// Functions of the basis.
         basis: ExitBasis,
-        /// True for least squares; else by integrals over the hemisphere.
+        /// `true` for least squares, `false` for integrals over the hemisphere.
         least_squares: bool,
-        /// How light reaches the BRDF.
+        /// Quantity of light that the BRDF receives.
         incident: Incident,
     },
 }
@@ -40,27 +40,27 @@ pub enum ExitRadiance {
 /// A medium below the surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Scatterer {
-    /// Per color channel.
+    /// Dipoles of red, green and blue.
     pub dipoles: [Dipole; 3],
-    /// Lengths, and when a cluster of vertices is one point.
+    /// Lengths, and the criterion by which a cluster of vertices counts as one point.
     pub options: ScatteringOptions,
 }
 
-/// Everything that transfer is computed from.
+/// All inputs of the transfer computation.
 #[derive(Debug)]
 pub struct Precomputation<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
     /// Its vertices.
     pub vertices: &'a Vertices,
-    /// Color channels of the transfer, 0 to 2 for red, green and blue; per channel a BRDF of each material.
+    /// Color channels of the transfer, 0 to 2 for red, green and blue; each with one BRDF per material.
     pub channels: Vec<(usize, Vec<Brdf>)>,
-    /// The rows of each matrix.
+    /// Meaning of the rows of each matrix.
     pub exit: ExitRadiance,
     /// The order of the light.
     pub order: usize,
-    /// The size of the rule of directions over each vertex's hemisphere: [`DirectionRule::spread`], whose heights are
-    /// all different, from 40 on; below, [`DirectionRule::hemisphere`] of this degree.
+    /// Size of the direction rule over each vertex's hemisphere: from 40 on, [`DirectionRule::spread`], whose heights
+    /// are all different; below, [`DirectionRule::hemisphere`] of this degree.
     pub degree: usize,
     /// Number of interreflections.
     pub bounces: Bounces,
@@ -68,22 +68,22 @@ pub struct Precomputation<'a> {
     pub scatterer: Option<Scatterer>,
 }
 
-/// Transfer, and its counts.
+/// Computed transfer, with its counts.
 #[derive(Debug)]
 pub struct Precomputed {
     /// The transfer.
     pub file: PrtFile,
-    /// Directions of each vertex.
+    /// Number of directions per vertex.
     pub directions: usize,
     /// Rays.
     pub counts: TransferCounts,
-    /// Contribution of each bounce per channel, relative to the direct transfer.
+    /// Contribution of each bounce, per channel, relative to the direct transfer.
     pub bounces: Vec<Vec<f64>>,
 }
 
 impl Precomputed {
-    /// Difference of this transfer from another of the same vertices: the number of coefficients that differ, and the
-    /// root mean square of the differences over that of the other's coefficients.
+    /// Difference of this transfer from another for the same vertices: the number of coefficients that differ, and the
+    /// RMS of the differences relative to the RMS of the other's coefficients.
     pub fn off(&self, other: &Self) -> (u64, f64) {
         let values = |of: &Self| of.file.transfer.as_ref().map_or_else(Vec::new, |signal| signal.values().to_vec());
         let (mut off, mut all, mut differing) = (ErrorSums::default(), ErrorSums::default(), 0);
@@ -96,10 +96,10 @@ impl Precomputed {
     }
 }
 
-/// Responses of the materials of a channel.
+/// Responses of the materials in a channel.
 struct ChannelResponses {
     of_materials: Vec<Response>,
-    /// Light that passes into the medium below the surface, with its dipole.
+    /// Responses to light that enters the medium below the surface, and its dipole.
     entering: Option<(Vec<Response>, Dipole)>,
 }
 
@@ -111,9 +111,10 @@ impl Precomputation<'_> {
         Ok(self.run_split(&mut tracer, &SplitRun::Whole, progress)?.whole())
     }
 
-    /// As [`Self::run`] by a caster of the mesh that sees both sides, for rays and direct light of all vertices, of those
-    /// of a part, or of parts. Work that needs all vertices is not split: bounces, and light that scatters below the
-    /// surface. Errors: those of [`Self::run`], and [`InputError`](crate::error::InputError) of parts.
+    /// As [`Self::run`], with a caster of the mesh that sees both sides. Rays and direct light are split by vertices,
+    /// into parts or merged from parts. Work that needs all vertices is not split: bounces, and light that scatters
+    /// below the surface. Fails as [`Self::run`] does, or with an [`InputError`](crate::error::InputError) if a part is
+    /// invalid.
     pub fn run_split(
         &self,
         caster: &mut dyn Caster,
@@ -128,7 +129,7 @@ impl Precomputation<'_> {
         }
     }
 
-    /// The rule of directions, and the responses of each channel.
+    /// Returns the direction rule, and the responses of each channel.
     fn prepare(&self) -> Result<(DirectionRule, Vec<ChannelResponses>), StudyError> {
         self.check()?;
         let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
@@ -137,7 +138,7 @@ impl Precomputation<'_> {
         Ok((rule, responses))
     }
 
-    /// The rays and matrices of direct light of a range of vertices.
+    /// Computes the rays and matrices of direct light for a range of vertices.
     fn of_range(
         &self,
         range: Range<usize>,
@@ -160,7 +161,7 @@ impl Precomputation<'_> {
         Ok(VertexTransfer { answers: if keep_hits { answers } else { answers.counts_only() }, channels })
     }
 
-    /// The transfer, from the results of all vertices.
+    /// Computes the transfer from the results for all vertices.
     fn whole(
         &self,
         found: VertexTransfer,
@@ -226,7 +227,7 @@ impl Precomputation<'_> {
         Ok(ChannelResponses { of_materials, entering })
     }
 
-    /// The transfer of a channel out of direct light on the surface, and of that which enters below it.
+    /// Computes the transfer of a channel from direct light on the surface, and from light that enters below it.
     fn channel(
         &self,
         rays: &TracedRays,
@@ -245,7 +246,7 @@ impl Precomputation<'_> {
     }
 }
 
-/// One signal of all channels: point by point, channel by channel.
+/// Joins all channels into one signal: point by point, channel by channel.
 fn together(channels: Vec<Transfer>) -> Result<Signal, InputError> {
     let size = channels.first().map_or(0, |one| one.row_count() * one.column_count());
     let count = channels.len();

@@ -23,13 +23,13 @@ pub struct Rendering {
     pub view: LitView,
     /// The model's mesh.
     pub mesh: Mesh,
-    /// The model's vertices, the points of the file.
+    /// The model's vertices, which are the points of the file.
     pub vertices: Vertices,
-    /// Transfer, clusters or both: clusters are drawn.
+    /// Transfer, clusters or both; if there are clusters, they are drawn.
     pub file: PrtFile,
     /// The uncompressed transfer to compare with, if there is one.
     pub original: Option<Signal>,
-    /// The light, of the order of the transfer.
+    /// The light, with the same order as the transfer.
     pub light: HarmonicLight,
 }
 
@@ -51,7 +51,7 @@ impl Study for Rendering {
 }
 
 impl Rendering {
-    /// Linear radiance of all pixels: from `original` if given, else from clusters, else from transfer.
+    /// Linear radiance of all pixels: from `original` if given, otherwise from clusters, otherwise from transfer.
     fn colors(&self, seen: &SeenSurface, original: Option<&Signal>) -> Result<Vec<[f64; 3]>, StudyError> {
         let lit = Lit::new(&self.file.meaning, &self.light).ok_or_else(no_transfer)?;
         let exit = match (original, &self.file.clustering, &self.file.transfer) {
@@ -74,7 +74,7 @@ impl Rendering {
         }
     }
 
-    /// Compares pictures of the original and of the clusters.
+    /// Compares pictures from the original and from the clusters.
     fn compare(
         &self,
         seen: &SeenSurface,
@@ -118,7 +118,7 @@ impl Rendering {
         Ok(())
     }
 
-    /// The cluster of each pixel's nearest vertex.
+    /// Adds a picture of the cluster of each pixel's nearest vertex.
     fn clusters(&self, seen: &SeenSurface, found: &mut Findings) {
         let Some(clustering) = &self.file.clustering else { return };
         let color = |vertex: Option<u32>| {

@@ -1,4 +1,4 @@
-//! Biclusters compared with other ways to store transfer: bytes, and errors of the arriving light.
+//! Biclusters compared with other ways to store transfer: bytes, and errors of the local light.
 
 use std::time::Instant;
 
@@ -16,18 +16,18 @@ use crate::report::{Cell, Table};
 use crate::study::ProgressFn;
 use crate::transfer::grid::LIGHT_TEXELS;
 
-/// Edges of the cubes of the rejected form, in texels: a coarse cube with about as many texels over the hemisphere as 8
-/// x 8 local directions, and the light's own cube.
+/// Edges of the cubes of the rejected form, in texels: a coarse cube with about as many texels per hemisphere as 8 x 8
+/// local directions, and the light's own cube.
 const COARSE_SIDES: [usize; 2] = [4, 32];
 
-/// The transfer to be stored in several ways.
+/// A transfer matrix, to be stored in several ways.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredComparison<'a> {
     /// T.
     pub matrix: &'a SparseMatrix,
     /// Biclusters of T.
     pub biclusters: &'a Biclustering,
-    /// Frames of T's vertices; without them, rotated forms are not compared.
+    /// Frames at T's vertices; if there are none, rotated forms are not compared.
     pub transfer: Option<LocalTransfer<'a>>,
     /// Clusters of rows.
     pub clusters: RowClusterOptions,
@@ -37,25 +37,25 @@ pub struct StoredComparison<'a> {
     pub order: usize,
 }
 
-/// A storage of transfer, with its size and error.
+/// A way to store transfer, with its size and error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredWay {
-    /// The way, with its settings.
+    /// Name of the way, with its settings.
     pub name: String,
-    /// Bytes by layout; the errors belong to the first.
+    /// Bytes per layout; the errors belong to the first layout.
     pub sizes: Vec<StoredSize>,
-    /// For each light the error of all its channels.
+    /// Error over all channels, per light.
     pub errors: Vec<LocalLightError>,
-    /// Time of its computation.
+    /// Seconds of its computation.
     pub seconds: f64,
 }
 
-/// A light: numbers per light texel times solid angles, channel by channel.
+/// A light: numbers per light texel, multiplied by solid angles, channel by channel.
 pub type LightChannels = Vec<Vec<f64>>;
 
 impl StoredComparison<'_> {
-    /// All storage methods under some lights, biclusters first. `visit` is called with each. Fails with [`InputError`];
-    /// omits values that do not fit into a layout of narrow numbers.
+    /// Stores the matrix in all ways and measures errors under some lights, biclusters first. `visit` is called with
+    /// each way. Fails with an [`InputError`]; omits layouts of narrow numbers that cannot hold the values.
     pub fn ways(
         &self,
         lights: &[LightChannels],
@@ -113,7 +113,7 @@ impl StoredComparison<'_> {
         Ok(ways.found)
     }
 
-    /// Clusters as requested, and with as many vectors as fit into `budget` bytes, if that differs.
+    /// Clusters as requested, and, if that differs, with as many vectors as fit into `budget` bytes.
     fn cluster_settings(&self, budget: u64) -> Vec<(RowClusterOptions, &'static str)> {
         let equal = self.clusters.within(budget, [self.matrix.rows(), self.matrix.columns()]);
         let mut settings = vec![(self.clusters, "")];
@@ -129,7 +129,7 @@ const EQUAL: &str = ", in the bytes of biclusters";
 
 struct StorageMethods<'a> {
     lights: &'a [LightChannels],
-    /// T L per light, channel by channel.
+    /// T L for each light, channel by channel.
     exact: Vec<Vec<f64>>,
     found: Vec<StoredWay>,
     visit: &'a mut dyn FnMut(&str, &dyn StoredTransfer),
@@ -164,8 +164,8 @@ fn joined(light: &LightChannels, product: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f6
     light.iter().flat_map(|channel| product(channel)).collect()
 }
 
-/// A line per way: megabytes, their share of the first way's, and per light the relative error in percent and the
-/// largest.
+/// Table with a row per way: megabytes, percent of the first way's bytes, and for each light the relative error in
+/// percent and the largest.
 pub fn stored_ways_table(title: &str, ways: &[StoredWay], lights: &[&str]) -> Table {
     let errors = lights.iter().flat_map(|light| [format!("{light}_error_%"), format!("{light}_largest")]);
     let headings: Vec<String> = ["way", "MB", "of_biclusters_%"].map(str::to_owned).into_iter().chain(errors).collect();

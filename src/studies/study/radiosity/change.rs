@@ -26,7 +26,7 @@ pub(super) struct Relit {
     pub(super) from_nothing: Option<usize>,
 }
 
-/// Applies the changes to a system; `None` if there are none.
+/// Applies the changes to a system; `None` if there are no changes.
 pub(super) fn apply(
     changes: &[Change],
     scene: &Scene,

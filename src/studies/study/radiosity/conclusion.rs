@@ -27,7 +27,7 @@ pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     );
 }
 
-/// Row with the largest mean error; `None` without a direct solution to compare with.
+/// Row with the largest mean error; `None` if there is no direct solution to compare with.
 pub(super) fn least_accurate(rows: &[MethodRow]) -> Option<&MethodRow> {
     let bias = |row: &MethodRow| row.error.map_or(0.0, |error| error.bias.abs());
     rows.iter()
@@ -59,7 +59,7 @@ fn shade(bias: f64) -> String {
     format!("{} too {which}", percent(bias.abs()))
 }
 
-/// Sentence on the row that met the tolerance first; `None` if none did.
+/// Sentence about the row that met the tolerance first; `None` if none did.
 fn speed(rows: &[MethodRow]) -> Option<String> {
     let within = || rows.iter().filter(|row| row.stopped == StopReason::Tolerance);
     let (first, last) = (within().min_by_key(|row| row.iterations())?, within().max_by_key(|row| row.iterations())?);
@@ -72,7 +72,7 @@ fn speed(rows: &[MethodRow]) -> Option<String> {
     })
 }
 
-/// Sentences on the range of the sweep's mean errors, and on rows that are not finite; `None` without a sweep.
+/// Sentences about the range of the sweep's mean errors, and about rows that are not finite; `None` without a sweep.
 fn sweep(outcome: &RadiosityOutcome) -> Option<String> {
     let (finite, others): (Vec<_>, Vec<_>) = outcome.sweep.iter().partition(|row| row.error.not_finite == 0);
     let by_bias = |a: &&&SweepRow, b: &&&SweepRow| a.error.bias.total_cmp(&b.error.bias);

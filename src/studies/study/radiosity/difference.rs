@@ -1,11 +1,11 @@
-//! Error of a solution against the direct one.
+//! Error of a solution compared with the direct one.
 
 use serde::{Deserialize, Serialize};
 
 use crate::picture::metrics::{ErrorSums, value_error};
 
-/// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the
-/// direct one is, or the reverse.
+/// Error of a solution over all patches and channels. Errors are infinite if a radiosity is not finite but the direct
+/// one is, or the reverse.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::study) struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
@@ -14,8 +14,8 @@ pub(in crate::study) struct SolutionError {
     pub(in crate::study) relative: f64,
     /// Largest relative difference over patches that do not emit.
     pub(in crate::study) relative_unlit: f64,
-    /// Mean signed relative difference over patches that do not emit, large and small alike: negative if they are too
-    /// dark.
+    /// Mean signed relative difference over patches that do not emit, each with the same weight: negative if they are
+    /// too dark.
     pub(in crate::study) bias: f64,
     /// Number of radiosities that are not finite where the direct ones are, or the reverse.
     pub(in crate::study) not_finite: u64,

@@ -1,4 +1,4 @@
-//! Rays of the Ray Engine in place of the host's: what leaks into form factors, and into the room.
+//! The Ray Engine's rays in place of the host's: leaks of form factors, and their effect on the solution.
 
 use super::room::{self, Room};
 use super::{Parameters, ProgressFn, SolutionError};
@@ -10,17 +10,17 @@ use crate::report::{Cell, Findings, FoundTable, Table};
 use crate::study::StudyError;
 use crate::study::caster::{CastRecord, CasterChoice};
 
-/// A room whose rays the engine cast, against the same room by the host's rays.
+/// Form factors by the engine's rays, compared with those by the host's rays.
 #[derive(Clone, Debug)]
 pub(super) struct LeakRow {
     pub(super) cast: CastRecord,
-    /// Sums of absolute differences of a patch's form factors: the share of its light that goes elsewhere.
+    /// Sums of absolute differences of a patch's form factors: the fraction of its light that goes elsewhere.
     pub(super) factors: ErrorSums,
     /// Error of the direct solution.
     pub(super) error: SolutionError,
 }
 
-/// A row per engine; `first` is the room of the first caster.
+/// One row per Ray Engine caster; `first` holds the first caster's form factors. Empty if that is the host.
 pub(super) fn rows(
     parameters: &Parameters,
     patches: &Patches,
@@ -56,7 +56,7 @@ const EXPLAINED: &str = "Each row computes the form factors anew with rays of th
     are those of the direct solution, against the room of the host's rays: the largest relative to the brightest \
     patch, the largest of a patch that does not emit, and the signed mean over these.";
 
-/// Adds the table, and a sentence on the worst row.
+/// Adds the table, and a sentence about the worst row.
 pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
     let columns = "rays_by rays on_card_% differing differing_% factors_% factors_largest_% largest_error \
          largest_relative mean_relative";

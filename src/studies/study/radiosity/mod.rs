@@ -1,4 +1,4 @@
-//! Study of the radiosity of a scene by several methods: on a card, on the host, directly.
+//! Study of the radiosity of a scene by several methods: on a card, by a solver on the host, and directly.
 //!
 //! It measures the cost of each method (iterations, passes, time) and its error relative to the direct solution, and
 //! renders the room. After a change of emission or reflectance, it counts the iterations from the previous solution and
@@ -74,13 +74,13 @@ impl Study for Parameters {
     }
 }
 
-/// Solves by every method, draws the pictures, and runs the sweep: as a whole, in part, or out of parts.
+/// Solves by every method, draws the pictures, and runs the sweep: the whole run, a part, or merged parts.
 fn run(
     parameters: &Parameters,
     split: &SplitRun,
     progress: &mut ProgressFn<'_>,
 ) -> Result<Computed<RadiosityOutcome>, StudyError> {
-    // Before the patches and their form factors, which take long.
+    // Checked before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
         let what = "expected a scene with a material that emits light, found none";
         return Err(
@@ -164,7 +164,7 @@ fn row(
     })
 }
 
-/// Energy-balance error relative to the emitted power, the maximum over the channels that emit.
+/// Energy-balance error relative to the emitted power; the maximum over the emitting channels.
 fn energy_balance_error(system: &System, radiosity: &[[f64; 3]]) -> f64 {
     let left = system.energy_balance_error(radiosity);
     let emitted = |c: usize| -> f64 {

@@ -158,7 +158,7 @@ fn color_of(text: &str) -> Result<MaterialColor, String> {
 }
 
 impl RadiosityOptions {
-    /// Fineness of the subdivision.
+    /// Fineness of the subdivision into patches.
     pub fn subdivision(&self) -> Subdivision {
         Subdivision::AtMost(self.patches as usize)
     }
@@ -171,7 +171,7 @@ impl RadiosityOptions {
         }
     }
 
-    /// Changes after the first solution: lights first, then paint.
+    /// Changes after the first solution: lights first, then reflectances.
     pub(super) fn changes(&self) -> Vec<Change> {
         let emit = self.emissions.iter().cloned();
         let emit = emit.map(|c| Change::Emission { material: c.material, radiance: c.rgb });
@@ -179,8 +179,8 @@ impl RadiosityOptions {
         emit.chain(paint.map(|c| Change::Reflectance { material: c.material, reflectance: c.rgb })).collect()
     }
 
-    /// Every solver, those on the card in every packing and storage; nothing twice. Fails if an option for cards is
-    /// given, and no method runs on a card.
+    /// Every solver, without duplicates; solvers on the card with every packing and storage. Fails if an option for
+    /// cards is given but no method runs on a card.
     pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
         let solvers = if self.solvers.is_empty() { &usual[..] } else { &self.solvers };

@@ -18,15 +18,15 @@ pub(super) struct MethodRow {
     pub(super) label: String,
     /// Radiosity of each patch.
     pub(super) radiosity: Vec<[f64; 3]>,
-    /// Figure 3's error initially and after each iteration: the mean squared residual, over all channels.
+    /// Figure 3's error, initially and after each iteration: the mean squared residual over all channels.
     pub(super) history: Vec<f64>,
     /// Final residual relative to the emittance, both in Euclidean norms.
     pub(super) residual: f64,
     /// Reason why it stopped.
     pub(super) stopped: StopReason,
-    /// Energy-balance error relative to the emitted power, the maximum over the channels.
+    /// Energy-balance error relative to the emitted power; the maximum over the channels.
     pub(super) energy_balance_error: f64,
-    /// Error against the direct solution, if that was requested.
+    /// Error compared with the direct solution, if that was requested.
     pub(super) error: Option<SolutionError>,
     /// Cost on a card; `None` on the host.
     pub(super) card: Option<CardFacts>,
@@ -42,9 +42,9 @@ pub(super) struct RadiosityOutcome {
     pub(super) patches: Patches,
     /// Row sums before closure was enforced.
     pub(super) found_sums: RowSums,
-    /// Rooms by rays of the Ray Engine.
+    /// Form factors by rays of the Ray Engine, one row per engine.
     pub(super) leaks: Vec<LeakRow>,
-    /// Exposure of the pictures: pixel value per radiance.
+    /// Exposure of the pictures: pixel value per unit of radiance.
     pub(super) exposure: f64,
     /// One row per method.
     pub(super) rows: Vec<MethodRow>,

@@ -13,9 +13,9 @@ use crate::study::caster::CasterChoice;
 pub struct Parameters {
     /// Scene.
     pub scene: Scene,
-    /// Methods, one row of the table for each.
+    /// Methods; each has a row in the table.
     pub methods: Vec<SolveMethod>,
-    /// Card of the methods that run on one.
+    /// Card for the methods that run on one.
     pub profile: Profile,
     /// Switches of the card that were set.
     pub switches: Vec<(String, String)>,
@@ -23,8 +23,8 @@ pub struct Parameters {
     pub executor: Executor,
     /// Camera of the pictures.
     pub camera: Camera,
-    /// What casts the rays of form factors, at least one; several engines are compared, and the first one's room is
-    /// solved. Parts of a run take the host's rays.
+    /// Casters of the rays for form factors, at least one. Several engines are compared, and the scene is solved with
+    /// the first one's factors. Parts of a run use the host's rays.
     pub casters: Vec<CasterChoice>,
     /// Options.
     pub options: RadiosityOptions,

@@ -1,5 +1,5 @@
-//! Pictures of the room, drawn by the card: from the solver's own texture where one texture holds all three channels,
-//! otherwise uploaded.
+//! Pictures of the room, drawn by the card: from the solver's own texture if one texture holds all three channels,
+//! otherwise from an uploaded one.
 
 use refsim::machine::Machine;
 use refsim::texture::TexelFormat;
@@ -23,14 +23,14 @@ const TARGET: TexelFormat = TexelFormat::Rgba32f;
 /// Pictures of a solution.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pictures {
-    /// Flat-shaded: each patch in its radiosity.
+    /// Flat-shaded picture: each patch shows its radiosity.
     pub(super) flat: RgbImage,
     /// Smooth-shaded: interpolated between corners.
     pub(super) smooth: RgbImage,
     /// Smooth-shaded after the changes.
     pub(super) relit: Option<RgbImage>,
-    /// For a solution on the card, the luminance of each patch minus that of the direct solution, relative to the
-    /// latter, per pixel.
+    /// For a solution on the card: per pixel, the luminance minus the direct solution's luminance, relative to the
+    /// latter.
     pub(super) error: Option<Vec<f64>>,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct IterationPicture {
     pub(super) flat: RgbImage,
 }
 
-/// Computes the auto-exposure: surfaces that do not emit at 18 % grey on average over their area.
+/// Computes the auto-exposure: non-emitting surfaces are 18 % grey on average over their area.
 pub(in crate::study) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[f64; 3]]) -> f64 {
     let (mut light, mut area) = (0.0, 0.0);
     for (i, (e, b)) in emittance.iter().zip(radiosity).enumerate() {
@@ -56,14 +56,14 @@ pub(in crate::study) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radi
     if light > 0.0 && light.is_finite() { MIDDLE_GREY * area / light } else { 1.0 }
 }
 
-/// Renderer of pictures, with a card of its own for solutions that are not on one.
+/// Renderer of pictures. It has its own card for solutions that are not on one.
 pub(super) struct PictureRenderer<'a> {
     patches: &'a Patches,
     parameters: &'a Parameters,
     exposure: f64,
     machine: Machine,
     display: Display,
-    /// Direct solution, each patch in its radiosity.
+    /// Picture of the direct solution, flat-shaded.
     reference: Option<Picture>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> PictureRenderer<'a> {
         Ok(Self { patches, parameters, exposure, machine, display, reference: None })
     }
 
-    /// Sets the solution that later solutions on a card are compared with.
+    /// Sets the solution with which later solutions on a card are compared.
     pub(super) fn compare_with(&mut self, reference: &[[f64; 3]]) -> Result<(), StudyError> {
         self.reference = Some(self.flat(reference)?);
         Ok(())

@@ -41,7 +41,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         let picture = |kind: &str, image, what: &str| {
             NamedPicture::new(format!("{label}-{kind}"), image, format!("{label}: {what}"))
         };
-        pictures.push(picture("flat", drawn.flat, "each patch in its radiosity"));
+        pictures.push(picture("flat", drawn.flat, "each patch with its radiosity"));
         let smooth = picture("smooth", drawn.smooth, "resampled to corners");
         if leads {
             lead.push(smooth)
@@ -104,7 +104,7 @@ const SWEEP: &str = "A switch is an open question about the card; each is change
     share a row. predicted_mean is the first-order prediction if every term of a sum is rounded to the step of the \
     sum.";
 
-/// False-color pictures of the error of each solution on the card, on one scale.
+/// False-color pictures of the error of each solution on the card, all with the same scale.
 fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPicture> {
     let errors = || outcome.rows.iter().filter_map(|row| Some((row.label.as_str(), row.pictures.error.as_ref()?)));
     let finite = errors().flat_map(|(_, error)| error).filter(|error| error.is_finite());
@@ -177,7 +177,7 @@ fn first_places(positions: &[[f32; 3]]) -> BTreeMap<[u32; 3], u32> {
     first
 }
 
-/// Bits of a position, with both zeros alike.
+/// Bits of a position; both zeros give the same bits.
 fn place(at: [f32; 3]) -> [u32; 3] {
     at.map(|x| (x + 0.0).to_bits())
 }
@@ -198,18 +198,18 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
         outcome.rows.iter().filter(|row| row.iterations() > 0 && row.method != SolveMethod::DIRECT).map(line).collect();
     let caption = "The mean over the channels of the mean squared residual, as in the paper's Figure 3.";
     let names = ["Mean squared residual of M B - E", "iterations", "error"];
-    // A method without convergence must not compress the others into a corner.
+    // A diverging method must not compress the others into a corner.
     let scale = Scale::fitting(lines.iter().filter_map(|line| line.points.last()).map(|end| end.0));
     let shown = lines.iter().flat_map(|line| &line.points).filter(|point| point.1 > 0.0);
     let iterates = shown.map(|point| point.0).fold(0.0, f64::max) > 0.0;
     iterates.then(|| logarithmic("residual", names, (scale, lines), caption))
 }
 
-/// Ratio of mean errors above which a setting of a switch gets a line of its own; the table has all settings.
+/// Ratio of mean errors above which a setting of a switch has its own line; the table has all settings.
 const APART: f64 = 1.5;
 
-/// Chart of the mean error by number of patches: a line per method on the card with its defaults, and one per setting
-/// that makes a difference. `None` without a sweep.
+/// Chart of the mean error by number of patches: a line per method on the card with its defaults, and a line per
+/// setting that makes a difference. `None` without a sweep.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.error.bias.abs();
     let apart = |row: &SweepRow| {

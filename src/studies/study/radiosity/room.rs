@@ -11,7 +11,7 @@ use crate::study::caster::{CastRecord, CasterChoice};
 pub(super) struct Room {
     pub(super) factors: FormFactors,
     pub(super) found_sums: RowSums,
-    /// What the Ray Engine did, if it cast the rays.
+    /// Statistics of the Ray Engine, if it cast the rays.
     pub(super) cast: Option<CastRecord>,
 }
 

@@ -10,7 +10,7 @@ use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, to_f64};
 use crate::radiosity::solve::{Options, Solver, mean_square};
 use crate::study::StudyError;
 
-/// Solution of a method, with its card.
+/// Solution by a method, with its card.
 pub(super) struct Solved {
     pub(super) method: SolveMethod,
     pub(super) radiosity: Vec<[f64; 3]>,

@@ -1,4 +1,4 @@
-//! Items of parts of a run: rows of form factors, and runs of the sweep.
+//! Items that a divided run computes in parts: rows of form factors, and runs of the sweep.
 
 use std::ops::Range;
 
@@ -15,14 +15,14 @@ use crate::study::caster::CasterChoice;
 
 /// Results of consecutive items. An item is a share of the rows of form factors and of the settings of the sweep.
 ///
-/// Rows come in pairs, the first with the last, the second with the last but one, and so on: a row has the exchanges
-/// with later patches alone, so that pairs cost the same.
+/// Rows come in pairs, the first with the last, the second with the last but one, and so on: a row only has the
+/// exchanges with later patches, so pairs make the costs equal.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct RadiosityItems {
     items: usize,
-    /// Pair by pair.
+    /// Rows of form factors, pair by pair.
     rows: Vec<Vec<f64>>,
-    /// By setting, then by number of patches.
+    /// Runs by setting, then by number of patches.
     pub(super) sweep: Vec<Vec<SweepRun>>,
 }
 
@@ -38,7 +38,7 @@ impl Concatenate for RadiosityItems {
     }
 }
 
-/// Computes a part, or takes the results of parts.
+/// Computes a part, or reads the results of parts.
 pub(super) fn known(
     split: &SplitRun,
     patches: &Patches,
@@ -55,7 +55,7 @@ pub(super) fn known(
     })
 }
 
-/// Patches of pairs; the middle one of an odd number is alone.
+/// Patches in the given pairs; the middle patch of an odd number is alone.
 fn patches_of(pairs: Range<usize>, count: usize) -> impl Iterator<Item = usize> {
     pairs.flat_map(move |pair| {
         let last = count - 1 - pair;

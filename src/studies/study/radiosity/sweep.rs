@@ -1,5 +1,5 @@
-//! Sweep over numbers of patches and open switches of the card: the dependence of the error on the size of the system,
-//! and on guesses about the card.
+//! Sweep over numbers of patches and open switches of the card: how the error depends on the size of the system, and on
+//! guesses about the card.
 
 use std::ops::Range;
 
@@ -23,14 +23,14 @@ pub(super) struct SweepRow {
     pub(super) method: String,
     /// Switch that was changed, and its value; `None` for the card as configured.
     pub(super) switch: Option<(String, String)>,
-    /// Index of the first row of the sweep with the same bits: this one, or an earlier one of the same patches and
+    /// Index of the first row of the sweep with the same bits: this row, or an earlier one with the same patches and
     /// method.
     pub(super) same_as: usize,
     /// Number of iterations.
     pub(super) iterations: u32,
     /// Reason why it stopped.
     pub(super) stopped: StopReason,
-    /// Error against the direct solution.
+    /// Error compared with the direct solution.
     pub(super) error: SolutionError,
     /// First-order prediction of [`SolutionError::bias`]; `None` for formats without exponents.
     pub(super) predicted: Option<f64>,
@@ -43,19 +43,19 @@ impl SweepRow {
     }
 }
 
-/// Run of the sweep, with the data that shows whether others have the same bits.
+/// Run of the sweep, with the data that shows whether another run has the same bits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SweepRun {
     row: SweepRow,
     radiosity: Vec<[f32; 3]>,
 }
 
-/// Sweep over numbers of patches, for each setting of the card: a method with the value of a switch.
+/// Sweep over numbers of patches, for each setting of the card: a method, and the value of a switch.
 pub(super) struct Sweep<'a> {
     pub(super) parameters: &'a Parameters,
-    /// By method, then by value.
+    /// Settings by method, then by value of a switch.
     settings: Vec<(CardMethod, Configuration)>,
-    /// Number of values of a method.
+    /// Number of switch values per method.
     values: usize,
 }
 
@@ -68,12 +68,12 @@ impl<'a> Sweep<'a> {
         Ok(Self { parameters, settings, values: values.len() })
     }
 
-    /// Number of settings; 0 without numbers of patches.
+    /// Number of settings; 0 if the sweep lists no patch counts.
     pub(super) fn count(&self) -> usize {
         if self.parameters.options.sweep.is_empty() { 0 } else { self.settings.len() }
     }
 
-    /// Makes the runs of a range of settings: for each of them one per number of patches.
+    /// Makes the runs of a range of settings, each with one run per number of patches.
     pub(super) fn runs(
         &self,
         range: Range<usize>,
@@ -95,7 +95,7 @@ impl<'a> Sweep<'a> {
         Ok(runs)
     }
 
-    /// System of a number of patches, and its direct solution.
+    /// System with a given number of patches, and its direct solution.
     fn system(&self, size: u32, progress: &mut ProgressFn<'_>) -> Result<(System, Vec<[f64; 3]>), StudyError> {
         let patches = Patches::new(&self.parameters.scene, Subdivision::AtMost(size as usize))?;
         for (how, _) in self.settings.iter().step_by(self.values) {
@@ -108,8 +108,8 @@ impl<'a> Sweep<'a> {
         Ok((system, reference))
     }
 
-    /// Rows by number of patches, method and value, out of the runs of all settings. Rows of one number of patches and
-    /// one method may have the same bits.
+    /// Rows by number of patches, method and value, from the runs of all settings. Rows with the same number of patches
+    /// and the same method may have the same bits.
     pub(super) fn rows(&self, runs: &[Vec<SweepRun>]) -> Vec<SweepRow> {
         let mut rows = Vec::new();
         for size in 0..self.parameters.options.sweep.len() {
@@ -153,7 +153,7 @@ fn solved(
     Ok((solution.radiosity, row))
 }
 
-/// Bias predicted for rounding alone.
+/// Predicted bias from rounding alone.
 fn bias(
     how: CardMethod,
     profile: &Profile,

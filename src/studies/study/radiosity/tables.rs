@@ -5,17 +5,17 @@ use crate::report::{Cell, Table};
 
 /// Tables of the study.
 pub(super) struct Tables {
-    /// The room, and the properties of its form factors.
+    /// The scene, and the properties of its form factors.
     pub(super) room: Table,
     /// A row per method.
     pub(super) methods: Table,
-    /// End state of iterations on a card: a row per method on a card.
+    /// End state of iterations on a card: one row per method.
     pub(super) ends: Table,
-    /// A row per method on a card.
+    /// One row per method on a card.
     pub(super) card: Table,
-    /// A row per method, after the changes.
+    /// One row per method, after the changes.
     pub(super) relit: Table,
-    /// A row per number of patches, method on a card, and setting of its switches that changes the bits.
+    /// One row per number of patches, method on a card, and setting of its switches that changes the bits.
     pub(super) sweep: Table,
 }
 
@@ -72,7 +72,7 @@ fn methods(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Table of the iterations on a card that reach no tolerance: their fixed point, or cycle of repeating states.
+/// Table of the iterations on a card that do not reach the tolerance: their fixed point, or cycle of repeating states.
 fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns = "way ends entered_after period values_changing of_values largest_change_%";
     let mut table = Table::of("How iterations on the card end; changes from one iteration to the next", columns);
@@ -151,7 +151,7 @@ fn card(outcome: &RadiosityOutcome) -> Table {
 
 fn relit(outcome: &RadiosityOutcome) -> Table {
     let mut table = Table::of(
-        "After the changes: iterations from the solution before, and from nothing",
+        "After the changes: iterations from the previous solution, and from zero",
         "way from_the_last from_nothing saved_%",
     );
     for (row, relit) in outcome.rows.iter().filter_map(|row| Some((row, row.relit.as_ref()?))) {

@@ -17,7 +17,7 @@ pub(super) const LOGGED: u32 = 4;
 /// Number of channels: red, green, blue.
 const CHANNELS: f64 = 3.0;
 
-/// Time of an iteration of all three channels by the pipeline model.
+/// Time of an iteration over all three channels in the pipeline model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct IterationTime {
     /// Seconds per iteration.
@@ -33,15 +33,15 @@ pub(super) struct IterationTime {
 /// Cost of a method on a card.
 #[derive(Clone, Debug)]
 pub(super) struct CardFacts {
-    /// Passes per iteration, over all its systems.
+    /// Number of passes per iteration, over all its systems.
     pub(super) passes: usize,
     /// Texels per block.
     pub(super) block: usize,
-    /// Instructions of the longest program.
+    /// Number of instructions of the longest program.
     pub(super) instructions: usize,
     /// Bytes of the matrices.
     pub(super) matrix_bytes: f64,
-    /// Time of an iteration by the pipeline model; `None` for devices without timing.
+    /// Time of an iteration in the pipeline model; `None` for devices without timing.
     pub(super) time: Option<IterationTime>,
     /// Log of changing the light, iterating and displaying the room.
     pub(super) log: Vec<Event>,

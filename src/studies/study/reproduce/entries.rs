@@ -199,8 +199,8 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         .recorded(include_str!("../../records/bi-scale-figure-6.toml")),
 ];
 
-/// Returns the entries with these names, and those of papers with these names, in the order of [`ENTRIES`]; all entries
-/// for no names. Fails if neither a paper nor an entry has a name.
+/// Returns the entries with these names, and the entries of papers with these names, in the order of [`ENTRIES`]; all
+/// entries if there are no names. Fails if a name is neither a paper's nor an entry's.
 pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, StudyError> {
     let names = |name: &String, entry: &ReproduceEntry| [entry.id, entry.paper.id()].contains(&name.as_str());
     if let Some(found) = wanted.iter().find(|name| !ENTRIES.iter().any(|entry| names(name, entry))) {

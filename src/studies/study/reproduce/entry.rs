@@ -10,9 +10,9 @@ use crate::split::KeptResults;
 /// Findings of one entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EntryFindings {
-    /// Method, in paragraphs.
+    /// Paragraphs about the method.
     pub text: Vec<String>,
-    /// Printed values of the paper with ours.
+    /// Printed values of the paper, each with ours.
     pub rows: Vec<PaperRow>,
     /// Open questions whose answers would explain rows outside their bounds.
     pub questions: Vec<&'static str>,
@@ -25,7 +25,7 @@ pub struct EntryFindings {
 }
 
 impl EntryFindings {
-    /// Findings without charts.
+    /// Creates findings without charts.
     pub(super) fn new(
         text: impl Into<Vec<String>>,
         rows: impl Into<Vec<PaperRow>>,
@@ -42,9 +42,9 @@ impl EntryFindings {
 pub struct ReproduceEntry {
     /// Paper.
     pub paper: Paper,
-    /// Name on the command line, which begins with the paper's.
+    /// Name on the command line; it begins with the paper's name.
     pub id: &'static str,
-    /// Title, with the place where it is printed.
+    /// Title, including the table, figure or section of the paper.
     pub title: &'static str,
     work: EntryWork,
     /// Text of the record, for an entry that takes minutes to hours at full size.
@@ -61,26 +61,26 @@ impl Paper {
 }
 
 impl ReproduceEntry {
-    /// An entry with a record, whose values replace a run at full size by default.
+    /// An entry with a record; by default, the recorded values replace a run at full size.
     pub(super) const fn recorded(self, record: &'static str) -> Self {
         Self { record: Some(record), ..self }
     }
 
-    /// Computes the entry. Rows that are expressions of printed values come before those of its code.
+    /// Computes the entry. Rows that are expressions of printed values come first, then the rows of its code.
     pub(super) fn run(&self, shared: &Shared) -> Result<EntryFindings, StudyError> {
         let (mut rows, found) = (equations(self.id)?, (self.work)(shared)?);
         rows.extend(found.rows);
         Ok(EntryFindings { rows, ..found })
     }
 
-    /// Computes the entry at full size, alone. Entries that take hours keep finished pieces, and reuse them. Fails as
-    /// the entry does, and if pieces cannot be kept.
+    /// Computes the entry at full size, alone. Entries that take hours store finished pieces, and reuse them. Fails as
+    /// the entry does, and if pieces cannot be stored.
     pub fn at_full_size(&self, kept: Rc<KeptResults>) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Printed).keeping(Some(kept)))
     }
 
-    /// Computes the entry alone on reduced models, without judging it: tests that a run at full size would end. Fails
-    /// as the entry does.
+    /// Computes the entry alone on reduced models, without verdicts: shows that a run at full size would not fail.
+    /// Fails as the entry does.
     pub fn on_reduced_models(&self) -> Result<EntryFindings, StudyError> {
         self.run(&Shared::new(ModelSize::Reduced))
     }

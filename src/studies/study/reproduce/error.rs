@@ -10,10 +10,10 @@ use super::Paper;
 use crate::names::did_you_mean;
 use crate::study::StudyError;
 
-/// Help of errors that no input causes.
+/// Help for errors that no input causes.
 const BUG: &str = "this is a bug: please report it with the command line";
 
-/// Error of a name that neither a paper nor an entry has.
+/// Error for a name that is neither a paper's nor an entry's.
 pub(super) fn unknown(found: &str, entries: &[&str]) -> StudyError {
     let papers: Vec<&str> = Paper::VARIANTS.iter().map(|paper| paper.id()).collect();
     let known = papers.iter().chain(entries).copied();
@@ -22,14 +22,14 @@ pub(super) fn unknown(found: &str, entries: &[&str]) -> StudyError {
     StudyError::new("reproduce::unknown", what).with_help(help)
 }
 
-/// Error of the data of the papers' printed figures: malformed, or without a figure.
+/// Error in the data of the papers' printed figures: malformed, or a figure is missing.
 pub(super) fn papers_error(reason: &str) -> StudyError {
     StudyError::new("reproduce::papers", format!("printed figures of the papers: {reason}")).with_help(BUG)
 }
 
 /// Result of a run.
 pub(super) trait RunResult<T> {
-    /// Converts the failure on a device to an entry's error: a machine refuses a draw, or a program does not assemble.
+    /// Converts a failure on a device to an entry's error: a machine rejects a draw, or a program does not assemble.
     fn on(self, device: &str) -> Result<T, StudyError>;
 }
 
@@ -47,7 +47,7 @@ pub(super) fn no_time(error: TimingError) -> StudyError {
     StudyError::coded("reproduce::timing", error)
 }
 
-/// Converts a value required by an entry, or returns the error for its absence from a profile.
+/// Returns a value that an entry requires, or the error for its absence from a profile.
 pub(super) fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, StudyError> {
     let missing = || {
         let what = format!("device `{}` has no figure `{name}`, which this entry needs", profile.name);

@@ -1,9 +1,9 @@
 //! Reproduction of the papers' printed values: one file per entry, each a list of rows with tables and charts.
 //!
-//! The papers' values, their origins and the bounds of those that are judged are data with dates ([`figures`]). Every
-//! row has one of them, and ours with the printed values that it depends on, which determine the verdict. A row outside
-//! its bound counts as missed unless a sweep of the same run over something that the paper leaves open reaches the
-//! printed value ([`Sweep`]), or the paper contradicts itself and ours agrees with one of its values
+//! The papers' values, their origins and the bounds of the judged values are dated data ([`figures`]). Every row has
+//! one of these values, and ours with the printed values that it depends on, which determine the verdict. A row outside
+//! its bound counts as missed, unless a sweep of the same run over something that the paper leaves open reaches the
+//! printed value ([`Sweep`]), or the paper contradicts itself and our value agrees with one of its values
 //! ([`Contradiction`]).
 //!
 //! Entries whose models take minutes to hours at full size have the rows of recorded runs ([`EntryRecord`]).
@@ -51,7 +51,7 @@ pub use row::{
 pub use timed::timed;
 pub use timed_work::TimedWork;
 
-/// Parts that tests call themselves, because no run that ends in seconds reaches their cases.
+/// Functions that tests call directly, because no short run reaches their cases.
 #[doc(hidden)]
 pub mod tested {
     pub use super::all_frequency::bunny_in_pieces;
@@ -66,13 +66,13 @@ pub mod tested {
 pub struct Parameters {
     /// Entries to reproduce.
     pub entries: Vec<ReproduceEntry>,
-    /// Computes recorded entries anew, at full size.
+    /// `true` to compute recorded entries anew, at full size.
     pub full_size: bool,
 }
 
-/// Computes entries, one after the other; those with a record ([`recorded`]) only at full size. Renderings and runs
-/// needed by several entries of a paper are made once. `progress` is called with the name of each. Errors: that of the
-/// first entry that fails, also of a record that is malformed.
+/// Computes entries, one after the other; entries with a record ([`recorded`]) only at full size. Renderings and runs
+/// that several entries of a paper need are made once. `progress` is called with the name of each entry. Fails with the
+/// error of the first failing entry, or if a record is malformed.
 pub fn reproduce(
     entries: &[ReproduceEntry],
     full_size: bool,

@@ -6,7 +6,7 @@ use super::{MissClass, PaperRow, Reproduced, RowSource, RowVerdict};
 use crate::report::words::{counted, listed};
 use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
 
-/// Adds conclusion and tally to the findings.
+/// Adds the conclusion and the tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = rows(found).collect();
     let evidence = chose_none(found);
@@ -35,7 +35,7 @@ pub(super) fn rows(found: &Reproduced) -> impl Iterator<Item = &PaperRow> {
     found.iter().flat_map(|(_, found)| &found.rows)
 }
 
-/// Sentence of counts, each after its noun; `None` if the first is 0. Other counts of 0 are left out.
+/// Joins the nonzero counts into a sentence `label: count; ...`; `None` if the first is 0.
 fn counts(parts: &[(&str, usize)]) -> Option<String> {
     let (_, first) = parts.first()?;
     let shown = parts.iter().filter(|(_, count)| *count > 0).map(|(what, count)| format!("{what}: {count}"));
@@ -51,7 +51,7 @@ fn needs_rounding(row: &PaperRow) -> bool {
     row.verdict() != RowVerdict::Contradictory && row.holds_by_rounding()
 }
 
-/// Counts of all verdicts, in their order.
+/// Tally of the verdicts, in order.
 pub(super) fn tally<'a>(rows: impl Iterator<Item = &'a PaperRow>) -> Vec<TallyEntry> {
     let verdicts: Vec<RowVerdict> = rows.map(PaperRow::verdict).collect();
     let entry = |verdict: &RowVerdict| TallyEntry {
@@ -77,12 +77,13 @@ fn count(rows: &[&PaperRow], of: impl Fn(&PaperRow) -> bool) -> usize {
     rows.iter().filter(|row| of(row)).count()
 }
 
-/// Rows whose printed value determined no constant.
+/// Rows whose printed value did not determine a constant.
 fn chose_none(found: &Reproduced) -> Vec<&PaperRow> {
     rows(found).filter(|row| !row.is_calibrated()).collect()
 }
 
-/// Number of rows whose printed value determined no constant, and their numbers by verdict; `None` without such rows.
+/// Number of rows whose printed value did not determine a constant, and their numbers by verdict; `None` without such
+/// rows.
 fn judged(rows: &[&PaperRow]) -> Option<String> {
     let of = |verdict: RowVerdict| (count(rows, |row| row.verdict() == verdict), verdict);
     let parts = RowVerdict::VARIANTS.iter().map(|verdict| of(*verdict)).filter(|(count, _)| *count > 0);
@@ -96,13 +97,13 @@ fn judged(rows: &[&PaperRow]) -> Option<String> {
     (!rows.is_empty()).then(|| format!("Of {all} to which no constant was fitted, {parts}"))
 }
 
-/// Formats the tally of the rows whose printed value determined no constant, and how many of them are recorded.
+/// Formats the tally of the rows whose printed value did not determine a constant, and how many of them are recorded.
 pub fn evidence_line(found: &Reproduced) -> String {
     let rows = chose_none(found);
     format!("{}; recorded at full size: {}", judged(&rows).unwrap_or_default(), count(&rows, is_recorded))
 }
 
-/// Number of missed rows by class.
+/// Number of missed rows by class; `None` if there are none.
 fn classes(rows: &[&PaperRow]) -> Option<String> {
     let of = |class: MissClass| (count(rows, |row| row.missed() == Some(class)), class);
     let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);
@@ -110,13 +111,13 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
     (!counts.is_empty()).then(|| format!("Why figures are missed: {}.", counts.join(", ")))
 }
 
-/// Names of the rows that are not as recorded.
+/// Names of the rows that differ from their record.
 fn differ(rows: &[&PaperRow]) -> Option<String> {
     let names: Vec<&str> = rows.iter().filter(|row| row.differs()).map(|row| row.target.id.as_str()).collect();
     (!names.is_empty()).then(|| format!("Not as recorded: {}.", names.join(", ")))
 }
 
-/// Verdicts in the order of the chart: the first two have the colors of the tally.
+/// Verdicts in the order of the chart; the first two have the colors that they have in the tally.
 const ORDER: [RowVerdict; 9] = [
     RowVerdict::Predicted,
     RowVerdict::Missed,
@@ -129,8 +130,8 @@ const ORDER: [RowVerdict; 9] = [
     RowVerdict::TooVague,
 ];
 
-/// Chart of our values relative to the papers', a point per row, in the order of `rows.csv`; `None` for fewer than two
-/// rows that can be shown.
+/// Chart of our values relative to the papers', one point per row, in the order of `rows.csv`; `None` for fewer than
+/// two rows that can be shown.
 pub(super) fn overview_chart(found: &Reproduced) -> Option<NamedChart> {
     let rows: Vec<&PaperRow> = rows(found).collect();
     let ratio = |row: &PaperRow| row.ours / row.target.value;

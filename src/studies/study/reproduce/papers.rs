@@ -1,6 +1,6 @@
 //! The six papers.
 
-/// Paper, in the order of the systems; displayed as sentences name it.
+/// Paper, in the order of the systems; displayed with its name in sentences.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::VariantArray)]
 pub enum Paper {
     /// Carr, Hall and Hart 2002.
@@ -24,7 +24,7 @@ pub enum Paper {
 }
 
 impl Paper {
-    /// Name on the command line, with which the names of the paper's entries and figures begin.
+    /// Name on the command line; names of the paper's entries and figures begin with it.
     pub const fn id(self) -> &'static str {
         match self {
             Self::RayEngine => "ray-engine",
@@ -36,7 +36,7 @@ impl Paper {
         }
     }
 
-    /// Text of the file of the figures.
+    /// Text of the file with the paper's figures.
     pub(super) const fn file(self) -> &'static str {
         match self {
             Self::RayEngine => include_str!("../../papers/ray_engine.toml"),

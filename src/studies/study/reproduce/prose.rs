@@ -2,12 +2,12 @@
 
 use crate::report::digits::{Quantity, shown};
 
-/// Formats a number with `decimals` digits after the point.
+/// Formats a number with `decimals` decimals.
 pub(super) fn number(value: f64, decimals: u8) -> String {
     shown(value, Quantity::Decimals(decimals))
 }
 
-/// Returns a paragraph: a template with numbers in the place of its `{}`, in their order.
+/// Returns a paragraph: a template whose `{}` are replaced by numbers, in order.
 pub(super) fn paragraph(template: &str, numbers: impl IntoIterator<Item = String>) -> String {
     let mut parts = template.split("{}");
     let mut text = parts.next().unwrap_or_default().to_owned();

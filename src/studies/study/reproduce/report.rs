@@ -1,4 +1,4 @@
-//! Findings of the study from those of the entries.
+//! Merges the entries' findings into the study's.
 
 use serde_json::json;
 
@@ -81,7 +81,7 @@ fn shown(row: &PaperRow) -> [Cell; 13] {
     ]
 }
 
-/// Tables of the rows for people: predictions and counts; and separately the calibrated values.
+/// Tables of the rows for readers: first predictions and counts, then the calibrated values.
 pub fn tables(found: &Reproduced) -> [Table; 2] {
     let of = |title: &str, wanted: bool| {
         let mut table = Table::of(title, SHOWN);
@@ -96,7 +96,8 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
 }
 
 /// Table of notes: origins of values that are not printed, inputs of calibration, ranges that confine values,
-/// explanations of rows outside their bounds, and contradictions within the paper; each reason once, with its rows.
+/// explanations of rows outside their bounds, and contradictions within the paper. Each note appears once, with its
+/// rows.
 pub fn notes(found: &Reproduced) -> Table {
     let mut notes: Vec<([String; 2], Vec<String>)> = Vec::new();
     for (_, row) in all(found) {
@@ -133,7 +134,7 @@ pub fn notes(found: &Reproduced) -> Table {
     table
 }
 
-/// Table of printed figures without a row, each with the reason, for the papers of which `found` has at least one row.
+/// Table of printed figures without a row, each with the reason, for papers that have a row in `found`.
 fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     let mut table = Table::of("Printed figures without a row", "figure what place value unit reason");
     let has_row = |figure: &&PaperFigure| all(found).any(|(_, row)| row.target.paper == figure.paper);
@@ -165,7 +166,7 @@ fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
     all
 }
 
-/// Returns `true` if no value is another one than its record has. A missed row is a finding, not a failure.
+/// Returns `true` if no value differs from its record. A missed row is a finding, not a failure.
 fn as_recorded(found: &Reproduced) -> bool {
     !all_rows(found).any(PaperRow::differs)
 }
@@ -183,10 +184,10 @@ const HOW: &str = "Each row sets a figure of a paper beside ours. The figure is 
     contradictory; where ours agrees with none, it is missed. Differences are shares of the paper's value. The source of a row is this run \
     (computed), a recorded run at full size (recorded), or both, with the same bits.";
 
-/// Most entries with printed tables: of more, the program prints a line per paper.
+/// Maximum number of entries with printed tables; for more, the program prints a line per paper.
 const PRINTED: usize = 3;
 
-/// Findings of the study from those of its entries.
+/// Merges the entries' findings into the study's.
 pub fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
     overview(&mut all, found);
@@ -201,7 +202,7 @@ pub fn findings(found: &Reproduced) -> Findings {
     let is_short = found.len() <= PRINTED;
     let printed = |table: Table| if is_short { FoundTable::from(table) } else { FoundTable::from(table).unprinted() };
     tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(printed(table)));
-    // The files are known to be whole: rows have come of them.
+    // The files are known to be valid: rows were read from them.
     if let Ok(table) = unjudged(found) {
         all.table(FoundTable::from(table).csv("unjudged").field("unjudged").unprinted());
     }

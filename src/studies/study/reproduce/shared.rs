@@ -15,7 +15,7 @@ pub(super) trait SharedResult: Sized + 'static {
     /// Key of the result within its type.
     type Key: PartialEq + 'static;
 
-    /// Computes the result, from others if it needs them.
+    /// Computes the result, if necessary from other shared results.
     fn compute(key: &Self::Key, shared: &Shared) -> Result<Self, StudyError>;
 }
 
@@ -24,11 +24,11 @@ pub(super) trait SharedResult: Sized + 'static {
 pub(super) struct Shared {
     pub(super) models: ModelSize,
     results: Link,
-    /// Folder in which long work keeps its pieces, so that it can continue after a stop.
+    /// Folder in which long work stores its pieces, so that it can continue after an interruption.
     kept: Option<Rc<KeptResults>>,
 }
 
-/// List of results: it only grows, so that results can be borrowed while others are added.
+/// List of results. It only grows, so that results can be borrowed while others are added.
 type Link = OnceCell<Box<Node>>;
 
 struct Node {
@@ -42,18 +42,18 @@ impl Shared {
         Self { models, ..Self::default() }
     }
 
-    /// Keeps pieces of the run in a folder, and reuses existing ones.
+    /// Stores pieces of the run in a folder, and reuses existing ones.
     pub(super) fn keeping(self, kept: Option<Rc<KeptResults>>) -> Self {
         Self { kept, ..self }
     }
 
-    /// Folder of kept pieces; `None` if they are not kept.
+    /// Folder of stored pieces; `None` if they are not stored.
     pub(super) fn kept(&self) -> Option<&KeptResults> {
         self.kept.as_deref()
     }
 
-    /// Returns a piece of an entry's work, which depends on its name alone: from the folder if it is kept there, and
-    /// computed if not.
+    /// Returns a piece of an entry's work, which its name determines: read from the folder if it is stored there,
+    /// otherwise computed.
     pub(super) fn piece<T: Serialize + DeserializeOwned>(
         &self,
         name: &str,
@@ -71,7 +71,7 @@ impl Shared {
             return Ok(found);
         }
         let found = T::compute(&key, self)?;
-        // Appends after results that this one needed.
+        // Appends it after the results that it needed.
         let end = self.nodes().last().map_or(&self.results, |node| &node.next);
         let node = end.get_or_init(|| Box::new(Node { result: Box::new((key, found)), next: Link::new() }));
         Ok(&node.result.downcast_ref::<(T::Key, T)>().expect("the type that was boxed").1)

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::sphere::ClearSky;
 
-/// Clear sky with a sun of a quarter of a degree, which casts hard shadows.
+/// Clear sky with a sun a quarter of a degree wide, which casts hard shadows.
 pub(super) const HARD_SUN: ClearSky = ClearSky {
     sun: DVec3::new(1.0, -0.6, 1.1),
     sun_radiance: [4e4, 3.7e4, 3.2e4],

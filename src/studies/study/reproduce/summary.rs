@@ -1,4 +1,4 @@
-//! The lines that sum each paper up at the top of the page.
+//! The lines at the top of the page that summarize each paper.
 
 use std::fmt::Write as _;
 
@@ -33,7 +33,7 @@ fn missed(found: &EntryFindings) -> usize {
     found.rows.iter().filter(|row| row.verdict() == RowVerdict::Missed).count()
 }
 
-/// Entries without a missed row, and those with the most.
+/// Sentence about the entries without a missed row, and the entries with the most.
 fn text(parts: &[&Part]) -> String {
     let judged = || parts.iter().filter(|(_, found)| !found.rows.is_empty());
     let whole = judged().filter(|(_, found)| missed(found) == 0).count();

@@ -9,7 +9,7 @@ use super::{StudyError, printed};
 pub struct TimedWork {
     /// Name of the printed figure, as in `radiosity/jacobi-rate`.
     pub figure: &'static str,
-    /// Printed value with its unit and place.
+    /// Printed value, with its unit and its section of the paper.
     pub printed: String,
     /// Card.
     pub device: &'static str,

@@ -14,14 +14,14 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 /// Errors of radiosities relative to expected ones; infinite if only one of two radiosities is finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct GatherError {
-    /// Root mean square difference over the root mean square of the expected values; by area, over all channels.
+    /// RMS difference relative to the RMS of the expected values; weighted by area, over all channels.
     pub(super) rms: f64,
-    /// Largest difference over the largest expected value.
+    /// Largest difference relative to the largest expected value.
     pub(super) largest: f64,
 }
 
 impl GatherError {
-    /// For `found` against `expected`, per texel.
+    /// Error of `found` compared with `expected`, per texel.
     pub(super) fn between(atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let [mut off, mut reference] = [ErrorSums::default(); 2];
         for ((texel, found), expected) in atlas.texels().iter().zip(found).zip(expected) {
@@ -42,13 +42,13 @@ impl GatherError {
 pub(super) struct AllPairSums<'a> {
     pub(super) atlas: &'a Atlas,
     pub(super) parameters: &'a Parameters,
-    /// For red, green and blue.
+    /// Dipoles for red, green and blue.
     pub(super) dipoles: &'a [Dipole; 3],
     pub(super) irradiance: &'a [[f64; 3]],
 }
 
 impl AllPairSums<'_> {
-    /// Radiosities of the texels of some rows, by channel; empty for a channel that equals an earlier one.
+    /// Radiosities of the texels in some rows, by channel; empty for a channel that equals an earlier one.
     pub(super) fn rows(self, rows: &Range<usize>, progress: &mut ProgressFn<'_>) -> Result<[Vec<f64>; 3], StudyError> {
         let mut found = [const { Vec::new() }; 3];
         for (channel, into) in found.iter_mut().enumerate() {
@@ -62,7 +62,7 @@ impl AllPairSums<'_> {
         Ok(found)
     }
 
-    /// Radiosities of all texels, row by row, from the results of all rows.
+    /// Radiosities of all texels, row by row, assembled from the results of all rows.
     pub(super) fn of_rows(self, rows: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
         let mut texels = vec![[0.0; 3]; self.irradiance.len()];
         for (channel, radiosity) in rows.into_iter().enumerate() {
@@ -74,7 +74,7 @@ impl AllPairSums<'_> {
         texels
     }
 
-    /// The first channel before this one with the same medium and light.
+    /// The first earlier channel with the same medium and light.
     fn like(self, channel: usize) -> Option<usize> {
         (0..channel).find(|&other| {
             self.dipoles[other].coefficients() == self.dipoles[channel].coefficients()

@@ -1,4 +1,4 @@
-//! Errors by the angle between surface and light: a root mean square over the model is made by its lit side.
+//! Errors by the angle between surface and light: the lit side of a model dominates an RMS over all of it.
 
 use glam::DVec3;
 
@@ -8,36 +8,36 @@ use crate::elementary::acos;
 use crate::picture::metrics::value_error;
 use crate::subsurface::on_card::Light;
 
-/// Bins of the angle from 0 to 180 degrees.
+/// Number of bins of the angle, from 0 to 180 degrees.
 const BINS: usize = 12;
-/// Degrees of a bin.
+/// Width of a bin, in degrees.
 const WIDTH: f64 = 180.0 / BINS as f64;
 
-/// Error of radiosities in a bin, relative to the sums over all pairs there; over all channels.
+/// Error of radiosities in a bin, relative to the all-pairs sums in the bin; over all channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct BinError {
-    /// Area-weighted mean radiosity over that of all pairs, minus 1.
+    /// Area-weighted mean radiosity relative to the mean over all pairs, minus 1.
     pub(super) mean: f64,
-    /// Root mean square difference over the root mean square radiosity of all pairs, weighted by area.
+    /// RMS difference relative to the RMS radiosity over all pairs, weighted by area.
     pub(super) rms: f64,
 }
 
-/// Texels whose normals are at an angle of `degrees[0]` to `degrees[1]` from the direction towards the light.
+/// Texels whose normals form an angle of `degrees[0]` to `degrees[1]` with the direction towards the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AngleBin {
     /// The bin's ends, in degrees.
     pub(super) degrees: [f64; 2],
-    /// Share of the model's area, above 0.
+    /// Fraction of the model's area, above 0.
     pub(super) area: f64,
-    /// Mean of B by area and channel, over all pairs.
+    /// Mean of B over all pairs, over area and channels.
     pub(super) radiosity: f64,
-    /// The links' own error: the host's sum over them.
+    /// The links' own error: the error of the host's sum over them.
     pub(super) links: BinError,
-    /// Links and card together.
+    /// Total error of links and card.
     pub(super) all: BinError,
 }
 
-/// The direction towards the light, if there is a single directional one and nothing else.
+/// The direction towards the light, if the only light is a single directional one.
 pub(super) fn direction(lighting: &Lighting) -> Option<DVec3> {
     match lighting {
         Lighting::Lights(lights) => match lights[..] {
@@ -48,8 +48,8 @@ pub(super) fn direction(lighting: &Lighting) -> Option<DVec3> {
     }
 }
 
-/// Errors of two sets of radiosities per texel, the host's sum over links and the card's, against those over all pairs.
-/// Bins without surface are left out; texels without a normal belong to none.
+/// Errors of two sets of radiosities per texel, the host's sum over links and the card's, compared with those over all
+/// pairs. Bins without surface are omitted; texels without a normal belong to none.
 pub(super) fn by_angle(
     atlas: &Atlas,
     towards: DVec3,
@@ -73,7 +73,7 @@ pub(super) fn by_angle(
     sums.iter().enumerate().filter(|(_, sums)| sums.area > 0.0).map(bin).collect()
 }
 
-/// Sums over the texels of a bin, by area, over all channels.
+/// Sums over the texels of a bin, weighted by area, over all channels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     area: f64,

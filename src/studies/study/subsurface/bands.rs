@@ -1,4 +1,4 @@
-//! Items of parts of a run: sums over all pairs and links, by bands of rows of texels.
+//! Items that a divided run computes in parts: sums over all pairs and over links, by bands of rows of texels.
 
 use std::ops::Range;
 
@@ -14,9 +14,9 @@ use crate::subsurface::links::LinkBands;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct GatheredBands {
     bands: usize,
-    /// Radiosities over all pairs, by channel; none without them.
+    /// Radiosities over all pairs, by channel; empty if they are not requested.
     pub(super) all_pairs: [Vec<f64>; 3],
-    /// Links per method, if they differ from those of earlier methods.
+    /// Links per way, unless an earlier way has the same links.
     links: Vec<LinkBands>,
 }
 
@@ -38,7 +38,7 @@ impl GatheredBands {
         Ok(found)
     }
 
-    /// The bands of a method's links; `None` if there are none.
+    /// The bands of a way's links; `None` if there are none.
     pub(super) fn links(&self, parameters: &Parameters, way: GatherWay) -> Option<&LinkBands> {
         let mut all = parameters.ways_with_links().zip(&self.links);
         all.find(|(other, _)| other.has_links_of(&way)).map(|(_, links)| links)
@@ -46,7 +46,7 @@ impl GatheredBands {
 }
 
 impl Concatenate for GatheredBands {
-    /// Lengths depend on the model; a merge refuses parts that do not fit it.
+    /// Lengths depend on the model; a merge rejects parts that do not fit it.
     fn are_of(&self, range: &Range<usize>) -> bool {
         self.bands == range.len()
     }

@@ -1,4 +1,4 @@
-//! The conclusion of the rows, as sentences.
+//! The conclusion from the rows, as sentences.
 
 use std::cmp::Reverse;
 
@@ -8,10 +8,10 @@ use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
 use crate::subsurface::links::LinkChoice;
 
-/// Largest error of a choice of links that the conclusion calls sufficient.
+/// Largest error at which the conclusion calls a choice of links sufficient.
 const ENOUGH: f64 = 0.01;
 
-/// Sentences, warnings and the tally.
+/// Adds the sentences, the warnings and the tally.
 pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &SubsurfaceOutcome) {
     let rows = &outcome.rows;
     let sentences = [accuracy(rows), by_angle(parameters, rows), smallest(rows), speed(parameters, rows)];
@@ -44,11 +44,11 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
     })
 }
 
-/// Error of one of the two choices of links, in a bin of each.
+/// Reads the error of one of the two choices of links, from a bin of each.
 type ErrorOf = fn((&AngleBin, &AngleBin)) -> f64;
 
-/// Compares fixed and adaptive links by angle from the light, at the largest number of links that both have: which is
-/// nearer to all pairs?
+/// Compares fixed and adaptive links by angle from the light, at the largest number of links that both have, and says
+/// which choice is nearer to all pairs.
 fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let count = |row: &WayRow| row.way.choice.per_texel(parameters.options.side);
     let is_fixed = |row: &WayRow| matches!(row.way.choice, LinkChoice::Fixed { .. });
@@ -59,7 +59,7 @@ fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let pairs = judged()
         .filter(|row| is_fixed(row))
         .filter_map(|fixed| Some((fixed, judged().find(|row| !is_fixed(row) && alike(fixed, row))?)));
-    // Among equal numbers the first.
+    // Takes the first of equal numbers.
     let (fixed, adaptive) = pairs.min_by_key(|(fixed, _)| Reverse(count(fixed)))?;
     let bins = || fixed.angles.iter().zip(&adaptive.angles);
     let better =
@@ -94,7 +94,7 @@ fn ranges(bins: impl Iterator<Item = [f64; 2]>) -> Vec<String> {
     ranges.iter().map(|[from, to]| format!("{from} to {to}")).collect()
 }
 
-/// The smallest storage within [`ENOUGH`].
+/// Sentence about the smallest storage with an error within [`ENOUGH`].
 fn smallest(rows: &[WayRow]) -> Option<String> {
     if rows.iter().all(|row| row.error.is_none()) {
         return None;
@@ -122,7 +122,7 @@ fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     })
 }
 
-/// A face that is listed twice counts as two surfaces: light enters and leaves both.
+/// Warns of repeated faces: a face listed twice counts as two surfaces, and light enters and leaves both.
 fn repeated(outcome: &SubsurfaceOutcome) -> Option<String> {
     let count = outcome.atlas.census().duplicate_faces as u64;
     (count > 0).then(|| {
@@ -131,7 +131,7 @@ fn repeated(outcome: &SubsurfaceOutcome) -> Option<String> {
     })
 }
 
-/// Where texels are longer than the mean free path, peaks of R_d fall between them.
+/// Warns of coarse texels: if texels are longer than the mean free path, peaks of R_d fall between them.
 fn coarse(outcome: &SubsurfaceOutcome) -> Option<String> {
     let lengths = &outcome.lengths;
     (lengths.coarse > 0.0).then(|| {
@@ -144,7 +144,7 @@ fn coarse(outcome: &SubsurfaceOutcome) -> Option<String> {
     })
 }
 
-/// The dipole is made for a half space, which a model is for light that does not reach its other side.
+/// Warns of thin models: the dipole assumes a half space, so light must not reach the model's other side.
 fn thin(outcome: &SubsurfaceOutcome) -> Option<String> {
     let lengths = &outcome.lengths;
     let (thickness, reach) = (lengths.thickness?, 2.0 * lengths.diffusion_length);

@@ -11,10 +11,11 @@ use crate::subsurface::{DistantSource, distant_irradiance};
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
 use crate::transfer::light::CubeLight;
 
-/// Texels of the light along a side of the square that one shadow ray of the study represents.
+/// Side in texels of the square of the light that one shadow ray of the study represents.
 const GROUP: usize = 2;
 
-/// E of equation 8 per texel of the atlas, with the model's own shadows; and what the Ray Engine did if it cast them.
+/// E of equation 8 per texel of the atlas, with the model's own shadows; and statistics of the Ray Engine, if it cast
+/// them.
 pub(super) fn irradiance(
     atlas: &Atlas,
     parameters: &Parameters,
@@ -26,7 +27,7 @@ pub(super) fn irradiance(
     Ok((found, caster.record()))
 }
 
-/// The light as parallel beams, one per `group` x `group` texels that are not dark: the sum of radiance times solid
+/// The light as parallel beams, one per `group` x `group` texels that are not all dark: the sum of radiance times solid
 /// angle, from its mean direction.
 pub(in crate::study) fn sources(light: &CubeLight, group: usize) -> Vec<DistantSource> {
     let source = |face: usize, row: usize, column: usize| {

@@ -6,7 +6,7 @@ use crate::card::CardError;
 use crate::error::InputError;
 use crate::study::StudyError;
 
-/// Error of a model without an atlas.
+/// Error of a model for which no atlas exists.
 pub fn no_atlas(error: InputError) -> StudyError {
     StudyError::coded("subsurface::atlas", error)
 }

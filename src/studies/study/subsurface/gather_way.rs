@@ -1,4 +1,4 @@
-//! Ways of gathering.
+//! Ways to gather light.
 
 use std::fmt;
 
@@ -19,7 +19,7 @@ pub enum MapBits {
 pub struct GatherWay {
     /// Number and layout of links per texel.
     pub choice: LinkChoice,
-    /// A factor per channel, or green's for all.
+    /// `true` for a factor per channel, `false` for green's factor for all channels.
     pub rgb: bool,
     /// Format of the link textures.
     pub links: FloatTexels,

@@ -1,5 +1,5 @@
 //! Subsurface scattering of a model by several ways of gathering: the three passes of an emulated card, the host's sums
-//! over the same links, and those over all pairs of texels.
+//! over the same links, and the sums over all pairs of texels.
 
 mod all_pairs;
 mod angles;
@@ -61,9 +61,9 @@ impl Study for Parameters {
     }
 }
 
-/// Builds the atlas, lights it, gathers over all pairs and by every way: as a whole, in part, or out of parts of sums
-/// over all pairs and links, by bands of rows of texels. Fails if the model, its medium or its light does not suit the
-/// study, or the card refuses the work.
+/// Builds the atlas, lights it, and gathers over all pairs and in every way. Sums over all pairs and links are split by
+/// bands of rows of texels, into parts or merged from parts. Fails if the model, its medium or its light does not suit
+/// the study, or the card rejects the work.
 fn run(
     parameters: &Parameters,
     split: &SplitRun,
@@ -114,7 +114,7 @@ fn run(
     };
     let scene = way::Scene { truth: truth.as_deref(), ..scene };
     let mut rows = Vec::new();
-    // Ways that differ in formats alone follow each other and share their links.
+    // Ways that differ only in formats follow each other, and share their links.
     let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
         let links = match last.take() {

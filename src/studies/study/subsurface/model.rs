@@ -1,4 +1,4 @@
-//! The model as an atlas: faces, and how its lengths compare with the medium's.
+//! The model as an atlas: values per face, and the model's lengths compared with the medium's.
 
 use glam::DVec3;
 
@@ -6,18 +6,18 @@ use super::Parameters;
 use crate::atlas::Atlas;
 use crate::subsurface::{Dipole, median_thickness};
 
-/// Lengths of the model beside those of the medium, in mm.
+/// Lengths of the model and of the medium, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ModelLengths {
-    /// Side of a square of the mean area of texels.
+    /// Side of a square with the mean area of texels.
     pub(super) texel: f64,
-    /// Area of the surface whose texels are longer than the shortest mean free path of a channel, as a share.
+    /// Fraction of the surface area whose texels are longer than the shortest mean free path of a channel.
     pub(super) coarse: f64,
     /// The shortest mean free path of a channel.
     pub(super) mean_free_path: f64,
-    /// The longest diffusion length of a channel; infinite if one does not absorb.
+    /// The longest diffusion length of a channel; infinite if a channel does not absorb.
     pub(super) diffusion_length: f64,
-    /// The diagonal of the bounds.
+    /// The diagonal of the bounding box.
     pub(super) diagonal: f64,
     pub(super) shortest_side: f64,
     /// Median distance to the opposite surface along the inward normal; `None` for open models.
@@ -45,7 +45,7 @@ impl ModelLengths {
     }
 }
 
-/// Means over each face's texels, which share its area evenly.
+/// Means over the texels of each face; a face's texels divide its area evenly.
 pub(super) fn by_face(atlas: &Atlas, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let side = atlas.side() as usize;
     let mean = |place: &crate::atlas::FacePlace| {

@@ -1,4 +1,4 @@
-//! Options of the study, as the program takes them.
+//! Options of the study, as on the command line.
 
 use super::gather_way::{GatherWay, MapBits};
 use crate::options::number;
@@ -9,15 +9,15 @@ use crate::subsurface::kernels::LinkLayout;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::FloatTexels;
 
-/// Side of an atlas, in texels, up to which `crossbar subsurface` gathers over all pairs by default.
+/// Maximum side of an atlas, in texels, for which `crossbar subsurface` gathers over all pairs by default.
 pub(super) const ALL_PAIRS_SIDE: u32 = 32;
-/// Largest side of an atlas for all pairs, which take time by the square of its texels.
+/// Maximum side of an atlas for all pairs; their time grows with the square of the number of texels.
 const MAX_ALL_PAIRS_SIDE: u32 = 512;
 
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]
 pub struct SubsurfaceOptions {
-    /// Millimeters of a unit of the model; never guessed.
+    /// Millimeters per unit of the model; never guessed.
     #[arg(long, value_name = "MM", value_parser = number::positive)]
     pub mm_per_unit: f64,
 
@@ -25,11 +25,11 @@ pub struct SubsurfaceOptions {
     #[arg(long = "atlas", value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(1..=8192))]
     pub side: u32,
 
-    /// Links per texel; for fixed ones 1, 4, 16, 64, ...
+    /// Links per texel; for fixed links 1, 4, 16, 64, ...
     #[arg(long, value_name = "L,L", value_delimiter = ',', default_value = "16", value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub links: Vec<u32>,
 
-    /// Which links; may be repeated [default: fixed]
+    /// Layout of links; may be repeated [default: fixed]
     #[arg(long = "choice", value_name = "HOW", value_parser = choices())]
     pub choices: Vec<LinkLayout>,
 
@@ -41,11 +41,11 @@ pub struct SubsurfaceOptions {
     #[arg(long = "link-format", value_name = "F", value_parser = variants::<FloatTexels>())]
     pub link_formats: Vec<FloatTexels>,
 
-    /// The radiosity map; may be repeated [default: fp16]
+    /// Format of the radiosity map; may be repeated [default: fp16]
     #[arg(long = "map", value_name = "F", value_parser = maps())]
     pub maps: Vec<MapBits>,
 
-    /// Largest relative error of factors, beside 1e-5 of the total
+    /// Largest relative error of factors, in addition to 1e-5 of the total
     #[arg(long, value_name = "X", default_value_t = crate::subsurface::multipole::TOLERANCE, value_parser = number::positive)]
     pub tolerance: f64,
 
@@ -55,22 +55,22 @@ pub struct SubsurfaceOptions {
     all_pairs: Option<bool>,
 }
 
-/// The choices of links, for `--choice`.
+/// Values of `--choice`: layouts of links.
 fn choices() -> OneOf<LinkLayout> {
     let fixed = ("fixed", "All clusters of one level: 1, 4, 16, 64, ... links", LinkLayout::Fixed);
     let help = "Per texel, the cluster with the highest factor gives way to its four children";
     one_of([fixed, ("adaptive", help, LinkLayout::Adaptive)])
 }
 
-/// Factors per link, for `--channels`: true for one per channel.
+/// Values of `--channels`: `true` for a factor per channel, `false` for one factor.
 fn rgb() -> OneOf<bool> {
     one_of([("scalar", "One, that of green", false), ("rgb", "Red, green and blue", true)])
 }
 
-/// The formats of the radiosity map, for `--map`.
+/// Values of `--map`: formats of the radiosity map.
 fn maps() -> OneOf<MapBits> {
     one_of([
-        ("8bit", "8 bits per channel, whose levels the card makes itself", MapBits::Eight),
+        ("8bit", "8 bits per channel, whose levels the card generates", MapBits::Eight),
         ("fp16", "Half floats, levels by passes", MapBits::Float(FloatTexels::Fp16)),
         ("fp32", "Single floats, levels by passes", MapBits::Float(FloatTexels::Fp32)),
     ])
@@ -81,7 +81,7 @@ fn yes_or_no() -> OneOf<bool> {
 }
 
 impl SubsurfaceOptions {
-    /// Checks the options that suit any medium. Fails if one is out of its range.
+    /// Checks the options that do not depend on the medium. Fails if one is out of its range.
     pub fn check(&self) -> Result<(), StudyError> {
         if self.all_pairs == Some(true) && self.side > MAX_ALL_PAIRS_SIDE {
             let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MAX_ALL_PAIRS_SIDE}");
@@ -95,8 +95,8 @@ impl SubsurfaceOptions {
         self.all_pairs.unwrap_or(self.side <= ALL_PAIRS_SIDE)
     }
 
-    /// Every combination of the options that may be repeated, each a row of the table. Fails if no level of the atlas
-    /// has the requested number of fixed links.
+    /// Every combination of the options that may be repeated; each is a row of the table. Fails if no level of the
+    /// atlas has the requested number of fixed links.
     pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
         let [r, g, b] = material.channels;
         let choices = or(&self.choices, LinkLayout::Fixed);

@@ -13,20 +13,20 @@ pub(super) struct SubsurfaceOutcome {
     pub(super) atlas: Atlas,
     /// Lengths of model and medium.
     pub(super) lengths: ModelLengths,
-    /// For red, green and blue.
+    /// Dipoles for red, green and blue.
     pub(super) dipoles: [Dipole; 3],
-    /// E of equation 8 per texel, by the host.
+    /// E of equation 8 per texel, computed by the host.
     pub(super) irradiance: Vec<[f64; 3]>,
-    /// What the Ray Engine did, if it cast shadow rays.
+    /// Statistics of the Ray Engine, if it cast shadow rays.
     pub(super) cast: Option<CastRecord>,
-    /// Radiosities over all pairs, in f64, per texel, row by row, if requested.
+    /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
     pub(super) truth: Option<Vec<[f64; 3]>>,
-    /// A row per way.
+    /// One row per way.
     pub(super) rows: Vec<WayRow>,
 }
 
 impl SubsurfaceOutcome {
-    /// Values per texel by name: E, B over all pairs if there, and B of every way.
+    /// Values per texel by name: E, B over all pairs if computed, and B of every way.
     pub(super) fn columns(&self) -> impl Iterator<Item = (&str, &[[f64; 3]])> {
         let truth = self.truth.iter().map(|truth| ("all_pairs", &truth[..]));
         let ways = self.rows.iter().map(|row| (row.label.as_str(), &row.radiosity[..]));

@@ -11,7 +11,7 @@ use crate::subsurface::Material;
 use crate::subsurface::on_card::Light;
 use crate::transfer::light::CubeLight;
 
-/// A model of a medium, its lights, and the ways in which the card gathers.
+/// A model made of a medium, its lights, and the ways in which the card gathers.
 #[derive(Debug)]
 pub struct Parameters {
     /// The model's name.
@@ -22,15 +22,15 @@ pub struct Parameters {
     pub material: Material,
     /// The light.
     pub lighting: Lighting,
-    /// How light is gathered: a row of the table for each.
+    /// Ways of gathering; each has a row in the table.
     pub ways: Vec<GatherWay>,
     /// The card.
     pub profile: Profile,
-    /// The switches of the card that were set.
+    /// Switches of the card that were set.
     pub switches: Vec<(String, String)>,
     /// The executor of the card.
     pub executor: Executor,
-    /// What casts the shadow rays of an environment map.
+    /// Caster of the shadow rays of an environment map.
     pub caster: CasterChoice,
     /// The camera of the pictures.
     pub camera: Camera,
@@ -41,14 +41,14 @@ pub struct Parameters {
 /// The light on the model.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Lighting {
-    /// Lights, by pass 1.
+    /// Lights drawn by pass 1.
     Lights(Vec<Light>),
-    /// Distant light of an environment map, per texel and with shadows, in place of pass 1.
+    /// Distant light of an environment map, per texel and with shadows; replaces pass 1.
     Environment(CubeLight),
 }
 
 impl Parameters {
-    /// The ways whose links are not those of an earlier one.
+    /// The ways whose links differ from those of all earlier ways.
     pub(super) fn ways_with_links(&self) -> impl Iterator<Item = GatherWay> + '_ {
         let is_new = |(at, way): &(usize, &GatherWay)| !self.ways[..*at].iter().any(|other| other.has_links_of(way));
         self.ways.iter().enumerate().filter(is_new).map(|(_, way)| *way)

@@ -9,14 +9,14 @@ use crate::report::{NamedPicture, false_color};
 use crate::study::StudyError;
 use crate::study::prt::auto_exposure;
 
-/// Auto-exposure: the model at 18 % grey on average; pixels that show nothing do not count.
+/// Auto-exposure: the model is 18 % grey on average; pixels without a surface do not count.
 pub(super) fn exposure(outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
     let Some(first) = outcome.rows.first() else { return Ok(1.0) };
     let colors: Vec<[f64; 3]> = first.picture.linear()?.into_iter().map(|pixel| pixel.map(f64::from)).collect();
     Ok(auto_exposure(&colors))
 }
 
-/// Figure 7: the first method with and without scattered light, and scattered light alone.
+/// Figure 7: the first way with and without scattered light, and scattered light alone.
 pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let (whole, scattered) = (row.picture.linear()?, row.scattered.linear()?);
     let direct: Vec<[f32; 3]> = whole.iter().zip(&scattered).map(|(w, s)| [0, 1, 2].map(|c| w[c] - s[c])).collect();
@@ -34,7 +34,7 @@ pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, Stu
     ])
 }
 
-/// The scattered light of each way.
+/// Pictures of the scattered light in each way.
 pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let picture = |row: &WayRow| {
         let image = row.scattered.display(exposure)?;
@@ -43,7 +43,7 @@ pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, 
     rows.iter().map(picture).collect()
 }
 
-/// The atlas after passes 1 and 2 (Figure 6), each map with its brightest channel at white.
+/// The atlas after passes 1 and 2 (Figure 6); in each map, the brightest channel is white.
 pub(super) fn maps(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
     let Some(first) = outcome.rows.first() else { return Vec::new() };
     let picture = |name: &str, values: &[[f64; 3]], what: &str| {
@@ -60,7 +60,7 @@ fn atlas(side: u32, values: &[[f64; 3]]) -> RgbImage {
     rgb8(side, side, values.iter().map(|value| value.map(|channel| encode(channel / most))))
 }
 
-/// B of each way against all pairs, on the atlas, in false colors of one scale.
+/// Differences between B in each way and over all pairs, on the atlas, in false colors with one scale.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
     let Some(truth) = &outcome.truth else { return Vec::new() };
     let most = truth.iter().flatten().copied().filter(|b| b.is_finite()).fold(0.0, f64::max);

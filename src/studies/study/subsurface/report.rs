@@ -57,7 +57,7 @@ const ERRORS: &str = "links: the host's sum over the links, in double precision,
     of levels that count texels alike, as mipmaps of plain irradiance would; card: the card against the host's sum over the same links; all: the card \
     against all pairs. Without all pairs (`--all-pairs no`, and the default of atlases above ";
 
-const ANGLES: &str = "A root mean square over the model is made by its lit side. Here every bin of angles is held against its own light: 0 degrees is \
+const ANGLES: &str = "The lit side of a model dominates a root mean square over all of it. Here every bin of angles is compared with its own light: 0 degrees is \
     the surface that faces the light, 180 degrees the one that is turned away from it, which all light reaches from afar.";
 
 const STORAGE: &str = "Fixed links have their places in constants and four factors a texel, adaptive ones a texel each with place, factor and level. Factors \
@@ -66,7 +66,7 @@ const STORAGE: &str = "Fixed links have their places in constants and four facto
 
 const TIMES: &str = "Times are modelled, not measured: nothing in the model was set by this paper.";
 
-/// The error against the number of links, a line per choice; `None` for fewer than two numbers.
+/// Chart of the error against the number of links, one line per choice; `None` for fewer than two numbers.
 fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<NamedChart> {
     let mut lines: Vec<Series> = Vec::new();
     for (row, error) in outcome.rows.iter().filter_map(|row| Some((row, row.error?))) {
@@ -90,7 +90,7 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
     })
 }
 
-/// The way without its number of links.
+/// Name of the way without its number of links.
 fn line(row: &WayRow) -> String {
     let channels = if row.way.rgb { ", RGB" } else { "" };
     let choice = row.way.choice.word();

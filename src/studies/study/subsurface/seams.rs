@@ -1,4 +1,4 @@
-//! Seams: roughness of B between neighbouring texels, beyond that of B over all pairs.
+//! Seams: roughness of B between neighboring texels, in addition to the roughness of B over all pairs.
 
 use std::collections::BTreeMap;
 
@@ -6,18 +6,18 @@ use glam::{DMat3, DVec3};
 
 use crate::atlas::Atlas;
 
-/// Greatest distance of neighbours, in sides of a square of the mean area of texels: those across a corner are 1.41
+/// Maximum distance of neighbors, in sides of a square with the mean area of texels: neighbors across a corner are 1.41
 /// apart.
 const REACH: f64 = 1.5;
-/// Least cosine between normals of neighbours, which excludes the far side of thin parts.
+/// Minimum cosine between normals of neighbors, which excludes the far side of thin parts.
 const SAME_SIDE: f64 = 0.7;
 
-/// The neighbours of each texel on the surface, itself among them; none of a texel without area.
+/// The neighbors of each texel on the surface, including itself; empty for a texel without area.
 #[derive(Debug)]
 pub(super) struct Neighbours(Vec<Vec<usize>>);
 
 impl Neighbours {
-    /// Neighbours in an atlas, by distance.
+    /// Finds neighbors in an atlas, by distance.
     pub(super) fn of(atlas: &Atlas) -> Self {
         let reach = REACH * atlas.mean_texel_area().sqrt();
         let texels = atlas.texels();
@@ -41,9 +41,9 @@ impl Neighbours {
         Self(found)
     }
 
-    /// Root mean square over all texels of the distance of `found` minus `expected` from a linear function over a
-    /// texel's neighbours, relative to the root mean square of `expected`; by area, over all channels. A smooth error
-    /// counts little, a jump in full.
+    /// RMS over all texels of the deviation of `found` minus `expected` from a linear function over a texel's
+    /// neighbors, relative to the RMS of `expected`; weighted by area, over all channels. A smooth error counts little,
+    /// a jump fully.
     pub(super) fn seams(&self, atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> f64 {
         let off = |texel: usize| DVec3::from(found[texel]) - DVec3::from(expected[texel]);
         let (mut rough, mut whole) = (0.0, 0.0);
@@ -56,8 +56,8 @@ impl Neighbours {
     }
 }
 
-/// Mean squared distance of values at points around a plane with this normal from their best linear function; 0 for
-/// too few.
+/// Mean squared deviation of values at points near a plane with this normal from their best linear function; 0 for too
+/// few points.
 fn from_linear(values: &[(DVec3, DVec3)], normal: DVec3) -> f64 {
     if values.len() < 4 {
         return 0.0;
@@ -71,7 +71,7 @@ fn from_linear(values: &[(DVec3, DVec3)], normal: DVec3) -> f64 {
         spread += outer(at - middle, at - middle);
         mixed += outer(value - mean, at - middle);
     }
-    // Points hardly leave the plane: no slope along its normal.
+    // Points hardly leave the plane, so the slope along its normal is set to zero.
     let trace = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
     let slope = mixed * (spread + outer(normal, normal) * trace).inverse();
     share * values.iter().map(|(at, value)| (value - mean - slope * (at - middle)).length_squared()).sum::<f64>()

@@ -5,7 +5,7 @@ use super::{Parameters, SubsurfaceOutcome, model};
 use crate::report::{Cell, Table};
 use crate::subsurface::on_card::PassKind;
 
-/// Model and medium.
+/// Table of model and medium.
 pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "The model in mm, and the medium's lengths",
@@ -28,7 +28,7 @@ pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Tab
     table
 }
 
-/// A row per channel of the medium.
+/// Table with a row per channel of the medium.
 pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         format!("{}: coefficients per mm, lengths in mm", parameters.material.name),
@@ -49,7 +49,7 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
     table
 }
 
-/// Errors, a row per way.
+/// Table of errors, a row per way.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Ways of gathering; errors of B: root mean square by area and the largest, relative to those of B; seams, how far \
@@ -75,7 +75,7 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Errors by angle from the light, a row per way and bin.
+/// Table of errors by angle from the light, a row per way and bin.
 pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Errors by the angle between normals and the light: of the mean of B, and root mean square; relative to all pairs",
@@ -91,7 +91,7 @@ pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Memory of the card that each way of gathering takes, a row each.
+/// Table of the card's resources that each way of gathering uses, a row per way.
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "What ways take of the card; reads and instructions per texel of pass 2",
@@ -118,7 +118,7 @@ pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Modelled times, a row per way with time.
+/// Table of modelled times, a row per way that has them.
 pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "A frame with a new light, as the pipeline model has it; a new view is pass 3 alone",
@@ -141,7 +141,7 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// A row per face: its area, the light that entered it, and B by every method.
+/// Table with a row per face: its area, the light that entered it, and B in every way.
 pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let columns: Vec<(&str, Vec<[f64; 3]>)> =
         outcome.columns().map(|(label, texels)| (label, model::by_face(&outcome.atlas, texels))).collect();

@@ -7,7 +7,7 @@ use crate::atlas::Atlas;
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 
-/// Means of texel values at each vertex, over the texels in its corners of faces, weighted by face area. `None` for a
+/// Means of texel values at each vertex, over the texels at its corners of faces, weighted by face area. `None` for a
 /// vertex without a face that has an area.
 pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
     let mut sums = vec![(0.0, DVec3::ZERO); mesh.positions().len()];
@@ -27,7 +27,7 @@ pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<
     sums.into_iter().map(|(area, sum)| (area > 0.0).then(|| (sum / area).to_array())).collect()
 }
 
-/// A row per vertex of the model: its place, E, and B in every way.
+/// Table with a row per vertex of the model: its position, E, and B in every way.
 pub(super) fn table(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let at_vertices = |texels: &[[f64; 3]]| by_vertex(&outcome.atlas, &parameters.mesh, texels);
     let columns: Vec<_> = outcome.columns().map(|(label, texels)| (label, at_vertices(texels))).collect();

@@ -1,4 +1,4 @@
-//! One method of gathering: links, the three passes, and their cost.
+//! One way of gathering: links, the three passes, and their cost.
 
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ use crate::subsurface::on_card::{
 
 /// Diffuse reflectance for direct light.
 const DIFFUSE: f64 = 0.1;
-/// Pass 3.
+/// Kernel of pass 3.
 const VIEW: ViewKernel = ViewKernel { transmittance: EyeTransmittance::Exact, direct: DirectLight::ByFragment };
 
 /// Inputs that all ways of gathering share.
@@ -39,11 +39,11 @@ pub(super) struct Scene<'a> {
     pub(super) surface: &'a SurfaceMoments,
     pub(super) model: &'a CardModel,
     pub(super) dipoles: &'a [Dipole; 3],
-    /// Per texel, by the host.
+    /// E per texel, computed by the host.
     pub(super) irradiance: &'a [[f64; 3]],
     /// Radiosities over all pairs, if requested.
     pub(super) truth: Option<&'a [[f64; 3]]>,
-    /// Texels that are neighbours on the surface.
+    /// Neighboring texels on the surface.
     pub(super) neighbours: &'a Neighbours,
 }
 
@@ -62,31 +62,31 @@ pub(super) struct WayRow {
     pub(super) way: GatherWay,
     /// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
     pub(super) lookups: [usize; 2],
-    /// Card memory in bytes: in total, and of links alone.
+    /// Card memory in bytes: in total, and for links alone.
     pub(super) memory: [u64; 2],
-    /// Instructions and samplers of each program of pass 2.
+    /// Numbers of instructions and samplers of each program of pass 2.
     pub(super) programs: Vec<[usize; 2]>,
     /// Factors that the format of the links loses.
     pub(super) lost: LostFactors,
-    /// Texel channels of the map at its largest value.
+    /// Number of texel channels of the map at its largest value.
     pub(super) saturated: usize,
-    /// The links' own error: the host's sum over them against all pairs.
+    /// The links' own error: the host's sum over them compared with all pairs.
     pub(super) links_error: Option<GatherError>,
-    /// Roughness of the errors among neighbouring texels, relative to B.
+    /// Roughness of the errors among neighboring texels, relative to B.
     pub(super) seams: Option<f64>,
-    /// The links' own error with means by number of texels.
+    /// The links' own error if means count texels without area weights.
     pub(super) plain_error: Option<GatherError>,
-    /// The card's own error: against the host's sum over the same links.
+    /// The card's own error: compared with the host's sum over the same links.
     pub(super) card_error: GatherError,
-    /// Both together: the card against all pairs.
+    /// Total error: the card compared with all pairs.
     pub(super) error: Option<GatherError>,
-    /// Errors by angle from the light; empty without all pairs, or unless a single directional light shines.
+    /// Errors by angle from the light; empty without all pairs, or unless the only light is a single directional one.
     pub(super) angles: Vec<AngleBin>,
-    /// Modelled times of the passes; `None` for devices without time.
+    /// Modelled times of the passes; `None` for devices without timing.
     pub(super) times: Option<[PassTime; 4]>,
-    /// B of every texel, by the card.
+    /// B of every texel, computed by the card.
     pub(super) radiosity: Vec<[f64; 3]>,
-    /// For the first method: E of every texel as in the card's map.
+    /// Only for the first way: E of every texel, as in the card's map.
     pub(super) irradiance: Vec<[f64; 3]>,
     /// Scattered and direct light.
     pub(super) picture: Picture,
@@ -95,7 +95,7 @@ pub(super) struct WayRow {
     pub(super) log: Vec<Event>,
 }
 
-/// The links of a way, in a range of bands of rows of texels.
+/// Computes the links of a way, in a range of bands of rows of texels.
 pub(super) fn link_bands(
     scene: &Scene<'_>,
     way: GatherWay,
@@ -111,12 +111,12 @@ pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn
     links_of(scene, way, link_bands(scene, way, 0..LinkBands::count(scene.parameters.options.side), progress)?)
 }
 
-/// The links of a method, from the links of all bands.
+/// Joins the links of all bands to the links of a way.
 pub(super) fn links_of(scene: &Scene<'_>, way: GatherWay, bands: LinkBands) -> Result<Links, StudyError> {
     Ok(Links::of_bands(scene.surface, link_dipoles(scene, way).len(), way.choice, bands)?)
 }
 
-/// The dipoles of a method's factors: of red, green and blue, or of green for all.
+/// The dipoles of a way's factors: for red, green and blue, or green's for all channels.
 fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
     if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }
@@ -177,14 +177,14 @@ pub(super) fn run(
     Ok(row)
 }
 
-/// Errors by angle from the light, of the host's sum over links and of the card.
+/// Errors by angle from the light, for the host's sum over links and for the card.
 fn angles(scene: &Scene<'_>, found: [&[[f64; 3]]; 2]) -> Vec<AngleBin> {
     let light = angles::direction(&scene.parameters.lighting);
     let judged = light.zip(scene.truth);
     judged.map_or_else(Vec::new, |(towards, truth)| angles::by_angle(scene.atlas, towards, truth, found))
 }
 
-/// A card with the links of a method, its maps lit and gathered; its events recorded if requested.
+/// A card loaded with the links of a way, whose maps are lit and gathered; it records events if requested.
 pub(super) fn lit_card(
     scene: &Scene<'_>,
     way: GatherWay,
@@ -211,7 +211,7 @@ pub(super) fn lit_card(
     Ok(card)
 }
 
-/// B of every texel.
+/// B of every texel, from the card.
 pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, CardError> {
     Ok(card.read_scattered()?.colors())
 }
@@ -223,7 +223,7 @@ fn format(texels: FloatTexels) -> Format {
     }
 }
 
-/// The map's format; 8 bits hold the brightest texel of the host as 1.
+/// The map's format; 8 bits hold the host's brightest texel as 1.
 fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
     match map {
         MapBits::Float(FloatTexels::Fp16) => MapFormat::Fp16,
@@ -242,7 +242,7 @@ fn view(parameters: &Parameters, direct: DirectLight) -> View {
     View { kernel, diffuse: [DIFFUSE; 3], ..View::scattered(parameters.camera) }
 }
 
-/// E of every texel as the map has it; 0 where a texel has no area.
+/// E of every texel, as in the map; 0 for a texel without area.
 fn entered(scene: &Scene<'_>, card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, CardError> {
     let (map, scale) = (card.read_map()?, card.options().map.scale());
     let mean = scene.atlas.mean_texel_area();

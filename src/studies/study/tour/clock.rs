@@ -1,4 +1,4 @@
-//! One clock for all cards: the modelled time of each step, one after the other.
+//! One clock for all cards: the modelled times of all steps, one after the other.
 
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -26,7 +26,7 @@ struct Step {
 #[derive(Default)]
 pub(super) struct Clock(Vec<Step>);
 
-/// Modelled time of a log by the pipeline model; `None` for cards without rates.
+/// Modelled time of a log in the pipeline model; `None` for cards without rates.
 pub(super) fn modelled(profile: &Profile, log: &[Event]) -> Result<Option<Picoseconds>, StudyError> {
     let Ok(model) = Model::new(Level::Pipeline, profile) else { return Ok(None) };
     Ok(Some(replay(log, &model, &Options::of(Level::Pipeline))?.timeline.makespan()))

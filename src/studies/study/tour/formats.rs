@@ -1,4 +1,4 @@
-//! What each number format costs each system of the room.
+//! Errors of each system of the room, by number format.
 
 use refsim::machine::Executor;
 
@@ -23,36 +23,36 @@ use crate::subsurface::on_card::FloatTexels;
 use crate::transfer::{Tangents, Vertices};
 use refsim::texture::TexelFormat;
 
-/// The formats, the reference of pictures first.
+/// The formats; the first is the reference for pictures.
 const FORMATS: [&str; 4] = ["fp32", "fp24", "fp16", "s3.12"];
 
-/// What all formats share.
+/// Inputs that all formats share.
 pub(super) struct FormatSubject<'a> {
     pub(super) scene: &'a TourScene,
     pub(super) patches: &'a Patches,
     pub(super) bunny: (&'a GlossyModel, &'a HarmonicLight),
-    /// With what enters each texel of its atlas.
+    /// The marble statue, with the light that enters each texel of its atlas.
     pub(super) statue: (&'a MarbleModel, &'a [[f64; 3]]),
     pub(super) view: MeshView,
 }
 
-/// Costs of a format.
+/// Errors of one format.
 pub(super) struct FormatRow {
     format: &'static str,
-    /// Share of the rays of form factors that differ from exact arithmetic.
+    /// Fraction of the rays of form factors that differ from exact arithmetic.
     differing: f64,
-    /// Radiosity from form factors by these rays, against those by the host's.
+    /// Error of radiosity from form factors by these rays, compared with those by the host's rays.
     by_rays: SolutionError,
-    /// Radiosity by sums in the format, against the direct solution; `None` where the programs do not run.
+    /// Error of radiosity by sums in the format, compared with the direct solution; `None` if the programs do not run.
     by_sums: Option<SolutionError>,
-    /// The bunny's coefficients by these rays: root mean square of the differences, relative.
+    /// Error of the bunny's coefficients by these rays: relative RMS of the differences.
     transfer: f64,
-    /// Root mean square errors of pixels that show the bunny and the statue, in 255ths, against fp32.
+    /// RMS errors, in 255ths, of pixels that show the bunny and the statue, compared with fp32.
     pictures: [Option<f64>; 2],
 }
 
 impl FormatSubject<'_> {
-    /// The costs of each format, on cards without limits.
+    /// The errors of each format, on cards without limits.
     pub(super) fn rows(
         &self,
         executor: &Executor,
@@ -99,7 +99,7 @@ impl FormatSubject<'_> {
     }
 }
 
-/// Root mean square error of the pixels that show a model, in 255ths.
+/// RMS error of the pixels that show a model, in 255ths.
 fn error_255ths(shown: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> f64 {
     let mut sums = ErrorSums::default();
     for ((found, expected), _) in found.iter().zip(expected).zip(shown).filter(|(_, seen)| seen.is_some()) {
@@ -108,7 +108,7 @@ fn error_255ths(shown: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f6
     sums.rms()
 }
 
-/// Adds a sentence on the shortest format that runs everywhere.
+/// Adds a sentence about the shortest format that runs everywhere.
 pub(super) fn conclude(rows: &[FormatRow], found: &mut Findings) {
     for FormatRow { format, differing, by_rays, .. } in rows.iter().filter(|row| row.format == "s3.12") {
         found.conclusion(format!(

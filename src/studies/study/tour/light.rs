@@ -26,12 +26,12 @@ use crate::tracer::Caster;
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
 use crate::transfer::light::CubeLight;
 
-/// Rays of a pair of patches: the square of this.
+/// Square root of the number of rays per pair of patches.
 const SAMPLES: u32 = 2;
-/// Iterations on the card, at most.
+/// Maximum number of iterations on the card.
 const ITERATIONS: u32 = 40;
 
-/// Form factors by rays of a caster.
+/// Computes form factors by rays of a caster.
 pub(super) fn factors(
     patches: &Patches,
     caster: &CasterChoice,
@@ -47,7 +47,7 @@ pub(super) fn factors(
 /// Radiosity of each patch, iterations, and their modelled time.
 type Solved = (Vec<[f64; 3]>, u32, Option<Picoseconds>);
 
-/// A room's radiosity by a card.
+/// Solves a room's radiosity on a card.
 pub(super) fn radiosity(system: &System, profile: &Profile, executor: &Executor) -> Result<Solved, StudyError> {
     let solver = CardSolver::new(profile.clone(), executor.clone(), system, Packing::Rgb, Storage::Fp32);
     let mut solver = solver.map_err(no_card)?;
@@ -57,7 +57,7 @@ pub(super) fn radiosity(system: &System, profile: &Profile, executor: &Executor)
     Ok((to_f64(&solution.radiosity), solution.iterations(), modelled(profile, &solver.take_log())?))
 }
 
-/// The room by a card, interpolated between corners of patches: exposed linear colors.
+/// The room drawn by a card, interpolated between corners of patches: exposed linear colors.
 pub(super) fn picture(
     patches: &Patches,
     radiosity: &[[f64; 3]],
@@ -73,8 +73,8 @@ pub(super) fn picture(
     Ok(picture.linear()?.into_iter().map(|pixel| pixel.map(f64::from)).collect())
 }
 
-/// The light at a point: per texel of a cube the radiance of the patch that a ray from there hits. The coarse bodies in
-/// the room are left out, one of which the point is in.
+/// The light at a point: for each texel of a cube, the radiance of the patch that a ray from there hits. The coarse
+/// bodies in the room are left out, because the point lies in one of them.
 pub(super) fn probe(
     patches: &Patches,
     radiosity: &[[f64; 3]],
@@ -98,7 +98,7 @@ pub(super) fn probe(
     Ok((CubeLight::new(rays.iter().zip(&hits).map(radiance).collect())?, open.record()))
 }
 
-/// The light in harmonics.
+/// Projects the light to harmonics.
 pub(super) fn harmonic(light: &CubeLight, order: usize) -> Result<HarmonicLight, StudyError> {
     let mut y = vec![0.0; order * order];
     let mut channels = [const { Vec::new() }; 3].map(|_: Vec<f64>| vec![0.0; order * order]);

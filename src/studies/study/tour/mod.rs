@@ -1,5 +1,6 @@
-//! One room through four systems: rays of the Ray Engine give form factors, matrix radiosity lights the room, and
-//! probes in it light a glossy bunny by clustered principal components and a suit of armor of marble by subsurface scattering.
+//! One room through four systems: rays of the Ray Engine give form factors, and matrix radiosity lights the room.
+//! Probes in the room light a glossy bunny by clustered principal components, and a marble suit of armor by subsurface
+//! scattering.
 
 mod clock;
 mod formats;
@@ -32,19 +33,19 @@ use clock::Clock;
 use formats::FormatSubject;
 use scene::{BUNNY, TourScene, middle};
 
-/// Patches of the room, at most.
+/// Maximum number of patches of the room.
 const PATCHES: usize = 800;
-/// Faces of the room and of the bodies in it.
+/// Number of faces of the room and of the bodies in it.
 const LEAST_PATCHES: usize = 200;
-/// The card that draws the bunny, and that of rays, radiosity and marble. Rays start so near to a surface that only
-/// single precision sees them leave it.
+/// The card that draws the bunny; the other one traces rays, solves radiosity and draws marble. Rays start so near to a
+/// surface that only single precision sees them leave it.
 const RADEON: &str = "r300";
 const GEFORCE: &str = "nv35";
 
-/// Texels along a side of the statue's atlas, with 16 links each, and millimeters per unit of the room.
+/// Texels per side of the statue's atlas, with 16 links each, and millimeters per unit of the room.
 const SIDE: u32 = 128;
 const MM_PER_UNIT: f64 = 40.0;
-/// Texels of the light along a side of the square that a shadow ray on the statue represents.
+/// Side in texels of the square of the light that a shadow ray on the statue represents.
 const SHADOW_GROUP: usize = 8;
 
 /// Parameters of the tour.

@@ -14,7 +14,7 @@ use crate::transfer::brdf::Brdf;
 
 /// The bunny's transfer.
 pub(super) const BUNNY: GlossyTransfer = GlossyTransfer {
-    // A sharper lobe shows that five orders of harmonics ring about a lamp so small.
+    // A sharper lobe would show that five orders of harmonics ring around so small a lamp.
     brdf: Brdf::Phong { albedo: 0.5, specular: 0.3, exponent: 6.0 },
     order: 5,
     exit_order: 5,
@@ -22,13 +22,13 @@ pub(super) const BUNNY: GlossyTransfer = GlossyTransfer {
     vectors: 6,
     iterations: 5,
 };
-/// How much smaller than its model a coarse body in the room is, so that the model hides it.
+/// Size of a coarse body in the room relative to its model, which therefore hides it.
 const WITHIN: f64 = 0.86;
 
 /// A Cornell box, a bunny on its short block, and a suit of armor on its floor.
 #[derive(Debug)]
 pub(super) struct TourScene {
-    /// Walls and blocks, then coarse bodies in place of the models, which reflect light and cast shadows.
+    /// Walls and blocks, then coarse bodies in place of the models; these reflect light and cast shadows.
     pub(super) room: Scene,
     /// Walls and blocks alone: the first triangles of the room.
     pub(super) walls: Mesh,
@@ -41,7 +41,7 @@ impl TourScene {
     pub(super) fn new(size: Size, coarser: u32) -> Result<Self, InputError> {
         let empty = cornell(CornellBox { blocks: true, open: true });
         let camera = empty.views.first().expect("a view of the box").camera(size.width, size.height)?;
-        // Models, their coarse bodies, heights, and the points that they stand on.
+        // Models, divisors of their detail and their coarse bodies', heights, and the points on which they stand.
         let places = [
             (TransferModel::BiScaleBunny, [coarser, 10], 1.5, DVec3::new(1.86, 1.69, 1.651)),
             (TransferModel::BiScaleArmor, [2 * coarser, 16], 2.2, DVec3::new(4.2, 1.25, 0.001)),
@@ -67,7 +67,7 @@ impl TourScene {
     }
 }
 
-/// A model of some height that stands on a point.
+/// A model scaled to a height, standing on a point.
 fn placed(model: &Mesh, height: f64, foot: DVec3) -> Result<Mesh, InputError> {
     let [low, high] = model.bounds().map_or([DVec3::ZERO; 2], |bounds| bounds.map(wide));
     let (scale, middle) = (height / (high - low).z, (0.5 * (low + high)).with_z(low.z));
@@ -79,7 +79,7 @@ fn placed(model: &Mesh, height: f64, foot: DVec3) -> Result<Mesh, InputError> {
     }
 }
 
-/// The middle of a model.
+/// The center of a model's bounding box.
 pub(super) fn middle(model: &Mesh) -> DVec3 {
     model.bounds().map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)))
 }

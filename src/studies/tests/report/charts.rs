@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::between;
 use super::colors::{Color, color, contrast, least_distance};
 
-/// Number of series with separate styles: 6 colors, 5 dashes and 7 markers.
+/// Number of series with different styles: 6 colors, 5 dashes and 7 markers.
 const MAX_SERIES: usize = 6 * 5 * 7;
 /// Distance of the centers of neighboring labels, in pixels.
 const PITCH: f64 = 19.0;
@@ -22,14 +22,14 @@ fn chart(points: Vec<(f64, f64)>) -> Chart {
     Chart { title, x, y, lines: vec![series("a <line>", points)], ..Chart::default() }
 }
 
-/// A chart of unconnected points at 1, 2, ... named categories.
+/// A chart of unconnected points in categories 1, 2, ... with names.
 fn dots(scale: Scale, values: &[f64]) -> Chart {
     let points = (1..).map(f64::from).zip(values.iter().copied()).collect();
     let ticks = values.iter().map(|_| "name".to_owned()).collect();
     Chart { y_scale: scale, ticks, lines: Vec::new(), dots: vec![series("dots", points)], ..chart(Vec::new()) }
 }
 
-/// The numbers of the axes of a drawing.
+/// The numbers on the axes of a drawing.
 fn numbers(svg: &str) -> Vec<&str> {
     between(svg, "\">\n", "\n</text>").filter(|text| text.parse::<f64>().is_ok()).collect()
 }
@@ -39,7 +39,7 @@ fn ticks(scale: Scale, values: &[f64]) -> Vec<String> {
     numbers(&svg).into_iter().map(str::to_owned).collect()
 }
 
-/// Column and row of each disc except the first, which is beside the label.
+/// Column and row of each disc except the first, which is next to the label.
 fn discs(svg: &str) -> Vec<[f64; 2]> {
     let number = |tag: &str, name: &str| -> f64 {
         between(tag, &format!("{name}=\""), "\"").next().expect("a place").parse().expect("a number")
@@ -70,11 +70,11 @@ fn points_and_names_are_drawn() {
     let dots = vec![series("ours", vec![(1.0, 2.0), (2.0, 3.0)])];
     let chart = Chart { dots, printed: vec![(1.0, 2.5), (2.0, 1.0)], ticks, ..chart(Vec::new()) };
     let svg = chart.svg().expect("four points");
-    // Names that would overlap their neighbours break in the middle.
+    // Names that would overlap their neighbors break in the middle.
     for text in ["an office", "teapot, Monte Carlo", "a very long", "name of a room", "ours", "printed"] {
         assert_eq!(svg.matches(&format!("\n{text}\n")).count(), 1, "{text}");
     }
-    // A ring for each of two printed points, and one beside the label.
+    // A ring for each of two printed points, and one next to the label.
     assert_eq!(svg.matches("<circle").count(), 3, "{svg}");
 }
 
@@ -116,7 +116,7 @@ fn there_are_two_ticks_at_least_and_few_at_most() {
     }
 }
 
-/// A linear horizontal axis omits 0 where all values are far from it.
+/// A linear horizontal axis omits 0 if all values are far from 0.
 #[test]
 fn values_far_from_0_fill_the_axis() {
     let points = |values: &[f64]| -> Chart {
@@ -163,7 +163,7 @@ fn heights(svg: &str, labels: &[String]) -> Vec<f64> {
     labels.iter().map(place).collect()
 }
 
-/// Lines that end at some values, with their labels.
+/// Lines that end at the given values, with their labels.
 fn lines_to(ends: &[f64]) -> (Chart, Vec<String>) {
     let labels: Vec<String> = (0..ends.len()).map(|n| format!("line {n:03}")).collect();
     let lines = labels.iter().zip(ends).map(|(label, &end)| series(label, vec![(0.0, 0.0), (1.0, end)])).collect();
@@ -184,7 +184,7 @@ fn labels_with_room_stand_where_their_lines_end() {
     let (chart, labels) = lines_to(&[3.0, 1.0, 2.0]);
     let svg = chart.svg().expect("lines");
     assert_eq!(end_rows(&svg), heights(&svg, &labels));
-    // Lines that end together share the room on both sides.
+    // Lines that end at the same point share the space above and below it.
     let (chart, labels) = lines_to(&[1.0, 1.0, 2.0]);
     let svg = chart.svg().expect("lines");
     let (end, together) = (end_rows(&svg)[0], heights(&svg, &labels));
@@ -199,7 +199,7 @@ proptest! {
         let (chart, labels) = lines_to(&ends.iter().copied().map(f64::from).collect::<Vec<_>>());
         let svg = chart.svg().expect("lines");
         let mut heights = heights(&svg, &labels);
-        // In the order of the rows in which their lines end.
+        // In order of the rows in which their lines end.
         let rows = end_rows(&svg);
         for (a, x) in rows.iter().zip(&heights) {
             for (b, y) in rows.iter().zip(&heights) {
@@ -213,7 +213,7 @@ proptest! {
     }
 }
 
-/// The look of each series by the marks beside its label: color, dashes, marker; rows are relative to the label's.
+/// The look of each series, from the marks next to its label: color, dashes, marker; rows are relative to the label's.
 fn looks(svg: &str, labels: &[String]) -> Vec<[String; 3]> {
     let relative = |points: &str, row: f64| -> String {
         let point = |point: &str| {
@@ -249,8 +249,8 @@ fn no_two_series_look_the_same() {
     labels.push("printed".to_owned());
     let looks = looks(&chart.svg().expect("lines"), &labels);
     assert_eq!(looks.iter().collect::<BTreeSet<_>>().len(), MAX_SERIES + 1, "{looks:?}");
-    // Neighbors differ in all three, so that a reader without colors tells them apart; papers' points have a marker of
-    // their own.
+    // Neighbors differ in all three, so a reader without color vision can tell them apart; papers' points have their
+    // own marker.
     for two in looks.windows(2) {
         assert!((0..3).all(|part| two[0][part] != two[1][part]), "{two:?}");
     }
@@ -258,7 +258,7 @@ fn no_two_series_look_the_same() {
     assert!(ours.iter().all(|[.., marker]| *marker != printed[2]));
 }
 
-/// Each color of the drawing with its form on a dark page.
+/// Each color of the drawing, with the color that replaces it on a dark page.
 fn dark_forms(svg: &str) -> Vec<(Color, Color)> {
     let rules = between(svg, "[stroke=\"", "}").map(|rule| {
         let (light, dark) = rule.split_once("\"]{stroke:").expect("a rule");

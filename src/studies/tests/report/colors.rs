@@ -5,13 +5,13 @@ use crossbar_base::elementary::pow;
 /// Red, green, blue in sRGB.
 pub(super) type Color = [u8; 3];
 
-/// A color as style sheets write it, `#1c1e21`.
+/// Parses a color of a style sheet, such as `#1c1e21`.
 pub(super) fn color(text: &str) -> Color {
     let digits = text.trim().strip_prefix('#').expect("a color");
     [0, 2, 4].map(|at| u8::from_str_radix(&digits[at..at + 2], 16).expect("hexadecimal"))
 }
 
-/// Matrices of Machado, Oliveira and Fernandes (2009) on linear RGB, at full severity: normal vision, protanopia,
+/// Matrices of Machado, Oliveira and Fernandes (2009) for linear RGB, at full severity: normal vision, protanopia,
 /// deuteranopia and tritanopia.
 const VISIONS: [[[f64; 3]; 3]; 4] = [
     [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],

@@ -7,7 +7,7 @@ use crossbar_studies::report::{Findings, SummaryLine, TallyEntry, Tone};
 use super::colors::{Color, color, contrast, least_distance};
 use super::{between, page};
 
-/// The script fetches nothing, does not end its own element, and is the only one.
+/// The script loads nothing, does not end its own element, and is the only script.
 #[test]
 fn the_script_stands_alone() {
     let page = page(Findings::new("t"));
@@ -43,7 +43,7 @@ fn a_line_links_to_its_heading() {
     );
 }
 
-/// The style sheet without its variables, and the variables of the light and of the dark page.
+/// The style sheet without its variables, and the variables of the light page and of the dark page.
 fn sheet() -> (String, [BTreeMap<String, Color>; 2]) {
     let page = page(Findings::new("t"));
     let sheet = between(&page, "<style>", "</style>").next().expect("a style sheet");
@@ -72,7 +72,7 @@ fn text_and_accents_stand_out_from_both_pages() {
     }
 }
 
-/// Every color of the sheet is a variable, so that a dark page uses no color of a light one.
+/// Every color of the sheet is a variable, so a dark page uses no color of a light page.
 #[test]
 fn the_sheet_has_no_color_of_its_own() {
     let (css, themes) = sheet();

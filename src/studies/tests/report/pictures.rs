@@ -6,7 +6,7 @@ use crossbar_studies::report::{Findings, NamedPicture};
 
 use super::{between, page};
 
-/// Whether the first of `count` pictures of a width is enlarged on a page, and the width of its image in pixels.
+/// Returns `true` if the first of `count` pictures of a width is enlarged on a page, and its width in pixels.
 fn shown(width: u32, count: usize) -> (bool, u32) {
     let picture = |n: usize| NamedPicture::new(format!("p{n}"), rgb8(width, 1, vec![[0; 3]; width as usize]), "p");
     let mut found = Findings::new("t");

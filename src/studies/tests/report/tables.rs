@@ -77,7 +77,7 @@ fn parts_of_a_table_repeat_the_columns_that_tell_rows_apart() {
     assert!(!second.contains("value"), "{text}");
 }
 
-/// A page of one table; a row whose verdict is `missed` is counted as undesirable.
+/// A page with one table; a row whose verdict is `missed` counts as undesirable.
 fn page_of(table: Table) -> String {
     let mut found = Findings::new("t");
     found.tally(1, ["missed", "missed"], Tone::Bad);

@@ -1,4 +1,4 @@
-//! Numbers, counts and names in prose, text from outside, digests, lines of texts, traces for viewers.
+//! Numbers, counts and names in prose, external text, digests, lines of texts, traces for viewers.
 
 use std::borrow::Cow;
 

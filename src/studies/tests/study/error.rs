@@ -8,8 +8,8 @@ use crossbar_studies::study::StudyError;
 use miette::Diagnostic as _;
 use refsim::device::DeviceError;
 
-/// Forwarding of a library's error by the derives: `#[error(transparent)]` with a code, or transparent altogether; a
-/// sentence of the study's own has its cause in the chain.
+/// Errors of libraries are forwarded as thiserror's derives forward them: with `#[error(transparent)]` and a code, or
+/// transparent altogether. An error with the study's own sentence has its cause in the chain.
 #[test]
 fn errors_are_forwarded_as_by_the_derives() {
     let text = |shown: Option<Box<dyn fmt::Display + '_>>| shown.map(|shown| shown.to_string());

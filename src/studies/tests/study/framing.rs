@@ -1,4 +1,4 @@
-//! Views that a model fills.
+//! Views in which a model fills the picture.
 
 use crossbar_base::geom::exact::Sides;
 use crossbar_base::geom::teapot::teapot;
@@ -7,7 +7,7 @@ use crossbar_ground::tracer::HostTracer;
 use crossbar_studies::study::framing::framed;
 use glam::DVec3;
 
-/// The teapot touches the margin on two opposite sides, from any eye, and lies within the picture.
+/// From any eye position, the teapot touches the margin on two opposite sides, and lies within the picture.
 #[test]
 fn a_model_fills_its_picture_from_any_eye() {
     let mesh = teapot(4).expect("a teapot");

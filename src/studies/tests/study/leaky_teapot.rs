@@ -18,13 +18,13 @@ use crate::report::colors::{contrast, least_distance};
 fn colours_differ_for_every_reader() {
     let colors: Vec<Color> = PixelVerdict::VARIANTS.iter().map(|verdict| verdict.color()).collect();
     assert!(least_distance(&colors) > 20.0, "{}", least_distance(&colors));
-    // Errors are brighter than correct pixels, for readers without color vision.
+    // Errors are brighter than correct pixels, so readers without color vision can see them.
     for verdict in PixelVerdict::VARIANTS.iter().filter(|verdict| verdict.is_error()) {
         assert!(contrast(verdict.color(), PixelVerdict::Right.color()) > 2.0, "{verdict:?}");
     }
 }
 
-/// Rows of these formats, named by letters: limits of each, and the sentences about them.
+/// Limits of each format, in rows named by letters, and the sentences about them.
 fn limited(formats: &[&str]) -> (Vec<FormatLimits>, Vec<String>) {
     let side = 48;
     let rays = Camera::teapot(side, side).expect("a camera").rays();

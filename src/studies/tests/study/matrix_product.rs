@@ -1,4 +1,4 @@
-//! Products in matrix units: errors, promotion, where elements part.
+//! Products in matrix units: errors, promotion, and where sums first differ.
 
 use crossbar_ground::io::{NumberArray, NumbersOrCodes};
 use crossbar_studies::report::Verdict;

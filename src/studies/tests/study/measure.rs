@@ -20,7 +20,7 @@ fn pixels_are_sorted_by_case() {
     assert_eq!(cases, expected.map(|(path, pixels)| MeasuredCase { path: path.into(), pixels }));
 }
 
-/// Lines about a card and about probes that it could not draw, as the runner writes them.
+/// Lines about a card, and about probes that it could not draw, as the runner writes them.
 #[test]
 fn remarks_are_no_pixels() {
     let text = "# card: \"R200\", 64 MB\ncase,column,row,red\n# skipped b.toml: no, or not yet\n\"a.toml\",0,0,7\n";
@@ -59,7 +59,7 @@ fn errors_say_where_and_what() {
 }
 
 proptest::proptest! {
-    /// Any text is a table or an error.
+    /// Any text gives a table or an error.
     #[test]
     fn no_text_panics(text in "(case,column,row,red\n)?[a-z0-9,\n#\" ]{0,60}") {
         let _ = parse(&text);

@@ -1,4 +1,4 @@
-//! Studies: their findings, as a document and in files.
+//! Studies: their findings, in the JSON document and in files.
 
 mod error;
 mod framing;
@@ -24,7 +24,7 @@ fn findings(study: &dyn Study) -> Findings {
     study.findings(&mut |_, _, _| {}).expect("the study ends")
 }
 
-/// Output of a study, by file names.
+/// Output files of a study, by name.
 struct StudyFiles(BTreeMap<String, Vec<u8>>);
 
 impl StudyFiles {
@@ -48,7 +48,7 @@ impl StudyFiles {
         PictureFile::open(&folder.path().join(name)).and_then(|file| file.decode()).expect("a picture")
     }
 
-    /// Rows of a table, each by the headings.
+    /// Rows of a table; each maps headings to cells.
     fn rows(&self, name: &str) -> Vec<BTreeMap<String, String>> {
         let mut reader = csv::Reader::from_reader(self.bytes(name));
         reader.deserialize().collect::<Result<_, _>>().expect("a table")
@@ -60,7 +60,7 @@ fn number(row: &BTreeMap<String, String>, heading: &str) -> f64 {
     text.parse().unwrap_or_else(|_| panic!("{heading} is {text}"))
 }
 
-/// Red, green and blue of a row, in columns whose names begin alike.
+/// Red, green and blue of a row, from the columns with this prefix.
 fn rgb(row: &BTreeMap<String, String>, name: &str) -> [f64; 3] {
     ["r", "g", "b"].map(|channel| number(row, &format!("{name}_{channel}")))
 }

@@ -1,4 +1,4 @@
-//! The page that compares a GPU with the emulator, by its data.
+//! The page that compares a GPU with the emulator, tested through its data.
 
 use std::fs;
 use std::path::PathBuf;
@@ -16,10 +16,10 @@ use refsim::num::{Format, NumberOperation, to_f64};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use serde_json::Value;
 
-/// Operand sets of an operation in a format.
+/// Number of operand sets per operation and format.
 const SETS: usize = 2048;
 
-/// The data of the page, as its script reads it.
+/// The data of the page, in the form that its script reads.
 static DATA: LazyLock<Value> = LazyLock::new(|| {
     let page = page(None, &mut |_, _, _| {}).expect("the page is written");
     let (_, data) = page.split_once("type=\"application/json\">").expect("the data");
@@ -45,7 +45,7 @@ fn assets(extension: &str) -> Vec<(PathBuf, String)> {
     files.map(|path| (path.clone(), fs::read_to_string(path).expect("text"))).collect()
 }
 
-/// The script fetches nothing and does not end its own element.
+/// The script loads nothing and does not end its own element.
 #[test]
 fn the_script_stands_alone() {
     let parts = assets("js");
@@ -55,7 +55,7 @@ fn the_script_stands_alone() {
     }
 }
 
-/// Every color of the sheet is a variable of the reports' sheet, so that a dark page uses no color of a light one.
+/// Every color of the sheet is a variable of the reports' sheet, so a dark page uses no color of a light page.
 #[test]
 fn the_sheet_has_no_color_of_its_own() {
     let [(_, css)] = &assets("css")[..] else { panic!("one sheet") };
@@ -91,8 +91,8 @@ fn every_format_is_one_and_every_operation_has_results() {
     }
 }
 
-/// A page with other operands would call a right GPU wrong: results must be those of the operands that the page's
-/// script makes.
+/// With different operands, the page would call a correct GPU wrong: the results must belong to the operands that the
+/// page's script generates.
 #[test]
 fn operands_are_those_of_the_script() {
     let script = [
@@ -106,8 +106,8 @@ fn operands_are_those_of_the_script() {
     assert_eq!(results("sub", "e8m23")[..4], expected);
 }
 
-/// Zeros, subnormals, infinities, NaN and neighbours are among the operands of float formats: the smaller and the larger
-/// of two operands is one of them, and neighbours differ by less than four units in the last place.
+/// The operands of float formats include zeros, subnormals, infinities, NaN and neighbors: the smaller or the larger of
+/// two operands is one of them, and neighbors differ by less than four units in the last place.
 #[test]
 fn operands_reach_the_corners_of_a_format() {
     for (name, format) in [("e5m10", Format::FP16), ("e8m23", Format::FP32)] {
@@ -131,7 +131,7 @@ fn operands_reach_the_corners_of_a_format() {
     }
 }
 
-/// The text of each shader has its own entry point and no operation of the others.
+/// The text of each shader has its own entry point and none of the other shaders' operations.
 #[test]
 fn shaders_hold_what_they_run() {
     let shaders = list(&DATA["arithmetic"]["shaders"]);
@@ -155,9 +155,9 @@ fn microcode(format: &str) -> Vec<u32> {
     PixelShader::new(&kernel.pixel, &profile.rules, &bindings, false).microcode(None).expect("it fits").words
 }
 
-/// The page changes these words alone when the visitor chooses another format: apart from them, the code of all
-/// fixed-point formats of at most 24 bits is the same, and so is that of all floats. The code of single precision
-/// leaves out conversions from single precision to itself, which change nothing.
+/// If the visitor chooses another format, the page changes only these words: all others are equal in the code of all
+/// fixed-point formats of at most 24 bits, and in the code of all floats. The code of single precision omits
+/// conversions from single precision to itself, which change nothing.
 #[test]
 fn one_program_serves_all_formats_of_its_kind() {
     let [fixed, float] = ["fixed", "float"].map(|kind| &DATA["teapot"][kind]);
@@ -179,7 +179,7 @@ fn one_program_serves_all_formats_of_its_kind() {
     assert_eq!(single.len() + 3 * conversions(&code), code.len());
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll and Vo), of the bytes that are stored beside each digest.
+/// 64-bit FNV-1a (Fowler, Noll and Vo) of the bytes that are stored next to each digest.
 #[test]
 fn digests_are_of_the_hits_beside_them() {
     let fnv = |bytes: &[u8]| {

@@ -5,7 +5,7 @@ use crossbar_studies::study::picture_difference::{DifferenceOptions, PictureDiff
 
 use super::findings;
 
-/// The end of the false colors for pixels that differ by these values.
+/// The value at the end of the false colors, for pixels with these differences.
 fn scale(values: &[f32]) -> f64 {
     let input = |name: &str, values: Vec<f32>| {
         let picture = Picture::new(values.len() as u32, 1).with("Z", ChannelUnit::Unknown, Samples::Float(values));

@@ -33,7 +33,7 @@ fn errors_are_those_of_the_means() {
     assert_eq!((&error.squared[..], error.total, error.energy), (&[25.0, 1.0, 0.0][..], 26.0, 26.0));
     assert_eq!((error.relative(), error.largest()), (1.0, 0));
     assert_eq!(error.root_mean_square(), (26.0_f64 / 6.0).sqrt());
-    // The mean is 26 / 3: 25 is above a tenth of it, 1 too, 0 below all.
+    // The mean is 26 / 3: 25 and 1 are above a tenth of it, 0 is below all limits.
     let counts: Vec<String> = error.histogram().rows().iter().map(|row| row[2].text()).collect();
     assert_eq!((counts[0].as_str(), counts[10].as_str(), counts.len()), ("1", "2", 11));
 }
@@ -48,7 +48,7 @@ fn triangle() -> (Mesh, Vertices, LitView) {
     (mesh, vertices, view)
 }
 
-/// Corners have one channel each, so a pixel's channel is the barycentric weight of its corner, in [0, 1].
+/// Each corner has its own channel, so a pixel's channel is the barycentric weight of that corner, in [0, 1].
 #[test]
 fn weights_are_barycentric_and_stay_inside() {
     let (mesh, vertices, view) = triangle();
@@ -78,7 +78,7 @@ fn weights_are_barycentric_and_stay_inside() {
     assert!(seen > width, "{seen}");
 }
 
-/// The picture of a light, beside that of a triangle without transfer.
+/// The picture of a light, from a study of a triangle without transfer.
 fn picture_of(light: DistantLight) -> Picture {
     let (mesh, vertices, view) = triangle();
     let file = AllFrequencyFile {
@@ -93,7 +93,7 @@ fn picture_of(light: DistantLight) -> Picture {
     StudyFiles::of(&AllFrequencyRendering { lit, ground: None }).picture("light.png")
 }
 
-/// A disk is at its place in the picture, read as a light.
+/// In the picture read as a light, a disk is in its original direction.
 #[test]
 fn the_picture_read_as_a_light_comes_from_the_same_direction() {
     let towards = DVec3::new(0.6, -0.5, 0.4).normalize();
@@ -110,8 +110,8 @@ fn a_black_light_is_black() {
     assert!(pixels.iter().all(|pixel| *pixel == [0.0; 3]));
 }
 
-/// Two lights on a diffuse sphere, one before it and one that grazes it: pixels are to each other as the sums of their
-/// cosines.
+/// Two lights on a diffuse sphere, one from the front and one grazing: the ratio of two pixels is the ratio of their
+/// sums of cosines.
 #[test]
 fn a_diffuse_sphere_is_lit_by_the_cosine() {
     let lights = [(DVec3::new(-0.5, -0.6, 0.62), PI), (DVec3::new(0.9, 0.35, 0.1), 0.5 * PI)];

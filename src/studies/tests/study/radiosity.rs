@@ -1,4 +1,4 @@
-//! Radiosity: errors against the direct solution.
+//! Radiosity: errors compared with the direct solution.
 
 use clap::Parser;
 use crossbar_ground::scene::{Camera, Scene};
@@ -17,7 +17,7 @@ struct Options {
     study: RadiosityOptions,
 }
 
-/// A box whose lamp is so many times as bright.
+/// A box whose lamp is brighter by a factor.
 fn study(brightness: f32, options: &str) -> Parameters {
     let scene = rooms::cornell(rooms::CornellBox::default());
     let mut materials = scene.materials().to_vec();
@@ -36,8 +36,8 @@ fn study(brightness: f32, options: &str) -> Parameters {
     }
 }
 
-/// Errors of an iteration that stops early are those of the radiosities of its patches: the largest of the brightest
-/// patch's, and of each patch's own; the mean has its sign, and lamps do not count for it.
+/// The errors of an iteration that stops early follow from the patches' radiosities: the largest relative to the
+/// brightest patch's radiosity, and relative to each patch's own; the mean is signed, and lamps do not count.
 #[test]
 fn lamps_and_dark_patches_do_not_count_for_the_bias() {
     let study = study(1.0, "--patches 40 --factors unoccluded --solver jacobi --solver direct --iterations 2");
@@ -67,7 +67,7 @@ fn lamps_and_dark_patches_do_not_count_for_the_bias() {
     }
 }
 
-/// A room too bright for half floats has no small error: the study is refused.
+/// A room too bright for half floats does not have a small error: the study is rejected.
 #[test]
 fn radiosities_that_are_not_finite_are_no_small_error() {
     let options = "--patches 40 --factors unoccluded --solver card --storage fp16 --solver direct --iterations 2";

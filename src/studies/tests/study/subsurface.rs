@@ -1,4 +1,4 @@
-//! Subsurface scattering: light of environments, errors by the angle from the light, values at vertices.
+//! Subsurface scattering: environment light, errors by the angle from the light, values at vertices.
 
 use std::f64::consts::PI;
 
@@ -43,7 +43,7 @@ fn study(mesh: &Mesh, lighting: Lighting, options: &str) -> Parameters {
     }
 }
 
-/// A mesh of flat faces: corners of a face of its own, with its normal.
+/// A mesh of flat faces: each face has its own corners, with its normal.
 fn flat(faces: &[[[f32; 3]; 3]]) -> Mesh {
     let normal = |[a, b, c]: [[f32; 3]; 3]| {
         let [a, b, c] = [a, b, c].map(|corner| DVec3::from(corner.map(f64::from)));
@@ -62,7 +62,8 @@ fn cube() -> Mesh {
     flat(halves.as_flattened())
 }
 
-/// Light that enters each face under an environment, compared with the means over its texels under lights of the host.
+/// Light that enters each face under an environment, compared with the means over the face's texels under the host's
+/// lights.
 fn entering(light: CubeLight, lights: &[Light]) -> Vec<[f64; 2]> {
     let study = study(&cube(), Lighting::Environment(light), "--atlas 8 --links 4 --all-pairs no");
     let atlas = Atlas::new(&study.mesh, 8).expect("an atlas");
@@ -75,8 +76,8 @@ fn entering(light: CubeLight, lights: &[Light]) -> Vec<[f64; 2]> {
     faces.iter().enumerate().map(|(face, row)| [rgb(row, "E")[1], mean(face)]).collect()
 }
 
-/// The beams of an environment keep its flux: on a body without shadows of its own, constant light is that of a sky, and
-/// light of one texel is parallel light from there.
+/// The beams of an environment preserve its flux: on a body without self-shadowing, constant light equals a sky, and
+/// light of one texel equals parallel light from its direction.
 #[test]
 fn environments_keep_their_flux() {
     let constant = CubeLight::constant([1.0, 2.0, 0.5]).expect("a light");
@@ -95,20 +96,20 @@ fn environments_keep_their_flux() {
     }
 }
 
-/// Errors of a tetrahedron in one texel per face, summed by hand: 0 degrees is the face towards the light, and faces that
-/// are turned alike share a bin.
+/// Errors of a tetrahedron with one texel per face, summed by hand: the face towards the light is at 0 degrees, and
+/// faces at equal angles share a bin.
 #[test]
 fn errors_are_told_by_angle() {
     let corners = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0]];
     let faces = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]].map(|face| face.map(|corner: usize| corners[corner]));
     let mesh = flat(&faces);
-    // Towards the middle of the face without the first corner.
+    // The sun lies above the middle of the face without the first corner.
     let sun = Light::Directional { towards: [-1.0; 3], irradiance: [1.0, 2.0, 3.0] };
     let options = "--atlas 2 --links 4 --map fp16 --link-format fp16 --all-pairs yes";
     let files = StudyFiles::of(&study(&mesh, Lighting::Lights(vec![sun]), options));
     let (faces, bins) = (files.rows("faces.csv"), files.rows("angles.csv"));
     let way = bins[0]["way"].replace('-', "_");
-    // The other faces are turned by the dihedral angle, of cosine -1/3, from it.
+    // The other faces form the dihedral angle, whose cosine is -1/3, with this face.
     let ends: Vec<[f64; 2]> =
         bins.iter().map(|bin| ["from_degrees", "to_degrees"].map(|end| number(bin, end))).collect();
     assert_eq!(ends, [[0.0, 15.0], [105.0, 120.0]]);
@@ -134,7 +135,7 @@ fn errors_are_told_by_angle() {
             let found = number(bin, heading);
             assert!((found - expected).abs() <= 1e-6 * expected.abs().max(1e-3), "{heading}: {found} {expected}");
         }
-        // Links are judged as the card is, except for the rounding of its formats.
+        // Errors of links equal the card's errors, except for the rounding of its formats.
         for (links, all) in [("links_percent", "all_percent"), ("links_rms_percent", "all_rms_percent")] {
             assert!((number(bin, links) - number(bin, all)).abs() < 0.5, "{bin:?}");
         }
@@ -144,7 +145,8 @@ fn errors_are_told_by_angle() {
     assert!(!StudyFiles::of(&with_sky).0.contains_key("angles.csv"), "a sky shines from everywhere");
 }
 
-/// Values that change over a square are met at its corners to half a texel, and a vertex of no face has none.
+/// At each corner of a square, the irradiance matches the nearest texel's within 5 % of the maximum; a vertex without a
+/// face has no value.
 #[test]
 fn corners_have_the_values_of_their_texels() {
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [9.0; 3]];

@@ -1,4 +1,4 @@
-// Operations by formats in whole numbers: operands (operands.rs has the same generator), runs, comparison.
+// The table of operations by formats, in integers: operands (operands.rs has the same generator), runs, comparison.
 
 const SUM = DATA.arithmetic;
 

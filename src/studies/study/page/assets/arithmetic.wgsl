@@ -1,6 +1,6 @@
-// Operations of the number library on bit patterns, one cell of the table per row of workgroups.
+// Operations of the number library on bit patterns; each row of workgroups computes one cell of the table.
 //
-// A job is twelve words: a format (struct Format), the operation, the first operand set, their number, unused.
+// A job is twelve words: a format (struct Format), the operation, the first operand set, the number of sets, unused.
 
 const JOB_WORDS: u32 = 12u;
 
@@ -26,7 +26,7 @@ fn alu_main(@builtin(global_invocation_id) place: vec3<u32>) {
     let item = jobs[at + 9u] + place.x;
     let f = job_format(at);
     let operation = jobs[at + 8u];
-    // The library has no product and sum with two roundings.
+    // The library has no multiply-add with two roundings.
     let two = operation == N_MAD;
     var a = n_decode(f, operands[3u * item]);
     var b = n_decode(f, operands[3u * item + 1u]);

@@ -21,7 +21,7 @@ const count = (n) => n.toLocaleString("en-US");
 const counted = (n, noun) => `${count(n)} ${noun}${n === 1 ? "" : "s"}`;
 const said = (text) => { at("status").textContent = text; };
 
-// What was found; shown as JSON.
+// Results, shown as JSON.
 const FOUND = { page: `crossbar ${DATA.version}`, adapter: null, operations: [], native: [], programs: [], teapot: [] };
 const show = () => { at("json").value = JSON.stringify(FOUND, null, 1); };
 
@@ -33,7 +33,7 @@ const storageOf = (device, words, more = 0) => {
   return buffer;
 };
 
-// Reads words of a buffer back.
+// Reads back words of a buffer.
 const readBack = async (device, buffer, first, length) => {
   const staging = device.createBuffer({ size: 4 * length, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
   const encoder = device.createCommandEncoder();
@@ -45,7 +45,7 @@ const readBack = async (device, buffer, first, length) => {
   return words;
 };
 
-// Compiles a text, without blocking the page.
+// Compiles a shader without blocking the page.
 const compiled = async (device, text, entryPoint) => {
   const module = device.createShaderModule({ code: text });
   const { messages } = await module.getCompilationInfo();
@@ -65,7 +65,7 @@ const run = (device, pipeline, buffers, x, y = 1) => {
   device.queue.submit([encoder.finish()]);
 };
 
-// Obeys keys on an element, unless a modifier says that the browser is meant.
+// Handles keys on an element; keys with a modifier are left to the browser.
 const onKeys = (element, keys) => {
   element.addEventListener("keydown", (event) => {
     if (keys[event.key] && !event.ctrlKey && !event.metaKey && !event.altKey) {
@@ -75,10 +75,10 @@ const onKeys = (element, keys) => {
   });
 };
 
-// Lets the page show what it has.
+// Lets the browser show the page's current state.
 const breathe = () => new Promise((resolve) => { setTimeout(resolve, 0); });
 
-// Saves text as a file of the visitor.
+// Saves text as a file on the visitor's computer.
 const save = (name, text) => {
   const link = add(document.body, "a", { href: URL.createObjectURL(new Blob([text], { type: "text/plain" })), download: name });
   link.click();

@@ -1,4 +1,4 @@
-// The live view, and the order in which everything runs.
+// The live view, and the order of all steps.
 
 const ROUNDINGS = ["to nearest, ties to even", "to nearest, ties away", "toward zero", "down"];
 const FIXED_OVERFLOWS = ["saturates", "wraps"];
@@ -38,12 +38,12 @@ const formatName = ([kind, upper, frac, rounding, overflow]) => {
   return name + suffix + (kind === FIXED && overflow === 1 ? ":wrap" : "");
 };
 
-// Controls of the live view; returns what they say.
+// Reads the controls of the live view.
 const controls = (redraw) => {
   const form = at("controls");
   form.onsubmit = () => false;
   const kind = choice(form, "kind", "Numbers", ["fixed point sI.F", "floating point eXmY"]);
-  // 24 bits at most: beyond, the program converts coordinates in other places.
+  // At most 24 bits: for more, the program converts coordinates at other instructions.
   const fixed = [slider(form, "integers-of", "Integer bits I", 0, 7, 3), slider(form, "fractions-of", "Fraction bits F", 4, 16, 12)];
   const float = [slider(form, "exponent-of", "Exponent bits X", 4, 8, 5), slider(form, "mantissa-of", "Mantissa bits Y", 2, 23, 10)];
   const rounding = choice(form, "rounding", "Rounding", ROUNDINGS);

@@ -1,4 +1,4 @@
-// The adapter's own floats, held against the exact results rounded to nearest.
+// The adapter's own floats, compared with the exact results rounded to nearest.
 
 const DISTANCES = [[0, 0, "0"], [1, 1, "1"], [2, 2, "2"], [3, 4, "3 to 4"], [5, 16, "5 to 16"], [17, Infinity, "more"]];
 const REAL = {
@@ -12,7 +12,7 @@ const REAL = {
   },
 };
 
-// Numbers as consecutive integers; both zeros are 0.
+// Maps consecutive numbers to consecutive integers; both zeros are 0.
 const orderOf = (bits, { mantissa, exponent }) => {
   const size = bits & (2 ** (mantissa + exponent) - 1);
   return bits >= 2 ** (mantissa + exponent) ? -size : size;
@@ -36,7 +36,7 @@ const judgeNative = (row, column, type, found) => {
     const bits = found[set];
     const order = orderOf(bits, real);
     const all = [...words.subarray(3 * set, 3 * set + operands), expected[set]].map((x) => classOf(x, real));
-    // The emulator's reciprocal root is of the magnitude, as Direct3D has it.
+    // The emulator takes the reciprocal root of the magnitude, as Direct3D does.
     const isNegativeRoot = operation === "rsq" && orderOf(words[3 * set], real) < 0;
     if (all.includes("special") || isNegativeRoot) { line.special += 1; continue; }
     const distance = classOf(bits, real) === "special" ? Infinity : Math.abs(order - orderOf(expected[set], real));
@@ -76,7 +76,7 @@ const showNative = (body, line) => {
   if (line.type === "f32") { add(row, "td", {}, line.accuracy); }
 };
 
-// Runs the adapter's own operations in the types that it has.
+// Runs the adapter's own operations in the types that it supports.
 const runNative = async (device) => {
   for (const [column, { native: type, name }] of SUM.formats.entries()) {
     if (!type || (type === "f16" && !device.features.has("shader-f16"))) { continue; }

@@ -1,4 +1,4 @@
-// One operation in the adapter's own floats, of the type `real`.
+// One operation in the adapter's own floats, which have the type `real`.
 fn native(operation: u32, a: real, b: real, c: real) -> real {
     switch operation {
         case N_ADD: { return a + b; }

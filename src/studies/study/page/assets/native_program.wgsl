@@ -1,6 +1,6 @@
-// Programs in the adapter's own floats: what the machine calls in place of the number library. Operands of a format that
-// is marked as the adapter's (its `special` is NATIVE more) are computed in f32; all else, such as interpolation, texture
-// reads, selections and registers of other formats, is the number library's.
+// Programs in the adapter's own floats: the functions that replace the number library for the machine. If a format is
+// marked as the adapter's (NATIVE is added to its `special`), its operations are computed in f32. The number library
+// does everything else, such as interpolation, texture reads, selections and registers of other formats.
 alias real = f32;
 
 fn native_bits(x: f32) -> Real {
@@ -29,7 +29,7 @@ fn native_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
 
 fn native_long(op: u32, f: Format, a: u32, b: u32) -> Real {
     if (f.special >= NATIVE) {
-        // Direct3D's reciprocal root is of the magnitude.
+        // Direct3D takes the reciprocal root of the magnitude.
         let first = select(a, a & 0x7fffffffu, op == N_RSQ && f.special == NATIVE);
         switch op {
             case N_DIV, N_RCP, N_RSQ, N_SQRT, N_EXP2, N_LOG2, N_SIN, N_COS: {

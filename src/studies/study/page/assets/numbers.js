@@ -1,6 +1,6 @@
-// Numbers of any format, from and to bits. A format is eight words, as shaders have it.
+// Conversion of numbers in any format from and to bits. A format is eight words, as in shaders.
 
-// A raw value of the machine as a pattern of the format.
+// Converts a raw value of the machine to a pattern of the format.
 const patternOf = (raw, [kind, upper, frac]) => {
   const width = 1 + upper + frac;
   if (kind === 0) { return width === 32 ? raw : raw & (2 ** width - 1); }
@@ -17,7 +17,7 @@ const patternOf = (raw, [kind, upper, frac]) => {
 
 const singleOf = (bits) => new Float32Array(Uint32Array.of(bits).buffer)[0];
 
-// The exponent of the largest power of two that is not above a positive number.
+// The exponent of the largest power of two that is at most a positive number.
 const exponentOf = (size) => {
   if (size === 0) { return -Infinity; }
   let exponent = Math.floor(Math.log2(size));
@@ -26,7 +26,7 @@ const exponentOf = (size) => {
   return exponent;
 };
 
-// The number of a pattern; doubles hold those of all formats.
+// The number that a pattern represents; doubles hold the numbers of all formats.
 const numberOf = (pattern, [kind, upper, frac, , , , , over]) => {
   if (kind === 0) {
     const spare = 31 - upper - frac;

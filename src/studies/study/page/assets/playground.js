@@ -1,8 +1,8 @@
-// The playground: the emulator itself, where the page carries it.
+// The playground: the emulator itself, if the page contains it.
 
 const PLAY_CELL = 9;
 
-// The emulator as a function from requests to answers; null if the page does not carry it.
+// The emulator as a function from requests to answers; null if the page does not contain it.
 const emulator = async () => {
   const element = document.getElementById("emulator");
   if (!element) { return null; }
@@ -17,7 +17,7 @@ const emulator = async () => {
       const words = Uint32Array.from({ length: Math.ceil(length / 4) }, (_, k) => calls.refsim_read(4 * k));
       return new TextDecoder().decode(new Uint8Array(words.buffer, 0, length));
     } catch (error) {
-      // A trap leaves the instance in the middle of its work.
+      // A trap leaves the instance in an undefined state.
       calls = null;
       throw error;
     }

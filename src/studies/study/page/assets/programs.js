@@ -1,10 +1,10 @@
-// Traces of programs: those that the emulator stored, and those of the visitor's GPU.
+// Traces of programs: traces stored by the emulator, and traces on the visitor's GPU.
 
 const STEPS = DATA.programs;
 const PIXELS = STEPS.side * STEPS.side;
 const [RECORD_HEAD, STEP_WORDS, RECORD_FRAGMENT, RECORD_UNFINISHED] = STEPS.record;
 
-// Stored patterns of a variant: by pixel, then entry, then written component.
+// Stored patterns of a variant, by pixel, entry and written component.
 const storedOf = (variant) => {
   const bytes = bytesOf(variant.values);
   let at = 0;
@@ -20,7 +20,7 @@ const storedOf = (variant) => {
   }));
 };
 
-// Everything about a variant that the page shows.
+// All data of a variant that the page shows.
 const VARIANTS = STEPS.programs.map((program) => program.variants.map((variant) => ({
   ...variant, stored: storedOf(variant), outcomes: bytesOf(variant.fates), colors: bytesOf(variant.picture), found: null, wrong: null,
 })));
@@ -107,13 +107,13 @@ const runPrograms = async (device, changed) => {
   return wrong;
 };
 
-// What the GPU's own floats have for an entry, as numbers; null where they did something else, or nothing yet.
+// Results of the GPU's own floats for an entry, as numbers; null if another instruction ran, or none yet.
 const nativeOf = (variant, pixel, k) => {
   const [entry, found] = [variant.entries[k], variant.native?.[pixel].entries[k]];
   return found && found.instruction === entry.instruction && found.mask === entry.mask ? found.raw : null;
 };
 
-// The first entry at which the GPU's own floats, rounded to the format, are other numbers; -1 if there is none.
+// The first entry at which the GPU's own floats, rounded to the format, differ; -1 if there is none.
 const partingOf = (variant, pixel) => (variant.native ? variant.entries.findIndex(({ format }, k) => {
   const raw = nativeOf(variant, pixel, k);
   const { words } = variant.formats[format];

@@ -1,4 +1,4 @@
-// Vectors, camera and buckets of rays, in doubles, operation by operation as the emulator's host does it: the same bits.
+// Vectors, camera and buckets of rays, in doubles: the same operations as on the emulator's host, so the same bits.
 
 const V = {
   add: (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]],
@@ -107,7 +107,7 @@ const nearTriangles = ({ eye, side, directions }, left, top) => {
   return MESH.corners.flatMap((corners, triangle) => (mayMeet(corners) ? [triangle] : []));
 };
 
-// The buckets of a picture, row by row: each its triangles.
+// The buckets of a picture, row by row, each with its triangles.
 const bucketsOf = (rays) => {
   const buckets = [];
   for (let top = 0; top < rays.side; top += BUCKET) {
@@ -126,7 +126,7 @@ const crossingOf = (o, d, [a, b, c]) => {
   return { nd, t: -V.dot(n, ao) / nd, u: V.dot(ac, aod), v: -V.dot(ab, aod), w: -V.dot(bc, V.cross(bo, d)) };
 };
 
-// First front faces by doubles, per pixel; -1 for none. Not exact: for views for which the page has no exact hits.
+// First front face per pixel, in doubles; -1 for none. Not exact: for views without exact hits in the page.
 const firstHits = (rays, buckets) => {
   const columns = Math.ceil(rays.side / BUCKET);
   return rays.directions.map((d, pixel) => {

@@ -1,5 +1,5 @@
-// What the host of a card does before it draws: scales by powers of two (`units.rs`, `reach.rs`, `range.rs`), ray
-// textures, and the vertex programs in single precision.
+// The host's work before a card draws: scales by powers of two (`units.rs`, `reach.rs`, `range.rs`), ray textures, and
+// the vertex programs in single precision.
 
 const FIXED = 0;
 const ROOM = 1 + 1 / 32;
@@ -30,7 +30,7 @@ const boxDot = (box, v) => {
   const terms = [0, 1, 2].map((axis) => scaled(v[axis], side(box, axis)));
   return magnitude(summed(summed(terms[0], terms[1]), terms[2]));
 };
-// Largest magnitude of e . (v x d), v in one box and d in another.
+// Largest magnitude of e . (v x d), with v in one box and d in another.
 const boxTriple = (box, e, d) => {
   const term = (q) => {
     const [j, k] = [(q + 1) % 3, (q + 2) % 3];
@@ -68,7 +68,7 @@ const reachOf = ({ eye, directions }) => {
   return reach;
 };
 
-// Scale of positions on the card and the t that depth 1 stands for.
+// Scale of positions on the card, and the t at depth 1.
 const unitsOf = (format, rays) => {
   const [range, reach] = [rangeOf(format), reachOf(rays)];
   const vectors = range.kind === "wide" ? 4 : room(range, 4 * range.step);
@@ -83,7 +83,7 @@ const unitsOf = (format, rays) => {
   };
 };
 
-// Power of two by which the vertex program multiplies edges and normal of a triangle.
+// Power of two by which the vertex program scales the edges and the normal of a triangle.
 const edgeScaleOf = (units, corners) => {
   const { range, origins, directions: d, tMax } = units;
   if (range.kind === "wide") { return 1; }

@@ -1,11 +1,11 @@
-// Stepping a program at a pixel.
+// Stepping through a program at one pixel.
 
 const OUTCOMES = ["nothing drawn", "killed by the program", "alpha test failed", "depth test failed", "drawn"];
 const CELL = 18;
 
 const chosen = { program: 0, variant: 0, pixel: 0, step: 0 };
 const chosenVariant = () => VARIANTS[chosen.program][chosen.variant];
-// Instructions come after the input registers.
+// Instructions follow the input registers.
 const firstStep = ({ entries }) => entries.findIndex(({ line }) => line !== null);
 const placeOf = (pixel) => `(${pixel % STEPS.side}, ${Math.floor(pixel / STEPS.side)})`;
 
@@ -41,7 +41,7 @@ const verdictOf = (variant) => {
     : [`Your GPU's whole numbers differ at ${counted(pixels, "pixel")}, first at ${placeOf(variant.wrong.findIndex((k) => k >= 0))}.`, "wrong"];
 };
 
-// A table of what the step wrote, component by component.
+// Table of the components that the step wrote.
 const showWritten = (variant, k) => {
   const { pixel } = chosen;
   const body = at("written");
@@ -73,7 +73,7 @@ const showWritten = (variant, k) => {
   at("written-caption").textContent = `${entry.line === null ? "An input register" : "What the instruction writes"}, in ${name}`;
 };
 
-// The registers as they stand after the step.
+// The registers' values after the step.
 const showRegisters = (variant, k) => {
   const registers = new Map();
   variant.entries.slice(0, k + 1).forEach(({ names, format }, at) => names.forEach((name, c) => {

@@ -1,9 +1,9 @@
-// The teapot on the visitor's GPU: pictures in any format, fixed views bit for bit.
+// The teapot on the visitor's GPU: pictures in any format; fixed views are compared bit for bit.
 
 const TEAPOT = DATA.teapot;
 const SINGLE_WORDS = [1, 8, 23, 0, 2, 0, 0, 0];
 const NO_HIT = 0xffffffff;
-// Triangles per dispatch: none shall run for seconds.
+// Triangles per dispatch, so that no dispatch runs for seconds.
 const TRIANGLES_AT_ONCE = 32;
 const IN_OUT_ROWS = 66;
 
@@ -20,7 +20,7 @@ const codeOf = (format, units) => {
   return { words, slots: program.slots, scales: program.depth_scales };
 };
 
-// What a picture needs that does not depend on the format: made once per view.
+// Data of a picture that do not depend on the format, computed once per view.
 const sceneOf = (eye, target) => {
   const rays = eyeRays(eye, target, TEAPOT.side);
   return { rays, buckets: bucketsOf(rays) };
@@ -49,7 +49,7 @@ const listWords = (buckets) => {
   return Uint32Array.from([...words, ...buckets.flat()]);
 };
 
-// Draws a view in a format; triangle and t per pixel.
+// Draws a view in a format; returns triangle and t per pixel.
 const draw = async ({ device, trace, rays: rayPipeline }, scene, format) => {
   const { rays } = scene;
   const pixels = rays.directions.length;
@@ -65,7 +65,7 @@ const draw = async ({ device, trace, rays: rayPipeline }, scene, format) => {
   video.set(rayWordsOf(units, rays));
   video.fill(NO_HIT, 12 * pixels, 13 * pixels);
   video.fill(units.fixed ? 0xffffff : 0x3f800000, 13 * pixels);
-  // The constant 1 / t_max goes into the register format, as the emulator stores constants.
+  // The constant 1 / t_max is converted to the register format, as the emulator converts constants.
   const scaleInFormat = units.fixed ? [] : await convertedScale({ device, rayPipeline }, format, scale);
   code.scales.forEach((place) => { if (!units.fixed) { [code.words[place]] = scaleInFormat; } });
   const buffers = {
@@ -84,7 +84,7 @@ const draw = async ({ device, trace, rays: rayPipeline }, scene, format) => {
   return hitsOf(units, rays, found.subarray(0, pixels), found.subarray(pixels));
 };
 
-// A word of single precision in the register format, by the kernel that makes ray textures.
+// Converts a word of single precision to the register format, with the kernel that fills ray textures.
 const convertedScale = async ({ device, rayPipeline }, format, scale) => {
   const words = drawWords(format, { fixed: false }, [], 0, 2);
   const [draws, video] = [storageOf(device, words), storageOf(device, Uint32Array.from({ length: 48 }, () => scale[0]))];
@@ -107,7 +107,7 @@ const hitsOf = (units, rays, triangles, depths) => {
 
 // FNV-1a of the words' bytes, 64 bits.
 const digestOf = ({ triangles, t }) => {
-  // In two halves of 32 bits: the prime is 2^40 + 0x1b3.
+  // Computed in two halves of 32 bits: the prime is 2^40 + 0x1b3.
   let [high, low] = [0xcbf29ce4, 0x84222325];
   const bytes = [triangles, t].flatMap((words) => [...new Uint8Array(words.buffer, words.byteOffset, words.byteLength)]);
   bytes.forEach((byte) => {
@@ -121,7 +121,7 @@ const digestOf = ({ triangles, t }) => {
 
 const touching = (a, b) => MESH.corners[a].some((p) => MESH.corners[b].some((q) => p.every((x, i) => x === q[i])));
 
-// Verdict per pixel against first triangles (-1 for none), with all that tie where there are several.
+// Verdict per pixel, compared with the exact first triangles (-1 for none), including all that tie.
 const verdictsOf = ({ triangles }, first, ties) => Array.from(triangles, (triangle, pixel) => {
   const hit = triangle === NO_HIT ? -1 : triangle;
   if (hit === first[pixel] || ties.get(pixel)?.includes(hit)) { return hit < 0 ? 0 : 1; }

@@ -1,7 +1,7 @@
 // Rays against triangles: the machine runs the Ray Engine's pixel program once per triangle of a bucket and quad of
-// pixels, and the nearest depth stays. Geometry set-up and ray textures come from the page's script.
+// pixels, and keeps the nearest depth. The page's script computes geometry set-up and ray textures.
 
-// Words of `draw`, behind the tables of formats: quads, width in quads, first row of inputs and outputs in `scratch`,
+// Words of `draw`, after the tables of formats: quads, width in quads, first row of inputs and outputs in `scratch`,
 // width in buckets, words per triangle of `setups`, 1 if depth is a float, first word of results and number of pixels in
 // `video`, triangles of a bucket to draw (first and number), then the input components, in the order of `setups`.
 const P_QUADS: u32 = 128u;
@@ -31,7 +31,7 @@ fn texture_read(sampler_number: u32, detail: u32, lanes: vec4<bool>) {
     }
 }
 
-// The depth buffer's code: 24 bits, or single precision. NaN and what is negative are 0.
+// The depth buffer's code: 24 bits, or single precision. NaN and negative numbers are 0.
 fn stored_depth(raw: u32) -> u32 {
     let main = format_of_draw(MAIN);
     if (draw[P_FLOAT_DEPTH] == 1u) {

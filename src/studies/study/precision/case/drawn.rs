@@ -20,7 +20,7 @@ pub(super) struct DrawnCase {
 pub(super) struct DrawnTarget {
     pub(super) channels: Vec<Channel>,
     pub(super) values: Vec<f64>,
-    /// Red, green, blue as displayed, in linear light.
+    /// Displayed red, green and blue per pixel, in linear light.
     linear: Vec<[f32; 3]>,
 }
 
@@ -58,7 +58,7 @@ impl DrawnCase {
         }
     }
 
-    /// Target 0 on a screen.
+    /// Target 0 as it appears on a screen.
     pub(super) fn screen(&self, [width, height]: [u32; 2]) -> Result<ScreenPicture, InputError> {
         let plane = |c: usize| Samples::Float(self.targets[0].linear.iter().map(|pixel| pixel[c]).collect());
         let picture = (0..).zip(["R", "G", "B"]).try_fold(Picture::new(width, height), |picture, (c, name)| {

@@ -6,7 +6,7 @@ use super::drawn::{DrawnCase, codes};
 use crate::picture::metrics::{ErrorSums, relative_error, value_error};
 use crate::study::precision::subject::{NOT_FINITE, PrecisionMeasure};
 
-/// Relative error from which a pixel is wrong, where its target has no codes.
+/// Relative error above which a pixel is wrong, if its target has no codes.
 const WRONG: f64 = 0.01;
 
 pub(super) const LARGEST_CODES: PrecisionMeasure =
@@ -36,7 +36,7 @@ pub(super) struct CaseErrors {
     relative: ErrorSums,
     largest_absolute: f64,
     largest_codes: f64,
-    /// Per pixel: the largest badness of a channel; in `wrong`, `true` if a channel is wrong.
+    /// Per pixel, the largest badness of a channel; `wrong` holds `true` if a channel is wrong.
     pub(super) off: Vec<f64>,
     wrong: Vec<bool>,
     /// Target, index of the value, and its badness.

@@ -25,7 +25,7 @@ use crate::study::StudyError;
 use drawn::{DrawnCase, codes};
 use errors::{CaseErrors, FLIP, LARGEST_CODES, MEASURES, SSIM};
 
-/// Number of pixels that are traced, at most.
+/// Maximum number of pixels that are traced.
 const TRACED: usize = 1024;
 
 /// Case whose pixel program is studied. The reference is its exact run.
@@ -36,12 +36,12 @@ pub struct CaseSubject {
     executors: SubjectExecutors,
     measures: Vec<PrecisionMeasure>,
     exact: DrawnCase,
-    /// Case with the same pixel program, on which mixed formats are tried that were searched on this one.
+    /// Another case with the same pixel program, which tests the mixed formats that were searched on this one.
     held_back: Option<Box<CaseSubject>>,
 }
 
 impl CaseSubject {
-    /// Draws the exact run of a case; its device is the one as given. `name` is the title of a case without one. Fails
+    /// Draws the exact run of a case, whose device is used unchanged. `name` is the title of a case without one. Fails
     /// if the device cannot draw the case.
     pub fn new(setup: Setup, name: &str) -> Result<Self, StudyError> {
         let executors = SubjectExecutors::new();
@@ -55,9 +55,9 @@ impl CaseSubject {
         Ok(Self { title, executors, measures, exact, setup, held_back: None })
     }
 
-    /// Holds back a case: the formats that were searched on this case are tried on it, on the device of this one.
-    /// `name` is where it comes from. Fails if it has another pixel program, if this one's device cannot draw it, or if
-    /// it lacks a measure of this one.
+    /// Holds back a case: formats found on this case are tested on it, on this case's device. `name` says where it
+    /// comes from. Fails if it has another pixel program, this case's device cannot draw it, or it lacks a measure of
+    /// this case.
     pub fn holding_back(mut self, other: &Setup, name: &str) -> Result<Self, StudyError> {
         let other = Self::new(other.on_device(self.setup.profile.clone())?, name)?;
         let refused = |expected: &str, found: &str, help: &str| {
@@ -103,7 +103,7 @@ impl PrecisionSubject for CaseSubject {
         &self.setup
     }
 
-    /// One code, or one percent on the average where no target has codes.
+    /// One code, or a mean error of one percent if no target has codes.
     fn default_goal(&self) -> Goal {
         let first = self.measures[0];
         let bound = if first == LARGEST_CODES { 1.0 } else { 0.01 };
@@ -187,7 +187,7 @@ impl CaseSubject {
         })
     }
 
-    /// Describes the place of a value with the exact one.
+    /// Describes the location of a value, and the exact value there.
     fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> WorstPlace {
         let (ours, exact) = (&drawn.targets[target], &self.exact.targets[target]);
         let (pixel, channel) = (at / exact.channels.len(), exact.channels[at % exact.channels.len()]);
@@ -205,8 +205,8 @@ impl CaseSubject {
         WorstPlace { text, pixel: Some([x as u32, y as u32]) }
     }
 
-    /// Results of rounded instructions of a translated shader, in one draw for each format: in front of each instruction
-    /// stands a copy that writes to a register that nothing reads. `None` if the program has no such register.
+    /// Results of rounded instructions of a translated shader, in one draw per format: before each instruction stands a
+    /// copy that writes to a register that nothing reads. `None` if the program has no such register.
     fn rounded_copies(
         &self,
         exact: &Profile,
@@ -241,7 +241,7 @@ impl CaseSubject {
         Ok(Some(found))
     }
 
-    /// First results of the wanted instructions of a case in the fragments of evenly spread pixels.
+    /// First results of the wanted instructions of a case, in the fragments of evenly spaced pixels.
     fn sampled(
         &self,
         setup: &Setup,

@@ -1,8 +1,7 @@
-//! The computed values: operations in a number format, each result the exact one rounded once.
+//! Computed values: operations in a number format, each exact result rounded once.
 //!
-//! Sums, products, quotients and square roots are those of `refsim::num`, or of the host in double precision, which
-//! IEEE 754 fixes to the bit. All others round the enclosure of the exact result of their operands: every one is
-//! correctly rounded.
+//! Sums, products, quotients and square roots come from `refsim::num`, or from the host in double precision, where IEEE
+//! 754 fixes every bit. All other operations round the enclosure of the exact result: every one is correctly rounded.
 
 use std::cmp::Ordering;
 
@@ -13,7 +12,7 @@ use super::graph::{Graph, Operation};
 use super::real::{Dyadic, End, Function, Real, RealInterval, apply};
 use super::special::special;
 
-/// Bits that values over the reals are computed to, until they decide.
+/// Numbers of bits of computations over the reals, tried in this order until the rounded result is decided.
 pub(super) const PRECISIONS: [u64; 8] = [96, 192, 384, 768, 1536, 3072, 6144, 12_288];
 
 /// Exponent beyond which numbers are zero or infinite in every format.
@@ -28,7 +27,7 @@ pub(super) enum Arithmetic {
     Number(Format),
 }
 
-/// What a pattern means.
+/// Value that a pattern represents.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum FormatNumber {
     Nan,
@@ -38,7 +37,7 @@ pub(super) enum FormatNumber {
 }
 
 impl Arithmetic {
-    /// Layout, as formats are written.
+    /// Layout, written as formats are written, such as `e8m23`.
     pub(super) fn layout(self) -> String {
         match self {
             Self::Double => "e11m52".to_owned(),
@@ -77,13 +76,13 @@ impl Arithmetic {
         }
     }
 
-    /// Rounds once: an end without bound is beyond the largest number.
+    /// Rounds once; an unbounded end counts as beyond the largest number.
     pub(super) fn encode(self, end: &End) -> u64 {
         let (negative, digits, exponent) = match end {
             End::At(x) => (x.is_negative(), x.digits.magnitude().clone(), x.exponent),
             infinite => (infinite.is_negative(), 1u32.into(), FAR),
         };
-        // 120 leading bits, and whether there are more.
+        // The 120 leading bits, and a sticky bit for the others.
         let drop = digits.bits().saturating_sub(120);
         let sticky = digits.trailing_zeros().unwrap_or_default() < drop;
         let kept = (&digits >> drop).to_u128().unwrap_or_default();
@@ -94,7 +93,7 @@ impl Arithmetic {
         }
     }
 
-    /// Returns `true` if there is no infinity and no NaN.
+    /// Returns `true` if the format has no infinity and no NaN.
     pub(super) fn is_fixed(self) -> bool {
         matches!(self, Self::Number(format) if format.is_fixed())
     }
@@ -108,7 +107,7 @@ impl Arithmetic {
         }
     }
 
-    /// The value as a double, exact but for NaN.
+    /// The value as a double; exact, except for NaN.
     pub(super) fn value(self, bits: u64) -> f64 {
         match self {
             Self::Double => f64::from_bits(bits),
@@ -123,7 +122,7 @@ impl Arithmetic {
         }
     }
 
-    /// Position of a number that is not NaN among all numbers of the format in order; both zeros have position 0.
+    /// Index of a number (not NaN) among all numbers of the format in ascending order; both zeros have index 0.
     pub(super) fn ordinal(self, bits: u64) -> i64 {
         let width = self.width();
         let signed = (bits << (64 - width)).cast_signed() >> (64 - width);
@@ -134,7 +133,7 @@ impl Arithmetic {
         }
     }
 
-    /// The number at a position.
+    /// The number with this index.
     pub(super) fn at_ordinal(self, ordinal: i64) -> u64 {
         let width = self.width();
         match self {
@@ -144,7 +143,7 @@ impl Arithmetic {
         }
     }
 
-    /// Positions of the smallest and the largest finite number.
+    /// Indices of the smallest and the largest finite number.
     pub(super) fn finite_ordinals(self) -> [i64; 2] {
         match self {
             Self::Double => [-0x7fef_ffff_ffff_ffff, 0x7fef_ffff_ffff_ffff],
@@ -152,7 +151,8 @@ impl Arithmetic {
         }
     }
 
-    /// Bits of error: `log2(1 + n)`, with `n` the numbers from one value to the other; all bits if a result is NaN.
+    /// Bits of error: `log2(1 + n)`, where `n` counts the numbers from one value to the other; all bits if a result is
+    /// NaN.
     pub(super) fn error_bits(self, computed: u64, exact: u64) -> f64 {
         if self.decode(computed) == FormatNumber::Nan {
             return self.width().into();
@@ -161,13 +161,13 @@ impl Arithmetic {
         crate::elementary::ln(1.0 + distance as f64) / std::f64::consts::LN_2
     }
 
-    /// The rounded value of an interval, if all of it rounds to the same number.
+    /// The rounded value of an interval, if all its points round to the same number.
     pub(super) fn decided(self, range: &RealInterval) -> Option<u64> {
         let [low, high] = [&range.low, &range.high].map(|end| self.encode(end));
         (self.ordinal(low) == self.ordinal(high)).then_some(high)
     }
 
-    /// The value over the reals of a pattern that is a number.
+    /// The real value of a pattern that is a number.
     pub(super) fn real(self, bits: u64) -> Real {
         match self.decode(bits) {
             FormatNumber::Finite(x) => Real::Range(RealInterval::point(x)),
@@ -192,7 +192,7 @@ impl Arithmetic {
         values
     }
 
-    /// The constants of a graph, rounded once; nothing for other nodes.
+    /// The constants of a graph, rounded once; `None` for other nodes.
     pub(super) fn constants(self, graph: &Graph) -> Vec<Option<u64>> {
         let is_constant = |operation: &Operation| matches!(operation, Operation::Number(..) | Operation::Constant(_));
         let all = graph.0.iter().map(|node| {
@@ -255,7 +255,7 @@ impl Arithmetic {
                 Real::Unknown | Real::Truth(_) => {}
             }
         }
-        // Beyond all precisions: the value is where a rounding changes.
+        // The highest precision does not decide: the value is where the rounding changes.
         last.map_or(self.nan(), |range| self.encode(&range.high))
     }
 
@@ -289,7 +289,7 @@ impl Arithmetic {
 }
 
 impl Operation {
-    /// The operands, indices of earlier nodes.
+    /// The operands, as indices of earlier nodes.
     pub(super) fn operands(&self) -> &[usize] {
         match self {
             Self::Variable(_) | Self::Number(..) | Self::Constant(_) | Self::Truth(_) => &[],
@@ -301,7 +301,7 @@ impl Operation {
     }
 }
 
-/// Rounds `digits 2^exponent`, with more bits behind it if `sticky`, to the nearest double.
+/// Rounds `digits 2^exponent`, with more nonzero bits below it if `sticky`, to the nearest double.
 fn double(negative: bool, digits: u128, exponent: i64, sticky: bool) -> u64 {
     let sign = u64::from(negative) << 63;
     if digits == 0 {
@@ -322,7 +322,7 @@ fn double(negative: bool, digits: u128, exponent: i64, sticky: bool) -> u64 {
         }
         _ => (0, false),
     };
-    // The hidden bit adds the first 1 to the exponent field, a carry the next.
+    // The hidden bit adds 1 to the exponent field, and so does a carry.
     let magnitude = ((unit + 1074).cast_unsigned() << 52) + kept as u64 + u64::from(up);
     magnitude.min(f64::INFINITY.to_bits()) | sign
 }

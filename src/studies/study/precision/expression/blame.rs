@@ -1,11 +1,11 @@
-//! Which operation of an expression loses the bits.
+//! Blame: the operations of an expression that lose the bits.
 
 use super::arithmetic::{Arithmetic, PRECISIONS};
 use super::graph::{Expression, Graph, Node, Operation};
 use super::real::Real;
 use super::sample::{Sample, Samples, parallel};
 
-/// Inputs that operations are blamed on, at most.
+/// Maximum number of inputs at which operations are blamed.
 const MAX_INPUTS: usize = 256;
 
 /// Mean bits of error that come from one operation.
@@ -13,14 +13,14 @@ const MAX_INPUTS: usize = 256;
 pub(super) struct OperationError {
     /// Index of the node.
     pub(super) node: usize,
-    /// Error of the operation on its exact operands, each rounded once, against its exact result: Herbie's local error.
+    /// Error of the operation on correctly rounded operands, against its exact result: Herbie's local error.
     pub(super) local: f64,
     /// Error of the expression's result if only this operation rounds its result.
     pub(super) alone: f64,
 }
 
-/// Blames each operation, and each constant that is rounded, for errors in a format; those that never err are left
-/// out.
+/// Blames each operation, and each constant that is rounded, for errors in a format. Leaves out nodes that are always
+/// exact.
 pub(super) fn blame(expression: &Expression, arithmetic: Arithmetic, samples: &Samples) -> Vec<OperationError> {
     let graph = &expression.body;
     let nodes: Vec<usize> = (0..graph.0.len()).filter(|&node| may_err(&graph.0[node])).collect();
@@ -39,7 +39,7 @@ fn may_err(node: &Node) -> bool {
     matches!(node.operation, Operation::Apply(..) | Operation::Number(..) | Operation::Constant(_))
 }
 
-/// Local error of each node, and that of the result if only this node is rounded.
+/// Local error of each node, and the error of the result if only this node is rounded.
 fn at_input(graph: &Graph, arithmetic: Arithmetic, nodes: &[usize], sample: &Sample) -> Vec<[f64; 2]> {
     let reals: Vec<Real> = sample.inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
     let exact = exact_values(graph, arithmetic, &reals);
@@ -65,7 +65,7 @@ fn at_input(graph: &Graph, arithmetic: Arithmetic, nodes: &[usize], sample: &Sam
     nodes.iter().map(of_node).collect()
 }
 
-/// Correctly rounded values of all nodes; none of those that have no real value, or none that was decided.
+/// Correctly rounded values of all nodes; `None` for a node without a real value, or whose rounding is not decided.
 fn exact_values(graph: &Graph, arithmetic: Arithmetic, reals: &[Real]) -> Vec<Option<u64>> {
     let mut exact: Vec<Option<u64>> = vec![None; graph.0.len()];
     for bits in PRECISIONS {

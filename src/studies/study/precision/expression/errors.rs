@@ -7,13 +7,13 @@ use super::sample::{Sample, Samples, parallel};
 /// Errors of computed values, over sampled inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Errors {
-    /// Mean bits of error, its standard error, and the largest.
+    /// Mean of the bits of error, standard error of the mean, and the largest.
     pub(super) mean_bits: f64,
     pub(super) standard_error: f64,
     pub(super) worst_bits: f64,
     /// Index of the input with the most bits of error.
     pub(super) worst: usize,
-    /// Mean and largest relative error; infinite where a result is infinite or NaN.
+    /// Mean and largest relative error; infinite if a result is infinite or NaN.
     pub(super) mean_relative: f64,
     pub(super) largest_relative: f64,
 }
@@ -33,7 +33,7 @@ impl Errors {
     }
 }
 
-/// Errors in a format of inputs sampled in the same format.
+/// Errors in a format, over inputs sampled in the same format.
 pub(super) fn errors(expression: &Expression, arithmetic: Arithmetic, samples: &Samples) -> Errors {
     let constants = arithmetic.constants(&expression.body);
     summary(&parallel(&samples.kept, |sample| {
@@ -42,7 +42,7 @@ pub(super) fn errors(expression: &Expression, arithmetic: Arithmetic, samples: &
     }))
 }
 
-/// Errors in a format of inputs sampled in another, which are rounded to it.
+/// Errors in a format, over inputs sampled in another format and rounded to it.
 pub(super) fn errors_of_rounded(
     expression: &Expression,
     arithmetic: Arithmetic,
@@ -57,7 +57,7 @@ pub(super) fn errors_of_rounded(
     }))
 }
 
-/// Relative error; 1 where only the exact value is 0.
+/// Relative error; 1 if only the exact value is 0.
 fn relative(computed: f64, exact: f64) -> f64 {
     match computed - exact {
         0.0 => 0.0,

@@ -1,4 +1,4 @@
-//! Expressions as lists of operations, each behind its operands.
+//! Expressions as lists of operations in postorder: each operation follows its operands.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -33,7 +33,8 @@ impl NumberComparison {
         })
     }
 
-    /// Whether it holds of two numbers in this order; of NaN, which has none, only that they differ.
+    /// Returns `true` if the comparison holds for two numbers in this order; `None`, the order with NaN, only satisfies
+    /// `!=`.
     pub(super) fn holds(self, order: Option<Ordering>) -> bool {
         match (self, order) {
             (Self::NotEqual, order) => order != Some(Ordering::Equal),
@@ -47,7 +48,7 @@ impl NumberComparison {
     }
 }
 
-/// What a node computes; operands are indices of earlier nodes.
+/// Operation of a node; operands are indices of earlier nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Operation {
     Variable(usize),
@@ -57,7 +58,7 @@ pub(super) enum Operation {
     Apply(Function, Vec<usize>),
     Truth(bool),
     Compare(NumberComparison, [usize; 2]),
-    /// All of them, or any of them.
+    /// Conjunction of the operands if `all`, otherwise disjunction.
     Connect {
         all: bool,
         operands: Vec<usize>,
@@ -66,11 +67,11 @@ pub(super) enum Operation {
     If([usize; 3]),
 }
 
-/// A node with its place in the text.
+/// A node with its span in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
     pub(super) operation: Operation,
-    /// `true` if it has a truth value.
+    /// `true` if its value is a truth value.
     pub(super) is_truth: bool,
     pub(super) place: Range<usize>,
 }
@@ -86,14 +87,14 @@ pub(super) struct Expression {
     pub(super) name: String,
     pub(super) variables: Vec<String>,
     pub(super) body: Graph,
-    /// What the result should be over the reals, if not the body.
+    /// The intended result over the reals, if it is not the body.
     pub(super) spec: Option<Graph>,
-    /// What inputs must meet, all of it.
+    /// Conditions that inputs must meet, all of them.
     pub(super) preconditions: Vec<Graph>,
 }
 
 impl Expression {
-    /// What the result should be over the reals.
+    /// The intended result over the reals.
     pub(super) fn exact(&self) -> &Graph {
         self.spec.as_ref().unwrap_or(&self.body)
     }
@@ -146,7 +147,7 @@ fn real(operation: &Operation, inputs: &[Real], values: &[Real], bits: u64) -> R
     }
 }
 
-/// A comparison of intervals, if it is the same for all of their numbers.
+/// Compares intervals; `None` unless all of their numbers compare alike.
 fn compare(comparison: NumberComparison, x: &RealInterval, y: &RealInterval) -> Option<bool> {
     if let Some(order) = x.order(y) {
         return Some(comparison.holds(Some(order)));

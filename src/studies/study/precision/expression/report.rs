@@ -23,7 +23,7 @@ const OPERATIONS: &str = "Local: bits of error of the operation on its exact ope
 const RELATIVE: &str = "Measures of relative error are over inputs in single precision, which each format rounds \
     first, against the exact result of the inputs as they were.";
 
-/// Builds the findings. Of several expressions those that fail are listed; one alone is an error.
+/// Builds the findings. Among several expressions, failing ones are listed; the failure of a single one is an error.
 pub(super) fn findings(
     study: &ExpressionStudy,
     goal: &Goal,
@@ -60,7 +60,7 @@ pub(super) fn findings(
     Ok(found)
 }
 
-/// The sentences of one expression.
+/// Adds the sentences about one expression.
 fn conclude(found: &mut Findings, expression: &Expression, outcome: &ExpressionOutcome, goal: &Goal) {
     for curve in &outcome.curves {
         let family = curve.family.name();
@@ -82,7 +82,7 @@ fn conclude(found: &mut Findings, expression: &Expression, outcome: &ExpressionO
     }
 }
 
-/// A table with a row for each of several expressions.
+/// Adds a table with a row per expression, if there are several.
 fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], study: &ExpressionStudy, goal: &Goal) {
     let expressions = counted(studied.len() as u64, "expression", "expressions");
     for (at, family) in study.families.iter().enumerate() {
@@ -103,12 +103,13 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     found.table(FoundTable::from(table).csv("expressions").field("expressions"));
 }
 
-/// Mean bits of error, if there are inputs.
+/// Mean of the bits of error, if there are inputs.
 fn mean_bits(row: &FormatErrors) -> Cell {
     if row.samples.kept.is_empty() { Cell::Empty } else { Cell::error(row.errors.mean_bits) }
 }
 
-/// The tables of errors and of operations; they are printed for one expression alone, and then without its name.
+/// Adds the tables of errors and of operations; they are printed only for a single expression, and then without its
+/// name.
 fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], goal: &Goal, one: bool) {
     let measure = if goal.measure.ends_with("_bits") { "mean_relative" } else { goal.measure.as_str() };
     let name = if one { "" } else { "expression " };
@@ -165,7 +166,7 @@ fn worst_input(expression: &Expression, row: &FormatErrors) -> [Cell; 7] {
     [(*name).into(), arithmetic.layout().into(), kept.len().into(), mean, error, most, worst.into()]
 }
 
-/// The goal's measure by mantissa or fraction bits, if there are values to draw.
+/// Chart of the goal's measure by mantissa or fraction bits, if there are values to draw.
 fn chart(outcome: &ExpressionOutcome, goal: &Goal) -> Option<NamedChart> {
     let line = |curve: &Curve| {
         let points = curve.scan.points.iter().map(|(bits, value)| (f64::from(*bits), *value));

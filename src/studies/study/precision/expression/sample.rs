@@ -5,17 +5,17 @@ use super::graph::{Expression, Graph, NumberComparison, Operation};
 use super::real::Real;
 use crate::geom::random::CounterRng;
 
-/// Draws per input wanted, and those discarded, before the search for inputs ends.
+/// Maximum number of random inputs per input wanted, and of discarded ones, before the search for inputs ends.
 const DRAWS: usize = 1000;
 const DISCARDED: usize = 20;
 
 /// Distribution of inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InputDraw {
-    /// Every number of the format is as likely as every other, as in Herbie.
+    /// Every number of the format is equally likely, as in Herbie.
     #[default]
     Floats,
-    /// Every real number is as likely as every other, then rounded.
+    /// Every real number is equally likely, then rounded.
     Reals,
 }
 
@@ -33,11 +33,11 @@ pub(super) struct Sample {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Samples {
     pub(super) kept: Vec<Sample>,
-    /// Draws that met the precondition but have no finite result, or none that was decided.
+    /// Number of inputs that met the precondition but whose result is not finite, or was not decided.
     pub(super) discarded: usize,
 }
 
-/// Draws `count` inputs that meet the precondition and have a finite result, or fewer if they are rare.
+/// Samples `count` inputs that meet the precondition and have a finite result, or fewer if they are rare.
 pub(super) fn sample(
     expression: &Expression,
     arithmetic: Arithmetic,
@@ -49,7 +49,7 @@ pub(super) fn sample(
     let count = if expression.variables.is_empty() { 1 } else { count };
     let mut samples = Samples::default();
     for row in 0..DRAWS {
-        // Whole rows at once, each input by its number, so that threads change nothing.
+        // Whole rows at once, each input by its number, so that the number of threads changes nothing.
         let numbers: Vec<usize> = (row * count..(row + 1) * count).collect();
         let drawn = parallel(&numbers, |&number| {
             let bits = |variable: usize| rng.bits(number as u64, 0, variable as u64);
@@ -79,13 +79,13 @@ pub(super) fn parallel<T: Sync, U: Send>(items: &[T], of: impl Fn(&T) -> U + Syn
     items.par_iter().map(of).collect()
 }
 
-/// Whether an input meets a precondition over the reals.
+/// Returns `true` if an input meets a precondition over the reals.
 fn meets(precondition: &Graph, reals: &[Real]) -> bool {
     let value = PRECISIONS.iter().map(|&bits| precondition.reals(reals, bits, None).pop());
     value.into_iter().find(|value| *value != Some(Real::Unknown)).flatten() == Some(Real::Truth(true))
 }
 
-/// An input with its result, if that is finite and decided.
+/// An input with its result, if the result is finite and decided.
 pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>) -> Option<Sample> {
     let reals: Vec<Real> = inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
     let decide = |bits| match expression.exact().reals(&reals, bits, None).pop() {
@@ -95,7 +95,7 @@ pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec
     };
     let (exact, double) = PRECISIONS.into_iter().find_map(decide)??;
     let (value, finite) = (f64::from_bits(double), arithmetic.finite_ordinals());
-    // Fixed point has no infinity: its largest number stands for all beyond.
+    // Fixed point has no infinity: its largest number represents all larger ones.
     let [least, largest] = finite.map(|ordinal| arithmetic.value(arithmetic.at_ordinal(ordinal)));
     let is_within = !arithmetic.is_fixed() || (least..=largest).contains(&value);
     let is_finite = (finite[0]..=finite[1]).contains(&arithmetic.ordinal(exact));
@@ -103,7 +103,7 @@ pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec
 }
 
 impl Arithmetic {
-    /// A number between two positions.
+    /// A random number between two indices.
     fn drawn(self, [low, high]: [i64; 2], draw: InputDraw, random: u64) -> u64 {
         if draw == InputDraw::Reals {
             let [low, high] = [low, high].map(|ordinal| self.value(self.at_ordinal(ordinal)));
@@ -116,8 +116,8 @@ impl Arithmetic {
     }
 }
 
-/// For each variable the positions of the numbers within the bounds that preconditions state by constants; what else
-/// they demand is tried input by input.
+/// For each variable, the indices of the numbers within the constant bounds of the preconditions. All other conditions
+/// are checked input by input.
 fn spans(expression: &Expression, arithmetic: Arithmetic) -> Vec<[i64; 2]> {
     let mut spans = vec![arithmetic.finite_ordinals(); expression.variables.len()];
     expression.preconditions.iter().for_each(|graph| narrow(&mut spans, graph, arithmetic));
@@ -150,7 +150,7 @@ fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) 
             if let (Operation::Variable(index), Real::Range(range)) =
                 (&precondition.0[variable].operation, &values[bound])
             {
-                // One number beyond, in case the bound was rounded away from it.
+                // One number more, in case the bound was rounded away from it.
                 let [low, high] = &mut spans[*index];
                 *high = if is_upper { (*high).min(ordinal(&range.high) + 1) } else { *high };
                 *low = if is_lower { (*low).max(ordinal(&range.low) - 1) } else { *low };

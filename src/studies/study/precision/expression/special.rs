@@ -1,9 +1,9 @@
-//! Functions of NaN, infinities and zeros, and at poles: those of C's library, which are exact there but for multiples
+//! Functions of NaN, infinities and zeros, and at poles, as in C's library, which is exact there except for multiples
 //! of pi.
 
 use super::real::Function;
 
-/// A function of doubles. Used where an operand is NaN, infinite or zero, and where there is no real result.
+/// A function of doubles. Used if an operand is NaN, infinite or zero, and if there is no real result.
 pub(super) fn special(function: Function, operands: &[f64]) -> f64 {
     use Function as F;
     let operand = |index: usize| operands.get(index).copied().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Expressions, and what is found of them.
+//! The study: expressions, and the results for each of them.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -25,19 +25,19 @@ use refsim::num::Format;
 /// Longest FPCore file, in bytes (1 MiB).
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Expressions, and how they are studied.
+/// Expressions, with the parameters of their study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpressionStudy {
-    /// What the expressions come from: a file, or the formula.
+    /// Source of the expressions: a file, or the formula.
     pub(super) title: String,
     pub(super) expressions: Vec<Expression>,
-    /// Name, place and reason of those that are not taken.
+    /// Name, position and reason of each rejected expression.
     pub(super) refused: Vec<ExpressionError>,
-    /// Goal that formats meet; the default is `mean_relative<=0.01`.
+    /// Goal that formats must meet; the default is `mean_relative<=0.01`.
     pub goal: Option<Goal>,
     /// Families that are searched for the smallest format.
     pub families: Vec<FormatFamily>,
-    /// Inputs per expression and format.
+    /// Number of inputs per expression and format.
     pub samples: usize,
     /// Seed of the inputs.
     pub seed: u64,
@@ -56,7 +56,7 @@ pub(super) struct FormatErrors {
     pub(super) value: f64,
 }
 
-/// What was found of one expression.
+/// Results for one expression.
 #[derive(Debug)]
 pub(super) struct ExpressionOutcome {
     pub(super) formats: Vec<FormatErrors>,
@@ -73,7 +73,7 @@ impl ExpressionStudy {
     /// A study of a formula in infix notation, or of an expression in FPCore.
     ///
     /// # Errors
-    /// If the text is no formula, with the place.
+    /// If the text is not a formula; the error has the position.
     pub fn of_formula(text: &str, ranges: &[String]) -> Result<Self, ExpressionError> {
         let source = Arc::new(SourceText::new("--expr", text));
         if text.trim_start().starts_with("(FPCore") {
@@ -87,7 +87,7 @@ impl ExpressionStudy {
     /// A study of all expressions of an FPCore file.
     ///
     /// # Errors
-    /// If the file cannot be read, is no FPCore, or has no expression that can be taken.
+    /// If the file cannot be read, is not FPCore, or contains no supported expression.
     pub fn of_file(path: &Path, ranges: &[String]) -> Result<Self, StudyError> {
         let name = path.display().to_string();
         let unreadable = |found: String| {
@@ -124,12 +124,12 @@ impl ExpressionStudy {
         Self { title, expressions, refused, goal: None, families, samples: 1000, seed: 0, draw: InputDraw::Floats }
     }
 
-    /// Names of the expressions, and the reasons for which the others are not taken.
+    /// Names of the accepted expressions, and the errors of the others.
     pub fn taken(&self) -> (Vec<&str>, &[ExpressionError]) {
         (self.expressions.iter().map(|expression| expression.name.as_str()).collect(), &self.refused)
     }
 
-    /// Mean bits of error of each expression in a format, or in double precision, with their standard errors.
+    /// Mean bits of error of each expression in a format, or in double precision, each with its standard error.
     pub fn mean_bits(&self, format: Option<Format>) -> Vec<[f64; 2]> {
         let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
         let of = |expression: &Expression| {
@@ -140,8 +140,8 @@ impl ExpressionStudy {
         self.expressions.iter().map(of).collect()
     }
 
-    /// The correctly rounded and the computed result of an expression in a format, or in double precision, as patterns,
-    /// as the inputs are. `None` for an unknown name, or where no result is finite and decided.
+    /// The correctly rounded and the computed result of an expression in a format, or in double precision. Results and
+    /// inputs are bit patterns. `None` for an unknown name, or if no result is finite and decided.
     pub fn results(&self, name: &str, format: Option<Format>, inputs: &[u64]) -> Option<[u64; 2]> {
         let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
         let expression = self.expressions.iter().find(|expression| expression.name == name)?;
@@ -164,7 +164,7 @@ impl ExpressionStudy {
         Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
     }
 
-    /// Formats whose errors are shown: double precision, and those of cards in the families.
+    /// Formats whose errors are shown: double precision, and cards' formats of the families.
     fn formats(&self) -> Vec<(&'static str, Arithmetic)> {
         let named = FormatBits::named().filter(|(_, bits)| self.families.contains(&bits.family));
         let mut all: Vec<_> = named.map(|(name, bits)| (name, number(bits))).collect();

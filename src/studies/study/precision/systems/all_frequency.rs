@@ -16,12 +16,12 @@ use crate::study::prt::no_all_frequency_card;
 use crate::transfer::synthetic::signal_at;
 use crate::transfer::{Tangents, Vertices};
 
-/// Terms of the reflectance: those of the paper.
+/// Number of terms of the reflectance, as in the paper.
 const TERMS: usize = 10;
-/// Directions per side of the reflectance table.
+/// Number of directions per side of the reflectance table.
 const TABLE: usize = 16;
 
-/// Bunny with a reflectance in terms, and transferred radiance made of waves with edges.
+/// Bunny with a factored reflectance, and transferred radiance made of waves with edges.
 #[derive(Debug)]
 pub(super) struct FactoredBunny {
     vertices: Vertices,

@@ -15,7 +15,7 @@ use crate::study::StudyError;
 use crate::transfer::synthetic::signal_at;
 use crate::transfer::{Tangents, Vertices};
 
-/// Texels, and directions of view and of light, along a side.
+/// Number of texels, and of view and light directions, per side.
 const TEXELS: usize = 8;
 const VIEWS: usize = 4;
 const LIGHTS: usize = 4;

@@ -15,7 +15,7 @@ use crate::study::glossy_model::{GlossyModel, GlossyTransfer};
 use crate::transfer::brdf::Brdf;
 use crate::transfer::{Tangents, Vertices};
 
-/// Light of 9 coefficients, exit radiance of 16, a broad lobe.
+/// Light of 9 coefficients, exit radiance of 16, and a broad specular lobe.
 const TRANSFER: GlossyTransfer = GlossyTransfer {
     brdf: Brdf::Phong { albedo: 0.4, specular: 0.4, exponent: 8.0 },
     order: 3,
@@ -49,10 +49,10 @@ impl SystemRun for GlossyBunny {
     }
 
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError> {
-        // The paper's card adds clusters up by blending, which it cannot do with floats.
+        // The paper's card sums clusters by blending, which it cannot do with floats.
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Bgra8 };
         let colors = self.model.draw(&self.light, (profile, executor), &view, &PrtCardOptions::default())?;
-        // Codes of 8 bits, which were read in single precision.
+        // The 8-bit codes, which were read in single precision.
         Ok(colors.into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
     }
 }

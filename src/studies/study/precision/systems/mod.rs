@@ -1,4 +1,4 @@
-//! The six systems as subjects, each on a small input of its own.
+//! The six systems as subjects, each with a small input of its own.
 //!
 //! The input is made by the host and is the same for every format; the study is about the pixel programs of the card.
 
@@ -21,7 +21,7 @@ use crate::study::StudyError;
 use picture_subject::SystemSubject;
 use ray_engine::RayEngineSubject;
 
-// Public for tests: no result of a study shows that a sample covers everything.
+// Public for tests: no result of a study shows whether a sample covers everything.
 #[doc(hidden)]
 pub use sampler::spread;
 

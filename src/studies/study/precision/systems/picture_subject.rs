@@ -35,7 +35,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
     NOT_FINITE,
 ];
 
-/// System whose exact values are those of its run in single precision.
+/// System whose exact values come from its run in single precision.
 pub(super) struct SystemSubject {
     run: Box<dyn SystemRun>,
     profile: Profile,
@@ -61,13 +61,13 @@ impl SystemSubject {
 struct SystemErrors {
     /// Values by the names of [`MEASURES`].
     values: Vec<(&'static str, f64)>,
-    /// Index of the first of the largest errors, if there are any.
+    /// Index of the largest error, the first one on a tie; `None` if there are no errors.
     worst: Option<usize>,
-    /// Largest error of a channel by pixel or patch, in 255ths.
+    /// Largest error of a channel per pixel or patch, in 255ths.
     off: Vec<f64>,
 }
 
-/// Errors of values against exact ones.
+/// Errors of values compared with exact ones.
 fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> SystemErrors {
     let mut sums = ErrorSums::default();
     let mut off = Vec::with_capacity(exact.len());
@@ -172,7 +172,7 @@ impl PrecisionSubject for SystemSubject {
 }
 
 impl SystemSubject {
-    /// Width and height of the target with the values: a picture, or a texel per patch.
+    /// Width and height of the target that holds the values: a picture, or one texel per patch.
     fn target_size(&self) -> [u32; 2] {
         self.run.size().unwrap_or([self.exact.len() as u32, 1])
     }

@@ -11,10 +11,10 @@ use crate::study::StudyError;
 use crate::study::precision::runs::exact;
 use crate::study::precision::subject::StudiedProgram;
 
-/// Pixel programs of a system, in the order in which it first draws with them.
+/// Pixel programs of a system, in order of their first draw.
 pub(super) struct PixelPrograms(Vec<(Program, ShaderText)>);
 
-/// Keeps each pixel program of the draws once.
+/// Keeps each pixel program of the draws, once.
 #[derive(Debug, Default)]
 struct DrawnPrograms(Mutex<Vec<Program>>);
 
@@ -56,7 +56,7 @@ impl PixelPrograms {
         self.0.get(index).map(|(program, _)| program)
     }
 
-    /// Returns `true` if all programs are among others.
+    /// Returns `true` if all programs are among the others.
     pub(super) fn are_among(&self, others: &Self) -> bool {
         self.0.iter().all(|(program, _)| others.of_digest(program.digest()).is_some())
     }

@@ -10,15 +10,15 @@ use crate::study::StudyError;
 use crate::study::precision::goal::Goal;
 use crate::study::radiosity::no_card;
 
-/// Maximum number of patches. Programs are unrolled over patches, so that each adds instructions.
+/// Maximum number of patches. Programs are unrolled over patches, so each patch adds instructions.
 const PATCHES: usize = 24;
-/// Iterations from darkness: the number of reflections of light.
+/// Iterations from darkness, each of which adds one reflection of light.
 const ITERATIONS: usize = 12;
 
-/// Cornell box in few patches, a texel of three channels each.
+/// Cornell box of few patches, with one texel of three channels per patch.
 #[derive(Debug)]
 pub(super) struct CornellBox {
-    /// With the light of the scene, and with a light of another color and half as bright.
+    /// With the light of the scene, and with half as bright a light of another color.
     systems: [System; 2],
 }
 
@@ -60,7 +60,7 @@ impl SystemRun for CornellBox {
         None
     }
 
-    /// Radiosities within 1 %.
+    /// Default goal: radiosities within 1 %.
     fn default_goal(&self) -> Goal {
         at_most("largest_relative", 0.01)
     }

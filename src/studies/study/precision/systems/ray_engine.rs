@@ -28,9 +28,9 @@ use crate::study::precision::subject::{
     StudiedProgram, WorstPlace,
 };
 
-/// Quads along a side of a patch.
+/// Number of quads per side of a Bezier patch.
 const TESSELLATION: u32 = 4;
-/// Pixels along a side of the view.
+/// Number of pixels per side of the view.
 const SIDE: u32 = 64;
 
 const MEASURES: [PrecisionMeasure; 5] = [
@@ -58,9 +58,9 @@ pub(super) struct RayEngineSubject {
 }
 
 impl RayEngineSubject {
-    /// Traces the rays exactly.
+    /// Finds the rays' exact hits.
     pub(super) fn new(mut profile: Profile) -> Result<Self, StudyError> {
-        // Devices that have both versions choose between them by the format of their registers.
+        // Devices that support both versions choose between them by the format of their registers.
         if profile.supports(Version::Ps2_0) {
             profile.limits.versions.retain(|version| *version != Version::Ps1_4);
         }
@@ -106,7 +106,7 @@ impl RayEngineSubject {
         Ok(Measured { values, worst, picture, errors: None })
     }
 
-    /// Hits of the rays of the search. With a watcher, all rays are in one target.
+    /// Hits of the rays of the search. With a watcher, one target holds all rays.
     fn hits(&self, device: &Profile, watcher: Option<Arc<dyn DrawWatcher>>) -> Result<Vec<Option<Hit>>, StudyError> {
         let batch = &self.executors.batch;
         let executor = watcher.clone().map_or_else(|| batch.clone(), |watcher| batch.watched(watcher));
@@ -154,7 +154,7 @@ impl PrecisionSubject for RayEngineSubject {
         &MEASURES
     }
 
-    /// At most one ray in a thousand is wrong. Leaks alone are no sufficient goal: a format in which every ray hits
+    /// At most one ray in a thousand is wrong. Leaks alone would not suffice: a format in which every ray hits
     /// something has none.
     fn default_goal(&self) -> Goal {
         at_most("wrong", 0.001)
@@ -191,7 +191,7 @@ impl PrecisionSubject for RayEngineSubject {
         for (steps, device) in steps.iter_mut().zip(devices.all()) {
             let followed = FollowedPixel::new(pixel, size);
             self.hits(device, Some(followed.clone()))?;
-            // An instance per triangle, in their order.
+            // One instance per triangle, in order.
             let is_near = |fragment: &FragmentTrace| triangles.contains(&(fragment.instance as u32));
             *steps = followed.steps(device, &self.programs, is_near);
         }

@@ -13,7 +13,7 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::study::StudyError;
 use crate::study::precision::goal::{Goal, GoalRelation};
 
-/// Pixels along a side of the pictures.
+/// Number of pixels per side of the pictures.
 const PICTURE: u32 = 64;
 
 /// Input of a system.
@@ -35,7 +35,7 @@ pub(super) trait SystemRun: fmt::Debug {
         "pixel"
     }
 
-    /// Red, green and blue of each pixel or patch. Pictures are exposed, so that white is 1. Fails if the device cannot
+    /// Red, green and blue of each pixel or patch. Pictures are exposed, with white at 1. Fails if the device cannot
     /// run the programs.
     fn values(&self, input: SystemInput, profile: &Profile, executor: &Executor) -> Result<Vec<[f64; 3]>, StudyError>;
 
@@ -44,7 +44,7 @@ pub(super) trait SystemRun: fmt::Debug {
         Some([PICTURE; 2])
     }
 
-    /// Goal if none is given: the error of 8-bit codes is at most one.
+    /// Default goal: the error in 8-bit codes is at most one.
     fn default_goal(&self) -> Goal {
         at_most("largest_255ths", 1.0)
     }
@@ -54,12 +54,12 @@ pub(super) fn at_most(measure: &str, bound: f64) -> Goal {
     Goal { measure: measure.to_owned(), relation: GoalRelation::AtMost, bound }
 }
 
-/// Stanford bunny of few vertices.
+/// Stanford bunny with few vertices.
 pub(super) fn bunny() -> Mesh {
     TransferModel::BiScaleBunny.mesh(3)
 }
 
-/// Cameras that frame a mesh in a picture, by [`SystemInput`]: from another side for the view that is held back.
+/// Cameras that frame a mesh in a picture, by [`SystemInput`]; the held-back view is from another side.
 pub(super) fn cameras(mesh: &Mesh) -> [Camera; 2] {
     let [low, high] = mesh.bounds().map_or([DVec3::ZERO; 2], |bounds| bounds.map(wide));
     let (middle, radius) = (0.5 * (low + high), 0.5 * (high - low).length());

@@ -16,7 +16,7 @@ use crate::study::precision::subject::{
 
 /// Maximum number of fragments kept per draw.
 const KEPT: usize = 128;
-/// Minimum number of pixels traced per draw, if there are as many: a pixel may have thousands of fragments.
+/// Minimum number of pixels traced per draw, if the target has that many: a pixel may have thousands of fragments.
 const PIXELS: usize = 16;
 
 /// Samples the results of instructions in the exact run of a system. Its draws are traced again with the program of
@@ -38,9 +38,9 @@ struct RoundedProgram {
 
 #[derive(Debug)]
 struct Sampled {
-    /// Number of draws seen of each program.
+    /// Number of draws seen, per program.
     draws: Vec<usize>,
-    /// Number of fragments sampled of each program.
+    /// Number of fragments sampled, per program.
     fragments: Vec<u32>,
     results: SampledResults,
 }
@@ -67,15 +67,14 @@ impl ResultSampler {
         Ok(Arc::new(Self { programs, rounded, found: Mutex::new(found) }))
     }
 
-    /// Results found.
+    /// Results of the samples.
     pub(super) fn results(&self) -> SampledResults {
         self.found.lock().unwrap_or_else(PoisonError::into_inner).results.clone()
     }
 }
 
 impl DrawWatcher for ResultSampler {
-    /// Samples the draws of a program with the numbers 0, 1, 2, 4, 8 and so on, to include errors that grow from draw
-    /// to draw.
+    /// Samples the draws number 0, 1, 2, 4, 8 and so on of each program, to include errors that grow from draw to draw.
     fn before(&self, machine: &Machine, call: &DrawCall<'_>) -> Result<(), MachineError> {
         let digest = call.pixel_program.digest();
         let Some(index) = self.programs.iter().position(|program| program.digest() == digest) else { return Ok(()) };
@@ -85,7 +84,7 @@ impl DrawWatcher for ResultSampler {
         if number > 0 && !number.is_power_of_two() {
             return Ok(());
         }
-        // This program has no formats of instructions: results are in the registers' format.
+        // This program has no per-instruction formats: results are in the registers' format.
         let (profile, program) = (machine.profile(), &self.programs[index]);
         let (sample, exact) = Sample::new(machine, call)?;
         let first = found.fragments[index];
@@ -106,29 +105,29 @@ impl DrawWatcher for ResultSampler {
 
 /// Sample of the fragments of a draw.
 struct Sample {
-    /// Pixels with fragments of the sample.
+    /// Pixels that contain sampled fragments.
     pixels: Vec<(u32, u32)>,
     /// Indices of the sampled fragments among all fragments of these pixels.
     kept: Vec<usize>,
 }
 
 impl Sample {
-    /// Traces pixels spread over the target until there are enough fragments, or no pixels left; keeps and returns
-    /// evenly spread fragments. The choice does not depend on formats: a fragment is traced where its triangle covers
-    /// the pixel.
+    /// Traces pixels spread over the target until there are enough fragments, or no pixels are left; keeps and returns
+    /// evenly spread fragments. The choice does not depend on formats: a fragment is traced if its triangle covers the
+    /// pixel.
     fn new(machine: &Machine, call: &DrawCall<'_>) -> Result<(Self, Vec<FragmentTrace>), MachineError> {
         let [width, height] = machine.target_size(call)?;
         let mut order = spread(width * height).map(|at| (at % width, at / width)).peekable();
         let (mut pixels, mut traced) = (Vec::new(), Vec::new());
         while order.peek().is_some() && (pixels.len() < PIXELS || traced.iter().map(Vec::len).sum::<usize>() < KEPT) {
-            // Doubles the number of pixels, since each call sets up all triangles.
+            // Doubles the number of pixels each time, since each call sets up all triangles.
             let more: Vec<_> = order.by_ref().take(pixels.len().max(PIXELS)).collect();
             traced.extend(machine.trace_pixels(call, &more)?);
             pixels.extend(more);
         }
         let step = traced.iter().map(Vec::len).sum::<usize>().div_ceil(KEPT).max(1);
         let (mut sample, mut exact) = (Self { pixels: Vec::new(), kept: Vec::new() }, Vec::new());
-        // Index of the next fragment among all fragments, and among fragments of sampled pixels.
+        // Index of the next fragment among all fragments, and among the fragments of sampled pixels.
         let (mut next, mut next_of_sample) = (0, 0);
         for (pixel, fragments) in pixels.into_iter().zip(traced) {
             let (first, count, before) = (next, fragments.len(), exact.len());

@@ -12,11 +12,11 @@ use crate::study::marble_model::MarbleModel;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::{FloatTexels, Light};
 
-/// Texels along a side of the atlas.
+/// Number of texels per side of the atlas.
 const SIDE: u32 = 32;
 /// Clusters per texel.
 const LINKS: usize = 16;
-/// Millimeters of a unit of the model.
+/// Millimeters per unit of the model.
 const SCALE: f64 = 10.0;
 
 /// Bunny of marble, lit from one side.

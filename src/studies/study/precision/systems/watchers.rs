@@ -30,9 +30,9 @@ pub(super) struct FollowedPixel {
 
 #[derive(Debug, Default)]
 struct FoundFragments {
-    /// Number of draws seen of the followed program.
+    /// Number of draws of the followed program seen so far.
     draws: usize,
-    /// Digest of the program of each fragment.
+    /// Fragments, each with the digest of its program.
     fragments: Vec<(u64, FragmentTrace)>,
 }
 
@@ -41,7 +41,7 @@ impl FollowedPixel {
         Arc::new(Self { pixel, draws, found: Mutex::default() })
     }
 
-    /// Results of the instructions of the fragments that `wanted` chooses, in the order of execution.
+    /// Results of the instructions of the fragments that `wanted` selects, in order of execution.
     pub(super) fn steps(
         &self,
         profile: &Profile,
@@ -78,7 +78,7 @@ impl DrawWatcher for FollowedPixel {
     }
 }
 
-/// Keeps the first target of each draw of a program, as it is after the draw.
+/// Stores the first target of each draw of a program, as it is after the draw.
 #[derive(Debug)]
 pub(super) struct KeptTargets {
     /// Digest of the program.
@@ -99,8 +99,8 @@ impl KeptTargets {
         Arc::new(Self { program, targets: Mutex::default() })
     }
 
-    /// Texel with the largest absolute difference of a channel, the first of equals; `None` if nothing differs. An
-    /// infinity or NaN differs from all other numbers by infinity.
+    /// Texel with the largest absolute difference of a channel, the first one on a tie; `None` if nothing differs. An
+    /// infinity or NaN differs from every other number by infinity.
     pub(super) fn most_different(&self, other: &Self) -> Option<DifferentTexel> {
         let lock = |targets: &Self| targets.targets.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let (ours, others) = (lock(self), lock(other));

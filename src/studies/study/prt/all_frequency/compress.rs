@@ -19,7 +19,7 @@ use crate::transfer::visibility::VisibilityMaps;
 
 use super::tally::{CompressionTally, SegmentTally};
 
-/// A finished segment: its code and errors, or nothing where transfer is 0.
+/// A finished segment: its code and errors, or `None` if its transfer is 0.
 type FinishedSegment = Option<(CodedSegment, SegmentTally)>;
 
 /// Finished segments of a range.
@@ -59,21 +59,21 @@ pub struct SegmentedCompression<'a> {
 }
 
 impl SegmentedCompression<'_> {
-    /// Bytes of raw transfer in single precision, all 24 segments at all vertices.
+    /// Bytes of raw transfer in single precision, of all 24 segments at all vertices.
     pub fn raw_bytes(&self) -> u64 {
         let numbers = self.reflectance.terms() * Segmentation::Quarters.len() * Segmentation::Quarters.count();
         4 * self.vertices.len() as u64 * numbers as u64
     }
 
     /// Compresses and codes all segments. Fails if transfer cannot be computed, compressed or coded, or finished
-    /// segments cannot be kept or taken.
+    /// segments cannot be stored or read back.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
         let found = self.of_range(0..Segmentation::Quarters.count(), progress)?;
         Ok(self.whole(found))
     }
 
-    /// Like [`Self::run`], in a whole run, for the segments of a part, or from merged parts. Fails as [`Self::run`]
-    /// does, and with [`InputError`](crate::error::InputError) of parts.
+    /// Like [`Self::run`], for a whole run, for the segments of a part, or from merged parts. Fails as [`Self::run`]
+    /// does, and with an [`InputError`](crate::error::InputError) if a part is invalid.
     pub fn run_split(
         &self,
         split: &SplitRun,
@@ -142,7 +142,7 @@ impl SegmentedCompression<'_> {
     }
 }
 
-/// Error of options that do not fit, or of principal components that cannot be found.
+/// Error of options that conflict, or of principal components that cannot be found.
 fn of_segment(segment: usize, reason: &CpcaError) -> StudyError {
     let help = "see `crossbar all-frequency compress --help`";
     StudyError::new("crossbar::prt::cpca", format!("segment {segment}: {reason}")).with_help(help)

@@ -18,8 +18,8 @@ pub struct CodedErrors {
     pub squares: Vec<f64>,
 }
 
-/// Recomputes the raw matrices segment by segment. The error of an empty segment is its raw matrix's sum of squares.
-/// Panics if the coded transfer is of other vertices or another reflectance.
+/// Recomputes the raw matrices segment by segment. An empty segment has its raw matrix's sum of squares as its error.
+/// Panics if the coded transfer belongs to other vertices or another reflectance.
 pub fn coded_errors(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: BasisWidth,

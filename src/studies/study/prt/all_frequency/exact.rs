@@ -1,5 +1,5 @@
-//! First steps of rendering: the light's coefficients (step 1 of section 6), and transferred radiance without
-//! compression, M_p L, the raw matrix of one segment after the other.
+//! First steps of rendering: the light's coefficients (step 1 of section 6), and uncompressed transferred radiance, M_p
+//! L, from the raw matrices of one segment after the other.
 
 use glam::DMat3;
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ pub(in crate::study) fn coefficients(
 }
 
 /// Transferred radiance per light and vertex: m rows of three channels. The matrices, which take nearly all the time,
-/// are computed once for all lights.
+/// are computed only once for all lights.
 pub(in crate::study) fn transferred(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: BasisWidth,

@@ -1,4 +1,4 @@
-//! The model, light and camera of all studies of all-frequency transfer.
+//! The model, light and camera that studies of all-frequency transfer share.
 
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
@@ -17,9 +17,9 @@ pub struct LitModel {
     pub vertices: Vertices,
     /// Surface color per material.
     pub colors: Vec<[f64; 3]>,
-    /// Visibility, coded transfer or both: coded transfer is drawn.
+    /// Visibility, coded transfer or both; if there is coded transfer, it is drawn.
     pub file: AllFrequencyFile,
-    /// A file with visibility, to measure the loss of compression.
+    /// A file with visibility, for measuring the loss of compression.
     pub original: Option<AllFrequencyFile>,
     /// The light.
     pub light: DistantLight,

@@ -1,6 +1,5 @@
-//! All-frequency transfer: visibility of a model ([`SightOfModel`]), its transfer segment by segment through
-//! compression and coding ([`SegmentedCompression`]), its errors ([`coded_errors`]), and pictures of it
-//! ([`AllFrequencyRendering`]).
+//! All-frequency transfer: visibility of a model ([`SightOfModel`]), its transfer, compressed and coded segment by
+//! segment ([`SegmentedCompression`]), its errors ([`coded_errors`]), and pictures of it ([`AllFrequencyRendering`]).
 
 mod compress;
 mod errors;

@@ -52,7 +52,7 @@ impl<'a> Part<'a> {
         self.shader.is_some()
     }
 
-    /// Transferred radiance by steps 2 and 3, or by raw matrices if transfer is not coded.
+    /// Computes transferred radiance by steps 2 and 3, or by raw matrices if transfer is not coded.
     pub(super) fn transferred(&self, light: &HaarLight, times: &mut FrameTimes) -> Result<Transferred, StudyError> {
         let Some(shader) = &self.shader else { return Ok(self.exact(self.file, light)?) };
         let light = light.singles();
@@ -65,7 +65,7 @@ impl<'a> Part<'a> {
         Ok(Transferred::Coded(transferred))
     }
 
-    /// Transferred radiance by the raw matrices of a file.
+    /// Computes transferred radiance by the raw matrices of a file.
     pub(super) fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, InputError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
@@ -75,7 +75,7 @@ impl<'a> Part<'a> {
         Ok(Transferred::Exact { rows, values })
     }
 
-    /// Exit radiance: step 4.
+    /// Computes exit radiance: step 4.
     pub(super) fn radiance(&self, transferred: &Transferred, camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
         let start = Instant::now();
         let of = |vertex: usize, row: usize| match transferred {
@@ -88,7 +88,7 @@ impl<'a> Part<'a> {
         radiance
     }
 
-    /// Multiplications of steps 2, 3 and 4.
+    /// Number of multiplications in steps 2, 3 and 4.
     pub(super) fn multiplies(&self, light: &[[f32; 3]]) -> [u64; 3] {
         let steps = self.shader.as_ref().map(|shader| shader.multiplies(light));
         let Multiplies { per_cluster, per_vertex } = steps.unwrap_or_default();

@@ -15,18 +15,18 @@ use crate::transfer::file::MeshDigest;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 
-/// A model whose visibility is wanted.
+/// A model whose visibility is computed.
 #[derive(Debug)]
 pub struct SightOfModel<'a> {
-    /// The occluders: its mesh, or that on its ground.
+    /// The occluders: the model's mesh, or the mesh with its ground.
     pub scene: &'a Mesh,
-    /// The vertices that transfer is computed at.
+    /// The vertices at which transfer is computed.
     pub vertices: &'a Vertices,
     /// The hats of the light's texels.
     pub hats: BasisWidth,
     /// The reflectance.
     pub reflectance: Reflectance,
-    /// The vertices of the ground below it, which is diffuse: the second part of the scene.
+    /// The vertices of the diffuse ground below the model, which is the second part of the scene.
     pub ground: Option<&'a Vertices>,
 }
 
@@ -39,10 +39,10 @@ pub struct FoundSight {
     pub census: SegmentCensus,
 }
 
-/// Visibility at the vertices of a range, those of the model before those of the ground.
+/// Visibility at the vertices of a range, the model's before the ground's.
 #[derive(Debug, Serialize, Deserialize)]
 struct SightRange {
-    /// Number of the model's vertices in all ranges.
+    /// Number of the model's vertices in all ranges together.
     of_model: usize,
     model: VisibilityMaps,
     ground: VisibilityMaps,
@@ -60,15 +60,14 @@ impl Concatenate for SightRange {
     }
 }
 
-/// The vertices of a range that are below a number, and those from there on.
+/// Splits a range at an index.
 fn parted(range: &Range<usize>, at: usize) -> [Range<usize>; 2] {
     [range.start.min(at)..range.end.min(at), range.start.max(at)..range.end.max(at)]
 }
 
 impl SightOfModel<'_> {
-    /// Casts the rays by a caster of the scene that sees both sides: the model's, then the ground's; or those of a part.
-    /// Fails with
-    /// [`InputError`](crate::error::InputError), in a study's.
+    /// Casts the rays with a caster of the scene that sees both sides, first for the model, then for the ground; or
+    /// only for a part. Fails with an [`InputError`](crate::error::InputError) in a study error.
     pub fn run(
         self,
         caster: &mut dyn Caster,

@@ -19,7 +19,7 @@ use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::Vertices;
 use crate::transfer::light::{HaarLight, LightTruncation};
 
-/// Segments whose clusters are drawn, as in Figure 4.
+/// Number of segments whose clusters are drawn, as in Figure 4.
 const CLUSTER_PICTURES: usize = 3;
 
 /// A lit model, and its pictures.
@@ -31,7 +31,7 @@ pub struct AllFrequencyRendering {
     pub ground: Option<RenderedGround>,
 }
 
-/// The ground below a model, with transfer of its own.
+/// The ground below a model, with its own transfer.
 #[derive(Debug)]
 pub struct RenderedGround {
     /// The ground's mesh.
@@ -73,7 +73,7 @@ impl Study for AllFrequencyRendering {
     }
 }
 
-/// Exit radiance (step 4) of all parts' vertices, in order.
+/// Exit radiance (step 4) at all parts' vertices, in order.
 fn radiance(parts: &[Part<'_>], transferred: &[Transferred], camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
     parts.iter().zip(transferred).flat_map(|(part, transferred)| part.radiance(transferred, camera, times)).collect()
 }
@@ -114,7 +114,7 @@ impl AllFrequencyRendering {
         std::iter::once(Part::new(&self.lit.vertices, &self.lit.colors, &self.lit.file)).chain(ground).collect()
     }
 
-    /// The surface point in each of the camera's pixels; vertices of the ground follow those of the model.
+    /// The surface point at each of the camera's pixels; vertices of the ground follow the model's.
     fn seen(&self) -> SeenSurface {
         let ground = self.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
         let parts: Vec<_> = std::iter::once((&self.lit.mesh, &self.lit.vertices)).chain(ground).collect();

@@ -1,5 +1,5 @@
-//! A sequence of pictures from the ray-traced one to the picture from transfer, each with one more approximation, and
-//! their differences.
+//! A sequence of pictures from the ray-traced one to the picture from transfer, each of which adds one approximation,
+//! and their differences.
 
 use crate::bi_scale::shade::TracedRung;
 use crate::picture::metrics::{ErrorSums, value_error};
@@ -8,7 +8,7 @@ use crate::report::{Cell, Table};
 /// The pictures.
 #[derive(Clone, Debug)]
 pub(in crate::study) struct CausePictures {
-    /// Approximation that each picture from the second on adds to the previous one: a word, and a sentence.
+    /// Approximation that each picture after the first adds to the previous one: a word, and a sentence.
     pub(in crate::study) causes: Vec<(&'static str, String)>,
     /// The ray-traced picture first, the picture from transfer last.
     pub(in crate::study) pictures: Vec<Vec<[f64; 3]>>,
@@ -25,18 +25,18 @@ impl CausePictures {
         self.pictures.last().map_or(&[], Vec::as_slice)
     }
 
-    /// The ray-traced picture with patches as textures, as in transfer.
+    /// The ray-traced picture in which textures replace patches, as in transfer.
     pub(in crate::study) fn textured(&self) -> &[[f64; 3]] {
         self.pictures.get(TracedRung::Texture as usize).map_or(&[], Vec::as_slice)
     }
 
-    /// Root mean square of two pictures' difference, in percent of that of the ray-traced picture; 0 if that is black.
+    /// RMS difference of two pictures, in percent of the RMS of the ray-traced picture; 0 if that picture is black.
     pub(in crate::study) fn apart(&self, one: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
         let whole: f64 = self.exact().iter().flatten().map(|value| value * value).sum();
         if whole > 0.0 { 100.0 * (differences(one, other).0 / whole).sqrt() } else { 0.0 }
     }
 
-    /// A row per cause.
+    /// Table with a row per cause.
     pub(in crate::study) fn table(&self, title: &str) -> Table {
         let mut table = Table::new(title, &["cause", "step (%)", "up to here (%)", "largest (radiance)"]);
         for ((before, after), cause) in self.pictures.iter().zip(&self.pictures[1..]).zip(&self.causes) {
@@ -51,7 +51,7 @@ impl CausePictures {
     }
 }
 
-/// The sum of squares of all channels' differences, and the largest.
+/// The sum of squared differences over all channels, and the largest difference.
 fn differences(one: &[[f64; 3]], other: &[[f64; 3]]) -> (f64, f64) {
     let mut sums = ErrorSums::default();
     one.iter().flatten().zip(other.iter().flatten()).for_each(|(&a, &b)| sums.add(value_error(a, b), 1.0));

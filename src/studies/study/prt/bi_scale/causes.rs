@@ -38,7 +38,7 @@ pub(super) struct Causes<'a> {
 impl<'a> Causes<'a> {
     pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
         let values = rendering.file.values().ok_or_else(no_mesh_transfer)?;
-        // Values without a fixed unit are means over an unknown number of samples.
+        // Values without a fixed unit are averages of an unknown number of samples.
         let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
         let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
         let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
@@ -101,7 +101,7 @@ impl<'a> Causes<'a> {
         TracedRung::ALL.iter().map(|&rung| all.iter().map(|rungs| rungs[rung as usize]).collect()).collect()
     }
 
-    /// Equation 3 by plain loops.
+    /// Equation 3 by the plain loops of the reference.
     fn by_reference(&self, pixels: &[Option<SurfacePixel>], local: &LocalLight) -> Vec<[f64; 3]> {
         let color = |pixel: &Option<SurfacePixel>| {
             pixel.as_ref().map_or([0.0; 3], |pixel| {
@@ -112,7 +112,7 @@ impl<'a> Causes<'a> {
     }
 }
 
-/// Findings of the pictures, with the ray-traced picture.
+/// Reports the pictures, with the ray-traced picture.
 pub(super) fn report(
     rendering: &BiScaleRendering,
     found_pictures: &CausePictures,

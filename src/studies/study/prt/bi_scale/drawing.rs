@@ -14,7 +14,7 @@ use crate::error::InputError;
 use crate::study::{ProgressFn, StudyError};
 use crate::transfer::light::{CubeLight, Decimation};
 
-/// A rendering whose pixels are known.
+/// A rendering whose visible surfaces are known.
 pub(in crate::study) struct BiScaleDrawing<'a> {
     rendering: &'a BiScaleRendering,
     meaning: BiScaleMeaning,
@@ -26,7 +26,7 @@ impl<'a> BiScaleDrawing<'a> {
     /// Casts the rays of the camera.
     ///
     /// # Errors
-    ///If the file is not transfer of a mesh, or a texture has other directions or no patch for rays.
+    /// If the file is not transfer of a mesh, or a texture has other directions or no patch for ray tracing.
     pub(in crate::study) fn new(rendering: &'a BiScaleRendering) -> Result<Self, StudyError> {
         let meaning = rendering.file.meaning.ok_or_else(no_mesh_transfer)?;
         let expected = (meaning.side as usize).pow(2);
@@ -53,7 +53,7 @@ impl<'a> BiScaleDrawing<'a> {
         self.rendering.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)
     }
 
-    /// L~ of the light's texels. Fails if the file is not transfer of a mesh.
+    /// L~, light from the light's texels. Fails if the file is not transfer of a mesh.
     pub(in crate::study) fn local(&self, cube: &CubeLight) -> Result<LocalLight, StudyError> {
         LocalLight::new(&self.rendering.file, cube).ok_or_else(no_mesh_transfer)
     }

@@ -1,4 +1,4 @@
-//! Light times transfer: by biclusters in f32 if a file has any, otherwise by rows in f64.
+//! Product of light and transfer: by biclusters in f32 if the file has any, otherwise by rows in f64.
 
 use std::time::Instant;
 
@@ -20,8 +20,8 @@ pub struct LocalLight {
 }
 
 impl LocalLight {
-    /// The light times a file's transfer, by its biclusters if it has any, otherwise by its matrix; `None` without
-    /// both. Panics if the number of columns is not that of light texels.
+    /// Product of the light and a file's transfer: by its biclusters if it has any, otherwise by its matrix; `None` if
+    /// it has neither. Panics if the number of columns differs from the number of light texels.
     pub fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
         let gather = Gather::new(biclusters);
@@ -35,7 +35,8 @@ impl LocalLight {
         Some(Self { way: "biclusters", rows: rows.into_iter().map(|row| row.map(f64::from)).collect(), seconds })
     }
 
-    /// Local light in f64, by the file's matrix if it has one, else by its biclusters. Panics as [`Self::new`] does.
+    /// Local light in f64: by the file's matrix if it has one, otherwise by its biclusters. Panics as [`Self::new`]
+    /// does.
     pub fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let channels = light_vectors(light);
         let start = Instant::now();

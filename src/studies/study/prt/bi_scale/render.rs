@@ -21,7 +21,7 @@ struct StepTimes {
     shading: f64,
 }
 
-/// The result of some work, and its time in seconds.
+/// Runs `work`, and returns its result with its time in seconds.
 fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
     let start = Instant::now();
     let found = work();
@@ -88,7 +88,7 @@ impl BiScaleRendering {
         }
         found.heading("Time");
         found.table(FoundTable::from(table).csv("time").field("time"));
-        // 16 texels are read for each direction of light.
+        // 16 texels are read per direction of light.
         found.field("texels_read", json!(16 * lights * shown_pixels));
         found.field("seconds", json!({ "light": times.light, "transfer": times.transfer, "shading": times.shading }));
     }

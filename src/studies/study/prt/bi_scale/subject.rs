@@ -1,4 +1,4 @@
-//! The picture that is drawn.
+//! The model, light and camera of a picture.
 
 use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
@@ -16,11 +16,11 @@ pub struct BiScaleRendering {
     pub surface: TexturedSurface,
     /// The model's transfer.
     pub file: BiScaleFile,
-    /// The textures that its triangles name.
+    /// The textures that the model's triangles refer to.
     pub textures: Vec<SurfaceTexture>,
     /// The light.
     pub light: DistantLight,
-    /// True to compare the picture with one by rays; all textures must have patches.
+    /// `true` to compare the picture with a ray-traced one; all textures must have patches.
     pub reference: bool,
 }
 
@@ -35,7 +35,7 @@ pub struct SurfaceTexture {
     pub patch: Option<MesoPatch>,
 }
 
-/// Error for a file whose matrix is not transfer of a mesh.
+/// Error for a file whose matrix is not the transfer of a mesh.
 pub(super) fn no_mesh_transfer() -> StudyError {
     let help = "name what `crossbar bi-scale precompute` wrote, or its biclusters";
     let what = "expected transfer of a mesh, found another matrix";

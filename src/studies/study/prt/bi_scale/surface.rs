@@ -23,11 +23,11 @@ pub struct TexturedSurface {
     pub vertices: Vertices,
     /// Texture index per triangle.
     texture_of: Vec<u32>,
-    /// Repetitions of a patch along an edge of the unit square of texture coordinates.
+    /// Repetitions of a patch along each edge of the unit square of texture coordinates.
     repeat: f64,
 }
 
-/// Gives a mesh normals that are smooth over edges up to an angle in degrees (section VII).
+/// Gives a mesh normals that are smooth over edges with angles up to `degrees` (section VII).
 pub fn creased(mesh: &Mesh, degrees: f64) -> Mesh {
     mesh.creased(on_circle(degrees / 360.0)[0])
 }
@@ -46,7 +46,7 @@ impl TexturedSurface {
     /// texture coordinates. Fails if the mesh has no texture coordinates, or there is not a texture per triangle.
     pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, StudyError> {
         if mesh.texcoords().is_none() {
-            let what = "the model has no texture coordinates, which say where on it a patch lies";
+            let what = "the model has no texture coordinates, which place patches on it";
             return Err(StudyError::new("crossbar::prt::surface", what));
         }
         if texture_of.len() != mesh.len() {
@@ -57,7 +57,7 @@ impl TexturedSurface {
         Ok(Self { mesh, vertices, texture_of, repeat })
     }
 
-    /// The surface points in the pixels of a camera, front faces only.
+    /// The surface points at the pixels of a camera, front faces only.
     pub(super) fn pixels(&self, camera: &Camera) -> Vec<Option<SurfacePixel>> {
         let rays = camera.rays();
         let (hits, _) = HostTracer::new(&self.mesh, Sides::Front).nearest_all(&rays);
@@ -83,7 +83,7 @@ impl TexturedSurface {
                 *into += weight * self.repeat * f64::from(along);
             }
         }
-        // An eye on the surface has no view direction; no picture is drawn from there.
+        // If the eye lies on the surface, there is no view direction; no picture is drawn from there.
         let view = frame.to_local(unit(eye - at).unwrap_or(frame.normal()));
         SurfacePixel {
             triangle,

@@ -1,4 +1,4 @@
-//! Errors of a picture by step on the way from light to pixels.
+//! Errors of a picture by the step, from light to pixels, that causes them.
 
 use super::difference::PixelErrors;
 use crate::report::digits::{Quantity, shown};

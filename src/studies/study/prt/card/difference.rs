@@ -11,24 +11,24 @@ use crate::report::{Cell, Findings, NamedPicture, false_color};
 use crate::scene::Camera;
 use crate::study::prt::interpolate::linear_picture;
 
-/// Steps of a picture of 8 bits.
+/// Number of steps between the codes of an 8-bit picture, from black to white.
 const STEPS: f64 = 255.0;
 
 /// Errors of the pixels that show the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PixelErrors {
-    /// Root mean square and largest difference of a channel, in 255ths of white; infinite if a pixel is not finite.
+    /// RMS and largest difference of a channel, in 255ths of white; infinite if a pixel is not finite.
     pub off_255ths: [f64; 2],
-    /// Share of the pixels with a channel that is not finite or has an error of more than one 255th.
+    /// Fraction of the pixels with a channel that is not finite, or whose error exceeds one 255th.
     pub visible: f64,
-    /// Number of pixels that are not finite where the others are, or the reverse.
+    /// Number of pixels that are not finite where the expected ones are, or the reverse.
     pub not_finite: u64,
-    /// Root mean square of the finite pixels, in 255ths.
+    /// RMS over the finite pixels, in 255ths.
     finite_rms: f64,
 }
 
 impl PixelErrors {
-    /// Compares pixels, row by row, with expected ones; pixels that show nothing do not count.
+    /// Compares pixels, row by row, with expected ones; pixels without a surface do not count.
     pub(super) fn of(seen: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let shown = seen.iter().zip(found.iter().zip(expected)).filter(|(seen, _)| seen.is_some());
         let off: Vec<[f64; 3]> =
@@ -57,19 +57,19 @@ pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
     pixels.iter().map(held).collect()
 }
 
-/// A card's picture beside the host's, both exposed.
+/// A card's picture and the host's, both exposed.
 pub(super) struct ComparedPicture<'a> {
     /// Numbers in the target.
     pub(super) drawn: &'a [[f64; 3]],
-    /// In double precision, neither clamped nor quantised.
+    /// Pixels in double precision, neither clamped nor quantised.
     pub(super) host: &'a [[f64; 3]],
     pub(super) is_clamped: bool,
     pub(super) errors: PixelErrors,
 }
 
 impl<'a> ComparedPicture<'a> {
-    /// Compares pictures by visible surface. If the target or the vertices hold fractions, the host's picture is
-    /// clamped too.
+    /// Compares pictures at visible surface points. If the target or the vertices hold fixed-point fractions, the
+    /// host's picture is clamped too.
     pub(super) fn new(
         seen: &[Option<SeenPixel>],
         drawn: &'a [[f64; 3]],
@@ -79,7 +79,7 @@ impl<'a> ComparedPicture<'a> {
         Self { drawn, host, is_clamped, errors: PixelErrors::of(seen, drawn, &held(host, is_clamped)) }
     }
 
-    /// Errors of the card against the host's computation `from` the same numbers.
+    /// Sentence about the errors of the card, compared with the host's computation `from` the same numbers.
     pub(super) fn sentence(&self, card: &str, from: &str) -> String {
         let [rms, largest] = self.errors.off_255ths.map(|steps| shown(steps, Quantity::Measured));
         let not_finite = match self.errors.not_finite {

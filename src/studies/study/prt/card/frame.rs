@@ -1,4 +1,4 @@
-//! The time of a frame as a table and in words.
+//! The time of a frame as a table and as a sentence.
 
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -8,7 +8,7 @@ use crate::card::frame_time::{FrameTime, FrameTimeError, frame_time};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
 
-/// The time of a frame; `None` on a device whose rates are not known.
+/// The time of a frame; `None` on a device with unknown rates.
 pub(super) fn modelled(
     profile: &Profile,
     log: &[Event],
@@ -21,7 +21,7 @@ pub(super) fn modelled(
     }
 }
 
-/// The parts of a frame.
+/// Table of the parts of a frame.
 pub(super) fn times(time: &FrameTime) -> Table {
     let mut table = Table::new("A frame", &["part", "ms"]);
     let parts = [

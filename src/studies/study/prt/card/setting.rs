@@ -18,18 +18,18 @@ use crate::study::timeline_trace;
 pub struct CardSetting {
     /// The card.
     pub profile: Profile,
-    /// Its switches that were set.
+    /// Switches of the card that were set.
     pub switches: Vec<(String, String)>,
     /// Executor of its programs.
     pub executor: Executor,
     /// The picture's format.
     pub format: TexelFormat,
-    /// True to vary number formats, maps and targets one after the other.
+    /// `true` to vary number formats, maps and targets one after the other.
     pub sweep: bool,
 }
 
 impl CardSetting {
-    /// Returns `true` if the target holds fractions, which clamp.
+    /// Returns `true` if the target holds fixed-point fractions, which clamp.
     pub(super) fn is_clamped(&self) -> bool {
         !self.format.record().is_float()
     }
@@ -41,7 +41,7 @@ impl CardSetting {
     }
 }
 
-/// A study of a card's picture while it is written: its subject, and the findings so far.
+/// Inputs for the findings of a study of a card's picture.
 pub(super) struct PictureStudy<'a> {
     pub(super) card: &'a CardSetting,
     pub(super) view: &'a LitView,
@@ -50,7 +50,7 @@ pub(super) struct PictureStudy<'a> {
 }
 
 impl PictureStudy<'_> {
-    /// Exposes linear radiance of pixels; returns the exposure too.
+    /// Exposes linear radiance of pixels; returns the exposure and the pixels.
     pub(super) fn exposed(&self, linear: Vec<[f64; 3]>) -> (f64, Vec<[f64; 3]>) {
         let exposure = self.view.exposure_of(&linear);
         (exposure, linear.into_iter().map(|color| color.map(|value| exposure * value)).collect())
@@ -91,7 +91,7 @@ impl PictureStudy<'_> {
     }
 }
 
-/// Adds sizes and counts, by kind.
+/// Adds a table of sizes and counts.
 pub(super) fn report_sizes(sizes: impl IntoIterator<Item = (&'static str, Cell)>, found: &mut Findings) {
     let mut table = Table::new("Sizes and counts", &["what", "number"]);
     sizes.into_iter().for_each(|(what, number)| table.push([what.into(), number]));

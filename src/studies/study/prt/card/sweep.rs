@@ -16,11 +16,11 @@ pub struct PictureVariant {
     pub choice: String,
     /// Differences of pixels.
     pub errors: PixelErrors,
-    /// Pixels below 0 in a channel, where the drawing counts them.
+    /// Number of pixels with a channel below 0, if the drawing counts them.
     pub below_zero: Option<u64>,
 }
 
-/// A row per variant, with a column of pixels below 0 if a variant counts these.
+/// Table with a row per variant; it has a column for pixels below 0 if a variant counts them.
 pub fn variants_table(variants: &[PictureVariant]) -> Table {
     let counts = variants.iter().any(|variant| variant.below_zero.is_some());
     let last = if counts { "below_zero" } else { "" };
@@ -33,7 +33,7 @@ pub fn variants_table(variants: &[PictureVariant]) -> Table {
     table
 }
 
-/// Adds the table, the variant with the largest error, and those without visible errors.
+/// Adds the table, the variant with the largest error, and the variants without visible errors.
 pub(super) fn report_sweep(variants: &[PictureVariant], explained: &'static str, found: &mut Findings) {
     let alone = || variants.iter().filter(|variant| !NOT_ALONE.contains(&variant.axis));
     let name = |variant: &PictureVariant| format!("{} {}", variant.axis, variant.choice);

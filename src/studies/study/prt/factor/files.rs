@@ -10,7 +10,7 @@ use crate::report::{Findings, not_encoded};
 use crate::sphere::ParabolicMap;
 use crate::study::StudyError;
 
-/// Keeps tables with a row per texel: as text, with the texel's direction, and as f32 arrays without it.
+/// Stores tables with a row per texel: as text with the texel's direction, and as f32 arrays without it.
 pub(super) fn keep(found: &mut Findings, all: &Factorization, factors: &ProductFactors) -> Result<(), StudyError> {
     let mut values = "singular_value\n".to_owned();
     for value in all.singular_values() {

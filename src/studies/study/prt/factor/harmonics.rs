@@ -1,4 +1,4 @@
-//! Spherical harmonics of a reflectance, by integrals over both directions.
+//! Spherical harmonics of a reflectance, by integration over both directions.
 
 use crate::all_frequency::factor::{DiscSamples, ProductErrors, harmonic_errors};
 use crate::error::InputError;
@@ -14,7 +14,7 @@ pub(super) struct HarmonicRow {
     pub(super) errors: ProductErrors,
 }
 
-/// Errors of all orders that have fewer functions than there are texels.
+/// Errors for all orders with fewer functions than there are texels.
 pub(super) fn rows(disc: &DiscSamples) -> Result<Vec<HarmonicRow>, InputError> {
     let orders = ORDERS.filter(|&order| disc.counts().iter().all(|&count| count > function_count(order)));
     orders.map(|order| Ok(HarmonicRow { order, errors: harmonic_errors(disc.samples(), order)? })).collect()

@@ -1,4 +1,4 @@
-//! Findings as a page.
+//! Findings of the study.
 
 use glam::DVec3;
 use serde_json::json;
@@ -12,7 +12,7 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color
 use crate::sphere::{DirectionRule, function_count};
 use crate::study::{ProgressFn, Study, StudyError};
 
-/// Degree of the rule that directional albedos are integrated with.
+/// Degree of the quadrature rule for directional albedos.
 const ALBEDO_DEGREE: usize = 95;
 
 impl Study for BrdfFactors {
@@ -34,7 +34,7 @@ impl Study for BrdfFactors {
         terms::charts(&all).into_iter().for_each(|chart| found.chart(chart));
         self.between(&mut found, &factors);
         if !harmonic.is_empty() {
-            found.heading("Beside spherical harmonics");
+            found.heading("Compared with spherical harmonics");
         }
         found.table(FoundTable::from(harmonics::table(&harmonic)).csv("harmonics").field("harmonics"));
         found.heading("Directional albedo");
@@ -99,7 +99,7 @@ impl BrdfFactors {
         found.field("split_pair", json!(pair));
     }
 
-    /// Pictures of a sphere by f, by the table and by the terms.
+    /// Adds pictures of a sphere shaded by f, by the table and by the terms.
     fn pictures(&self, found: &mut Findings, table: &ProductTable, factors: &ProductFactors) -> Result<(), StudyError> {
         let limit = self.sampling.limit;
         let of_formula =
@@ -153,7 +153,7 @@ impl BrdfFactors {
         found.table(FoundTable::from(table).csv("between").field("between_texels"));
     }
 
-    /// Share of uniform light that is reflected: a white furnace.
+    /// Directional albedo, the reflected fraction of uniform light: a white furnace test.
     fn albedos(&self, table: &ProductTable, factors: &ProductFactors) -> Table {
         let mut rows =
             Table::of("Directional albedo: light of radiance 1 from everywhere", "view_degrees f table terms");

@@ -1,4 +1,4 @@
-//! Pictures of a sphere of some reflectance under two distant lights.
+//! Pictures of a sphere with a given reflectance under two distant lights.
 
 use std::f64::consts::PI;
 
@@ -7,15 +7,15 @@ use rayon::prelude::*;
 
 use crate::picture::Picture;
 
-/// Pixels along an edge.
+/// Pixels per side of the picture.
 pub(super) const SIZE: u32 = 160;
 
 /// Directions towards the lights, not normalised, and their irradiances: a frontal light, and a grazing one. z is up,
 /// the eye looks along y.
 const LIGHTS: [(DVec3, f64); 2] = [(DVec3::new(-0.5, -0.6, 0.62), PI), (DVec3::new(0.9, 0.35, 0.1), 0.5 * PI)];
 
-/// Radiance of each pixel towards the eye, rows from the top; 0 beside the sphere. `f` is reflectance times cosine by
-/// local directions of view and light; tangents run along the circles of latitude.
+/// Radiance of each pixel towards the eye, rows from the top; 0 outside the sphere. `f` is reflectance times cosine, by
+/// local view and light directions; tangents run along the circles of latitude.
 pub(super) fn radiance(f: &(dyn Fn(DVec3, DVec3) -> f64 + Sync)) -> Vec<f64> {
     let at = |place: u32| (2.0 * f64::from(place) + 1.0) / f64::from(SIZE) - 1.0;
     let pixel = |pixel: u32| {
@@ -45,7 +45,7 @@ pub(super) fn picture(radiance: &[f64]) -> Picture {
     Picture::rgb(SIZE, SIZE, &pixels)
 }
 
-/// Exposure that brings a picture to 18 % grey on average where it is lit.
+/// Exposure that makes the lit pixels of a picture 18 % grey on average.
 pub(super) fn exposure(radiance: &[f64]) -> f64 {
     let colors: Vec<[f64; 3]> = radiance.iter().map(|&value| [value; 3]).collect();
     crate::study::prt::auto_exposure(&colors)

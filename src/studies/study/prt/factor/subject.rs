@@ -15,16 +15,16 @@ pub enum FactorSubject {
     Table(ProductTable),
 }
 
-/// A reflectance, how it is sampled, and how many terms are wanted.
+/// A reflectance, the parameters of its sampling, and the number of terms.
 #[derive(Clone, Debug)]
 pub struct BrdfFactors {
     /// Its name.
     pub name: String,
     /// The reflectance.
     pub subject: FactorSubject,
-    /// How f is sampled; a table is used unchanged.
+    /// Sampling of f; a table is used unchanged.
     pub sampling: FactorSampling,
-    /// m; `None` for ten, or the rank of the table if that is less.
+    /// Number of terms m; `None` for ten, or for the rank of the table if that is smaller.
     pub terms: Option<usize>,
 }
 
@@ -32,14 +32,14 @@ pub struct BrdfFactors {
 const TERMS: usize = 10;
 
 impl BrdfFactors {
-    /// Singular values of a table, with vectors for the terms that are wanted.
+    /// Singular values of a table, with vectors for the requested number of terms.
     pub(super) fn factorization(&self, table: &ProductTable) -> Result<Factorization, InputError> {
         self.terms.map_or_else(|| Factorization::up_to(table, TERMS), |terms| Factorization::new(table, terms))
     }
 }
 
 impl FactorSubject {
-    /// Calls `of` with f as a formula; `None` for a table.
+    /// Calls `of` with f as a formula; returns `None` for a table.
     pub(super) fn with_product<T>(&self, of: impl FnOnce(&dyn ProductFunction) -> T) -> Option<T> {
         match self {
             Self::Lobe(lobe) => Some(of(lobe)),

@@ -1,4 +1,4 @@
-//! Figure 3: the same lobe with other roughnesses.
+//! Figure 3: the same lobe with different roughnesses.
 
 use super::sphere;
 use super::subject::{BrdfFactors, FactorSubject};
@@ -8,15 +8,15 @@ use crate::picture::metrics::{ScreenPicture, flip};
 use crate::report::{Cell, Table};
 use crate::study::StudyError;
 
-/// Pixels per degree of the observer: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
+/// Pixels per degree of the observer: a screen 0.7 m wide with 3,840 pixels seen from 0.7 m, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 
-/// One roughness.
+/// Result for one roughness.
 pub(in crate::study) struct SweptRoughness {
     pub(in crate::study) roughness: f64,
     pub(in crate::study) relative_squared_error: f64,
     pub(in crate::study) errors: ProductErrors,
-    /// Mean of FLIP between spheres of the table and of the terms.
+    /// Mean FLIP error between spheres shaded by the table and by the terms.
     pub(in crate::study) flip: f64,
 }
 
@@ -65,7 +65,7 @@ impl BrdfFactors {
     }
 }
 
-/// A row per roughness.
+/// Table with a row per roughness.
 pub(in crate::study) fn roughness_table(rows: &[SweptRoughness], title: &str) -> Table {
     let mut table = Table::of(title, "roughness relative_squared_error rms max flip_of_spheres");
     for row in rows {

@@ -1,18 +1,18 @@
-//! Errors by the number of terms.
+//! Errors by number of terms.
 
 use crate::all_frequency::factor::{DiscSamples, Factorization, ProductErrors};
 use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
 
-/// Every count of terms up to this one has a row.
+/// Every number of terms up to this one has a row.
 const EACH: usize = 20;
 
-/// The errors of a number of terms.
+/// The errors of the product with a number of terms.
 pub(super) struct TermErrors {
     pub(super) terms: usize,
     pub(super) errors: ProductErrors,
 }
 
-/// For each number of terms up to 20, and for all available vectors.
+/// Errors for each number of terms up to 20, and for all available vectors.
 pub(super) fn by_terms(disc: &DiscSamples, found: &Factorization) -> Vec<TermErrors> {
     let terms = found.terms();
     let each = (1..=terms.min(EACH)).chain((terms > EACH).then_some(terms));
@@ -39,7 +39,7 @@ pub(super) fn table(rows: &[TermErrors], found: &Factorization) -> Table {
     table
 }
 
-/// Singular values, and the error of Figure 2 by terms.
+/// Charts of the singular values, and of the error of Figure 2 by number of terms.
 pub(super) fn charts(found: &Factorization) -> Vec<NamedChart> {
     let value = |(k, &value): (usize, &f64)| ((k + 1) as f64, value);
     let values: Vec<(f64, f64)> = found.singular_values()[..found.rank()].iter().enumerate().map(value).collect();

@@ -1,4 +1,4 @@
-//! Codings of Table 1's representatives: the readings of "16 bits".
+//! Codings of Table 1's representatives: possible meanings of "16 bits".
 
 use super::{HOST, RunResult, StudyError};
 use crate::all_frequency::code::{CodeOptions, CodedSegment, ScaleOf};
@@ -8,13 +8,13 @@ use crate::elementary::pow;
 /// The range that 16 bits divide into steps, for the numbers of a representative.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Coding {
-    /// The largest number of a representative or segment fills the bits.
+    /// The largest number of a representative or segment gets the largest code.
     Filled(ScaleOf),
-    /// An absolute step, 2^-(halves / 2), where weights are about 1.
+    /// An absolute step, 2^-(halves / 2), for weights of about 1.
     Absolute(u8),
 }
 
-/// Codings of representatives, the first as in the paper.
+/// Codings of representatives; the first is the paper's.
 pub(super) const CODINGS: [Coding; 11] = [
     Coding::Filled(ScaleOf::Representative),
     Coding::Filled(ScaleOf::Segment),

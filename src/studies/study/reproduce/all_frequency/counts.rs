@@ -1,5 +1,5 @@
-//! Segments below the horizon by the geometry of the cube, and frame rates of Table 1 by its sizes. Consequences of
-//! printed values alone are expressions in `src/studies/papers`.
+//! Segments below the horizon from the geometry of the cube, and Table 1's frame rates from its sizes. Figures that
+//! follow from printed values alone are expressions in `src/studies/papers`.
 
 use refsim::timing::host::HostOperation;
 
@@ -23,7 +23,7 @@ const PER_CLUSTER: f64 = 200.0;
 /// Texels along an edge of the cube map whose texel centers are the normals for counting segments.
 const NORMALS: usize = 48;
 
-/// Columns of Table 1: the model and the column in names of figures, and the rows of a matrix.
+/// Columns of Table 1: the names of model and column in figure names, and the number of rows of a matrix.
 const COLUMNS: [(&str, &str, usize); 6] = [
     ("bunny", "bunny", M),
     ("teapot", "teapot", M),
@@ -33,7 +33,7 @@ const COLUMNS: [(&str, &str, usize); 6] = [
     ("buddha", "buddha-glossy", M),
 ];
 
-/// Column of Table 1 as printed.
+/// Column of Table 1, as printed.
 struct Column {
     id: &'static str,
     rows: usize,
@@ -58,7 +58,7 @@ impl Column {
         COLUMNS.iter().map(column).collect()
     }
 
-    /// Name of one of the column's figures.
+    /// Full name of one of the column's figures.
     fn figure(&self, what: &str) -> String {
         format!("all-frequency/{what}-{}", self.id)
     }
@@ -76,12 +76,12 @@ impl Column {
         1e3 * self.vertices * 24.0 * self.omega
     }
 
-    /// Size after clustering relative to the raw one: omega / r.
+    /// Size after clustering relative to the raw size: omega / r.
     fn clustered(&self) -> f64 {
         self.omega / ratio(self.nonempty() / self.clusters, self.segment_numbers())
     }
 
-    /// Multiplications per frame, by clusters and by vertices.
+    /// Multiplications per frame: for clusters and for vertices.
     fn multiplies(&self) -> [f64; 2] {
         let clusters = self.clusters * N as f64 * self.segment_numbers() * 3.0;
         [clusters, self.nonempty() * (N * self.rows * 3) as f64]

@@ -4,7 +4,7 @@ use super::forms::{Form, FormErrors, ORDERS, TERMS, at_equal_angles, cook_torran
 use super::{EntryFindings, PaperRow, Setting, Shared, StudyError, Sweep, number, paragraph, roughness, solved};
 use crate::all_frequency::factor::ProductErrors;
 
-/// A reflectance of the paper, by the name in its figures, with the forms that its model may have.
+/// A reflectance of the paper with the name in its figures, and the possible forms of its model.
 struct PrintedReflectance {
     id: &'static str,
     name: &'static str,
@@ -72,7 +72,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
 }
 
 impl PrintedReflectance {
-    /// Rows for the values of [`FormErrors::values`], except the last.
+    /// Rows for all values of [`FormErrors::values`] except the last.
     fn rows(&self, values: &[f64]) -> Result<Vec<PaperRow>, StudyError> {
         let bases = std::iter::once("terms".to_owned()).chain(ORDERS.map(|order| format!("order-{order}")));
         let errors = bases.flat_map(|basis| ["rms", "largest"].map(|kind| format!("{basis}-{kind}")));

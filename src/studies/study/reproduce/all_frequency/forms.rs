@@ -1,4 +1,4 @@
-//! Interpretations of the paper's two reflectances, and their errors.
+//! Possible forms of the paper's two reflectances, and their errors.
 
 use super::{HOST, RunResult, StudyError};
 use crate::all_frequency::factor::{
@@ -9,20 +9,20 @@ use crate::sphere::MAX_ORDER;
 
 /// Number of terms, m.
 pub(super) const TERMS: usize = 10;
-/// Orders of the printed table.
+/// Harmonic orders of the printed table.
 pub(super) const ORDERS: [usize; 4] = [4, 5, 6, 7];
 
 /// Interpretation: its name, the reflectance, and its sampling.
 pub(super) type Form = (&'static str, Lobe, FactorSampling);
 
-/// Errors of one interpretation.
+/// Errors of one form.
 pub(super) struct FormErrors {
     /// Errors of ten terms.
     pub(super) terms: ProductErrors,
     /// Errors of each of [`ORDERS`].
     pub(super) harmonics: [ProductErrors; 4],
-    /// Number of functions of the first order whose RMS does not exceed that of the terms; that of the highest order if
-    /// there is none.
+    /// Number of functions of the first order whose RMS does not exceed the terms' RMS; the number for the highest
+    /// order if there is none.
     pub(super) functions: usize,
 }
 
@@ -31,7 +31,7 @@ fn centers() -> FactorSampling {
     FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() }
 }
 
-/// Interpretations of Cook and Torrance's model, the textbooks' first.
+/// Forms of Cook and Torrance's model, the textbook form first.
 pub(super) fn cook_torrance() -> Vec<Form> {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     let bare = bare(lobe);
@@ -43,12 +43,12 @@ pub(super) fn cook_torrance() -> Vec<Form> {
     ]
 }
 
-/// Keeps only the distribution times the reflectance at normal incidence and the cosine.
+/// Reduces a lobe to the distribution times the reflectance at normal incidence and the cosine.
 pub(super) fn bare(lobe: Lobe) -> Lobe {
     Lobe { denominators: Denominators::Product, fresnel: FresnelForm::Constant, shadowing: Shadowing::None, ..lobe }
 }
 
-/// Interpretations of Schlick's model, his own first.
+/// Forms of Schlick's model, his own first.
 pub(super) fn schlick() -> Vec<Form> {
     let lobe = Lobe::schlick(0.2, 0.2, 0.8);
     let half = quarter_of_half_vector(lobe);
@@ -60,8 +60,8 @@ pub(super) fn schlick() -> Vec<Form> {
     ]
 }
 
-/// Keeps a quarter of distribution, shadowing and Fresnel reflectance, with the half vector's own component along the
-/// tangent.
+/// Divides the product of distribution, shadowing and Fresnel reflectance by four, and uses the half vector's own
+/// component along the tangent.
 pub(super) fn quarter_of_half_vector(lobe: Lobe) -> Lobe {
     let distribution = match lobe.distribution {
         FacetDistribution::Schlick { roughness, isotropy, .. } => {
@@ -72,8 +72,8 @@ pub(super) fn quarter_of_half_vector(lobe: Lobe) -> Lobe {
     Lobe { distribution, denominators: Denominators::Quarter, ..lobe }
 }
 
-/// The different lobes of some interpretations, named for samples at equal solid angles: the paper's "1024 samples in
-/// both light direction and view direction sampled over the hemisphere" need not be texels of a map.
+/// The different lobes of some forms, named for samples at equal solid angles: the paper's "1024 samples in both light
+/// direction and view direction sampled over the hemisphere" need not be texels of a map.
 pub(super) fn at_equal_angles(forms: &[Form]) -> Vec<(String, Lobe)> {
     let mut found: Vec<(String, Lobe)> = Vec::new();
     for (name, lobe, _) in forms {
@@ -93,7 +93,7 @@ impl FormErrors {
         Self::beside(disc.errors(&found.factors(TERMS)), disc.samples())
     }
 
-    /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are.
+    /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are clamped.
     pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, StudyError> {
         let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().limit);
         let terms = samples.term_errors(TERMS).on(HOST)?;
@@ -113,8 +113,8 @@ impl FormErrors {
         Ok(Self { terms, harmonics: [of(four)?, of(five)?, of(six)?, of(seven)?], functions })
     }
 
-    /// Values in the order of the printed table: RMS and maximum of the terms, then of each order; then the two
-    /// comparisons of RMS, and the ratio of functions to terms.
+    /// Values in the order of the printed table: RMS and maximum of the terms, then of each order; then the two RMS
+    /// comparisons, and the ratio of functions to terms.
     pub(super) fn values(&self) -> Vec<f64> {
         let all = std::iter::once(&self.terms).chain(&self.harmonics);
         let [.., six, seven] = &self.harmonics;

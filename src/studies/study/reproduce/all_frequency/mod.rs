@@ -22,7 +22,7 @@ use super::{
 /// Name of the host on which solvers run.
 const HOST: &str = "host";
 
-/// Row of a value that is computed in f64 and uses no printed one.
+/// Row for a value that is computed in f64 and does not use a printed value.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("all-frequency/{id}"), (HOST, Method::Solver), (ours, Dependence::Counted))
 }

@@ -1,4 +1,4 @@
-//! Models of Table 1, or our stand-ins, compressed and encoded.
+//! Models of Table 1, or our stand-ins for them, compressed and coded.
 
 use std::cell::OnceCell;
 use std::rc::Rc;
@@ -24,10 +24,10 @@ use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Tangents, Vertices};
 
-/// Segments that are compressed where not all are: a quarter of a face at the side, above and below. All of Table 1's
-/// models take some 30 hours of processor time at full size.
+/// Segments that are compressed if not all are: a quarter of a face at the side, above and below. Compressing all of
+/// Table 1's models takes some 30 hours of processor time at full size.
 pub(super) const SAMPLED_SEGMENTS: [usize; 3] = [0, 17, 21];
-/// Iterations for each number of representatives on reduced models.
+/// Iterations per number of representatives on reduced models.
 pub(super) const REDUCED_ITERATIONS: usize = 2;
 /// Model of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +55,7 @@ pub(super) enum TableMaterial {
 }
 
 impl TableModel {
-    /// Builds the mesh; a reduced one has some hundred vertices, for a run that judges nothing.
+    /// Builds the mesh; a reduced mesh has some hundred vertices, for a run without verdicts.
     fn mesh(self, size: ModelSize) -> Result<Mesh, StudyError> {
         let built =
             |model: TransferModel, coarser: u32| model.mesh(if size == ModelSize::Printed { 1 } else { coarser });
@@ -72,7 +72,7 @@ impl TableModel {
 }
 
 impl TableMaterial {
-    /// Returns the reflectance in the textbooks' form of the model, with ten terms.
+    /// Returns the reflectance in the textbook form of the model, with ten terms.
     pub(super) fn reflectance(self) -> Result<Reflectance, StudyError> {
         let (_, lobe, sampling): Form = match self {
             Self::Diffuse => return Ok(Reflectance::Diffuse),
@@ -85,7 +85,7 @@ impl TableMaterial {
     }
 }
 
-/// Vertices along an edge of the ground.
+/// Number of vertices along an edge of the ground.
 pub(super) const fn ground_side(size: ModelSize) -> u32 {
     match size {
         ModelSize::Printed => GROUND_SIDE,
@@ -106,7 +106,7 @@ pub(super) struct ModelVisibility {
 pub(super) struct CompressedModel {
     pub(super) vertices: usize,
     pub(super) omega: f64,
-    /// Number of clusters, rounded if some segments represent all.
+    /// Number of clusters; an estimate if some segments represent all.
     pub(super) clusters: usize,
     /// Bytes of raw transfer in single precision.
     pub(super) raw: f64,
@@ -114,7 +114,7 @@ pub(super) struct CompressedModel {
     pub(super) clustered: f64,
     /// Results for each of [`CODINGS`].
     pub(super) coded: Vec<CodedModel>,
-    /// Bytes of non-zero quantised Haar coefficients.
+    /// Bytes of nonzero quantised Haar coefficients.
     pub(super) haar: f64,
     /// Relative squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
@@ -125,9 +125,9 @@ pub(super) struct CompressedModel {
 /// Result of one coding.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct CodedModel {
-    /// Bytes of representatives and weights, all numbers stored in 16 bits.
+    /// Bytes of representatives and weights, with every number in 16 bits.
     pub(super) numbers: f64,
-    /// Bytes of counts of columns, steps and clusters.
+    /// Bytes of the numbers of columns, steps and clusters.
     pub(super) headers: f64,
     /// Squared error relative to the sum of squares.
     pub(super) squared_error: f64,
@@ -162,7 +162,7 @@ impl ModelVisibility {
         SegmentCensus::new(&self.vertices, &self.maps, &self.hats)
     }
 
-    /// Compresses and encodes the transfer. Each segment is a piece of the work `name`.
+    /// Compresses and codes the transfer. Each segment is a piece of the work `name`.
     pub(super) fn compressed(
         &self,
         reflectance: &Reflectance,
@@ -190,7 +190,7 @@ impl ModelVisibility {
             }
         }
         let census = self.census();
-        // Exactly 1 where all segments are compressed.
+        // Exactly 1 if all segments are compressed.
         let all_over_sampled = census.nonempty as f64 / sums.points as f64;
         let coded = sums.coded.map(|code| CodedModel {
             numbers: all_over_sampled * code.numbers as f64,
@@ -211,7 +211,7 @@ impl ModelVisibility {
     }
 }
 
-/// Visibility of a model without and with ground, computed on first use: kept pieces need none.
+/// Visibility of a model without and with ground, computed on first use: stored pieces do not need it.
 pub(super) struct SeenModel {
     pub(super) model: TableModel,
     size: ModelSize,
@@ -243,8 +243,8 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
     Ok(cell.get_or_init(|| found))
 }
 
-/// Compresses the diffuse bunny of Table 1, reduced, in pieces that are kept if requested. Returns the model as text,
-/// and whether its visibility was computed. Fails if the model cannot be compressed, or its pieces cannot be kept.
+/// Compresses the diffuse bunny of Table 1, reduced, in pieces that are stored if requested. Returns the model as text,
+/// and `true` if its visibility was computed. Fails if the model cannot be compressed, or its pieces cannot be stored.
 pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
     let (shared, seen) =
         (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));

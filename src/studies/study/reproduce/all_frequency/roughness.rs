@@ -8,7 +8,7 @@ use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_ta
 
 /// Roughnesses, in ascending order.
 const ROUGHNESSES: [f64; 5] = [0.2, 0.25, 0.3, 0.4, 0.5];
-/// Mean FLIP of spheres above which their difference counts as visible: our choice, before any was computed.
+/// Mean FLIP error of spheres above which their difference counts as visible: our choice, before any was computed.
 const SEEN: f64 = 0.05;
 
 /// Results of Figure 3's sweep.
@@ -42,8 +42,8 @@ fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), StudyEr
     Ok((table, rows))
 }
 
-/// Largest roughness at which the difference is visible, interpolated linearly between two of the sweep; 0 if there is
-/// none.
+/// Largest roughness at which the difference is visible, interpolated linearly between two roughnesses of the sweep; 0
+/// if there is none.
 fn threshold(rows: &[SweptRoughness]) -> f64 {
     let Some(last) = rows.iter().rposition(|row| row.flip > SEEN) else { return 0.0 };
     let Some(next) = rows.get(last + 1) else { return rows[last].roughness };

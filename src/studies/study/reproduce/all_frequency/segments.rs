@@ -1,4 +1,4 @@
-//! Segments of a model of Table 1, compressed and encoded, and their sums.
+//! Segments of a model of Table 1, compressed and coded, and their sums.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,31 +10,31 @@ use crate::all_frequency::transfer::TransferSegment;
 use crate::clustering::{CpcaStep, CpcaStepKind, Signal};
 use crate::transfer::grid::Segmentation;
 
-/// Bits per number in the coding of Haar coefficients alone: those of the earlier work.
+/// Bits per number in the coding of Haar coefficients without clusters, as in the earlier work.
 const HAAR_BITS: u32 = 8;
 
-/// Results of a segment, or the sums over several.
+/// Results for a segment, or sums over several.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct SegmentSums {
     /// Vertices that hold the segment.
     pub(super) points: usize,
     pub(super) clusters: usize,
-    /// Numbers that are stored before coding.
+    /// Number of numbers stored before coding.
     pub(super) numbers: usize,
     pub(super) squares: f64,
-    /// For each of [`CODINGS`].
+    /// Sums for each of [`CODINGS`].
     pub(super) coded: [CodeSums; CODINGS.len()],
-    /// Bytes of non-zero quantised Haar coefficients.
+    /// Bytes of nonzero quantised Haar coefficients.
     pub(super) haar: f64,
     /// Squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
 }
 
-/// Shares of one segment, in the first of [`CODINGS`].
+/// Relative size and error of one segment, in the first of [`CODINGS`].
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct SegmentShares {
     pub(super) segment: usize,
-    /// Size after coding, of that after clustering.
+    /// Size after coding, relative to the size after clustering.
     pub(super) coded: f64,
     /// Squared error relative to the sum of squares.
     pub(super) squared_error: f64,
@@ -45,13 +45,13 @@ pub(super) struct SegmentShares {
 pub(super) struct CodeSums {
     /// Bytes of representatives and weights.
     pub(super) numbers: u64,
-    /// Bytes of counts of columns, steps and clusters.
+    /// Bytes of the numbers of columns, steps and clusters.
     pub(super) headers: u64,
     pub(super) squared_error: f64,
 }
 
 impl SegmentSums {
-    /// Compresses and encodes a segment of a model with some rows per transfer matrix and some vertices.
+    /// Compresses and codes a segment of a model, with its rows per transfer matrix and its vertices.
     pub(super) fn new(
         TransferSegment { segment, vertices, signal }: TransferSegment,
         iterations: usize,
@@ -107,7 +107,7 @@ impl SegmentSums {
     }
 }
 
-/// Squared error of the last fit for each number of representatives except 0.
+/// Squared error of the last fit, for each number of representatives except 0.
 fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
     let fits = steps.iter().filter(|step| step.kind == CpcaStepKind::Fitted && step.vectors > 0);
     let mut last: Vec<(usize, f64)> = Vec::new();
@@ -120,8 +120,8 @@ fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
     last
 }
 
-/// Bytes of a segment without clusters: a byte for the row and a value for each coefficient that is non-zero after
-/// quantisation, in which the largest of the vertex fills integers.
+/// Bytes of a segment without clusters: a byte for the row and a value, for each coefficient that is nonzero after
+/// quantisation. The vertex's largest coefficient gets the largest integer.
 fn haar_bytes(signal: &Signal) -> f64 {
     let nonzeros = |point: usize| {
         let values = signal.point(point);

@@ -1,4 +1,4 @@
-//! Table 1 by compressing models: remaining size after clustering and coding of transfer.
+//! Table 1 from compressed models: remaining size after clustering and after coding of transfer.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ use crate::transfer::grid::LIGHT_TEXELS;
 use TableMaterial::{Cook, Diffuse, Schlick};
 use TableModel::{Buddha, Bunny, Teapot, Tweety};
 
-/// Columns: the column's and the model's name in the names of figures, the model and its material.
+/// Columns: the names of column and model in figure names, the model, and its material.
 const TABLE_1: [(&str, &str, TableModel, TableMaterial); 6] = [
     ("bunny", "bunny", Bunny, Cook),
     ("teapot", "teapot", Teapot, Schlick),
@@ -27,10 +27,10 @@ const TABLE_1: [(&str, &str, TableModel, TableMaterial); 6] = [
     ("buddha-diffuse", "buddha", Buddha, Diffuse),
     ("buddha-glossy", "buddha", Buddha, Cook),
 ];
-/// Figures of a column, in the names of figures; the first is of the model, and is listed once for both its materials.
+/// Figures of a column, as in figure names; the first belongs to the model, and is listed once for both its materials.
 const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 
-/// Figure that shaped a stand-in.
+/// Figure to which the shape of a stand-in was fitted.
 const SHAPED: &str = "omega-buddha";
 
 const HOW: &str = "The teapot, the Stanford bunny coarsened, and stand-ins of {} to {} vertices for the other models, with the paper's two reflectances in the textbooks' form, are \
@@ -44,7 +44,7 @@ const RANGE: &str = "Nor does the text say of what range its {} bits are. Ranges
     meets {} of them on models by themselves, {} on a ground.";
 const QUESTION: &str = "the models; of what range the quantised numbers are a share, which decides how many of them vanish; whether the printed squared error is that before coding or after it; \
     whether the ground shadows the models of Table 1.";
-/// Columns on a ground or without.
+/// Columns with or without a ground.
 struct TableRun {
     name: &'static str,
     columns: Vec<CompressedModel>,
@@ -90,7 +90,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// The columns without a ground and with it, and the ground of the bunny's scene.
+/// The columns without and with a ground, and the ground of the bunny's scene.
 struct ComputedTable {
     runs: [TableRun; 2],
     ground: CompressedGround,
@@ -133,9 +133,9 @@ impl ComputedTable {
 /// The ground of section 7: "the raw data was about 715MB which compressed down to 23.6MB".
 #[derive(Serialize, Deserialize)]
 struct CompressedGround {
-    /// Share of its segments that hold transfer.
+    /// Fraction of the ground's segments that hold transfer.
     omega: f64,
-    /// Coded bytes over raw ones, for each coding.
+    /// Ratio of coded to raw bytes, per coding.
     left: Vec<f64>,
 }
 
@@ -147,8 +147,8 @@ impl CompressedGround {
         Ok(Self { omega: found.omega, left: found.coded.iter().map(|coded| coded.numbers / found.raw).collect() })
     }
 
-    /// Rows on raw and coded data of the printed number of vertices. The value counts all segments, as Table 1 does, in
-    /// units of 10^6 bytes; the other readings count only segments that hold transfer, or in units of 2^20 bytes.
+    /// Rows for raw and coded data with the printed number of vertices. The value counts all segments, as Table 1 does,
+    /// in units of 10^6 bytes; the other readings count only segments that hold transfer, or use units of 2^20 bytes.
     fn rows(&self) -> Result<[PaperRow; 2], StudyError> {
         let raw = 4.0 * f64::from(GROUND_SIDE * GROUND_SIDE) * LIGHT_TEXELS as f64;
         let units = |bytes: f64| [1e-6 * bytes, bytes / f64::from(1 << 20)];
@@ -161,12 +161,12 @@ impl CompressedGround {
     }
 }
 
-/// Values of the rows by each reading of "16 bits": one list per coding, then one with headers.
+/// Values of the rows for each reading of "16 bits": one list per coding, then one with headers.
 fn readings(found: &[CompressedModel]) -> Vec<Vec<f64>> {
     (0..CODINGS.len()).map(|at| values(found, at, false)).chain([values(found, 0, true)]).collect()
 }
 
-/// The largest number of coded sizes that a single absolute step meets.
+/// Maximum number of printed coded sizes that a single absolute step meets.
 fn most_met(found: &[CompressedModel], figures: &[(usize, String)], rows: &[PaperRow]) -> usize {
     let of_coding = || figures.iter().zip(rows).filter(|((_, name), _)| name.starts_with("coded-"));
     let met = |(at, how): (usize, &Coding)| {
@@ -192,7 +192,7 @@ fn values(found: &[CompressedModel], coding: usize, headers: bool) -> Vec<f64> {
     found.iter().flat_map(of_model).chain(extremes).collect()
 }
 
-/// Figures of [`values`], each once: its place there, and its name.
+/// Figures of [`values`], each once: index there, and name.
 fn figures() -> Vec<(usize, String)> {
     let of_column = |&(column, model, ..): &(&'static str, &'static str, _, _)| {
         FIGURES.map(|figure| format!("{figure}-{}", if figure == "omega" { model } else { column }))
@@ -244,7 +244,7 @@ fn by_representatives(found: &[CompressedModel]) -> Table {
     table
 }
 
-/// Table of how far the compressed segments differ.
+/// Table of the differences between the compressed segments.
 fn by_segment(found: &[CompressedModel]) -> Table {
     let headings = SAMPLED_SEGMENTS.iter().flat_map(|segment| [format!("coded_{segment}"), format!("error_{segment}")]);
     let headings: Vec<String> = ["model".to_owned()].into_iter().chain(headings).collect();

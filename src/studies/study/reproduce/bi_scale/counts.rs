@@ -14,10 +14,10 @@ const QUESTION: &str =
 const DENSE: f64 = 1.0;
 const PER_ROW: f64 = 4.0;
 const PER_COLUMN: f64 = 8.0;
-/// Bytes of an entry stored by rows: position and value of two and one bytes, or of four each.
+/// Bytes per entry stored by rows: position and value of two and one bytes, or of four bytes each.
 const NARROW: f64 = 3.0;
 const WIDE: f64 = 8.0;
-/// Bytes of a texel: three channels.
+/// Bytes per texel: three channels.
 const TEXEL_BYTES: f64 = 3.0;
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {

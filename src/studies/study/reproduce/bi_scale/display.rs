@@ -18,19 +18,19 @@ use crate::transfer::Vertices;
 
 /// Card of the paper.
 pub(super) const CARD: &str = "gt200";
-/// View directions along an edge.
+/// Number of view directions per side.
 const VIEWS: usize = 12;
-/// Texels along an edge of a patch. Time depends on the number of reads, not on that of texels.
+/// Number of texels per side of a patch. Time depends on the number of reads, not on the number of texels.
 const PATCH: usize = 4;
 
-/// Timed frame without light: time does not depend on values.
+/// Timed frame without light: time does not depend on light values.
 pub(super) struct DisplayRun {
     pub(super) counts: DisplayCounts,
     pub(super) time: FrameTime,
     pub(super) pixels: u64,
 }
 
-/// Width and height of pictures in which views are timed; small for a run that judges nothing.
+/// Width and height of the pictures in which views are timed; small for a run without verdicts.
 pub(super) const fn picture(models: ModelSize) -> [u32; 2] {
     match models {
         ModelSize::Printed => [640, 480],
@@ -38,7 +38,7 @@ pub(super) const fn picture(models: ModelSize) -> [u32; 2] {
     }
 }
 
-/// Draws a mesh with `side` local directions along an edge into a picture of `width` x `height` pixels.
+/// Draws a mesh with `side` local directions per side into a picture of `width` x `height` pixels.
 pub(super) fn display(
     (mesh, vertices): (&Mesh, &Vertices),
     side: usize,

@@ -12,9 +12,9 @@ use crate::transfer::visibility::Horizon;
 const HOW: &str = "The Stanford bunny with {} vertices, and sizes as if it had the {} of the paper's: bytes of biclusters grow as vertices do (table II). \
     The display is that of the emulated card in {} x {} pixels.";
 const QUESTION: &str = "how the paper's bunny was made of the scan.";
-/// Local directions along an edge.
+/// Numbers of local directions per side.
 const SIDES: [usize; 4] = [8, 12, 16, 32];
-/// Size of the picture: large enough to distinguish costs.
+/// Size of the picture: large enough to show differences in cost.
 const PICTURE: [u32; 2] = [160, 120];
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {

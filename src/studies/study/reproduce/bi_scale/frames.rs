@@ -1,4 +1,4 @@
-//! Frame rates of both tables: with only the view changing, and with changing light too.
+//! Frame rates of both tables: if only the view changes, and if the light changes too.
 
 use super::display::{CARD, DisplayRun, display, picture};
 use super::models::{BUNNY, ClusteredModel, ModelVisibility};
@@ -17,19 +17,19 @@ const HOW: &str = "What light costs is the difference of a scene's two rates. On
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large models stand in the pictures; how many reads of textures missed the caches.";
 const PICTURE: [u32; 2] = picture(ModelSize::Printed);
 
-/// Printed rates of a scene in a table.
+/// A scene's printed rates in one table.
 struct PrintedFrames {
     scene: &'static PrintedScene,
     place: &'static str,
-    /// Names of the figures: with only the view changing, and with changing light too.
+    /// Names of the figures: if only the view changes, and if the light changes too.
     ids: [String; 2],
-    /// Frames per second of these.
+    /// Frames per second of these figures.
     rates: [f64; 2],
-    /// Operations of a transfer, for one channel.
+    /// Number of operations per transfer and channel.
     operations: f64,
 }
 
-/// Scenes with their tables, and the endings of the names of their figures.
+/// Scenes with their tables, and the suffixes of their figures' names.
 const FRAMES: [(&PrintedScene, &str, &str); 7] = [
     (&SCENES[0], "table 1", ""),
     (&SCENES[1], "table 1", ""),
@@ -39,7 +39,7 @@ const FRAMES: [(&PrintedScene, &str, &str); 7] = [
     (&SCENES[4], "table 2", "-2"),
     (&SCENES[5], "table 2", "-2"),
 ];
-/// Number of these that are in Table I.
+/// Number of these scenes that are in Table I.
 const IN_TABLE_1: usize = 4;
 
 impl PrintedFrames {
@@ -88,7 +88,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table(&printed, constant), of_display(&run)]))
 }
 
-/// Time of a view of the small bunny.
+/// Time of a new view of the small bunny.
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     let mesh = BUNNY.mesh(1);
     let vertices = Vertices::new(&mesh, Tangents::Texture).on(CARD)?;
@@ -106,7 +106,7 @@ fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Resu
     paper_row(&frames.ids[1], (CARD, Method::Equation), (ours, dependence))
 }
 
-/// Rows on the views of the small bunny, whose rates in the two tables contradict each other.
+/// Rows for the view rates of the small bunny, on which the paper's two tables disagree.
 fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, StudyError> {
     let [one, two] = [&all[0], &all[IN_TABLE_1]];
     let row = |(frames, other): (&PrintedFrames, &PrintedFrames)| {
@@ -119,7 +119,7 @@ fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, S
     [(one, two), (two, one)].into_iter().map(row).collect()
 }
 
-/// Rows on "roughly comparable", and on the dominant cost.
+/// Rows for "roughly comparable", and for the dominant cost.
 fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], StudyError> {
     let from = Dependence::Predicted { from: "rates of table I, operations" };
     let comparable = (transfer / run.time.frame.seconds(), from);

@@ -19,7 +19,7 @@ use super::{
 };
 use scenes::HOST;
 
-/// Row of a value that is computed in f64 and uses no printed one.
+/// Row for a value that is computed in f64 and does not use a printed value.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("bi-scale/{id}"), (HOST, Method::Solver), (ours, Dependence::Counted))
 }

@@ -15,7 +15,7 @@ use crate::transfer::{Tangents, Vertices};
 
 /// Bunny of both tables.
 pub(super) const BUNNY: TransferModel = TransferModel::BiScaleBunny;
-/// Base-2 logarithm of the visibility samples along an edge of a light texel.
+/// Base-2 logarithm of the number of visibility samples per side of a light texel.
 pub(super) const LOG2_SAMPLES: u32 = 1;
 
 /// Model with the visibility at its vertices.
@@ -33,7 +33,7 @@ pub(super) struct ClusteredModel {
     pub(super) biclusters: Biclustering,
 }
 
-/// Visibility by the triangles of a model alone.
+/// Visibility determined by the triangles of a model alone.
 impl SharedResult for ModelVisibility {
     type Key = TransferModel;
 
@@ -42,7 +42,7 @@ impl SharedResult for ModelVisibility {
     }
 }
 
-/// Biclusters of a model's transfer, with the directions of both tables.
+/// Biclusters of a model's transfer, with the directions that both tables use.
 impl SharedResult for ClusteredModel {
     type Key = TransferModel;
 
@@ -61,7 +61,7 @@ impl ModelVisibility {
         Ok(Self { mesh: mesh.clone(), vertices, maps })
     }
 
-    /// Transfer matrix T with `side` local directions along an edge.
+    /// Transfer matrix T with `side` local directions per side.
     pub(super) fn matrix(&self, side: usize) -> Result<SparseMatrix, StudyError> {
         let directions = LocalDirections::new(side).on(HOST)?;
         transfer_matrix(&self.vertices, &self.maps, &directions).on(HOST)

@@ -7,10 +7,10 @@ pub(super) const HOST: &str = "host";
 
 /// Scene of either table.
 pub(super) struct PrintedScene {
-    /// Name in the names of its figures.
+    /// Name of the scene in its figures' names.
     pub(super) id: &'static str,
     pub(super) name: &'static str,
-    /// Local directions along an edge.
+    /// Number of local directions per side.
     pub(super) side: usize,
 }
 

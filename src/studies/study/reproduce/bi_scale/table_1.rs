@@ -1,4 +1,4 @@
-//! Table I on stand-ins: biclusters of an armor, a chair and a temple; the bunny is Table II's.
+//! Table I with stand-ins: biclusters of an armor, a chair and a temple; the bunny is in Table II.
 
 use super::models::{ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
@@ -14,9 +14,9 @@ const HOW: &str = "The paper's models are not at hand. Ours are made by code: an
     Which share of operations is left falls as a model grows, since neighbors become alike. Vertices see what triangles leave free.";
 const QUESTION: &str =
     "the models, and how many of their vertices stand inside of other parts, where they see nothing.";
-/// Scene whose stand-in was shaped by its values per vertex.
+/// Scene whose stand-in was shaped to match the printed numbers per vertex.
 const SHAPED: &str = "temple";
-/// Edge length of reduced models, relative to full ones.
+/// Edge length of reduced models, as a multiple of the full model's.
 const COARSER: u32 = 4;
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
@@ -53,7 +53,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new([paragraph(HOW, [number(f64::from(coarser), 0)])], rows, [QUESTION], [table]))
 }
 
-/// Thousands of non-zero values per vertex.
+/// Thousands of nonzero values per vertex.
 fn per_vertex(found: &ClusteredModel, vertices: usize) -> f64 {
     1e-3 * found.nonzeros as f64 / vertices as f64
 }

@@ -16,9 +16,9 @@ const HOW: &str = "The scan of the Stanford bunny with its holes filled, coarsen
     Views are drawn on the emulated card in {} x {} pixels.";
 const QUESTION: &str = "how the paper's bunnies were made of the scan; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties; \
     how large models stand in the pictures.";
-/// Scenes by size: their numbers in [`SCENES`], and models.
+/// Scenes by size: index in [`SCENES`], and model.
 const BUNNIES: [(usize, TransferModel); 3] = [(0, BiScaleBunny), (4, BiScaleBunnyMiddle), (5, BiScaleBunnyFine)];
-/// Edge length of reduced models, relative to full ones.
+/// Edge length of reduced models, as a multiple of the full model's.
 const COARSER: u32 = 6;
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {

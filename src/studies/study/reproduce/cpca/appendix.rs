@@ -1,4 +1,4 @@
-//! Section 9 and the related part of section 3.2: hemispherical projections.
+//! Section 9, and the related part of section 3.2: hemispherical projections.
 
 use super::{EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, equation};
 use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function_count, function_index};
@@ -6,7 +6,7 @@ use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function
 /// Order of the projected functions.
 const ORDER: usize = 5;
 
-/// Projection with its target order, as the names of its figures begin.
+/// Projection with its target order; `id` is the prefix of its figures' names.
 struct Projected {
     id: &'static str,
     projection: HemisphereProjection,

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::report::{Cell, Table};
 
-/// Signal, its name, and its name in names of figures.
+/// Index of the signal, its name, and its name in figure names.
 const MODELS: [(usize, &str, &str); 2] = [(BUDDHA, "Buddha", "buddha"), (BIRD, "bird", "bird")];
 
 const HOW: &str = "Overdraw is the mean number of clusters, or superclusters, of a triangle's vertices. Reclassification may add {} % of the error; superclusters \
@@ -21,7 +21,7 @@ const TIMES: &str = "Frames are timed on the {} from sizes, the printed overdraw
 const ORDER: &str = "the order of the authors' triangles: a good one runs half as many vertices as ours does.";
 const QUESTION: &str = "the models and their clusters: a smoother signal has smoother borders.";
 
-/// Reason why no optimisation adds overdraw.
+/// Reason why no optimisation increases overdraw.
 const NEVER_MORE: &str = "a vertex moves only where fewer triangles are drawn, and merged clusters add no border";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
@@ -41,7 +41,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         for (column, above) in [(1, 0), (2, 0), (3, 1), (3, 2)] {
             let figure = format!("overdraw-{id}-{}-over-{}", COLUMN_IDS[column], COLUMN_IDS[above]);
             let row = solved(&figure, found.overdraw[column] / found.overdraw[above])?;
-            // Superclusters of other clusters may have a longer border.
+            // Superclusters of different clusters may have a longer border.
             rows.push(if (column, above) == (3, 2) { row } else { row.confined([0.0, 1.0], NEVER_MORE) });
         }
         originals.push(found.overdraw[0]);
@@ -61,8 +61,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Rows on "a 15-20% increase in rendering speed": the rates with both optimisations over those with none. The paper's
-/// own rates of the Buddha rise by more.
+/// Rows for "a 15-20% increase in rendering speed": the rates with both optimisations relative to the rates with
+/// neither. The paper's own rates of the Buddha rise by more.
 fn by_coherence(timed: &[PaperRow]) -> Result<[PaperRow; 2], StudyError> {
     let ids = MODELS.map(|(_, _, id)| ["both", "original"].map(|how| format!("cpca/rate-{id}-{how}")));
     let gain = |rates: [f64; 2]| 100.0 * (rates[0] / rates[1] - 1.0);

@@ -1,4 +1,4 @@
-//! Drawing cost of a mesh in clusters: with neither optimisation of section 5, with each, and with both.
+//! Drawing cost of a mesh in clusters: with neither optimisation of section 5, with each alone, and with both.
 
 use super::mesh_cost::REGISTERS;
 use super::signals::ComputedSignal;
@@ -10,7 +10,7 @@ use crate::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclass
 pub(super) const BUDGET: f64 = 0.05;
 /// Columns of the paper's table.
 pub(super) const COLUMNS: [&str; 4] = ["original", "rec", "sc", "sc+rec"];
-/// Columns of the paper's table in the names of printed figures.
+/// Columns of the paper's table, as in figure names.
 pub(super) const COLUMN_IDS: [&str; 4] = ["original", "rec", "sc", "both"];
 
 /// Drawing cost of a mesh's clusters, in the order of [`COLUMNS`].

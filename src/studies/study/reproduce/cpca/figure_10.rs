@@ -13,8 +13,8 @@ use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
-/// Name, printed clusters and vectors, and the figures of squared error and frames per second, in the order of the
-/// figure. The errors of Figure 11 include that of CPCA.
+/// Name, printed numbers of clusters and vectors, and the figures of squared error and frames per second, in the order
+/// of the figure. The errors of Figure 11 include CPCA's.
 const ENCODINGS: [(&str, usize, usize, [&str; 2]); 3] = [
     ("PCA", 1, 20, ["cpca/error-pca", "cpca/rate-pca"]),
     ("VQ", 1792, 0, ["cpca/error-vq", "cpca/rate-vq"]),
@@ -46,7 +46,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         solved("vq-over-cpca", of_vq / of_both)?,
         solved("pca-over-vq", of_pca / of_vq)?,
     ];
-    // As much storage as both together.
+    // The same storage as both together.
     let (n, points, budget) = (computed.signal.dimension(), computed.signal.points(), both.stored_numbers());
     let clusters = (budget / n).clamp(1, points);
     let vectors = (budget.saturating_sub(n) / (points + n)).clamp(1, n);
@@ -59,7 +59,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         table.push(line.into_iter().chain([Cell::Empty, Cell::Empty]));
         rows.push(solved(id, error / of_both)?);
     }
-    // The rate of both together is that of Table 1.
+    // The rate of both together is the one in Table 1.
     rows.extend([rate_row("rate-pca", &times[0], OWN_INPUTS)?, rate_row("rate-vq", &times[1], OWN_INPUTS)?]);
     let stored = ENCODINGS.map(|(_, clusters, vectors, _)| {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };

@@ -13,8 +13,8 @@ use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
 const VECTORS: [usize; 4] = [2, 4, 8, 12];
-/// Signal, its name, its name in names of figures, and the figure of its frames per second with 8 vectors, which is
-/// printed elsewhere too.
+/// Index of the signal, its name, its name in figure names, and the figure of its frames per second with 8 vectors,
+/// which is printed elsewhere too.
 const MODELS: [(usize, &str, &str, &str); 2] =
     [(BUDDHA, "Buddha", "buddha", "cpca/rate-buddha-gloss-anis"), (BIRD, "bird", "bird", "cpca/rate-cpca")];
 
@@ -79,7 +79,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
 }
 
-/// Row on "more than a factor of 10", of both models, which the paper's own rates of the Buddha contradict.
+/// Row for "more than a factor of 10", for both models; the paper's own rates of the Buddha contradict it.
 fn by_compression(ours: &[f64]) -> Result<PaperRow, StudyError> {
     let row = ratio_row("faster-by-compression", (Method::Pipeline, ours[0]), OWN_INPUTS)?
         .with_readings(ours[1..].iter().copied());
@@ -91,7 +91,7 @@ fn by_compression(ours: &[f64]) -> Result<PaperRow, StudyError> {
     Ok(row.contradicted(Contradiction::if_holds(factor < printed("cpca/faster-by-compression")?.value, how)))
 }
 
-/// Computes the error with a number of vectors, and the drawing cost; 8 vectors use the clustering of Table 1.
+/// Computes the error with a number of vectors, and the drawing cost; for 8 vectors, uses the clustering of Table 1.
 fn with(computed: &ComputedSignal, vectors: usize, eight: &Clustering) -> Result<(f64, DrawnClusters), StudyError> {
     let size = computed.paper.size;
     let made;

@@ -1,4 +1,4 @@
-//! Figure 2: squared error of static principal components by storage, a curve per number of vectors.
+//! Figure 2: squared error of static principal components by storage, one curve per number of vectors.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::{EntryFindings, Shared, StudyError, number, paragraph, solved};
@@ -8,7 +8,7 @@ use crate::report::{Cell, Table};
 
 /// Numbers of vectors, one per curve of the figure.
 const VECTORS: [usize; 6] = [0, 1, 2, 4, 8, 16];
-/// Minimum number of points per cluster: 48,668 points have up to 16 k clusters.
+/// Minimum number of points per cluster: 48,668 points allow up to 16 k clusters.
 const LEAST_POINTS: usize = 2;
 
 const HOW: &str = "{} points of diffuse transfer of order {} on our bird, with shadows; {} to {} clusters. Static principal components, whose \
@@ -49,7 +49,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Number of curves that are above the previous one at the smallest common storage, and below it at the largest.
+/// Numbers of curves that are above the previous one at the smallest common storage, and below it at the largest.
 pub fn crossings(curves: &[Curve]) -> [usize; 2] {
     let mut found = [0, 0];
     for pair in curves.windows(2) {

@@ -1,4 +1,4 @@
-//! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors.
+//! Figures 3 and 4: static, iterative and adaptive compression by number of vectors.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, solved};
@@ -8,7 +8,7 @@ use crate::report::{Cell, Table};
 
 /// Number of clusters of both figures.
 const CLUSTERS: usize = 256;
-/// Vectors of Figure 4, "n = 3".
+/// Number of vectors in Figure 4, "n = 3".
 const FIGURE_4: usize = 3;
 /// Maximum number of vectors of the rows; static and iterative curves extend further, for comparison.
 const VECTORS: usize = 8;
@@ -57,7 +57,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
 }
 
-/// Row on a sentence that holds for several numbers of vectors or clusters: the first is ours, the others are readings.
+/// Row for a sentence that holds for several numbers of vectors or clusters: the first value is ours, the others are
+/// readings.
 pub(super) fn over_readings(id: &str, values: &[f64]) -> Result<PaperRow, StudyError> {
     let [first, others @ ..] = values else { return solved(id, f64::NAN) };
     Ok(solved(id, *first)?.with_readings(others.iter().copied()))
@@ -69,7 +70,8 @@ fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64
     (0..=VECTORS).map(error).collect()
 }
 
-/// Number of vectors at which a curve falls to an error, interpolated logarithmically; the last if it stays above.
+/// Number of vectors at which a curve falls to `error`, interpolated logarithmically; the last number if it stays
+/// above.
 pub fn reaching(curve: &[f64], error: f64) -> f64 {
     let Some(at) = (1..curve.len()).find(|&at| curve[at] <= error) else { return (curve.len() - 1) as f64 };
     let [above, below] = [curve[at - 1], curve[at]];

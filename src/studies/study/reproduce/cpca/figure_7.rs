@@ -18,7 +18,7 @@ use crate::transfer::brdf::ExitBasis;
 /// Degree of the rule that integrates exit radiance without a projection.
 const DEGREE: usize = 62;
 
-/// Projection: its mark in the figure, its name here, the order of exit radiance, and `true` for equation 1 (least
+/// Projection: its letter in the figure, its name here, the order of exit radiance, and `true` for equation 1 (least
 /// squares, with both inverses) or `false` for the method of Sloan et al. 2002 (zero hemisphere, with neither).
 const PROJECTIONS: [(&str, &str, usize, bool); 4] = [
     ("a", "zero hemisphere", 4, false),
@@ -69,8 +69,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Radiance of every vertex towards an eye from BRDF and light alone: section 3.1 without harmonics, direct light with
-/// shadows only.
+/// Radiance of every vertex towards an eye, from BRDF and light alone: section 3.1 without harmonics, and only direct
+/// light with shadows.
 fn exit_radiance(
     computed: &ComputedSignal,
     (light, eye): (&HarmonicLight, DVec3),

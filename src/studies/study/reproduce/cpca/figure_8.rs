@@ -14,12 +14,12 @@ use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
-/// Signal, its name, its name in names of figures, and the figure of its frames per second in Table 1.
+/// Index of the signal, its name, its name in figure names, and the figure of its frames per second in Table 1.
 const MODELS: [(usize, &str, &str, &str); 2] = [
     (HEAD, "head", "head", "cpca/rate-head-gloss-iso"),
     (GLOSSY_BUDDHA, "Buddha", "buddha", "cpca/rate-buddha-gloss-iso"),
 ];
-/// Rows of an uncompressed matrix in section 7.
+/// Rows of an uncompressed matrix, as in section 7.
 const ROWS: [usize; 2] = [25, 16];
 /// "A Radeon 9800 runs 20% faster with CPCA".
 const NEWER: &str = "r350";
@@ -49,7 +49,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.extend(without_compression(id, size)?);
         let faster = time.per_second() / uncompressed(of_rows(size, 25))?;
         rows.push(ratio_row(&format!("faster-{id}"), ((&time).into(), faster), OWN_INPUTS)?);
-        // Without compression the host's products and the card's drawing overlap, as they do with it.
+        // Without compression, too, the host's products and the card's drawing overlap.
         let host = 1.0 / uncompressed(of_rows(size, 25))?;
         let newer = on(&Profile::named(NEWER)?)?;
         let plain = |time: &FrameTime| 1.0 / host.max(time.draws.seconds());
@@ -76,7 +76,7 @@ fn of_rows(size: TransferSize, rows: usize) -> TransferSize {
     TransferSize { rows, ..size }
 }
 
-/// Rows on rates without compression; one of them calibrated the host's rate.
+/// Rows for rates without compression; one of these rates calibrated the host's rate.
 fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, StudyError> {
     let mut found = Vec::new();
     for rows in ROWS {
@@ -90,8 +90,8 @@ fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, St
     Ok(found)
 }
 
-/// Row on the gains of the newer card, of both models. Both frames have the same work, so that the gain is that of the
-/// clocks, or none where the host decides.
+/// Row for the gains of the newer card, on both models. Both frames have the same work, so the gain is the ratio of
+/// clock rates, or 1 if the host is the bottleneck.
 fn newer_row(id: &str, gains: &[f64]) -> Result<PaperRow, StudyError> {
     let ours = (gains[0], Dependence::Predicted { from: OWN_INPUTS });
     let row = paper_row(&format!("cpca/{id}"), (NEWER, Method::Equation), ours)?;

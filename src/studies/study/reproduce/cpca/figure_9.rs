@@ -9,7 +9,7 @@ use super::{EntryFindings, HOST, RunResult, Shared, StudyError, number, paragrap
 use crate::report::{Cell, Table};
 use crate::sphere::{ClearSky, HarmonicLight};
 
-/// Sky with the sun to the side of the model.
+/// Sky with the sun at the model's side.
 const SKY: ClearSky = ClearSky {
     sun: DVec3::new(1.0, -1.0, 1.0),
     sun_radiance: [5e4, 4.5e4, 4e4],

@@ -6,12 +6,12 @@ use refsim::event::vertex_cache_misses;
 use super::StudyError;
 use crate::geom::Mesh;
 
-/// "a Radeon 9700".
+/// The paper's card: "a Radeon 9700".
 pub(super) const CARD: &str = "r300";
 /// Its constant registers: "~256".
 pub(super) const REGISTERS: usize = 256;
 
-/// Mesh in the terms of the card's cost model.
+/// Mesh as the card's cost model describes it.
 #[derive(Clone, Copy)]
 pub(super) struct MeshCost {
     pub(super) triangles: u64,
@@ -20,7 +20,7 @@ pub(super) struct MeshCost {
 }
 
 impl MeshCost {
-    /// Measures a mesh, with its triangles in their order.
+    /// Measures a mesh, drawing its triangles in their order.
     pub(super) fn new(mesh: &Mesh) -> Result<Self, StudyError> {
         let profile = Profile::named(CARD)?;
         let entries = profile.rates.vertex_cache_entries.unwrap_or(0);

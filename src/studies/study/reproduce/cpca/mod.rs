@@ -2,7 +2,7 @@
 //!
 //! The paper's models and BRDFs are not available. Our models, made by code, have the printed numbers of vertices, or
 //! at most a sixteenth of them with the same fraction of the clusters ([`ModelSize`]), so the number of points per
-//! cluster is the same. The rows on errors and overdraw compare which of two is larger.
+//! cluster is the same. The rows for errors and overdraw compare which of two values is larger.
 
 pub(super) mod appendix;
 pub(super) mod coherence;
@@ -37,12 +37,12 @@ use super::{
     paragraph, printed, printed_value,
 };
 
-/// Row of a value that follows from the paper's equations alone.
+/// Row for a value that follows from the paper's equations alone.
 fn equation(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (HOST, Method::Equation), (ours, Dependence::Counted))
 }
 
-/// Row of a value that is computed in f64 and uses no printed one.
+/// Row for a value that is computed in f64 and does not use a printed value.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (HOST, Method::Solver), (ours, Dependence::Counted))
 }

@@ -1,4 +1,4 @@
-//! Frame rates from sizes and overdraw: printed in the table of section 7, or those of our clusters.
+//! Frame rates from sizes and overdraw, which is printed in the table of section 7, or is our clusters' overdraw.
 
 use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
@@ -17,14 +17,14 @@ use crate::cpca::on_card::time::host_of_section_7;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 
-/// Index of both optimisations in [`COLUMNS`].
+/// Index in [`COLUMNS`] of the column with both optimisations.
 const BOTH: usize = 3;
 /// Inputs of the modelled rates: calibration of the host's rate, and overdraw.
 pub(super) const INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate; the printed overdraw";
-/// Inputs of the modelled rates where overdraw is that of our clusters.
+/// Inputs of the modelled rates that use our clusters' overdraw.
 pub(super) const OWN_INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate";
 
-/// Time of a frame of a printed size, with `groups` groups that are drawn one after the other.
+/// Time of a frame with a printed size and `groups` groups, which are drawn one after the other.
 pub(super) fn modelled(
     card: &Profile,
     mesh: MeshCost,
@@ -42,7 +42,7 @@ pub(super) fn modelled(
     frame_time(card, &counts.log(), &host).on(CARD)
 }
 
-/// Time of a frame with both optimisations, with the overdraw of our own clusters.
+/// Time of a frame with both optimisations, with our own clusters' overdraw.
 pub(super) fn modelled_from_clusters(
     card: &Profile,
     shared: &Shared,
@@ -53,28 +53,28 @@ pub(super) fn modelled_from_clusters(
     modelled(card, *shared.get(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
-/// Frames per second without compression, where the host multiplies every matrix by the light: by equation, from
+/// Frames per second without compression, for which the host multiplies every matrix by the light: by equation, from
 /// printed sizes.
 pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     let host = host_of_section_7().on(HOST)?;
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 
-/// Row on a modelled frame rate.
+/// Row for a modelled frame rate.
 pub(super) fn rate_row(id: &str, time: &FrameTime, from: &'static str) -> Result<PaperRow, StudyError> {
     ratio_row(id, (time.into(), time.per_second()), from)
 }
 
-/// Row on a rate, or a ratio of two, with its method.
+/// Row for a rate, or for a ratio of two rates, with its method.
 pub(super) fn ratio_row(id: &str, (method, ours): (Method, f64), from: &'static str) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (CARD, method), (ours, Dependence::Predicted { from }))
 }
 
-/// Names of the two printed rates of the Buddha with anisotropic gloss: of Table 1, and of section 7 with both
+/// Names of the two printed rates of the Buddha with anisotropic gloss: in Table 1, and in section 7 with both
 /// optimisations.
 pub(super) const CONTRADICTORY: [&str; 2] = ["rate-buddha-gloss-anis", "rate-buddha-both"];
 
-/// Contradiction of one of these rates by the other one: signal, clusters, vectors, card and host are the same.
+/// Contradiction between these two rates: signal, clusters, vectors, card and host are the same.
 pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, StudyError> {
     let [table_1, section_7] = CONTRADICTORY;
     let other = if id == table_1 { section_7 } else { table_1 };
@@ -84,8 +84,8 @@ pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, StudyError>
     Ok(Contradiction::between(figure, other.value, &how))
 }
 
-/// Rows on printed rates, and a table of the time per unit. A signal is an index, a name, and its name in names of
-/// figures.
+/// Rows for printed rates, and a table of the time per unit. A signal is an index, a name, and its name in figure
+/// names.
 pub(super) fn rates(
     models: &[(usize, &'static str, &'static str)],
     shared: &Shared,

@@ -13,7 +13,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     Ok(EntryFindings::new([paragraph(HOW, [number(4.0, 0)])], [], [], [sizes()]))
 }
 
-/// Table of the sizes of Table 1's signals, and of the encodings of Figures 10 and 11 that are not among them.
+/// Table of the sizes of Table 1's signals, and of the encodings of Figures 10 and 11 that Table 1 lacks.
 fn sizes() -> Table {
     let mut table = Table::of(
         "Sizes as printed, and what follows from them",

@@ -1,4 +1,4 @@
-//! Signals and clusterings shared by several entries, by their index in [`SIGNALS`]; costs of models.
+//! Signals and clusterings that several entries share, by their index in [`SIGNALS`]; costs of models.
 
 use super::drawn::DrawnClusters;
 use super::mesh_cost::MeshCost;
@@ -16,7 +16,8 @@ impl SharedResult for ComputedSignal {
     }
 }
 
-/// Iterative clustering with the printed numbers of clusters and vectors, or a fraction of the clusters.
+/// Iterative clustering with the printed numbers of clusters and vectors; reduced models have a fraction of the
+/// clusters.
 struct IterativeClustering(Clustering);
 
 impl SharedResult for IterativeClustering {
@@ -44,7 +45,7 @@ impl SharedResult for DrawnClusters {
     }
 }
 
-/// Drawing cost of our model of the printed size.
+/// Drawing cost of our model at the printed size.
 impl SharedResult for MeshCost {
     type Key = TransferModel;
 

@@ -1,4 +1,4 @@
-//! The signals of Table 1 and of Figures 2 to 4, on models of ours.
+//! The signals of Table 1 and of Figures 2 to 4, on our own models.
 
 use super::{ModelSize, RunResult, StudyError};
 use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
@@ -14,10 +14,10 @@ use crate::transfer::{Tangents, Vertices};
 
 /// Name of the host on which our values are computed.
 pub(super) const HOST: &str = "host";
-/// Edge lengths of reduced models, relative to full ones: for diffuse and for glossy transfer.
+/// Edge lengths of reduced models, as multiples of the full models': for diffuse and for glossy transfer.
 const DIFFUSE_COARSER: u32 = 4;
 const GLOSSY_COARSER: u32 = 6;
-/// Iterations for each number of vectors: "typically 10-20" (section 4.2); fewer for glossy transfer of reduced models.
+/// Iterations per number of vectors: "typically 10-20" (section 4.2); fewer for glossy transfer of reduced models.
 const ITERATIONS: usize = 10;
 const REDUCED_ITERATIONS: usize = 4;
 /// "20 VQ iterations were used" (Figure 2).
@@ -29,7 +29,7 @@ const ISOTROPIC: Brdf = Brdf::Phong { albedo: 0.2, specular: 0.5, exponent: 10.0
 /// Anisotropic BRDF with a Fresnel factor (Figure 7).
 const ANISOTROPIC: Brdf = Brdf::Ward { albedo: 0.2, specular: 0.4, roughness: [0.2, 0.5] };
 const LAMBERT: Brdf = Brdf::Lambert { albedo: 0.8 };
-/// Scattering medium, for a marble statuette about 10 mm high: its triangles are smaller than the mean free path.
+/// Scattering medium for a marble statuette about 10 mm high: its triangles are smaller than the mean free path.
 const MEDIUM: &str = "marble";
 const MM_PER_UNIT: f64 = 4.0;
 const SOLID_ANGLE: f64 = 0.1;
@@ -80,7 +80,7 @@ pub(super) const SIGNALS: [PaperSignal; 8] = [
     signal("bird diffuse, order 5", (Bird, Diffuse), (48_688, [1, 25]), (256, 3)),
 ];
 
-/// Glossy part of Figure 9, in as many rows as the sum.
+/// Glossy part of Figure 9, with the same number of rows as the sum.
 pub(super) const GLOSS_OF_FIGURE_9: PaperSignal =
     signal("Buddha gloss-iso, 25 rows", (FoldedBuddha, Isotropic), (49_990, [25, 25]), (256, 8));
 
@@ -94,7 +94,7 @@ pub(super) const POLYGONS: usize = 6;
 pub(super) const DIFFUSE_BIRD: usize = 7;
 
 impl PaperSignal {
-    /// Degree of the rule of directions over a vertex's hemisphere: 2,016 of them, or for reduced models 496, or 276
+    /// Degree of the direction rule over a vertex's hemisphere: it has 2,016 directions; for reduced models 496, or 276
     /// for glossy transfer.
     fn degree(&self, models: ModelSize) -> usize {
         match self.coarser(models) {
@@ -104,7 +104,7 @@ impl PaperSignal {
         }
     }
 
-    /// Edge length of our model, relative to the full one.
+    /// Edge length of our model, as a multiple of the full model's.
     fn coarser(&self, models: ModelSize) -> u32 {
         match (models, self.material) {
             (ModelSize::Printed, _) => 1,
@@ -125,7 +125,7 @@ pub(super) struct ComputedSignal {
 }
 
 impl ComputedSignal {
-    /// Computes a signal as in Table 1: projected by least squares.
+    /// Computes a signal of Table 1, projected by least squares.
     pub(super) fn new(paper: &'static PaperSignal, models: ModelSize) -> Result<Self, StudyError> {
         Self::projected(paper, exit_radiance(paper)?, models)
     }
@@ -162,7 +162,7 @@ impl ComputedSignal {
         if self.paper.coarser(self.models) < GLOSSY_COARSER { ITERATIONS } else { REDUCED_ITERATIONS }
     }
 
-    /// Compresses the signal to a scaled number of the paper's clusters.
+    /// Compresses the signal to the paper's number of clusters, scaled to our model.
     pub(super) fn compressed(
         &self,
         clusters: usize,
@@ -185,7 +185,7 @@ impl ComputedSignal {
 
     /// Squared error with 0 to `most` vectors; static clusters do not depend on the number of vectors.
     ///
-    /// By section 4.1's formula: dropping a vector adds its D_i^2.
+    /// By the formula of section 4.1: dropping vector i adds D_i^2.
     pub(super) fn static_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, StudyError> {
         let options = options(clusters, most, (CpcaMethod::Static, VQ_ITERATIONS));
         let clustering = compress(&self.signal, &options, |_| ()).on(HOST)?.clustering;

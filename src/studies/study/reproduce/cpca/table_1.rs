@@ -12,7 +12,7 @@ use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
 
-/// Signals of the rows in the names of their figures.
+/// Names of the rows' signals in figure names.
 const IDS: [&str; 7] = [
     "buddha-gloss-iso",
     "buddha-gloss-anis",
@@ -23,8 +23,8 @@ const IDS: [&str; 7] = [
     "polys-diffuse",
 ];
 
-/// Returns the printed squared errors of a signal, static and iterative. Figure 11 has the iterative ones of two
-/// signals with more digits.
+/// Returns the printed squared errors of a signal, static and iterative. For two signals, Figure 11 has more digits of
+/// the iterative errors.
 fn errors(id: &str) -> Result<[&'static PaperFigure; 2], StudyError> {
     let iterative = match id {
         "buddha-gloss-anis" => "cpca/error-buddha-8".to_owned(),
@@ -83,7 +83,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Rows on frame rates.
+/// Rows for frame rates.
 fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let mut table = Table::of(
         "Frames per second, modelled from our overdraw",

@@ -1,4 +1,4 @@
-//! Pictures of transfer for comparison, interpolated between vertices on the host.
+//! Pictures of transfer for comparisons, interpolated between vertices on the host.
 
 use glam::DVec3;
 
@@ -16,7 +16,7 @@ const SIDE: u32 = 160;
 /// Position of the eye, and the tangent of half the field of view.
 const EYE: ([f32; 3], f32) = ([4.0, -3.0, 1.5], 0.3);
 
-/// Cosine between view and normal below which a pixel counts as silhouette.
+/// Cosine between view and normal below which a pixel counts as part of the silhouette.
 pub(super) const RIM: f64 = 0.35;
 
 /// Model under a light, seen by a camera.
@@ -28,7 +28,7 @@ pub(super) struct ModelView<'a> {
 }
 
 impl<'a> ModelView<'a> {
-    /// Creates the view towards the center of the model.
+    /// Creates a view with the camera aimed at the center of the model.
     pub(super) fn new(computed: &'a ComputedSignal, light: &'a HarmonicLight) -> Result<Self, StudyError> {
         let (eye, tan_half_height) = EYE;
         let camera = Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], tan_half_height, SIDE, SIDE);
@@ -47,8 +47,8 @@ impl<'a> ModelView<'a> {
         self.seen.colors(radiance, [0.0; 3])
     }
 
-    /// Difference of a picture from another one of the same model and camera: root mean square of the difference over
-    /// that of the other picture. `wanted` selects pixels by the cosine between view and normal, at the vertex with the
+    /// Difference of a picture from another one of the same model and camera: RMS of the difference relative to the RMS
+    /// of the other picture. `wanted` selects pixels by the cosine between view and normal at the vertex with the
     /// largest weight.
     pub(super) fn difference(
         &self,
@@ -74,9 +74,9 @@ impl<'a> ModelView<'a> {
         Ok(if theirs > 0.0 { 1.0 - ours / theirs } else { 0.0 })
     }
 
-    /// Colors of pixels by a clustering, or by the transfer itself.
+    /// Colors of pixels from a clustering, or from the transfer itself.
     pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, StudyError> {
-        let lit = Lit::new(&self.computed.meaning, self.light).ok_or("the signal is no transfer").on(HOST)?;
+        let lit = Lit::new(&self.computed.meaning, self.light).ok_or("the signal is not transfer").on(HOST)?;
         let exit = clustering.map_or_else(|| lit.of_signal(&self.computed.signal), |c| lit.of_clusters(c));
         Ok(self.of_vertices(&lit.radiance(&exit, &self.computed.vertices, self.eye())))
     }

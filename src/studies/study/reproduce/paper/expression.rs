@@ -1,12 +1,12 @@
-//! Expressions of printed values: numbers, names of figures, `+ - * /` with blanks on both sides, and parentheses.
+//! Expressions of printed values: numbers, names of figures, `+ - * /` with spaces on both sides, and parentheses.
 
 use std::iter::Peekable;
 
-/// Returns the value of an expression; `figure` has the values of figures by name. Operators of equal rank are taken
-/// from left to right, each rounded to f64. Fails with a sentence if the text is not an expression, and as `figure`
-/// does.
+/// Returns the value of an expression; `figure` returns the values of figures by name. Operators of equal precedence
+/// apply from left to right, each with its result rounded to f64. Fails with a sentence if the text is not an
+/// expression, and as `figure` does.
 pub(super) fn evaluate(text: &str, figure: &dyn Fn(&str) -> Result<f64, String>) -> Result<f64, String> {
-    // Names have hyphens, so that an operator is a word of its own.
+    // Names may contain hyphens, so an operator must be a word of its own.
     let spaced = text.replace('(', " ( ").replace(')', " ) ");
     let mut words = spaced.split_whitespace().peekable();
     let value = sum(&mut words, figure)?;

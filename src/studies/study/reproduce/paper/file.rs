@@ -1,7 +1,7 @@
-//! Files of printed figures: their format, and figures from it.
+//! Files of printed figures: their format, and its conversion to figures.
 //!
-//! A file has groups of figures that share a place, and often a unit and a bound. A figure's value is text with the
-//! printed number of digits after the point, or the ratio of two figures above it. The README of `src/studies/papers`
+//! A file has groups of figures that share a section of the paper, and often a unit and a bound. A figure's value is
+//! text with the printed number of decimals, or the ratio of two figures above it. The README of `src/studies/papers`
 //! describes all keys.
 
 use serde::Deserialize;
@@ -28,7 +28,7 @@ pub(super) struct Stated {
     pub(super) digest: String,
 }
 
-/// Figures of one place, with their common data.
+/// Figures from one section, table or figure of the paper, with their common data.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FigureGroup {
@@ -37,60 +37,60 @@ pub(super) struct FigureGroup {
     pub(super) shared: FigureTerms,
     #[serde(flatten)]
     equation: EquationTerms,
-    /// Changes of the statements of all its figures, the oldest first.
+    /// Changes of the statements of all its figures, oldest first.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
     pub(super) figures: Vec<FileFigure>,
 }
 
-/// Terms on which a figure is judged, of the group or of the figure itself.
+/// Terms on which a figure is judged, from its group or its own.
 #[derive(Clone, Debug, Default, Deserialize)]
 pub(super) struct FigureTerms {
     pub(super) unit: Option<String>,
-    /// Bound as text; without one, `unjudged` has the reason.
+    /// Bound as text; if there is none, `unjudged` has the reason.
     pub(super) bound: Option<String>,
     pub(super) unjudged: Option<String>,
-    /// Reading that our value takes, where the text allows several.
+    /// Reading that our value follows, if the text allows several.
     pub(super) reading: Option<String>,
 }
 
-/// Text of the rows of expressions beside their values, of the group or of the figure itself.
+/// Data of a row with an expression, apart from its value; from its group or its own.
 #[derive(Clone, Debug, Default, Deserialize)]
 struct EquationTerms {
-    /// Entry that the row belongs to.
+    /// Entry to which the row belongs.
     entry: Option<String>,
-    /// Card or host; `host` if not given.
+    /// Card or host; `host` by default.
     device: Option<String>,
     /// Printed values that the expression uses.
     uses: Option<String>,
-    /// Printed values that chose a constant of the expression.
+    /// Printed values that determined a constant of the expression.
     chose: Option<String>,
-    /// The computation in words, where the value may contradict the printed one.
+    /// Description of the computation, if its value may contradict the printed one.
     contradicts: Option<String>,
 }
 
-/// Figure as the file has it.
+/// Figure, as in the file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FileFigure {
     pub(super) id: String,
     pub(super) what: String,
-    /// Value with the digits of the print.
+    /// Value with its printed digits.
     pub(super) value: Option<String>,
-    /// Two figures above this one: the value is their ratio, times `scale`.
+    /// Two figures above this one: the value is their ratio, multiplied by `scale`.
     pub(super) ratio: Option<[String; 2]>,
     pub(super) scale: Option<f64>,
-    /// Digits after the point of a ratio; two if not given.
+    /// Number of decimals of a ratio; two by default.
     pub(super) decimals: Option<u8>,
-    /// Formula of a value that follows from printed ones.
+    /// Formula of a value that follows from printed values.
     pub(super) implied: Option<String>,
-    /// Reason for a value that the paper does not have.
+    /// Reason for a value that is not in the paper.
     pub(super) inferred: Option<String>,
-    /// Class of the miss of its row. Not a part of the statement: it is given after the result.
+    /// Class of the miss of its row. It is not part of the statement: it is added after the result.
     pub(super) missed: Option<MissClass>,
-    /// Date of the statement of its bound; the file's first if not given.
+    /// Date on which its bound was stated; by default the file's first date.
     pub(super) stated: Option<String>,
-    /// Changes of the statement, the oldest first; those of its group come before them.
+    /// Changes of the statement, oldest first; those of its group precede them.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
     /// Expression of printed values for the row's own value.
@@ -116,10 +116,10 @@ pub(super) struct Change {
 }
 
 impl FileFigure {
-    /// Terms of the figure: its own, and those of its group otherwise.
+    /// Terms of the figure: its own, otherwise its group's.
     pub(super) fn terms(&self, group: &FigureGroup) -> FigureTerms {
         let (own, shared) = (self.own.clone(), group.shared.clone());
-        // A figure with a bound is judged independently of its group, and the reverse.
+        // If the figure has its own bound or reason, it inherits neither from its group.
         let is_own = own.bound.is_some() || own.unjudged.is_some();
         let judged = if is_own { (own.bound, own.unjudged) } else { (shared.bound, shared.unjudged) };
         FigureTerms {
@@ -130,7 +130,7 @@ impl FileFigure {
         }
     }
 
-    /// Changes of the figure, the oldest first.
+    /// Changes of the figure, oldest first.
     pub(super) fn changes<'a>(&'a self, group: &'a FigureGroup) -> impl DoubleEndedIterator<Item = &'a Change> {
         group.changed.iter().chain(&self.changed)
     }
@@ -233,7 +233,7 @@ fn figure(
     })
 }
 
-/// Bound of its text: `every digit`, `at least`, `order`, `none`, `15 %`, `15 % of the gain over host-alone`.
+/// Parses a bound: `every digit`, `at least`, `order`, `none`, `15 %`, `15 % of the gain over host-alone`.
 fn bound(text: &str, value: impl Fn(&str) -> Result<f64, String>) -> Result<Bound, String> {
     let unknown = || format!("expected a bound, found `{text}`");
     let share = |percent: &str| percent.parse().map(|percent: f64| percent / 100.0).map_err(|_| unknown());

@@ -1,8 +1,8 @@
 //! Printed figures of the papers: the data of `src/studies/papers`, one file per paper, each figure once.
 //!
 //! The files lie within the package, so that the program contains them. They state the bound of every judged figure
-//! apart from any result; the program refuses a file whose bounds were changed without a list of the changes. A figure
-//! that follows from other printed figures alone also has the expression of its row.
+//! independently of any result; the program rejects a file whose bounds were changed without a list of the changes. A
+//! figure that follows only from other printed figures also has the expression of its row.
 
 mod expression;
 mod file;
@@ -50,14 +50,14 @@ pub(super) fn value(id: &str) -> Result<f64, StudyError> {
     Ok(printed(id)?.value)
 }
 
-/// Returns the row that judges the figure with a name by a value of ours, with the bound of the data. Fails if there is
-/// no such figure, or if the data has a reason not to judge it.
+/// Returns the row that judges the figure with a name by our value, with the bound from the data. Fails if there is no
+/// such figure, or if the data has a reason not to judge it.
 pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Dependence)) -> Result<PaperRow, StudyError> {
     let unjudged = || papers_error(&format!("the figure `{id}` is listed as not judged"));
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }
 
-/// Returns the rows of an entry whose values are expressions of printed ones, in the order of the file. Fails as
+/// Returns the rows of an entry whose values are expressions of printed values, in the order of the file. Fails as
 /// [`row`] does.
 pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
     let mut rows = Vec::new();

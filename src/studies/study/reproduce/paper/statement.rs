@@ -1,14 +1,14 @@
 //! Statements of bounds: a digest per date, and the changes since.
 //!
-//! A figure's value, unit, place, bound and reading are stated once. A later change is in the figure's `changed`, with
-//! its date, its reason and the old value. With all changes undone, the figures must have the digest of their date. So
-//! a bound or a reading cannot be moved after a result exists without saying so.
+//! A figure's value, unit, section, bound and reading are stated once. A later change is in the figure's `changed`,
+//! with its date, its reason and the old value. With all changes undone, the figures must have the digest of their
+//! date. So nobody can move a bound or a reading after a result exists without saying so.
 
 use sha2::{Digest, Sha256};
 
 use super::file::{FigureGroup, FileFigure, PaperFile};
 
-/// Compares a file with its digests; the error contains advice.
+/// Compares a file with its digests; the error includes advice.
 pub(super) fn verify(text: &str) -> Result<(), String> {
     let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
     let first = file.stated.first().ok_or("expected at least one date in `stated`")?.date.as_str();
@@ -62,7 +62,7 @@ fn as_stated(group: &FigureGroup, figure: &FileFigure) -> String {
         terms.unit = before.unit.or(terms.unit);
         terms.reading = before.reading.or(terms.reading).filter(|reading| !reading.is_empty());
     }
-    // Reasons for not judging are words, and may be put better.
+    // Reasons for not judging are prose, and their wording may change.
     let unjudged = terms.unjudged.map(|_| "unjudged");
     format!(
         "{}|{value:?}|{:?}|{:?}|{:?}|{}|{:?}|{unjudged:?}|{:?}\n",

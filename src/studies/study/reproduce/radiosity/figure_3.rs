@@ -10,13 +10,13 @@ use crate::study::reproduce::{Dependence, Method, PaperRow, Setting, Sweep, pape
 
 /// Number of patches; it hardly affects the rate of convergence.
 const CUT: usize = 400;
-/// Norm of the residual, relative to the emittance's: small enough that only the slowest component of the error is
+/// Norm of the residual relative to the emittance's norm: small enough that only the slowest component of the error is
 /// left.
 const TOLERANCE: f64 = 1e-10;
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// Residual at which iterations are compared: the error is not visible any more. The paper does not state its criterion
-/// of convergence.
+/// Residual at which iterations are compared: the error is no longer visible. The paper does not state its criterion of
+/// convergence.
 const CONVERGED: f64 = 1e-4;
 /// Residuals at which iterations are counted, for the sweep.
 const RESIDUALS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
@@ -70,8 +70,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     })
 }
 
-/// Row on the ratio of iterations down to a residual in the first channel, with the other channels and the late slopes
-/// as readings. The sweep over the residual may explain it where all channels lie within the bound.
+/// Row for the ratio of iterations down to a residual in the first channel; the other channels and the late slopes are
+/// readings. The sweep over the residual may explain it if all channels lie within the bound.
 fn row(channels: &[(Solution, Solution)], late: Vec<f64>) -> Result<PaperRow, StudyError> {
     let ratios = |share: f64| channels.iter().map(move |(jacobi, seidel)| ratio(jacobi, seidel, share));
     let first = ratios(CONVERGED).next().unwrap_or(f64::NAN);
@@ -89,7 +89,7 @@ fn row(channels: &[(Solution, Solution)], late: Vec<f64>) -> Result<PaperRow, St
     Ok(row)
 }
 
-/// Ratio of Jacobi's to Gauss-Seidel's iterations, down to a residual.
+/// Ratio of Jacobi's iterations to Gauss-Seidel's, down to a residual.
 fn ratio(jacobi: &Solution, seidel: &Solution, share: f64) -> f64 {
     needed(jacobi, share) as f64 / needed(seidel, share).max(1) as f64
 }

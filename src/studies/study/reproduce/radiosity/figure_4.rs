@@ -9,7 +9,7 @@ use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, p
 /// Numbers of patches; the card of the paper had textures of at most 2048 texels per side.
 const SIZES: [u32; 7] = [128, 256, 384, 512, 1024, 1540, 2048];
 
-/// Milliseconds of an iteration at some size.
+/// Milliseconds per iteration at one size.
 struct Point {
     patches: u32,
     rgb: f64,
@@ -50,7 +50,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         title: "An iteration by the size of the matrix".to_owned(),
         x: "M elements, N x N".to_owned(),
         y: "ms".to_owned(),
-        // On linear axes all but the largest sizes would be in one corner.
+        // On linear axes, all but the largest sizes would be in one corner.
         x_scale: Scale::Logarithmic,
         y_scale: Scale::Logarithmic,
         lines: vec![
@@ -104,7 +104,7 @@ fn table(points: &[Point]) -> Table {
     table
 }
 
-/// Size at which the host becomes slower, interpolated linearly between two of the sizes.
+/// Size from which the host is slower, interpolated linearly between two of the sizes.
 fn crossing(points: &[Point], card: fn(&Point) -> f64) -> Option<f64> {
     let ahead = |p: &Point| p.host / card(p) - 1.0;
     points.windows(2).find(|two| ahead(&two[0]) < 0.0 && ahead(&two[1]) >= 0.0).map(|two| {
@@ -128,7 +128,8 @@ fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<String
         Some(patches) => format!("at about {} patches", number(patches, 0)),
         None => format!("nowhere up to {largest} patches"),
     };
-    // From the printed rates: how fast the host's time has to grow to be the card's where the curves cross.
+    // From the printed rates: the exponent by which the host's time must grow to equal the card's at the crossing of
+    // the curves.
     let n = believed / f64::from(PATCHES);
     let needed = ln(host.per_s / card.per_s * n * n) / ln(n);
     let figures =

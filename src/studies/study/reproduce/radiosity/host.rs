@@ -1,7 +1,7 @@
-//! The paper's host: Gauss-Seidel on an Athlon, limited by its memory, as in the text.
+//! The paper's host: Gauss-Seidel on an Athlon, limited by memory bandwidth, as the text says.
 //!
-//! An element costs an addition that depends on the previous one, and, where the matrix does not fit the cache, its
-//! part of a cache line from memory. The matrix is read sequentially again and again. At the next read, a cache of C
+//! An element costs an addition that depends on the previous one, and, if the matrix does not fit the cache, its part
+//! of a cache line from memory. The matrix is read sequentially in every iteration. At the next read, a cache of C
 //! bytes still holds at most a fraction C / W of a matrix of W bytes.
 
 use super::{PATCHES, PrintedRates, StudyError};
@@ -15,7 +15,7 @@ const ADD_CLOCKS: f64 = 4.0;
 /// Bytes per element: single precision, as on the card. A guess.
 const ELEMENT_BYTES: f64 = 4.0;
 
-/// Fraction of a matrix that is not in the cache any more at the next read.
+/// Fraction of a matrix that is no longer in the cache at the next read.
 fn missed(patches: f64) -> f64 {
     (1.0 - CACHE_BYTES / (ELEMENT_BYTES * patches * patches)).max(0.0)
 }
@@ -25,7 +25,8 @@ fn cached() -> f64 {
     ADD_CLOCKS / CLOCK_HZ
 }
 
-/// Additional seconds per element from memory: the remainder of the printed rate, the one printed value of the host.
+/// Additional seconds per element from memory: the remainder of the printed rate, the only printed value used for the
+/// host.
 fn from_memory() -> Result<f64, StudyError> {
     let n = f64::from(PATCHES);
     Ok((1.0 / (PrintedRates::host()?.per_s * n * n) - cached()) / missed(n))

@@ -14,24 +14,24 @@ use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};
 
 /// Card of the paper.
 const CARD: &str = "nv35";
-/// Patches of the paper's scene, which are not printed: the smallest number consistent with both pairs of printed rates
-/// (docs/papers/radiosity.md). The table of [`rates`] shows other numbers.
+/// Number of patches of the paper's scene, which is not printed: the smallest number consistent with both pairs of
+/// printed rates (docs/papers/radiosity.md). The table of [`rates`] shows other numbers.
 const PATCHES: u32 = 1540;
 /// Printed rates of section 3.1.
 struct PrintedRates {
     /// Iterations per second.
     per_s: f64,
-    /// Operations per second, in millions.
+    /// Millions of operations per second.
     mflops: f64,
 }
 
 impl PrintedRates {
-    /// Jacobi's iteration on the card.
+    /// Rates of Jacobi's iteration on the card.
     fn card() -> Result<Self, StudyError> {
         Self::named("radiosity/jacobi-rate", "radiosity/jacobi-operations")
     }
 
-    /// Gauss and Seidel's iteration on the host.
+    /// Rates of Gauss and Seidel's iteration on the host.
     fn host() -> Result<Self, StudyError> {
         Self::named("radiosity/gauss-seidel-rate", "radiosity/gauss-seidel-operations")
     }
@@ -46,7 +46,7 @@ pub(super) fn timed() -> Result<TimedWork, StudyError> {
     TimedWork::new("radiosity/jacobi-rate", CARD, iteration(PATCHES, Packing::Rgb, Storage::Fp32)?.time)
 }
 
-/// Times an iteration of `patches` patches on the paper's card, by the pipeline model.
+/// Times an iteration with `patches` patches on the paper's card, in the pipeline model.
 fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<TimedIteration, StudyError> {
     let timing = Timing { patches: patches as usize, packing, storage, cache: false };
     timed_iteration(&Profile::named(CARD)?, &timing).on(CARD)

@@ -1,4 +1,4 @@
-//! The printed rates: 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host. And their
+//! The printed rates, 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host, and their
 //! dependence on the number of patches.
 
 use super::{CARD, EntryFindings, PATCHES, PrintedRates, Shared, Storage, StudyError, host, iteration};
@@ -10,12 +10,12 @@ use crate::report::{Cell, Table};
 use crate::study::reproduce::error::figure;
 use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
 
-/// Numbers of patches that are compared: six full blocks; six sides of 16 x 16; the four consistent with both pairs of
-/// rates, with their neighbours; a round number.
+/// Numbers of patches that are compared: six full blocks; six sides of 16 x 16; the four numbers consistent with both
+/// pairs of rates, with their neighbors; a round number.
 const SIZES: [u32; 9] = [1524, 1536, 1539, 1540, 1541, 1542, 1543, 1544, 1600];
 /// Inputs of the inferred number of patches.
 const CHOSE_N: &str = "141 and 190 MFLOP/s, which chose the number of patches";
-/// Inputs that the rate on the card depends on: the host's rates alone leave the same numbers of patches.
+/// Inputs of the rate on the card: the host's rates alone allow the same numbers of patches.
 const HOST_CHOSE_N: &str = "190 MFLOP/s and 40 iterations/s of the host, which chose the number of patches";
 
 const HOW: &str = "Neither the number of patches nor that of passes is printed. Both printed pairs of rates mean {} million operations an iteration; \
@@ -61,7 +61,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     ))
 }
 
-/// Bytes of a texel that a texture unit of the card fetches per clock.
+/// Bytes per texel that a texture unit of the card fetches per clock.
 fn profile_width() -> Result<f64, StudyError> {
     let profile = refsim::device::Profile::named(CARD)?;
     figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
@@ -72,7 +72,7 @@ fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<
     let predicted = Dependence::Predicted { from: HOST_CHOSE_N };
     let of_host =
         (1.0 / host::iteration(PATCHES)?, Dependence::Calibrated { on: "this figure, which sets what memory costs" });
-    // The paper's own arithmetic: operations per iteration, times its rate.
+    // The paper's own arithmetic: operations per iteration multiplied by the iteration rate.
     let (jacobi, gauss_seidel) = (model::mflops(PATCHES, card.per_s), model::mflops(PATCHES, host.per_s));
     let block = |kernel: KernelText| {
         let texels = kernel.block(model::MAX_INSTRUCTIONS as usize);
@@ -93,7 +93,7 @@ fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<
         paper_row("radiosity/jacobi-operations", (CARD, Method::Equation), (jacobi, calibrated))?,
         paper_row("radiosity/gauss-seidel-operations", (HOST, Method::Equation), (gauss_seidel, calibrated))?,
         paper_row("radiosity/gauss-seidel-rate", (HOST, Method::Host), of_host)?,
-        // "Only a fraction (perhaps as little as 10%)": any value well below all of it is consistent with that.
+        // "Only a fraction (perhaps as little as 10%)": any value well below 100 % is consistent with that.
         paper_row("radiosity/bandwidth", (CARD, Method::Pipeline), (100.0 * paper.bandwidth, predicted))?,
     ])
 }
@@ -129,7 +129,7 @@ fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Table of the cost of an iteration in each packing and precision.
+/// Table of the cost of an iteration for each packing and precision.
 fn costs() -> Result<Table, StudyError> {
     let mut table = Table::of(
         format!("An iteration of {PATCHES} patches; four elements a texel are one channel, the others three"),

@@ -13,9 +13,9 @@ use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::{Cell, Table};
 
 const DEVICES: [&str; 2] = ["r200", "nv35"];
-/// Widths and heights of a block of 256 rays.
+/// Widths and heights of blocks of 256 rays.
 const SHAPES: [[u32; 2]; 6] = [[256, 1], [128, 2], [64, 4], [32, 8], [16, 16], [1, 256]];
-/// Triangles of a pass: as many as section 6.3 sends to the card.
+/// Triangles per pass, as in section 6.3.
 const TRIANGLES: usize = 10;
 
 const HOW: &str = "One pass of {} triangles over the same 256 rays, in blocks of each shape. Each texel is read by the scalar executor through the card's \

@@ -14,10 +14,10 @@ use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 use crate::study::StudyError;
 
-/// Computing card: fp32, as the simulator of section 5.4.
+/// Computing card: fp32, like the simulator of section 5.4.
 const COMPUTES: &str = "ideal-fp32";
 
-/// Engine run over a workload.
+/// Run of an engine over a workload.
 pub(super) struct Run {
     pub(super) counts: EngineCounts,
     log: Vec<Event>,
@@ -25,7 +25,7 @@ pub(super) struct Run {
 
 impl Run {
     /// Submits the bundles to an engine, one after the other, and finishes once at the end: secondary rays enter the
-    /// cache while others still wait in it, as with a renderer that continues with any available results.
+    /// cache while other rays still wait in it, as with a renderer that continues with any available results.
     pub(super) fn new(work: &Workload, parameters: EngineParameters) -> Result<Self, StudyError> {
         let parameters = EngineParameters { octree: OCTREE, record: true, sides: Sides::Both, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
@@ -36,8 +36,8 @@ impl Run {
         Ok(Self { counts: engine.counts(), log: engine.take_log() })
     }
 
-    /// Mean fill of the buckets of the ray tree that hold rays, after each bundle of a workload, of an engine without a
-    /// card: fractions of a full bucket.
+    /// Mean fill of the buckets of the ray tree that hold rays, after each bundle of a workload, for an engine without
+    /// a card; 1 is a full bucket.
     pub(super) fn fill_of(work: &Workload, parameters: EngineParameters) -> Result<Vec<f64>, StudyError> {
         let parameters = EngineParameters { octree: OCTREE, card: false, sides: Sides::Both, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
@@ -53,16 +53,16 @@ impl Run {
     }
 }
 
-/// Cost model of a run's commands, beside equation 11.
+/// Cost model of a run's commands, in addition to equation 11.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Commands {
-    /// No cost besides equation 11.
+    /// No cost in addition to equation 11.
     Free,
     /// Guessed costs on the host, and the bus's latencies.
     Cost(QueueFigures),
 }
 
-/// Card model that draws at the measured fill rate, with the bus at its printed rates.
+/// Card model that draws at the measured fill rate, and transfers at the printed rates of the bus.
 struct GeForce4 {
     rates: Model,
     free: bool,

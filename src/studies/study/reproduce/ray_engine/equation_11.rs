@@ -1,4 +1,4 @@
-//! Section 6.1: the read-back bottleneck, in numbers.
+//! Section 6.1: figures of the read-back bottleneck.
 
 use refsim::device::Profile;
 
@@ -9,18 +9,18 @@ use super::{
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Table};
 
-/// Bytes read back per ray: a triangle id; an id with three barycentric coordinates.
+/// Bytes read back per ray: a triangle id, or an id with three barycentric coordinates.
 pub(super) const GAMMAS: [f64; 2] = [4.0, 16.0];
 /// Number of triangles in the paper's example.
 pub(super) const TEN: f64 = 10.0;
 /// Cards of the paper: GeForce3 and GeForce4 Ti4600.
 pub(super) const CARDS: [&str; 2] = ["nv20", "nv25"];
-/// Printed millions of tests per second at ten triangles, in the text under figure 7, by card.
+/// Printed millions of tests per second with ten triangles, in the text under Figure 7, by card.
 pub(super) const TEN_TRIANGLES: [&str; 2] = ["ray-engine/ten-triangles-geforce3", "ray-engine/ten-triangles-geforce4"];
-/// Numbers per million.
+/// One million.
 pub(super) const MEGA: f64 = 1e6;
 
-/// Rates of equation 11 on a card, with the fill rate measured in the paper, or implied by it.
+/// Rates of equation 11 on a card, with the fill rate that the paper measured or implies.
 pub(super) fn rates(device: &str) -> Result<CostRates, StudyError> {
     let profile = Profile::named(device)?;
     let (rates, bus) = (&profile.rates, &profile.bus);
@@ -69,7 +69,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         ], rows, [], [worked, pipeline::cost_table(&CARDS)?]))
 }
 
-/// Line of a printed figure with the values of equation and pipeline.
+/// Row for a printed figure, with the values from the equation and from the pipeline model.
 fn line(id: &str, device: &str, ours: [f64; 2]) -> Result<[Cell; 5], StudyError> {
     let figure = printed(id)?;
     let [equation, pipeline] = ours.map(|value| figure.beside(value));

@@ -1,4 +1,4 @@
-//! Figure 1: a boat in wavy water, by an environment map and by rays.
+//! Figure 1: a boat in wavy water, by an environment map and by ray tracing.
 
 use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind};
@@ -14,13 +14,13 @@ use crate::scene::built;
 use crate::tracer::HostTracer;
 use crate::tracer::offset::SINGLE;
 
-/// Card of the map and of eye rays.
+/// Card that draws the map and the eye rays.
 const DRAWS: &str = "r200";
-/// Cards of the engine, with the unit roundoff of their formats. The fixed point of the first card leaks.
+/// Cards of the engine, with the unit roundoff of their formats. On the first card, the fixed-point format leaks.
 const ENGINES: [(&str, f64); 2] = [("r300", 1.0 / 131_072.0), ("ideal-fp32", SINGLE)];
 /// Size of the pictures.
 const SIZE: [u32; 2] = [160, 120];
-/// Difference that an 8-bit display shows.
+/// Smallest difference that an 8-bit display shows.
 const STEP: f64 = 1.0 / 255.0;
 
 const HOW: &str = "Our own scene in {} x {} pixels, one ray per pixel: a boat, posts and houses in water of three waves, a mirror. The picture by rays of the host is the reference. \
@@ -73,8 +73,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     Ok(EntryFindings::new([paragraph(HOW, [width, height, DRAWS.to_owned()])], [], [], [table]))
 }
 
-/// Root mean square and largest difference of a channel over some pixels, in 255ths, and the percentage of the pixels
-/// that differ by more than one.
+/// RMS and largest difference of a channel over some pixels, in 255ths, and the percentage of pixels that differ by
+/// more than one.
 fn difference(one: &RenderedPicture, other: &RenderedPicture, pixels: &[usize]) -> [f64; 3] {
     let of = |&pixel: &usize| {
         let (a, b) = (one.color[pixel], other.color[pixel]);

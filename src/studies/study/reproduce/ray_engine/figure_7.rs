@@ -1,4 +1,4 @@
-//! Figure 7: tests per second by the number of triangles, and the minimum number at which a card is faster than the
+//! Figure 7: tests per second by the number of triangles, and the minimum number for which a card is faster than the
 //! host.
 
 use super::equation_11::{CARDS, GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
@@ -19,7 +19,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         "Where a card pays: T_min by the host's tests a second",
         "device gamma_B half_rate_T T_min_20M T_min_40M T_min_80M T_min_200M",
     );
-    // "Doubling the CPU numbers", and a host of later years.
+    // "Doubling the CPU numbers", and a faster host of later years.
     let most = printed_value("ray-engine/host-most")? * MEGA;
     let hosts = [printed_value("ray-engine/host-least")? * MEGA, most, 2.0 * most, 5.0 * most];
     let mut charts = Vec::new();
@@ -69,7 +69,7 @@ fn line(label: String, card: &CostRates, gamma: f64) -> Series {
 }
 
 fn chart(gamma: f64, lines: Vec<Series>) -> Result<NamedChart, StudyError> {
-    // The text gives the points for the id alone.
+    // The text gives the points only for the id alone.
     let shown = if gamma == GAMMAS[0] { &TEN_TRIANGLES[..] } else { &[] };
     let printed = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, StudyError>>()?;
     Ok(NamedChart {

@@ -1,11 +1,11 @@
-//! "The Ray Engine": its rates, equation 11, figure 7, and tables 1 to 5.
+//! "The Ray Engine": its rates, equation 11, Figure 7, and Tables 1 to 5.
 //!
 //! The tables are rays per second of whole renderings. The paper's host is known by one value, the 135,812 rays per
-//! second of Table 3's first row; it calibrates the scale of the host model, on our counts for our teapot room.
-//! Everything else is predicted: the engine's work is run and counted, and the card's time is that of equation 11 and
-//! its commands. Scenes, pictures and octree are ours, since none of the paper's is printed. The influence of such
-//! choices is swept: the octree of the host alone ([`sweeps::host_leaf`]), the costs of commands
-//! ([`sweeps::commands`]), and the definition of a ray on the card ([`shares`]).
+//! second of Table 3's first row; it calibrates the scale of the host model, with our counts for our teapot room.
+//! Everything else is predicted: the engine's work is run and counted, and the card's time follows from equation 11 and
+//! its commands. Scenes, pictures and octree are ours, since the paper prints none. Such choices are swept to show
+//! their influence: the octree of the host alone ([`sweeps::host_leaf`]), the costs of commands ([`sweeps::commands`]),
+//! and the definition of a ray on the card ([`shares`]).
 
 pub(super) mod block_shapes;
 mod engine_run;

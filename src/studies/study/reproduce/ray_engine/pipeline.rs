@@ -19,7 +19,7 @@ use crate::study::StudyError;
 const SIDE: u32 = 256;
 /// Quads per draw for measuring a fill rate: enough to make filling and draining of the pipeline negligible.
 const QUADS: usize = 64;
-/// Program with two textures per pixel, as for ray origins and directions, and as much arithmetic as a ps_1_1 card can
+/// Program with two textures per pixel, like ray origins and directions, and as much arithmetic as a ps_1_1 card can
 /// execute in one clock.
 const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
@@ -56,13 +56,13 @@ pub(super) fn dual_textured(device: &str) -> Result<TimedDraw, StudyError> {
     timed(device, screen_quads(device, QUADS)?)
 }
 
-/// Results per second allowed by read-back alone, `gamma` bytes each, a screen at a time.
+/// Results per second that read-back alone allows, with `gamma` bytes each, one screen at a time.
 pub(super) fn results_per_s(device: &str, gamma: f64) -> Result<f64, StudyError> {
     let rays = f64::from(SIDE * SIDE);
     Ok(rays / model(device)?.read_back((rays * gamma) as u64).seconds())
 }
 
-/// Tests per second as in equation 11, measured: quads for `triangles` triangles over a screen of rays, followed by
+/// Tests per second as in equation 11, measured: quads for `triangles` triangles over a screen of rays, then a
 /// read-back.
 pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f64, StudyError> {
     let drawn = timed(device, screen_quads(device, triangles as usize)?)?;
@@ -125,7 +125,7 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, StudyError> {
     Ok(machine.take_log())
 }
 
-/// Quad over the whole screen, at depth 0.5; coordinate sets 0 and 1 go from 0 to 1 over it, with row 0 at the top.
+/// Quad over the whole screen at depth 0.5; coordinate sets 0 and 1 run from 0 to 1 over it, with row 0 at the top.
 fn screen_quad() -> [Vertex; 4] {
     [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
         let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };

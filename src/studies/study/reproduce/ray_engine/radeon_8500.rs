@@ -18,7 +18,7 @@ use crate::scene::Camera;
 use crate::study::leaky_teapot::JudgedRays;
 
 const DEVICE: &str = "r200";
-/// Side of the batch, in rays, and of the one whose leaks are counted.
+/// Side of the batch in rays, and side of the batch whose leaks are counted.
 const SIDE: u32 = 128;
 const LEAK_SIDE: u32 = 96;
 /// "Thousands of triangles" (section 6.1).
@@ -96,7 +96,8 @@ fn kernels() -> Result<([PaperRow; 2], [Table; 2]), StudyError> {
     Ok((rows, [slots, leaks(&mesh)?]))
 }
 
-/// Table of the leaks of rays that bytes hold exactly, by the precision of the ray textures and the card's rounding.
+/// Table of the leaks of rays whose values bytes hold exactly, by the precision of the ray textures and the card's
+/// rounding.
 fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
     let mut table = Table::of("Leaks of rays in bytes", "rounding rays_that_hit leaks_from_bytes leaks_from_16_bits");
     for rounding in ["rdn", "rne"] {
@@ -115,8 +116,8 @@ fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Time of the intersections of each card's program for rays of any origin: that of two textures of bytes, and in
-/// float.
+/// Times of intersections by each card's program for rays of any origin: with two byte textures on the first card, with
+/// float textures on the others.
 pub(in crate::study::reproduce) fn timed_tests() -> Result<Vec<TimedWork>, StudyError> {
     let (mesh, rays) = (mesh(TRIANGLES)?, moved_rays(SIDE)?);
     let on = |device| {
@@ -133,7 +134,7 @@ fn eye_rays(side: u32) -> Result<RayBatch, StudyError> {
     RayBatch::new(side, side, Camera::teapot(side, side).on(DEVICE)?.rays()).on(DEVICE)
 }
 
-/// Eye rays that each start a little further on, so that they have no common origin.
+/// Eye rays with origins moved along them by different amounts, so that they have no common origin.
 pub(super) fn moved_rays(side: u32) -> Result<RayBatch, StudyError> {
     let eye = eye_rays(side)?;
     let moved = eye.rays().iter().enumerate().map(|(i, ray)| moved(ray, 1e-3 * (i % 64) as f32));

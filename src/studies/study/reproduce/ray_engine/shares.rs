@@ -1,25 +1,25 @@
-//! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two interpretations.
+//! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two readings.
 
 use super::workload::TIMES;
 use super::{Dependence, Method, PaperRow, Setting, StudyError, Sweep, paper_row, printed};
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
 
-/// Interpretation: a fraction from 0 to 1.
+/// Reading: computes a fraction in [0, 1].
 type Reading = fn(&EngineCounts) -> f64;
 
-/// Interpretations with their names.
+/// Readings with their names.
 const READINGS: [(&str, Reading); 2] = [
-    // A ray that met the card at least once, among all rays.
+    // Rays that met the card at least once, relative to all rays.
     ("rays", EngineCounts::share_on_card),
-    // A visit to a GPU cell's cache that ended on the card, among all visits; the others were forced to the host.
+    // Visits to a GPU cell's cache that ended on the card, relative to all visits; the others were forced to the host.
     ("visits", EngineCounts::share_of_visits_on_card),
 ];
 
 /// Name of a printed fraction, with the counts of our run.
 pub(super) type Share<'a> = (&'static str, &'a EngineCounts);
 
-/// Rows by the first interpretation, explained by the second where that reaches them, and a table of both.
+/// Rows by the first reading, explained by the second if that reaches the printed values, and a table of both.
 pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let row = |&(id, counts): &Share<'_>| {
         paper_row(id, (TIMES, Method::Engine), (100.0 * READINGS[0].1(counts), Dependence::Counted))
@@ -39,7 +39,7 @@ pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, 
     Ok((rows, table))
 }
 
-/// Chart of the printed fractions and both interpretations.
+/// Chart of the printed fractions and of both readings.
 pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result<Chart, StudyError> {
     let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value)).collect();
     let [rays, visits] = READINGS.map(|(_, of)| points(shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect()));

@@ -1,5 +1,5 @@
-//! The rows of Tables 3 to 5 together: they share one host, one card and one driver, so that an explanation of one of
-//! them must hold for the others.
+//! The rows of Tables 3 to 5 together: they share one host, one card and one driver, so an explanation of one row must
+//! hold for the others.
 
 use std::rc::Rc;
 
@@ -12,11 +12,11 @@ use super::{
 use crate::ray_engine::engine::Readback;
 use crate::report::{Cell, Table};
 
-/// Passes in flight in the asynchronous run.
+/// Number of passes in flight in the asynchronous run.
 const IN_FLIGHT: usize = 4;
 
-/// Line of Tables 3 to 5 with its run. The line of 5 to 15 triangles and 64 rays is printed in all three tables; it is
-/// one figure, with its row in Table 3.
+/// Line of Tables 3 to 5 with its run. All three tables print the line with 5 to 15 triangles and 64 rays; it is one
+/// figure, with its row in Table 3.
 pub(super) struct SpeedUpRun {
     /// Name in its table.
     pub(super) name: &'static str,
@@ -27,18 +27,18 @@ pub(super) struct SpeedUpRun {
 }
 
 impl SpeedUpRun {
-    /// Printed speed-up over the host alone, in per cent.
+    /// Printed speed-up over the host alone, in percent.
     pub(super) fn printed(&self) -> f64 {
         speed_up(self.row.target.value)
     }
 
-    /// Our speed-up over the host alone, in per cent.
+    /// Our speed-up over the host alone, in percent.
     pub(super) fn ours(&self) -> f64 {
         speed_up(self.row.ours)
     }
 }
 
-/// All rows, and their values under other guesses.
+/// All rows, and their values under other assumptions.
 pub(crate) struct SpeedUps {
     pub(super) lines: Vec<SpeedUpRun>,
     pub(super) commands: Sweep,
@@ -98,7 +98,7 @@ fn lines() -> Vec<(&'static str, &'static str, &'static str, Variant)> {
     ]
 }
 
-/// Rows of Tables 3 to 5 on the teapot room.
+/// Rows of Tables 3 to 5 for the teapot room.
 impl SharedResult for SpeedUps {
     type Key = ();
 
@@ -125,7 +125,7 @@ fn work_out(room: &TeapotRoom) -> Result<SpeedUps, StudyError> {
     Ok(SpeedUps { lines, commands, host_leaf })
 }
 
-/// First row of Tables 3 to 5, which calibrates the host's scale.
+/// First row of Tables 3 to 5, which calibrates the host's speed.
 pub(super) fn host_alone(room: &TeapotRoom) -> Result<PaperRow, StudyError> {
     let dependence = Dependence::Calibrated { on: "this figure" };
     paper_row("ray-engine/host-alone", (TIMES, Method::Engine), (room.work.alone.rays_per_s(&room.host), dependence))

@@ -29,12 +29,12 @@ pub(super) fn how(room: &TeapotRoom) -> String {
     paragraph(HOW, [side(), side(), number(HOST_ALONE, 0)])
 }
 
-/// Speed-up over the host alone, in per cent.
+/// Speed-up over the host alone, in percent.
 pub(super) fn speed_up(rays_per_s: f64) -> f64 {
     100.0 * (rays_per_s / HOST_ALONE - 1.0)
 }
 
-/// Cost model of the tables' runs: the guesses are those of every timeline.
+/// Cost model of the tables' runs, with the same guesses as every timeline.
 pub(super) fn commands() -> Commands {
     Commands::Cost(QueueFigures::default())
 }

@@ -1,4 +1,4 @@
-//! Sweeps over parameters that Tables 3 to 5 depend on and no paper prints.
+//! Sweeps over parameters that affect Tables 3 to 5 and that no paper prints.
 
 use std::rc::Rc;
 
@@ -13,12 +13,12 @@ use super::workload::OCTREE;
 use super::{Setting, StudyError, Sweep};
 use crate::tracer::octree::OctreeParameters;
 
-/// Factors of the guessed costs of commands, in halves: 1, 1.5, 2 and 3.
+/// Factors for the guessed costs of commands, in halves: 1, 1.5, 2 and 3.
 const HALVES: [u64; 4] = [2, 3, 4, 6];
 /// Triangles per leaf of the host's octree.
 const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
 
-/// Rays per second of runs; each distinct run is replayed once.
+/// Rays per second of runs; each distinct run is replayed only once.
 pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> Result<Vec<f64>, StudyError> {
     let mut distinct: Vec<&Rc<Run>> = Vec::new();
     for run in runs {
@@ -53,8 +53,8 @@ fn scaled(halves: u64) -> QueueFigures {
     figures
 }
 
-/// Sweep of the octree of the host alone by the triangles of its leaves; the engine keeps its own. The host is
-/// calibrated anew each time, so that its time for the new counts is the printed one.
+/// Sweep of the host-alone octree by the triangles of its leaves; the engine keeps its own octree. The host is
+/// recalibrated for each setting, so that its time for the new counts is the printed one.
 pub(super) fn host_leaf(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, StudyError> {
     let setting = |most_triangles: usize| {
         let alone = room.work.alone_with(OctreeParameters { most_triangles, ..OCTREE });

@@ -11,7 +11,7 @@ use super::workload::{Job, JobRenderer, TIMES};
 use super::{EntryFindings, Method, PaperRow, QUESTION, RATE, Shared, StudyError, commands, paper_row, printed};
 use crate::report::{Cell, NamedChart, Table};
 
-/// Line of both tables, with the names of its printed figures.
+/// Line in both tables, with the names of its printed figures.
 struct PrintedScene {
     rate: &'static str,
     share: &'static str,

@@ -1,5 +1,5 @@
-//! Table 3: the teapot room with and without card, asynchronous read-back, an infinitely fast card. And the octree of
-//! the host alone.
+//! Table 3: the teapot room with and without a card, with asynchronous read-back, and with an infinitely fast card; and
+//! the octree of the host alone.
 
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
 use super::teapot::TeapotRoom;
@@ -41,14 +41,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Row on the points of speed-up that synchronous read-back costs: asynchronous read-back less plus card.
+/// Row for the points of speed-up that synchronous read-back costs: asynchronous read-back minus plus card.
 fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, StudyError> {
     let ours = |name: &str| lines.iter().find(|line| line.name == name).map_or(f64::NAN, |line| line.ours());
     let lost = ours("asynchronous read-back") - ours("plus card");
     paper_row("ray-engine/readback-points", (TIMES, Method::Engine), (lost, RATE))
 }
 
-/// Paragraph on the time per pass implied by the printed values and ours.
+/// Paragraph about the time per pass that the printed values and ours imply.
 fn passes(lines: &[&SpeedUpRun]) -> String {
     let us = |rays_per_s: f64| 1e6 / rays_per_s;
     let [plus, asynchronous, fast] = lines else { return String::new() };
@@ -71,7 +71,7 @@ fn passes(lines: &[&SpeedUpRun]) -> String {
     )
 }
 
-/// Paragraph on the largest step of the sweep's last row, the infinitely fast card.
+/// Paragraph about the largest step in the sweep's last row, the infinitely fast card.
 fn octree(found: &SpeedUps) -> String {
     let settings = found.under(&found.host_leaf, PLACE);
     let fast = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);

@@ -1,4 +1,4 @@
-//! Table 4: the teapot room by the range of triangles that goes to the card.
+//! Table 4: the teapot room by the range of triangle counts that go to the card.
 
 use super::shares::{self, Share};
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};

@@ -1,4 +1,4 @@
-//! Table 5: the teapot room by the number of rays in a pass. And the costs of commands.
+//! Table 5: the teapot room by the number of rays per pass; and the costs of commands.
 
 use super::engine_run::Run;
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
@@ -39,7 +39,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Rows on the fill of the ray tree's buckets.
+/// Rows for the fill of the ray tree's buckets.
 fn fill(room: &TeapotRoom) -> Result<[PaperRow; 2], StudyError> {
     let means = Run::fill_of(&room.work, Variant::PLUS_CARD.parameters())?;
     let filled = 100.0 * means.iter().sum::<f64>() / means.len().max(1) as f64;

@@ -1,4 +1,4 @@
-//! The teapot room of Tables 1 and 3 to 5: rendered once, with each engine run made once for all entries.
+//! The teapot room of Tables 1 and 3 to 5: rendered once; each engine run is made once for all entries.
 
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -25,8 +25,8 @@ impl Variant {
     /// "Plus GPU": 5 to 15 triangles, 64 rays (section 6.3).
     pub(super) const PLUS_CARD: Self = Self { triangles: 5..=15, rays: 64, readback: Readback::Synchronous };
 
-    /// Parameters of the tables' engine: triangles outside the bucket culled by the vertex program, buckets tested
-    /// against cells, rays inserted into the tree in random order (section 5.3).
+    /// Parameters of the tables' engine: the vertex program culls triangles outside the bucket, buckets are tested
+    /// against cells, and rays are inserted into the tree in random order (section 5.3).
     pub(super) fn parameters(&self) -> EngineParameters {
         EngineParameters {
             triangles: self.triangles.clone(),
@@ -40,7 +40,7 @@ impl Variant {
     }
 }
 
-/// The teapot room, rendered classically, and a host calibrated to render it alone as fast as the paper's.
+/// The teapot room, rendered classically, and a host calibrated to render it alone at the paper's speed.
 pub(crate) struct TeapotRoom {
     pub(super) work: Workload,
     pub(super) host: HostModel,
@@ -65,7 +65,7 @@ impl TeapotRoom {
         Ok(Self { work, host, side, runs: RefCell::default() })
     }
 
-    /// Returns the runs of some variants, in their order.
+    /// Returns the runs of some variants, in the given order.
     pub(super) fn runs(&self, wanted: &[Variant]) -> Result<Vec<Rc<Run>>, StudyError> {
         let mut missing: Vec<Variant> = Vec::new();
         for variant in wanted {

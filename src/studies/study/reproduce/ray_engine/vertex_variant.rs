@@ -14,8 +14,8 @@ use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
 
-/// Contemporary cards with vertex programs. The row is on the first, of the year of the paper's text on them; the
-/// others are readings as well.
+/// Cards of the time with vertex programs. The row uses the first, from the year of the paper's text about them; the
+/// others are readings.
 const DEVICES: [&str; 3] = ["nv20", "nv25", "r200"];
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/vertex-tests";

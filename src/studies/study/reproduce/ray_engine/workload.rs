@@ -1,4 +1,4 @@
-//! Workloads: the ray bundles of a renderer, recorded once and replayed to engines.
+//! Workloads: a renderer's ray bundles, recorded once and replayed to engines.
 
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
 
@@ -14,8 +14,8 @@ use crate::tracer::{self, CastError, Caster, HostTracer};
 
 /// Card of the modelled time: "execution rates measured on the GeForce 4".
 pub(super) const TIMES: &str = "nv25";
-/// Octree of all runs, of host and engine alike. The paper does not print it; ours was chosen before any table was
-/// computed.
+/// Octree of all runs, for host and engine alike. The paper does not print its own; ours was chosen before any table
+/// was computed.
 pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
 
 /// Renderer that casts the rays.
@@ -39,7 +39,7 @@ pub(super) struct Job {
     pub(super) side: u32,
 }
 
-/// The teapot room as Tables 3 to 5 render it.
+/// The teapot room, as rendered for Tables 3 to 5.
 pub(super) const CLASSICAL_TEAPOT: Job =
     Job { scene: "teapot-room", view: None, renderer: JobRenderer::Classical, side: 256 };
 
@@ -47,9 +47,9 @@ pub(super) const CLASSICAL_TEAPOT: Job =
 #[derive(Clone, Debug)]
 pub(super) struct Workload {
     pub(super) mesh: Mesh,
-    /// Bundles in the order in which they were cast.
+    /// Ray bundles in the order in which they were cast.
     pub(super) bundles: Vec<Vec<Ray>>,
-    /// Work of a host that casts them without card and ray tree.
+    /// Work of a host that casts them without a card or a ray tree.
     pub(super) alone: HostOnly,
 }
 
@@ -116,7 +116,7 @@ impl Job {
     }
 }
 
-/// Work of a host that casts a workload without card and ray tree: the first row of Table 3.
+/// Work of a host that casts a workload without a card or a ray tree: the first row of Table 3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HostOnly {
     pub(super) counts: HostCounts,

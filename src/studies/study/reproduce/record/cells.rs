@@ -3,10 +3,10 @@
 use crate::report::digits::Quantity;
 use crate::report::{Cell, Figure};
 
-/// Marks that numbers of tables have.
+/// Marks of numbers in tables.
 const MARKS: [&str; 4] = ["", "*", "(implied)", "(inferred)"];
 
-/// Kinds of numbers without parameters.
+/// Kinds of numbers that have no parameters.
 const QUANTITIES: [(&str, Quantity); 5] = [
     ("exact", Quantity::Exact),
     ("measured", Quantity::Measured),
@@ -15,7 +15,7 @@ const QUANTITIES: [(&str, Quantity); 5] = [
     ("error", Quantity::Error),
 ];
 
-/// Formats a cell, as in `decimals2 0.125 *`; folded rows become their text.
+/// Encodes a cell, as in `decimals2 0.125 *`; folded rows become their text.
 pub(super) fn coded(cell: &Cell) -> String {
     match cell {
         Cell::Empty => String::new(),

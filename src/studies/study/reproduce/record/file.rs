@@ -31,7 +31,7 @@ struct RecordedRow {
     figure: String,
     device: String,
     method: Method,
-    /// Printed values that predicted ours; a value that is neither predicted nor calibrated was counted.
+    /// Printed values that predicted our value; a value that is neither predicted nor calibrated was counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     predicted_from: Option<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -39,7 +39,7 @@ struct RecordedRow {
     ours: f64,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     readings: Vec<f64>,
-    /// Range of the values that the computation can give, and why.
+    /// Range of values that the computation can give, and the reason.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     range: Option<[f64; 2]>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -80,7 +80,7 @@ impl EntryRecord {
         &self.made
     }
 
-    /// Values of the row of a figure: ours, then the other readings. `None` if it has no row.
+    /// Values in the row for a figure: ours, then the other readings. `None` if the figure has no row.
     pub(super) fn values(&self, figure: &str) -> Option<impl Iterator<Item = f64> + Clone> {
         let row = self.row.iter().find(|row| row.figure == figure)?;
         Some(std::iter::once(row.ours).chain(row.readings.iter().copied()))

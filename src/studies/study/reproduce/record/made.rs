@@ -1,4 +1,4 @@
-//! How records were made, and the relation of an entry's findings to its record.
+//! Origins of records, and the relation of an entry's findings to its record.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,28 +14,28 @@ const DIFFERS: &str = "All is computed anew at full size; {} not as recorded: `{
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordMade {
-    /// Command line that computes the same.
+    /// Command line that computes the same result.
     pub command: String,
     /// Version of the program.
     pub version: String,
     /// Commit of its sources.
     pub commit: String,
-    /// Processor time of all threads, in seconds; none if the system does not report it.
+    /// Processor time of all threads, in seconds; `None` if the system does not report it.
     pub processor_s: Option<f64>,
-    /// Time on the wall clock, in seconds.
+    /// Wall-clock time, in seconds.
     pub wall_s: f64,
 }
 
 /// Relation of an entry's findings to its record.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RecordStatus {
-    /// The findings are those of the record.
+    /// The findings come from the record.
     Recorded(&'static RecordMade),
-    /// Computed at full size, beside a record.
+    /// Computed at full size, and compared with a record.
     Computed {
         /// Provenance of the record.
         made: &'static RecordMade,
-        /// Number of rows that are not as recorded.
+        /// Number of rows that differ from the record.
         differ: usize,
     },
 }
@@ -48,7 +48,7 @@ impl RecordStatus {
         }
     }
 
-    /// Sentence on the findings.
+    /// Sentence about the findings' source.
     pub fn sentence(&self) -> String {
         let made = self.made();
         let seconds = |time: f64, what: &str| format!("{} s {what}", number(time, 0));

@@ -1,7 +1,7 @@
 //! Recorded runs at full size, which judge the rows of entries that take minutes to hours of processor time.
 //!
-//! A record is a file of `src/studies/records`, part of the program: the result of a run on models of the printed size,
-//! with its command, version, commit and times. It has no verdicts: rows are judged by the bounds of the data.
+//! A record is a file of `src/studies/records`, which the program contains: the result of a run on models of the
+//! printed size, with its command, version, commit and times. It has no verdicts: the bounds in the data judge rows.
 //!
 //! docs/decisions/0026-recorded-rows.md explains this.
 
@@ -22,13 +22,13 @@ static RECORDS: LazyLock<Result<Vec<EntryRecord>, String>> = LazyLock::new(|| {
     recorded.map(|(id, text)| EntryRecord::parse(id, text)).collect()
 });
 
-/// Returns the record of an entry that the program contains. Fails if a file is malformed.
+/// Returns an entry's record from the program. Fails if a file is malformed.
 pub fn recorded(entry: &ReproduceEntry) -> Result<Option<&'static EntryRecord>, StudyError> {
     let records = RECORDS.as_deref().map_err(|reason| StudyError::new("reproduce::record", reason.as_str()))?;
     Ok(records.iter().find(|record| record.entry() == entry.id))
 }
 
-/// Returns the findings of an entry's record; computes them if there is none, and at full size.
+/// Returns the findings of an entry's record; computes them if there is no record, or at full size.
 pub(super) fn findings(entry: &ReproduceEntry, full_size: bool, shared: &Shared) -> Result<EntryFindings, StudyError> {
     match recorded(entry)? {
         Some(record) if full_size => Ok(compared(record, entry.run(shared)?)),
@@ -49,7 +49,7 @@ pub fn compared(record: &'static EntryRecord, mut found: EntryFindings) -> Entry
     EntryFindings { record: Some(RecordStatus::Computed { made: record.made(), differ }), ..found }
 }
 
-/// Returns `true` if numbers have the same bits; all NaN are equal.
+/// Returns `true` if numbers have the same bits; all NaN count as equal.
 fn same_bits(some: impl Iterator<Item = f64>, others: impl Iterator<Item = f64>) -> bool {
     let bits = |value: f64| if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() };
     some.map(bits).eq(others.map(bits))

@@ -5,12 +5,12 @@ use crate::study::reproduce::prose::number;
 /// Tolerance of a value. The rounding of the printed value is allowed in addition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// Equal to the printed value, rounded to as many digits.
+    /// Equal to the printed value when rounded to its number of digits.
     Print,
     /// Within this fraction of the paper's value.
     Relative(f64),
-    /// Within this fraction of the gain of the paper's value over a value that calibrated the model. A prediction of no
-    /// gain is outside the bound.
+    /// Within this fraction of the gain of the paper's value over a value that calibrated the model. A prediction
+    /// without gain is outside the bound.
     Gain {
         /// Fraction of the gain.
         share: f64,
@@ -26,11 +26,11 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// Fraction by which a prediction may differ, unless a narrower one can be stated.
+    /// Allowed relative difference of a prediction, unless a narrower one can be stated.
     pub const SHARE: f64 = 0.15;
 
-    /// Smallest and largest value within the bound around a printed value, which may have an error of `rounding`;
-    /// `None` if all values are.
+    /// Smallest and largest value within the bound around a printed value, whose rounding error is at most `rounding`;
+    /// `None` if any value is within.
     pub fn interval(&self, printed: f64, rounding: f64) -> Option<[f64; 2]> {
         let around = |by: f64| Some([printed - by, printed + by]);
         match *self {
@@ -44,8 +44,8 @@ impl Bound {
         }
     }
 
-    /// Returns `true` if a value lies within the bound only because the printed value was rounded; always `false` for a
-    /// bound of every printed digit.
+    /// Returns `true` if a value lies within the bound only because of the printed value's rounding; always `false` for
+    /// a bound of every printed digit.
     pub fn needs_rounding(&self, (printed, rounding): (f64, f64), value: f64) -> bool {
         let within = |[low, high]: [f64; 2]| (low..=high).contains(&value);
         let held = |rounding: f64| self.interval(printed, rounding).is_some_and(within);

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::PaperFigure;
 use crate::study::reproduce::prose::number;
 
-/// Computation from printed values alone that gives another value than is printed. Created by the functions below,
-/// which refuse values that agree.
+/// Computation from printed values alone whose result differs from the printed value. The functions below create it,
+/// and reject values that agree.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contradiction {
@@ -16,8 +16,8 @@ pub struct Contradiction {
 }
 
 impl Contradiction {
-    /// Contradiction of a figure by a value that follows from other printed ones, with the computation in words; `None`
-    /// if the value rounds to the printed one.
+    /// Contradiction of a figure by a value computed from other printed values, with a description of the computation;
+    /// `None` if the value rounds to the printed one.
     pub fn between(figure: &PaperFigure, computed: f64, how: &str) -> Option<Self> {
         let decimals = figure.decimals + u8::from(figure.value.abs() < 1000.0);
         let text = || format!("{} {}: {how}", number(computed, decimals), figure.unit);
@@ -25,7 +25,7 @@ impl Contradiction {
         contradicts.then(|| Self { text: text().trim().to_owned(), value: Some(computed) })
     }
 
-    /// Contradiction that holds on a condition, which is computed from printed values; `None` if it does not hold.
+    /// Contradiction that exists if a condition on printed values holds; `None` if it does not.
     pub fn if_holds(condition: bool, computation: impl Into<String>) -> Option<Self> {
         condition.then(|| Self { text: computation.into(), value: None })
     }
@@ -35,7 +35,7 @@ impl Contradiction {
         &self.text
     }
 
-    /// Value that contradicts the figure; `None` for a contradiction that gives none.
+    /// Value that contradicts the figure; `None` if the contradiction gives no value.
     pub const fn value(&self) -> Option<f64> {
         self.value
     }

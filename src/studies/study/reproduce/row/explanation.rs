@@ -2,7 +2,7 @@
 
 use crate::study::reproduce::prose::number;
 
-/// Setting of a sweep at which a row that misses its bound lies within it. Created by [`super::Sweep::explain`] alone,
+/// Setting of a sweep at which a row that misses its bound lies within it. Only [`super::Sweep::explain`] creates it,
 /// from values of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
@@ -24,7 +24,7 @@ impl Explanation {
         self.value
     }
 
-    /// Reason in words; the same for all rows that one setting explains.
+    /// Reason as a sentence; the same for all rows that one setting explains.
     pub fn reason(&self) -> String {
         let [held, all] = self.others;
         format!(
@@ -33,7 +33,7 @@ impl Explanation {
         )
     }
 
-    /// Reason in words, with the row's value at the setting.
+    /// Reason as a sentence, with the row's value at the setting.
     pub fn text(&self) -> String {
         format!("{}, this one with {}", self.reason(), number(self.value, u8::from(self.value < 1000.0)))
     }

@@ -1,4 +1,4 @@
-//! Printed values of a paper with their origin.
+//! Printed values of a paper, with their origins.
 
 use super::{Bound, Dependence};
 use crate::report::Cell;
@@ -10,14 +10,14 @@ use crate::study::reproduce::Paper;
 pub enum Origin {
     /// Printed in the paper.
     Printed,
-    /// Follows from printed values by arithmetic: the formula.
+    /// Follows from printed values by arithmetic; this is the formula.
     Implied(String),
     /// Inferred by us: the paper gives neither the value nor a way to compute it.
     Inferred(String),
 }
 
 impl Origin {
-    /// Formula or inference; empty for printed values.
+    /// Formula or reason of the inference; empty for printed values.
     pub fn how(&self) -> &str {
         match self {
             Self::Printed => "",
@@ -35,10 +35,10 @@ pub enum Judgement {
     Not(String),
 }
 
-/// Reason why a row is missed, if known. It is given for a missed row alone and changes no verdict.
+/// Reason why a row is missed, if known. Only missed rows have one; it does not change the verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, strum::Display, strum::VariantArray)]
 pub enum MissClass {
-    /// The text allows several readings, or leaves a choice of the method open.
+    /// The text allows several readings, or leaves a choice in the method open.
     #[serde(rename = "reading open")]
     #[strum(to_string = "reading open")]
     ReadingOpen,
@@ -46,7 +46,7 @@ pub enum MissClass {
     #[serde(rename = "model lost")]
     #[strum(to_string = "model lost")]
     ModelLost,
-    /// A time depends on hardware or a driver whose figures are not known.
+    /// A time depends on hardware or a driver whose properties are not known.
     #[serde(rename = "hardware timing unknown")]
     #[strum(to_string = "hardware timing unknown")]
     HardwareTiming,
@@ -54,11 +54,11 @@ pub enum MissClass {
     #[serde(rename = "ours differs")]
     #[strum(to_string = "ours differs")]
     OursDiffers,
-    /// Our result has less error, storage or work than printed.
+    /// Our result has less error, storage or work than the printed one.
     #[serde(rename = "ours differs, for the better")]
     #[strum(to_string = "ours differs, for the better")]
     OursBetter,
-    /// Another place of the paper contradicts the figure, and our value agrees with neither.
+    /// Another section of the paper contradicts the figure, and our value agrees with neither.
     #[serde(rename = "paper contradicts")]
     #[strum(to_string = "paper contradicts")]
     PaperContradicts,
@@ -69,17 +69,17 @@ pub enum MissClass {
 pub struct PaperFigure {
     /// Paper.
     pub paper: Paper,
-    /// Name: the paper's and the figure's, as in `ray-engine/host-alone`.
+    /// Name: the paper's name and the figure's, as in `ray-engine/host-alone`.
     pub id: String,
     /// Measured quantity.
     pub what: String,
     /// Value, in units of `unit`.
     pub value: f64,
-    /// Digits after the point, as printed.
+    /// Number of decimals, as printed.
     pub decimals: u8,
     /// Unit.
     pub unit: String,
-    /// Place in the paper.
+    /// Table, figure or section of the paper.
     pub place: String,
     /// Origin: printed, implied or inferred.
     pub origin: Origin,
@@ -87,33 +87,33 @@ pub struct PaperFigure {
     pub judgement: Judgement,
     /// Date on which the judgement was stated or last changed.
     pub stated: String,
-    /// Class of its miss, where its row is missed.
+    /// Class of its miss, if its row is missed.
     pub missed: Option<MissClass>,
-    /// The equation of a row that follows from printed values alone; `None` for other rows.
+    /// The equation of a row that follows only from printed values; `None` for other rows.
     pub equation: Option<PaperEquation>,
 }
 
-/// Row whose value is an expression of printed ones: nothing is drawn, solved or counted for it.
+/// Row whose value is an expression of printed values: nothing is drawn, solved or counted for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperEquation {
-    /// Entry that the row belongs to.
+    /// Entry to which the row belongs.
     pub entry: String,
     /// Card or host.
     pub device: String,
     /// Value of the expression, in the unit of the figure.
     pub ours: f64,
-    /// Values by other readings.
+    /// Values for other readings.
     pub readings: Vec<f64>,
-    /// Printed values that the expression uses; `None` if all are sizes or other numbers of the text.
+    /// Printed values that the expression uses; `None` if all of them are sizes or other numbers in the text.
     pub uses: Option<String>,
-    /// Printed values that chose a constant of the expression.
+    /// Printed values that determined a constant of the expression.
     pub chose: Option<String>,
-    /// The computation in words, where a value that does not round to the printed one contradicts it.
+    /// Description of the computation, if a value that does not round to the printed one contradicts it.
     pub contradicts: Option<String>,
 }
 
 impl PaperEquation {
-    /// Dependence of the value on printed ones.
+    /// Dependence of the value on printed values.
     pub fn dependence(&'static self) -> Dependence {
         match (&self.chose, &self.uses) {
             (Some(on), _) => Dependence::Calibrated { on },
@@ -142,7 +142,7 @@ impl PaperFigure {
         Cell::decimals(self.value, self.decimals).marked(mark)
     }
 
-    /// Formats a value of ours beside it: with one more digit, unless the printed one has many.
+    /// Formats our value for comparison: with one more digit, unless the printed value has many digits.
     pub fn beside(&self, ours: f64) -> Cell {
         let more = u8::from(self.value.abs() < 1000.0);
         Cell::decimals(ours, self.decimals.saturating_add(more))

@@ -11,7 +11,7 @@ use crate::card::frame_time::FrameTime;
 pub enum Method {
     /// The paper's own equations, its printed values and constants calibrated on them. Nothing is drawn or measured.
     Equation,
-    /// Drawn on an emulated card, or counted on our models, and timed from clocks, slots and bytes.
+    /// Drawn on an emulated card, or counted on our models; time modelled from clocks, slots and bytes.
     Pipeline,
     /// Rendered through the whole engine, with its work counted and timed.
     Engine,
@@ -23,8 +23,8 @@ pub enum Method {
     Solver,
 }
 
-/// Method of a modelled frame rate. A host that is busy for the whole frame decides the rate alone, so the method is an
-/// equation: work from printed sizes, at a calibrated rate.
+/// Method of a modelled frame rate. If the host is busy for the whole frame, it alone determines the rate, so the
+/// method is an equation: work from printed sizes, at a calibrated rate.
 impl From<&FrameTime> for Method {
     fn from(time: &FrameTime) -> Self {
         if time.host >= time.frame { Self::Equation } else { Self::Pipeline }
@@ -35,9 +35,9 @@ impl From<&FrameTime> for Method {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Dependence {
-    /// Prediction: this value was not used; other printed ones were.
+    /// Prediction: the value itself was not used; other printed values were.
     Predicted {
-        /// Printed values that were used; empty for none.
+        /// Printed values that were used; may be empty.
         from: &'static str,
     },
     /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so agreement is
@@ -51,7 +51,7 @@ pub enum Dependence {
 }
 
 impl Dependence {
-    /// Printed values that our value depends on.
+    /// Printed values on which our value depends.
     pub const fn inputs(self) -> &'static str {
         match self {
             Self::Predicted { from: inputs } | Self::Calibrated { on: inputs } => inputs,

@@ -1,8 +1,8 @@
 //! Rows: a printed value of a paper and ours, with a bound and the verdict.
 //!
-//! Verdicts follow from how a value was computed ([`Method`], [`Dependence`], the range that confines it) and from the
-//! bound. [`Explanation`]s are created only by a [`Sweep`] of the same run, [`Contradiction`]s only by computations
-//! from printed values; calibrated values are listed separately and still have to lie within their bounds.
+//! Verdicts follow from the computation of a value ([`Method`], [`Dependence`], the range that confines it) and from
+//! the bound. Only a [`Sweep`] of the same run creates [`Explanation`]s, only computations from printed values create
+//! [`Contradiction`]s; calibrated values are listed separately and still have to lie within their bounds.
 
 mod bound;
 mod contradiction;
@@ -27,23 +27,23 @@ pub use verdict::RowVerdict;
 pub struct PaperRow {
     /// Card or host.
     pub device: &'static str,
-    /// Method by which ours was computed.
+    /// Method by which our value was computed.
     pub method: Method,
     /// Value of the paper.
     pub target: PaperFigure,
-    /// Our value, in the unit of the paper's.
+    /// Our value, in the unit of the printed value.
     pub ours: f64,
-    /// Our values by the other readings and models that the text allows.
+    /// Our values for the other readings and models that the text allows.
     pub readings: Vec<f64>,
-    /// Dependence of ours on printed values.
+    /// Dependence of our value on printed values.
     pub dependence: Dependence,
     /// Tolerance, stated on [`PaperFigure::stated`].
     pub bound: Bound,
-    /// Run that our value is from.
+    /// Source of our value.
     pub source: RowSource,
-    /// Range of the values that the computation can give, and why.
+    /// Range of values that the computation can give, and the reason.
     confined: Option<([f64; 2], &'static str)>,
-    /// Set by [`Sweep::explain`] alone.
+    /// Set only by [`Sweep::explain`].
     explanation: Option<Explanation>,
     contradiction: Option<Contradiction>,
 }
@@ -78,35 +78,35 @@ impl PaperRow {
         Self { readings: readings.into_iter().collect(), ..self }
     }
 
-    /// States the range of the values that the computation can give for any model, with the reason. A bound that admits
-    /// all of them judges nothing ([`RowVerdict::ByConstruction`]).
+    /// States the range of values that the computation can give for any model, with the reason. A bound that admits all
+    /// of them judges nothing ([`RowVerdict::ByConstruction`]).
     #[must_use]
     pub fn confined(self, range: [f64; 2], why: &'static str) -> Self {
         Self { confined: Some((range, why)), ..self }
     }
 
-    /// Range of the values that the computation can give, and why; `None` where nothing confines them.
+    /// Range of values that the computation can give, and the reason; `None` if nothing confines them.
     pub const fn confinement(&self) -> Option<([f64; 2], &'static str)> {
         self.confined
     }
 
-    /// Adds a contradiction of the paper with itself, if there is one.
+    /// Adds a self-contradiction of the paper, if there is one.
     #[must_use]
     pub fn contradicted(self, contradiction: Option<Contradiction>) -> Self {
         Self { contradiction, ..self }
     }
 
-    /// Smallest and largest value within the bound; `None` where the text is too vague.
+    /// Smallest and largest value within the bound; `None` if the text is too vague.
     pub fn interval(&self) -> Option<[f64; 2]> {
         self.bound.interval(self.target.value, self.target.rounding())
     }
 
-    /// Returns `true` if a value of ours would lie within the bound; always `false` where the text is too vague.
+    /// Returns `true` if our value could be `value` within the bound; always `false` if the text is too vague.
     pub fn admits(&self, value: f64) -> bool {
         self.interval().is_some_and(|[low, high]| (low..=high).contains(&value))
     }
 
-    /// Returns `true` if our value lies within the bound, by every reading.
+    /// Returns `true` if our value lies within the bound for every reading.
     pub fn holds(&self) -> bool {
         self.values().all(|value| self.admits(value))
     }
@@ -123,7 +123,7 @@ impl PaperRow {
         (!self.readings.is_empty()).then_some(range)
     }
 
-    /// Our values: ours, then the other readings.
+    /// All our values: the main value, then the other readings.
     pub(super) fn values(&self) -> impl Iterator<Item = f64> {
         std::iter::once(self.ours).chain(self.readings.iter().copied())
     }
@@ -148,7 +148,7 @@ impl PaperRow {
         }
     }
 
-    /// Verdict of a row that holds.
+    /// Verdict on a row whose value lies within its bound.
     fn class(&self) -> RowVerdict {
         match (self.dependence, self.method, self.bound) {
             (Dependence::Calibrated { .. }, ..) => RowVerdict::Calibrated,
@@ -160,7 +160,7 @@ impl PaperRow {
     }
 
     /// Returns `true` if the bound admits every value that the computation can give. The ends of the range do not
-    /// count: there two values are equal, as with a method that changes nothing.
+    /// count: there, two values are equal, as with a method that changes nothing.
     fn cannot_fail(&self) -> bool {
         let range = self.confined.map(|(range, _)| range).zip(self.interval());
         range.is_some_and(|([least, most], [low, high])| low <= least.next_up() && most.next_down() <= high)
@@ -183,7 +183,7 @@ impl PaperRow {
         matches!(self.dependence, Dependence::Calibrated { .. })
     }
 
-    /// Returns `true` if a recorded run has another value than this run at full size.
+    /// Returns `true` if a recorded run has a different value than this run at full size.
     pub const fn differs(&self) -> bool {
         matches!(self.source, RowSource::Differs { .. })
     }

@@ -1,4 +1,4 @@
-//! Sources of the values of rows.
+//! Sources of the rows' values.
 
 /// Source of a row's value.
 #[derive(Clone, Copy, Debug, PartialEq, strum::Display)]

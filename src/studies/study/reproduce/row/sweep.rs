@@ -6,17 +6,17 @@ use crate::report::{Cell, Table};
 /// Setting of the swept parameter, and the rows' values at it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// Setting, as in "2" of a factor.
+    /// Setting, such as "2" for a factor.
     pub at: String,
     /// One value per row, in the order of the rows and in their units.
     pub values: Vec<f64>,
 }
 
 /// Variation of a parameter that a paper does not print, with the resulting values of some rows. The rows themselves
-/// are computed at one of the settings, which was chosen beforehand.
+/// use one of the settings, chosen beforehand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// Name that rows refer to.
+    /// Name by which rows refer to it.
     pub name: &'static str,
     /// Parameter, with its unit.
     pub parameter: &'static str,
@@ -26,8 +26,8 @@ pub struct Sweep {
 
 impl Sweep {
     /// Explains rows outside their bounds by one setting at which they lie within them: the first of the settings that
-    /// explain most rows. A single card or host must satisfy all rows: a setting explains nothing if a row leaves its
-    /// bound there that is within it now. Calibrated rows are never explained, and contradictory ones are ignored.
+    /// explain the most rows. A single card or host must satisfy all rows, so a setting explains nothing if it moves a
+    /// row out of its bound. Calibrated rows are never explained, and contradictory ones are ignored.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         let open = |row: &PaperRow| {
@@ -60,8 +60,8 @@ impl Sweep {
         }
     }
 
-    /// Table with a line per row and a column per setting; values within their bounds are marked. Values are converted
-    /// by `show`, to its unit if it has one.
+    /// Table with a line per row and a column per setting; values within their bounds are marked. `show` converts the
+    /// values to its unit, if it has one.
     pub fn table(&self, title: &str, rows: &[PaperRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =

@@ -4,24 +4,24 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, strum::Display, strum::VariantArray)]
 #[strum(serialize_all = "lowercase")]
 pub enum RowVerdict {
-    /// Measured on our side (drawn, solved, counted or timed), and within a bound in numbers.
+    /// Measured on our side (drawn, solved, counted or timed), and within a numerical bound.
     Predicted,
-    /// Measured on our side; the bound is only which of two values is larger.
+    /// Measured on our side; the bound only says which of two values is larger.
     #[strum(to_string = "order only")]
     OrderOnly,
     /// Nothing is measured: the paper's printed values agree with each other or with its own equations.
     #[strum(to_string = "consistency of print")]
     Consistent,
-    /// The bound admits every value that the computation can give: no evidence.
+    /// The bound admits every value that the computation can give: not evidence.
     #[strum(to_string = "by construction")]
     ByConstruction,
-    /// Within the bound, but the value determined a constant of the model: no evidence.
+    /// Within the bound, but the value determined a constant of the model: not evidence.
     Calibrated,
-    /// Outside the bound, and a sweep of this run reaches it.
+    /// Outside the bound, but a sweep of this run reaches it.
     Explained,
     /// Outside the bound.
     Missed,
-    /// The paper contradicts itself, and ours agrees with one of the values that contradict each other.
+    /// The paper contradicts itself, and our value agrees with one of the contradicting values.
     Contradictory,
     /// The text is too vague to be tested; not a success either.
     #[strum(to_string = "too vague to judge")]
@@ -29,7 +29,7 @@ pub enum RowVerdict {
 }
 
 impl RowVerdict {
-    /// Words behind a number of rows, as in "3 predicted within bounds in numbers".
+    /// Words that follow a number of rows, as in "3 predicted within bounds in numbers".
     pub const fn of_rows(self) -> &'static str {
         match self {
             Self::Predicted => "predicted within bounds in numbers",

@@ -27,12 +27,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
     let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
     let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Dependence::Counted));
-    // A texel of fixed links has the factors of four.
+    // A texel of fixed links holds the factors of four links.
     let layout = [LINKS as f64 * 1.25; 2];
     let of_fixed =
         lookups("subsurface/lookups-fixed", fixed)?.confined(layout, "the program has the paper's layout of links");
     let mut rows = vec![of_fixed, lookups("subsurface/lookups-adaptive", adaptive)?];
-    // The same links on the same map, in textures of their own and as tiles.
+    // The same links on the same map, in their own textures and as tiles.
     let same = VARIANTS.iter().zip(costs).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
     let setting = |(variant, cost): (&Variant, &GatherCost)| {
         let at = if variant.tiles.is_some() { "tiles" } else { "of their own" };
@@ -59,7 +59,7 @@ pub(super) fn mesh(stand_in: &'static str) -> Result<Mesh, StudyError> {
     meshes::build(stand_in).ok_or_else(|| format!("no stand-in `{stand_in}`")).on(CARD)
 }
 
-/// Row on the number of nodes of the clustering: 2 T - 1.
+/// Row for the number of nodes of the clustering: 2 T - 1.
 fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
     let mesh = mesh(stand_in)?;
     let atlas = Atlas::new(&mesh, 512).on(CARD)?;
@@ -89,7 +89,7 @@ fn storage() -> Table {
     table
 }
 
-/// Table of instructions and samplers of each variant, against the card's limits of 1024 and 16.
+/// Table of instructions and samplers of each variant, compared with the card's limits of 1024 and 16.
 fn programs(costs: &[GatherCost]) -> Table {
     let mut table = Table::of("Programs of pass 2 for 16 links", "variant passes instructions samplers");
     for (variant, cost) in VARIANTS.iter().zip(costs) {

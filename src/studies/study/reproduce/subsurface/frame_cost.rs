@@ -1,5 +1,5 @@
-//! Modelled time of passes 1 and 3 and of the map's levels, on a model with as many faces as one of the paper's.
-//! [`super::gather`] times pass 2.
+//! Modelled time of passes 1 and 3 and of the map's mip levels, on a model with the face count of one of the paper's
+//! models. [`super::gather`] times pass 2.
 
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
@@ -19,7 +19,7 @@ use crate::subsurface::on_card::{
 /// Size of the window in pixels. The paper does not state it.
 pub(super) const WINDOW: [u32; 2] = [512, 512];
 
-/// Modelled seconds of the passes of a frame, without pass 2: pass 1, the map's levels, pass 3.
+/// Modelled seconds of the passes of a frame, without pass 2: pass 1, the map's levels, and pass 3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FrameCost {
     pub(super) light: f64,
@@ -34,7 +34,7 @@ impl FrameCost {
     }
 }
 
-/// Cost of a model's frame on a card, with fixed links and a map of bytes.
+/// Cost of a model's frame on a card, with fixed links and an 8-bit map.
 pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, StudyError> {
     let profile = Profile::named(card)?;
     let atlas = Atlas::new(mesh, side).on(card)?;
@@ -52,7 +52,7 @@ pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCo
     Ok(FrameCost { light, levels, view })
 }
 
-/// Loads a model with identical links: time does not depend on values.
+/// Loads a model whose links are all identical: time does not depend on values.
 fn model_on(profile: Profile, model: CardModel) -> Result<SubsurfaceCard, Box<dyn std::error::Error + Send + Sync>> {
     let side = model.side();
     let textures = vec![Texels::from_fn([side as usize; 2], |_, _| [1.0 / 16.0; 4]); LINKS / 4];

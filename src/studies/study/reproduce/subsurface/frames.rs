@@ -1,8 +1,9 @@
-//! Whole frames: passes 1 and 3 in addition to pass 2, on stand-ins for the paper's models; the frame rate on a
-//! display; and the time of links.
+//! Whole frames: passes 1 and 3 in addition to pass 2, with stand-ins for the paper's models; the frame rate on a
+//! display; and the time to compute links.
 //!
-//! Passes 1 and 3 draw the model, so they are drawn with as many faces as the paper's models have. Pass 2 is that of
-//! [`super::gather`]. The window is not printed; ours has as many pixels as the smaller atlas has texels.
+//! Passes 1 and 3 draw the model, so the stand-ins have the face counts of the paper's models. Pass 2 is timed by
+//! [`super::gather`]. The paper does not print the window's size; ours has as many pixels as the smaller atlas has
+//! texels.
 
 use refsim::timing::Picoseconds;
 
@@ -18,15 +19,15 @@ use crate::report::{Cell, Table};
 
 /// Card of Figure 7.
 const OTHER_CARD: &str = "fx5800";
-/// Clocks of one evaluation of R_d on the host of section 3: two exponentials, two square roots and two quotients in
-/// sequence, of 95, 27 and 20 clocks each, from memory of the manufacturer's optimisation guide. A guess.
+/// Clocks per evaluation of R_d on the host of section 3: two exponentials, two square roots and two quotients in
+/// sequence, 95, 27 and 20 clocks each, from memory of the manufacturer's optimisation guide. A guess.
 const EVALUATION_CLOCKS: f64 = 2.0 * (95.0 + 27.0 + 20.0);
 /// Clock of this host in Hz (Tom's Hardware).
 const HOST_HZ: f64 = 2.083e9;
 
-const HOW: &str = "The first and the third pass are drawn on stand-ins of as many faces, by vertex as the text has it, with the transmittance towards the \
-    eye from a texture and a window of {} x {} pixels, which is not printed. Links are fixed and the map has bytes, \
-    whose levels the card generates by itself.";
+const HOW: &str = "Passes 1 and 3 are drawn with stand-in models that have the paper's face counts, per vertex as in the paper; the transmittance towards \
+    the eye is read from a texture. The window has {} x {} pixels; the paper does not give its size. Links are fixed, and the map has 8-bit texels, whose \
+    mip levels the card generates.";
 const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so that a frame takes a whole number of periods of {} ms: the modelled \
     rates are {} over the periods that the three passes and the map's levels need. The waits are in the printed shares, so the printed times of passes are \
     upper bounds of what they took, most of all for the shorter passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at \
@@ -34,7 +35,7 @@ const LOCK: &str = "A display of {} Hz shows a finished frame at its next refres
 const HOST: &str = "The time of links is that of one evaluation of R_d per link on the host of section three of the paper; which host computed them is not \
     printed. What an evaluation costs is a guess of ours.";
 
-/// Place of the variant of the rows in [`VARIANTS`]: fixed links and an 8-bit map.
+/// Index in [`VARIANTS`] of the rows' variant: fixed links and an 8-bit map.
 const OURS: usize = 0;
 
 /// Frames per second on a display with vertical synchronisation, for frames of `seconds` seconds.
@@ -81,10 +82,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Dependence of values for which nothing printed was used.
+/// Dependence of values that use nothing printed.
 const PREDICTED: Dependence = Dependence::Predicted { from: "" };
 
-/// Rows on the times of the passes of one frame: 1 and 3 always; 2 where Table 1's own entry does not judge it.
+/// Rows for the times of the passes of one frame: 1 and 3 always; 2 unless Table 1's own entry judges it.
 fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<Vec<PaperRow>, StudyError> {
     let gather = (printed.side == SIDES[0]).then_some(gather);
     let ours = [Some(cost.light + cost.levels), gather, Some(cost.view)];
@@ -94,7 +95,7 @@ fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<V
         .collect()
 }
 
-/// Values that determined the refresh rate.
+/// Printed values that determined the refresh rate.
 const DISPLAYED: &str = "the six frame rates, of which the display's was read off";
 
 fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Result<PaperRow, StudyError> {
@@ -114,7 +115,7 @@ pub(in crate::study::reproduce) fn timed() -> Result<[TimedWork; 3], StudyError>
     ])
 }
 
-/// Row on pass 2 at the larger size, over the other passes, of each model.
+/// Row for the time of pass 2 at the larger size relative to the other passes, for each model.
 fn dominance(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Result<PaperRow, StudyError> {
     let large = frames.iter().filter(|(printed, _)| printed.side == SIDES[1]);
     let mut ratios = large.map(|(printed, cost)| gather.seconds(printed.side) / cost.frame(0.0));
@@ -122,8 +123,8 @@ fn dominance(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Resul
     Ok(paper_row("subsurface/pass-2-dominates", (CARD, Method::Pipeline), ours)?.with_readings(ratios))
 }
 
-/// Row on Figure 7: 40 frames per second are not an integer fraction of the display's rate, so the frame counts without
-/// synchronisation, for the bunny at the smaller size.
+/// Row for Figure 7: 40 frames per second are not an integer fraction of the display's rate, so the row is for a frame
+/// without synchronisation, of the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, StudyError> {
     let gather = gather::cost(OTHER_CARD, VARIANTS[OURS])?;
     let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;

@@ -1,7 +1,7 @@
-//! Modelled time of pass 2 in each variant that the text leaves open.
+//! Modelled time of pass 2 for each variant that the text leaves open.
 //!
-//! The time of a pass over a square is a quadratic in its side: each texel costs the same, quads along the diagonal of
-//! the two triangles are shaded twice, and a draw has a cost of its own. So the time of a large square is extrapolated
+//! The time of a pass over a square is quadratic in its side: each texel costs the same, quads along the diagonal of
+//! the two triangles are shaded twice, and each draw has a fixed cost. So the time for a large square is extrapolated
 //! from three small ones.
 
 use refsim::device::Profile;
@@ -34,7 +34,7 @@ pub(super) struct Variant {
     pub(super) fixed: bool,
     pub(super) map: MapFormat,
     pub(super) half: bool,
-    /// Number of link textures along an edge of a texture that holds them as tiles.
+    /// Number of link textures per side of a texture that holds them as tiles.
     pub(super) tiles: Option<u32>,
 }
 
@@ -47,7 +47,7 @@ impl Variant {
 /// Map format of the rows.
 pub(super) const EIGHT: MapFormat = MapFormat::Unorm8 { scale: 0.25 };
 
-/// All variants, those with fixed links first.
+/// All variants, starting with those with fixed links.
 pub(super) const VARIANTS: [Variant; 9] = [
     Variant::new("fixed, 8-bit map", true, EIGHT, false),
     Variant::new("fixed, 8-bit map, half precision", true, EIGHT, true),
@@ -66,9 +66,9 @@ pub(super) const VARIANTS: [Variant; 9] = [
 pub(in crate::study::reproduce) struct GatherCost {
     /// Number of passes.
     pub(super) programs: usize,
-    /// Instructions of all passes together.
+    /// Total number of instructions of all passes.
     pub(super) instructions: usize,
-    /// Samplers of the largest program.
+    /// Number of samplers of the largest program.
     pub(super) samplers: usize,
     /// Texture reads per texel.
     pub(super) lookups: f64,
@@ -77,7 +77,7 @@ pub(in crate::study::reproduce) struct GatherCost {
 }
 
 impl GatherCost {
-    /// Seconds for a square of `side` texels: the quadratic through the three timed ones.
+    /// Seconds for a square with `side` texels per side: the quadratic through the three timed squares.
     pub(super) fn seconds(&self, side: f64) -> f64 {
         let [a, b, c] = SIDES.map(f64::from);
         let term = |t: f64, at: f64, p: f64, q: f64| t * (side - p) * (side - q) / ((at - p) * (at - q));
@@ -118,7 +118,7 @@ pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, S
     Ok(found)
 }
 
-/// Texture reads of pass 2 per fragment, over all of its draws.
+/// Texture reads per fragment of pass 2, over all of its draws.
 fn lookups(log: &[PassEvent]) -> f64 {
     let draws = log.iter().filter(|event| event.pass == PassKind::Gather);
     let draws = draws
@@ -126,7 +126,7 @@ fn lookups(log: &[PassEvent]) -> f64 {
     draws.map(|fragments| fragments.fetches.iter().sum::<u64>() as f64 / fragments.shaded as f64).sum()
 }
 
-/// Loads a square of the medium with links that all lead to its middle: time does not depend on values.
+/// Loads a square of the medium whose links all lead to its middle: time does not depend on values.
 fn square(
     profile: Profile,
     side: u32,

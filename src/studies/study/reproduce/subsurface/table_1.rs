@@ -1,7 +1,7 @@
-//! Table 1: frames per second and the fractions of the passes.
+//! Table 1: frames per second, and the shares of the passes.
 //!
-//! The frame rates are 60 over integers to two per cent: they are synchronised to a display, so that pass times contain
-//! waits. Only pass 2 at 1024 x 1024 is longer than the possible wait, and the same on all three models.
+//! The frame rates are 60 divided by integers, to within two percent: they are synchronised to a display, so pass times
+//! contain waits. Only pass 2 at 1024 x 1024 is longer than the possible wait, and it is the same for all three models.
 
 use super::counts::MODELS;
 use super::gather::{GatherCost, VARIANTS, all_costs};
@@ -11,9 +11,9 @@ use super::{
 };
 use crate::report::{Cell, Table};
 
-/// Cards in addition to the paper's.
+/// Cards timed in addition to the paper's.
 const OTHER_CARDS: [&str; 3] = ["nv35", "fx5800", "nv30"];
-/// Printed row of Table 1: frames per second, and the fractions of the passes in per cent.
+/// Printed row of Table 1: frames per second, and the shares of the passes in percent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PrintedFrame {
     pub(super) model: &'static str,
@@ -36,7 +36,7 @@ impl PrintedFrame {
         Ok(Self { model, side, rate, shares: [share(1)?, share(2)?, share(3)?] })
     }
 
-    /// Periods of the display that the frame takes.
+    /// Number of display periods that the frame takes.
     pub(super) fn periods(&self) -> f64 {
         (DISPLAY / self.rate).round()
     }
@@ -52,11 +52,11 @@ impl PrintedFrame {
     }
 }
 
-/// Refresh rate of the display that the rates are synchronised to, in Hz.
+/// Refresh rate, in Hz, of the display to which the rates are synchronised.
 pub(super) const DISPLAY: f64 = 60.0;
-/// Largest relative difference of a rate from a whole number of periods.
+/// Maximum relative difference of a rate from a whole number of periods.
 const LOCKED_WITHIN: f64 = 0.03;
-/// Minimum sum of three shares, each rounded to a per cent, that make a whole frame.
+/// Minimum sum of three shares, each rounded to a percent, that add up to a whole frame.
 const ALL_BUT_ROUNDING: f64 = 98.5;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
@@ -103,14 +103,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Contradiction of the times of the passes by the display: the rates are those of whole periods, and the shares of the
-/// passes sum to the frame, so that the times contain waits. The computation is from the paper's values alone.
+/// Contradiction of the passes' times by the display: the rates are whole periods, and the passes' shares sum to the
+/// frame, so the times contain waits. The computation uses only the paper's values.
 pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
     let on_periods = printed.iter().all(|frame| (frame.periods() * frame.rate / DISPLAY - 1.0).abs() < LOCKED_WITHIN);
     let sums: Vec<f64> = printed.iter().map(|frame| frame.shares.iter().sum()).collect();
     let least = sums.iter().copied().fold(f64::INFINITY, f64::min);
     let without_waits = |frame: &&PrintedFrame| frame.side == SIDES[0];
-    // The first pass draws the same vertices at both sizes, and at the larger one more levels.
+    // The first pass draws the same vertices at both sizes, and at the larger size one level more.
     let shorter = printed.iter().filter(without_waits).find(|small| {
         let large = printed.iter().find(|frame| frame.model == small.model && frame.side == SIDES[1]);
         large.is_some_and(|large| large.milliseconds(1) < small.milliseconds(1) / 2.0)
@@ -128,7 +128,7 @@ pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
     Contradiction::if_holds(on_periods && least >= ALL_BUT_ROUNDING && shorter.is_some(), computation)
 }
 
-/// Factor of the rates, and the smallest and the largest product.
+/// Numbers of periods as text, and the smallest and the largest product with the rates.
 fn locked(printed: &[PrintedFrame]) -> [String; 3] {
     let products: Vec<(f64, f64)> = printed.iter().map(|frame| (frame.periods(), frame.rate)).collect();
     let factors: Vec<String> = products.iter().map(|(factor, _)| number(*factor, 0)).collect();

@@ -1,4 +1,4 @@
-//! Tests of the steps after a search: held-back input, traces, pictures of errors, runs for the next one.
+//! Tests of the steps after a search: held-back input, traces, pictures of errors, and known runs for the next search.
 
 use std::cell::Cell;
 use std::fmt::Debug;
@@ -11,7 +11,7 @@ use crossbar_studies::study::precision::{Goal, Measured, PrecisionMeasure, Studi
 
 use super::*;
 
-/// `1 + c1`, with the exact result as goal.
+/// Case that computes `1 + c1`; its goal is the exact result.
 fn sum(c1: f64) -> String {
     case("mov r0, c0\nadd r0, r0, c1", &format!("c0 = [1, 1, 1, 1]\nc1 = [{c1}, {c1}, {c1}, {c1}]"))
 }
@@ -21,14 +21,14 @@ fn holding_back(searched: &str, other: &str) -> Result<Precision, StudyError> {
     Ok(study_of(Box::new(subject), "largest_absolute=0", &[FormatFamily::Float]))
 }
 
-/// 1 + 2^-2 needs two mantissa bits, 1 + 2^-4 four.
+/// 1 + 2^-2 needs two mantissa bits, 1 + 2^-4 needs four.
 #[test]
 fn input_that_was_held_back_needs_so_many_bits_more() {
     for (other, spare) in [(0.25, Some(0)), (0.125, Some(1)), (0.0625, Some(2)), (1.0 / 512.0, None)] {
         let document = document(&holding_back(&sum(0.25), &sum(other)).expect("the same program"));
         let family = &document["families"][0];
         assert_eq!(digits(&family["minimum"]), Some(2));
-        // Without room for the sum it is rounded to 1 or to 1.25.
+        // With too few bits, the sum is rounded to 1 or to 1.25.
         let missed = family["held_back"].as_f64().expect("a case");
         assert_eq!((missed == 0.0, family["spare"].as_u64()), (other == 0.25, spare), "{other}: {missed}");
     }
@@ -49,7 +49,7 @@ fn a_refutation_has_its_trace() {
     let files = StudyFiles::of(&study);
     let rows = files.rows("traces_float.csv");
     assert_eq!(rows.len(), places.len() * 3 * 4, "three instructions of four components");
-    // The sum with one bit of mantissa: 1.25 is halfway between 1 and 1.5.
+    // The sum with one mantissa bit: 1.25 is halfway between 1 and 1.5.
     let refuted = texts(&document, "refuted_float", "line");
     let sum = &rows[rows.iter().position(|row| row["refuted_line"] == refuted[0]).expect("a trace") + 4];
     let cells = ["instruction", "component", "exact", "mixed", "one_bit_less", "one_bit_less_differs"];
@@ -63,7 +63,7 @@ fn a_refutation_has_its_trace() {
 struct Counted {
     subject: CaseSubject,
     runs: Rc<Cell<u64>>,
-    /// Added to every value.
+    /// Offset added to every value.
     off: f64,
 }
 
@@ -100,8 +100,8 @@ impl PrecisionSubject for Counted {
     }
 }
 
-/// A longer search continues where the last ended, finds the same result as without it, and uses no value of another
-/// subject or of a changed program.
+/// A longer search continues where the last one ended, finds the same result as a search without known runs, and uses
+/// no value of another subject or of a changed program.
 #[test]
 fn a_search_goes_on_where_the_last_ended() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -129,9 +129,9 @@ fn a_search_goes_on_where_the_last_ended() {
     assert!(runs + 40 < full_runs && runs + some_runs >= full_runs, "{runs} of {full_runs} after {some_runs}");
     let (runs, made, mixed, _) = run(&case, goal, 10_000, Some(&all), 0.0);
     assert_eq!((made, &mixed), (full_made, &full));
-    // The runs of switches are on other devices and are made each time.
+    // Runs for switches are on other devices, so they are made each time.
     assert!(runs < full_runs / 2, "{runs} of {full_runs}");
-    // Other measures, other inputs and values that no longer hold.
+    // Different measures, different inputs, and values that no longer hold.
     assert!(run(&case, "wrong_pixels<=0.1", 60, Some(&all), 0.0).0 >= 59);
     assert!(run(&case.replace("0.7, 0.6", "0.6, 0.6"), goal, 60, Some(&all), 0.0).0 >= 59);
     assert!(run(&case, goal, 60, Some(&all), 0.25).0 >= 59);

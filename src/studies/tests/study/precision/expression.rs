@@ -1,4 +1,4 @@
-//! Expressions: against mpmath bit for bit, against what Herbie publishes, and known answers.
+//! Expressions: compared bit for bit with mpmath, compared with results that Herbie publishes, and known answers.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -10,7 +10,7 @@ use refsim::num::Format;
 
 use super::super::findings;
 
-/// The study of a file of `fixtures/fpbench`.
+/// The study of a file from `fixtures/fpbench`.
 fn fixture(name: &str) -> (ExpressionStudy, String) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/fpbench").join(name);
     let text = std::fs::read_to_string(&path).expect("a fixture");
@@ -32,7 +32,7 @@ fn exact_and_computed_results_are_those_of_mpmath() {
     let table =
         std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/fpbench/binary32.csv"))
             .expect("a table");
-    // mpmath has one zero.
+    // mpmath has only one zero.
     let unsigned_zero = |bits: u64| if bits == 0x8000_0000 { 0 } else { bits };
     let mut compared = 0;
     for line in table.lines().skip(1) {
@@ -46,7 +46,7 @@ fn exact_and_computed_results_are_those_of_mpmath() {
     assert_eq!(compared, 1080);
 }
 
-/// The means of two samples differ by less than four standard errors and a tenth of a bit: Herbie has 8,000 points.
+/// The means of two samples differ by less than four standard errors plus a tenth of a bit: Herbie uses 8,000 points.
 #[test]
 fn herbies_published_errors_are_reproduced() {
     let (mut study, text) = fixture("hamming.fpcore");
@@ -73,9 +73,9 @@ fn the_suite_runs_but_for_its_loop() {
     study.samples = 50;
     let (taken, refused) = study.taken();
     assert_eq!((taken.len(), refused.len()), (32, 1));
-    assert_eq!(refused[0].to_string(), "`while`: loops are not taken: expressions are straight-line");
+    assert_eq!(refused[0].to_string(), "`while`: loops are not supported: expressions are straight-line");
     for (name, [mean, _]) in taken.iter().zip(study.mean_bits(Some(Format::FP32))) {
-        // Rump's example has no right digit; the others lose little within their ranges.
+        // Rump's example has no correct digit; the others lose few bits within their ranges.
         let most = if *name == "rump" { 30.0 } else { 4.0 };
         assert!((0.0..most).contains(&mean), "{name}: {mean}");
     }
@@ -101,12 +101,12 @@ fn cancellation_is_blamed_on_the_rounding_before_it() {
     let rows = found.plain_document()["operations"].clone();
     let of =
         |text: &str| rows.as_array().expect("rows").iter().find(|row| row["operation"] == text).expect(text).clone();
-    // The difference is exact (Sterbenz); the roots are not, and each loses the bits alone.
+    // The difference is exact (Sterbenz); the roots are not, and each alone loses the bits.
     assert!(of("sqrt(x + 1)")["alone_bits"].as_f64() > Some(2.0) && of("sqrt(x)")["alone_bits"].as_f64() > Some(2.0));
     assert!(of("sqrt(x)")["local_bits"] == 0.0 && of("sqrt(x + 1) - sqrt(x)")["local_bits"].as_f64() > Some(2.0));
 }
 
-/// Results of one operation on numbers of double precision.
+/// Results of one operation on numbers in double precision.
 #[test]
 fn operations_have_the_results_of_c_at_zeros_infinities_and_ties() {
     let bits = f64::to_bits;
@@ -137,7 +137,7 @@ fn operations_have_the_results_of_c_at_zeros_infinities_and_ties() {
     for (text, inputs, expected) in cases {
         let study = formula(&format!("(FPCore (x y) :spec 0 {text})"), &[]);
         let inputs: Vec<u64> = inputs.iter().chain(&[0.0; 2]).take(2).map(|x| bits(*x)).collect();
-        // A constant is what the result should be, so that inputs may be infinite.
+        // A constant is the intended result, so that inputs may be infinite.
         let [_, computed] = study.results("line 1", None, &inputs).expect("a result");
         assert_eq!(f64::from_bits(computed).to_string(), expected.to_string(), "{text} of {inputs:x?}");
     }
@@ -198,12 +198,12 @@ proptest! {
     fn no_text_panics(text in r#"[-+*/^()\[\]<>=!&|?:,;." a-z0-9]{0,60}"#, any in ".{0,40}") {
         let core = format!("(FPCore (x) {text})");
         for text in [text, core, any] {
-            // Either is fine.
+            // The text may be a formula or not.
             drop(ExpressionStudy::of_formula(&text, &[]));
         }
     }
 
-    /// A formula and the same in FPCore are one expression.
+    /// A formula and its FPCore form give the same expression.
     #[test]
     fn infix_and_fpcore_agree(a in 1u32..1000, b in 1u32..1000, x in 0u64..0x7f80_0000) {
         let infix = formula(&format!("-x^2 - {a}/{b} + x*{b}"), &[]);

@@ -22,7 +22,7 @@ use serde_json::Value;
 
 use super::{StudyFiles, findings};
 
-/// Case of a ps_2_0 program without its first and last line: it leaves its result in `r0`.
+/// Case with a ps_2_0 program, given without its first and last line; the program leaves its result in `r0`.
 fn case(body: &str, constants: &str) -> String {
     let program = format!("ps_2_0\n{body}\nmov oC0, r0\n");
     format!(
@@ -87,8 +87,8 @@ impl Layout {
         Self { family, range: range.parse().expect("bits"), digits: digits.parse().expect("bits") }
     }
 
-    /// Layouts with one bit less: floats have two exponent bits and a mantissa bit at least, fixed point a bit beside
-    /// its sign.
+    /// Layouts with one bit less: floats keep at least two exponent bits and a mantissa bit, fixed point a bit in
+    /// addition to its sign.
     fn narrower(self) -> Vec<String> {
         let (family, floor) = (self.family, if self.family == FormatFamily::Float { [2, 1] } else { [0, 0] });
         let digits = self.digits.checked_sub(1).map(|digits| Self { digits, ..self });
@@ -116,7 +116,7 @@ fn digits(cell: &Value) -> Option<u8> {
     cell.as_str().map(|text| Layout::of(text).digits)
 }
 
-/// Device of a subject of one program with registers of single precision and a format per instruction.
+/// Device for a subject with one program: registers in single precision, and a format per instruction.
 fn device_with(subject: &dyn PrecisionSubject, formats: &[String]) -> Profile {
     let mut device = subject.profile().clone();
     let single = Format::FP32.with_specials(device.rules.format.specials);
@@ -128,7 +128,7 @@ fn device_with(subject: &dyn PrecisionSubject, formats: &[String]) -> Profile {
     device
 }
 
-/// Smallest uniform formats.
+/// Smallest uniform formats of both families.
 fn minima(case: &str) -> Vec<String> {
     let document = document(&study(case, "largest_absolute=0", &[FormatFamily::Float, FormatFamily::Fixed]));
     column(&document, "families", "minimum")
@@ -137,8 +137,8 @@ fn minima(case: &str) -> Vec<String> {
         .collect()
 }
 
-/// A term of two significant bits, 3/4: of the partial sums 3 (n - 1) / 4 has the most bits, log2 n more than the term,
-/// and n terms reach below n. Truncation never makes good what it lost.
+/// A term, 3/4, has two significant bits. Of the partial sums, 3 (n - 1) / 4 has the most, log2 n more than the term,
+/// and all sums are below n. Truncation never recovers what it lost.
 #[test]
 fn a_sum_of_n_equal_terms_needs_log2_n_more_bits() {
     for (n, expected) in [(4, ["e2m3", "s2.2"]), (8, ["e3m4", "s3.2"]), (16, ["e3m5", "s4.2"])] {
@@ -152,12 +152,12 @@ fn a_sum_of_n_equal_terms_needs_log2_n_more_bits() {
 fn a_product_of_powers_of_two_needs_no_mantissa() {
     let body = "mov r0, c0\nmul r0, r0, c1\nmul r0, r0, c1\nmul r0, r0, c1";
     let constants = "c0 = [0.25, 0.25, 0.25, 0.25]\nc1 = [2, 2, 2, 2]";
-    // The largest is 2, which fixed point has with two integer bits.
+    // The largest value is 2, which fixed point holds with two integer bits.
     assert_eq!(minima(&case(body, constants)), ["e3m1", "s2.2"]);
 }
 
 /// x^3 - x^2 + x/4 + 1/4 at 3/2 is 7/4. By Horner's rule the results are 1/2, 1 and 7/4; the powers are 9/4 and 27/8,
-/// which has four bits behind the first.
+/// which has four bits after the first.
 #[test]
 fn horners_rule_needs_fewer_bits_than_powers() {
     let constants = "c0 = [1.5, 1.5, 1.5, 1.5]\nc1 = [-1, -1, -1, -1]\nc2 = [0.25, 0.25, 0.25, 0.25]";
@@ -174,7 +174,7 @@ fn a_program_that_saturates_needs_its_integer_bits() {
     assert_eq!(minima(&case(body, constants)), ["e3m4", "s3.2"]);
 }
 
-/// Instruction 1 is never read; instruction 0 alone decides.
+/// Instruction 1 is never read; only instruction 0 affects the result.
 #[test]
 fn a_dead_instruction_has_no_blame() {
     let body = "mul r0, c0, c0\nmul r1, c1, c1";
@@ -189,7 +189,7 @@ fn a_dead_instruction_has_no_blame() {
     assert_eq!(needs("note")[1], "no effect");
 }
 
-/// Ranges are those of the exact results, and a local error is that of one operation on exact operands.
+/// Ranges are the exact results' ranges, and a local error is the error of one operation on exact operands.
 #[test]
 fn ranges_and_local_errors_are_those_of_the_results() {
     let body = "mul r0, c0, c0\nmul r0, r0, c1";
@@ -198,13 +198,13 @@ fn ranges_and_local_errors_are_those_of_the_results() {
     let needs = |key: &str| column(&document, "instructions_float", key);
     assert_eq!(needs("exponents"), ["3 to 3", "0 to 0", "0 to 0"]);
     assert_eq!(digits(&document["families"][0]["minimum"]), Some(1));
-    // 9 in steps of 4 is 8, and 9/8 in steps of 1/2 is 1.
+    // 9 rounds to 8 in steps of 4, and 9/8 rounds to 1 in steps of 1/2.
     assert_eq!([needs("median_ulp"), needs("largest_ulp")].concat(), [0.25; 6]);
 }
 
 const POLYNOMIAL: &str = "mov r0, t0\nmad r1, r0, c0, c1\nmad r1, r1, r0, c2\nmul r0, r1, r0\nmad r0, r0, c3, r0";
 
-/// Case whose instructions need different formats, with pixels of different values.
+/// Case whose instructions need different formats, and whose pixels have different values.
 fn polynomial() -> String {
     let constants = "c0 = [0.3, 0.2, 0.1, 0.4]\nc1 = [0.7, 0.6, 0.5, 0.8]\nc2 = [1.1, 0.9, 1.3, 1.7]\nc3 = [0.01, 0.02, 0.03, 0.04]";
     case(&format!("dcl t0\n{POLYNOMIAL}"), constants)
@@ -252,7 +252,7 @@ fn the_mixed_device_draws_what_was_found() {
     assert_eq!(document["families"][0]["scalar"], value);
 }
 
-/// The device of the cheapest mixed formats that a study writes.
+/// The device file, written by a study, with its cheapest mixed formats.
 fn mixed_device(study: &Precision) -> Profile {
     let files = StudyFiles::of(study);
     let text = std::str::from_utf8(files.bytes("mixed.toml")).expect("text");
@@ -325,7 +325,7 @@ fn infinite_values_are_counted_and_said() {
     assert_eq!(study.subject.notes(), ["Of 16 channels of the exact run 4 are infinite or NaN."]);
 }
 
-/// `mad` rounds once or twice: the switch decides how many bits a difference of close products needs.
+/// `mad` rounds once or twice: the switch determines how many bits a difference of close products needs.
 #[test]
 fn a_switch_that_matters_is_found() {
     let body = "mov r1, c0\nmad r0, r1, r1, c1";
@@ -336,7 +336,8 @@ fn a_switch_that_matters_is_found() {
         let row = rows.iter().find(|row| row["switch"] == name && row["value"] == value).expect("a switch");
         digits(&row["minimum"])
     };
-    // The square, 289/256, has 8 bits behind the point; 289/256 - 288/256 has one, and 1.0625 four.
+    // The square, 289/256, has 8 fraction bits; 289/256 - 288/256 has one significant bit, and 1.0625 four fraction
+    // bits.
     assert_eq!([minimum("mad", "two-roundings"), minimum("mad", "fused")], [Some(8), Some(4)]);
     assert_eq!(minimum("lrp", "two-products"), Some(8));
 }

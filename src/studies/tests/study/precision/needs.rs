@@ -1,4 +1,4 @@
-//! Bits that a format and an instruction need, for a subject whose values and results are chosen.
+//! Bits that a format and an instruction need, for a subject with given values and results.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -16,7 +16,7 @@ use super::*;
 
 const MEASURE: &str = "largest_absolute";
 
-/// Values of the measure by the formats of the two instructions; `None` is exact.
+/// Values of the measure by the formats of the two instructions; `None` is the exact format.
 type Values = Box<dyn Fn([Option<Layout>; 2]) -> f64>;
 
 /// Case of two moves with given values and results.
@@ -25,9 +25,9 @@ pub(super) struct Told {
     goal: String,
     family: FormatFamily,
     values: Values,
-    /// Results of each instruction: exact ones, and those in any other format.
+    /// Results of each instruction: first the exact ones, then the results in any other format.
     results: [Vec<f64>; 2],
-    /// Formats of all runs.
+    /// Formats of all runs so far.
     seen: Rc<RefCell<BTreeSet<[Option<String>; 2]>>>,
 }
 
@@ -43,15 +43,15 @@ impl Told {
         }
     }
 
-    /// Subject that needs a format of at least this many bits of range and of precision everywhere.
+    /// Subject that needs a format with at least these bits of range and of precision in every instruction.
     pub(super) fn minimum(text: &str) -> Self {
         let least = Layout::of(text);
         let misses = move |format: Layout| format.range < least.range || format.digits < least.digits;
         Self::new(least.family, "=0", move |formats| f64::from(u8::from(formats.into_iter().flatten().any(misses))))
     }
 
-    /// Subject whose exact value meets the goal; with both instructions in a format of less than 8 digits the value is
-    /// `both`, and with one alone that of the instruction.
+    /// Subject whose exact value meets the goal. With both instructions in a format of less than 8 digits, the value is
+    /// `both`; with only one, it is that instruction's value in `alone`.
     fn shares(goal: &str, exact: f64, both: f64, alone: [f64; 2]) -> Self {
         Self::new(FormatFamily::Float, goal, move |formats| {
             match formats.map(|format| format.is_some_and(|format| format.digits < 8)) {
@@ -63,7 +63,7 @@ impl Told {
         })
     }
 
-    /// Subject of values by the number of digits, from 1 on, and the last value for all more.
+    /// Subject with values by number of digits, starting at 1; the last value holds for all larger numbers.
     fn curve(values: &'static [f64]) -> Self {
         Self::new(FormatFamily::Float, "<=1", move |formats| {
             let value = |format: Layout| values[usize::from(format.digits).min(values.len()) - 1];
@@ -126,9 +126,9 @@ impl PrecisionSubject for Told {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Whatever the fewest bits of a family are, they are found, as a format of the emulator and its device file; each
-    /// format that is refuted has one bit less, and nothing is narrower than the narrowest. Fixed point keeps two
-    /// integer bits to spare.
+    /// Whatever the fewest bits of a family are, the study finds them, as a format of the emulator and as a device
+    /// file. Each refuted format has one bit less, and nothing is narrower than the narrowest format. Fixed point keeps
+    /// two spare integer bits.
     #[test]
     fn the_fewest_bits_are_found((is_float, range, digits) in (any::<bool>(), 0..=8_u8, 0..=23_u8)) {
         let minimum = if is_float {
@@ -163,7 +163,7 @@ proptest! {
 fn the_narrowest_formats_tell_nothing() {
     for minimum in ["e2m1", "s0.1"] {
         let said = findings(&Told::minimum(minimum).study()).conclusions().join(" ");
-        assert!(said.contains(&format!("down to {minimum}: it tells nothing")), "{said}");
+        assert!(said.contains(&format!("down to {minimum}: the goal does not distinguish formats")), "{said}");
     }
 }
 
@@ -179,7 +179,7 @@ fn rules_of_a_card_are_kept_within_its_family() {
     }
 }
 
-/// The fewest bits of all instructions are found with few runs, and those of one with a bisection.
+/// The fewest bits of all instructions are found with few runs, and those of one instruction by bisection.
 #[test]
 fn a_falling_error_is_bisected() {
     for smallest in 1..=23_u8 {
@@ -193,7 +193,7 @@ fn a_falling_error_is_bisected() {
         assert_eq!((digits(&family["minimum"]), &family["counterexample"]), (Some(smallest), &Value::Null));
         assert!(column(&document, "curve", "format").len() <= 13);
         assert_eq!(column(&document, "instructions_float", "alone"), [smallest; 2]);
-        // One run more is for the blame.
+        // One additional run is for the blame.
         let alone = seen.borrow().iter().filter(|formats| formats[0].is_some() && formats[1].is_none()).count();
         assert!(alone <= 7 + 1, "{alone} runs");
     }
@@ -209,9 +209,9 @@ fn a_rising_error_is_scanned_and_named() {
         (digits(&family["minimum"]), family["counterexample"].clone(), points)
     };
     assert_eq!(family(&[9.0, 0.5, 3.0, 0.5, 0.25, 0.0]), (Some(4), serde_json::json!([2, 3]), 23));
-    // All bits from 2 on meet the goal, although one is worse.
+    // All numbers of bits from 2 on meet the goal, although one is worse than a smaller number.
     assert_eq!(family(&[9.0, 0.5, 0.75, 0.5]).0, Some(2));
-    // The most bits are worse than all others.
+    // The largest number of bits is worse than all others.
     const LAST: [f64; 23] = {
         let mut values = [0.0; 23];
         values[22] = 9.0;
@@ -242,13 +242,13 @@ fn errors_are_in_units_of_the_format() {
     };
     assert_eq!(error("e8m2", &[1.0, 1.125, 8.0], &[1.0, 1.25, 12.0]), [0.5, 2.0]);
     assert_eq!(error("s3.4", &[1.0, 7.5], &[1.0, 7.96875]), [0.0, 7.5]);
-    // e4m3 has exponents from -6, and 0 is as far from its neighbors as 2^-6.
+    // e4m3 has exponents from -6, and the distance from 0 to its neighbors is 2^-9, as from 2^-6.
     assert_eq!(error("e4m3", &[0.0], &[1.0 / 512.0]), [1.0, 1.0]);
     assert_eq!(error("e8m2", &[f64::INFINITY], &[2.0]), ["inf"; 2]);
     assert_eq!(error("e8m2", &[], &[]), [Value::Null, Value::Null]);
 }
 
-/// Losses are against the exact run, and shares of the loss of both together.
+/// Losses are relative to the exact run, and shares are relative to the loss of both instructions together.
 #[test]
 fn losses_are_against_the_exact_run() {
     let blame = |told: Told| {
@@ -261,10 +261,10 @@ fn losses_are_against_the_exact_run() {
     assert_eq!(blame(Told::shares("<=1", 0.25, 1.25, [0.5, 0.0])), [some([25.0, 0.0]), some([100.0, 75.0])]);
     assert_eq!(blame(Told::shares(">=1", 1.0, 0.0, [0.5, 1.0])), [some([50.0, 0.0]), some([100.0, 50.0])]);
     assert_eq!(blame(Told::shares("=1", 1.0, 3.0, [0.5, 1.5])), [some([25.0, 25.0]), some([75.0, 75.0])]);
-    // Only one is not finite: it has all of the loss, and the other a share that is not known.
+    // Only one value is not finite: its instruction has all of the loss, and the share of the other is unknown.
     let nan = blame(Told::shares("<=1", 0.0, f64::NAN, [f64::NAN, 0.5]));
     assert_eq!(nan, [vec![Some(100.0), None], some([100.0, 0.0])]);
-    // Values that are infinite in the exact run are not a loss.
+    // Values that are already infinite in the exact run are not a loss.
     let infinite = blame(Told::shares(">=1", f64::INFINITY, 0.0, [f64::INFINITY, f64::INFINITY]));
     assert_eq!(infinite[0], some([0.0, 0.0]));
 }

@@ -37,8 +37,8 @@ fn exact_device(subject: &dyn PrecisionSubject) -> Profile {
     device
 }
 
-/// The exact run is exact; all instructions in single precision are the exact run; fewer bits are not; both executors
-/// agree.
+/// The exact run is exact; with all instructions in single precision it is unchanged; fewer bits change it; both
+/// executors agree.
 #[test]
 fn each_system_is_run_with_formats_of_its_instructions() {
     for system in PaperSystem::iter() {
@@ -71,7 +71,7 @@ fn each_system_is_run_with_formats_of_its_instructions() {
         for (program, studied) in programs.iter().enumerate() {
             let mut own = places.iter().copied().filter(|place| place.program == program).rev();
             let traced = own.any(|place| is_traced(&*subject, (&exact, &measured), studied.program, place));
-            // A program of one move fills the depth buffer alone.
+            // A program of one move may only fill the depth buffer.
             let fills_depth = studied.program.instructions.len() == 1;
             assert!(traced || fills_depth, "{system:?}: no instruction of program {program} changes anything");
         }
@@ -81,8 +81,8 @@ fn each_system_is_run_with_formats_of_its_instructions() {
 /// Maximum number of instructions of a system that are sampled.
 const SAMPLED: usize = 24;
 
-/// Each instruction is sampled in the same fragments in the exact run and when it is rounded. Single precision rounds
-/// nothing, four bits do, and moves by half a unit at most.
+/// Each instruction is sampled in the same fragments in the exact run and rounded. Single precision rounds nothing;
+/// four bits do, by at most half a unit.
 fn check_samples(subject: &dyn PrecisionSubject, exact: &Profile, places: &[Place]) {
     let title = subject.title();
     let programs = subject.programs();
@@ -110,7 +110,7 @@ fn check_samples(subject: &dyn PrecisionSubject, exact: &Profile, places: &[Plac
     assert!(2 * off > executed, "{title}: {off} of {executed} are rounded");
 }
 
-/// Largest error in units in the last place of e8m4; infinite where only one of two results is finite.
+/// Largest error in units in the last place of e8m4; infinite if only one of two results is finite.
 fn largest_error(exact: &FragmentResults, rounded: &FragmentResults) -> f64 {
     let error = |(exact, rounded): (&f64, &f64)| {
         if exact == rounded || (exact.is_nan() && rounded.is_nan()) {
@@ -127,8 +127,8 @@ fn same_bits(a: &FragmentResults, b: &FragmentResults) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|((at, a), (other, b))| at == other && a.to_bits() == b.to_bits())
 }
 
-/// Traces a pixel with one instruction in a coarse format: the first difference is that instruction, or a texture with
-/// its results. Returns `false` if the instruction changes nothing.
+/// Traces a pixel with one instruction in a coarse format: the first difference is at that instruction, or at a texture
+/// with its results. Returns `false` if the instruction changes nothing.
 fn is_traced(
     subject: &dyn PrecisionSubject,
     (exact, right): (&Profile, &Measured),
@@ -165,7 +165,7 @@ fn each_number_is_taken_once() {
         all.sort_unstable();
         assert_eq!(all, (0..count).collect::<Vec<_>>());
     }
-    // The first sixteen of 4,096 reach every eighth.
+    // The first sixteen of 4,096 numbers reach every eighth of the range.
     let eighths: BTreeSet<u32> = spread(4096).take(16).map(|at| at / 512).collect();
     assert_eq!(eighths.len(), 8);
 }

@@ -1,10 +1,10 @@
-//! Tools of entries on compression: interpolations of their curves, and errors by the number of vectors.
+//! Tools of entries about compression: interpolation of their curves, and errors by the number of vectors.
 
 use crossbar_studies::study::reproduce::tested::{crossings, reaching};
 use crossbar_systems::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar_systems::transfer::synthetic::signal_at;
 
-/// Halfway between storages 1 and 4 by logarithms, 2, the first curve has the error 8.
+/// Halfway between storages 1 and 4 on a logarithmic scale, at 2, the first curve has the error 8.
 #[test]
 fn curves_are_compared_at_equal_storage() {
     let before = vec![(1.0, 16.0), (4.0, 4.0), (16.0, 1.0)];
@@ -13,7 +13,7 @@ fn curves_are_compared_at_equal_storage() {
         (vec![(2.0, 7.0), (8.0, 3.0)], [0, 0]),
         (vec![(2.0, 8.000_000_001), (8.0, 1.999_999_999)], [1, 1]),
         (vec![(2.0, 7.999_999_999), (8.0, 2.000_000_001)], [0, 0]),
-        // The curves share no storage.
+        // The curves have no storage in common.
         (vec![(32.0, 0.1)], [0, 0]),
     ] {
         assert_eq!(crossings(&[before.clone(), curve.clone()]), expected, "{curve:?}");
@@ -27,8 +27,8 @@ fn vectors_are_interpolated_by_logarithms() {
     assert!((reaching(&curve, 2.0) - 1.5).abs() < 1e-12);
 }
 
-/// Errors by section 4.1's formula, in which a dropped vector adds its squared singular value, and the errors of the
-/// steps of one compression, equal those of compressions with as many vectors.
+/// Two kinds of errors equal the errors of separate compressions with each number of vectors: those by section 4.1's
+/// formula, in which a dropped vector adds its squared singular value, and those of the steps of one compression.
 #[test]
 fn errors_by_vectors_are_those_of_compressions() {
     let signal = signal_at(300, 12, 7, |at| [0.1 * at as f64, (at % 7) as f64, (at % 11) as f64]);

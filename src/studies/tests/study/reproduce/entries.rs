@@ -1,4 +1,4 @@
-//! Entries are chosen by their names and those of papers.
+//! Entries are chosen by their names, and by the names of papers.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ fn chosen(wanted: &[&str]) -> Vec<&'static str> {
     choose(&wanted).expect("names").iter().map(|entry| entry.id).collect()
 }
 
-/// A paper's name chooses its entries, which are those whose names begin with it.
+/// A paper's name chooses its entries: those whose names begin with it.
 #[test]
 fn papers_and_entries_are_chosen_by_name() {
     for paper in Paper::VARIANTS {

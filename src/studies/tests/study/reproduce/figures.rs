@@ -1,4 +1,4 @@
-//! Printed figures: the files of the papers, their format, and statements that cannot be changed without saying so.
+//! Printed figures: the files of the papers, their format, and statements that cannot be changed silently.
 
 use std::collections::BTreeSet;
 
@@ -44,7 +44,7 @@ fn an_unknown_name_is_an_error() {
     assert!(error.contains("no figure is named `ray-engine/host-alon`"), "{error}");
 }
 
-/// A file of one group of figures; its digest is of the field `stated`.
+/// A file with one group of figures; its digest is computed from `stated`.
 fn file(figures: &str, stated: &str) -> String {
     let text = |figures: &str, digest: &str| {
         format!(
@@ -52,7 +52,7 @@ fn file(figures: &str, stated: &str) -> String {
              unit = \"Hz\"\nbound = \"15 %\"\nfigures = [{figures}]"
         )
     };
-    // Without it the error states the digest.
+    // Without a digest, the error states the correct one.
     let error = parse_figures(Paper::Cpca, &text(stated, "")).expect_err("another digest");
     let digest = error.split_once("stands there now ").map_or("", |(_, digest)| &digest[..16]);
     text(figures, digest)
@@ -83,7 +83,7 @@ fn within(share: f64) -> Judgement {
     Judgement::Within(Bound::Relative(share))
 }
 
-/// An expression may use figures below it, and names the entry with its row.
+/// An expression may use figures below it, and names the entry to which its row belongs.
 #[test]
 fn expressions_are_of_printed_values() {
     let found = parsed(
@@ -114,7 +114,7 @@ fn malformed_figures_are_refused() {
     }
 }
 
-/// A figure that was stated with a value of 5 and a bound of 15 %, in its present form.
+/// The current form `now` of a figure that was stated with the value 5 and a bound of 15 %.
 fn restated(now: &str) -> Result<Vec<PaperFigure>, String> {
     let figure = |terms: &str| format!("{{ id = \"a\", what = \"a\", {terms} }}");
     parse_figures(Paper::Cpca, &file(&figure(now), &figure(r#"value = "5", bound = "15 %""#)))
@@ -125,7 +125,7 @@ fn what_was_stated_passes() {
     assert!(restated(r#"value = "5", bound = "15 %""#).is_ok());
 }
 
-/// A wider bound, another value and a reading that appeared later are refused.
+/// A wider bound, another value, or a reading added later is rejected.
 #[test]
 fn silent_changes_are_refused() {
     for changed in [
@@ -185,7 +185,7 @@ fn other_texts_are_refused() {
     }
 }
 
-/// The implied fill rate is equation 11 solved for it.
+/// The implied fill rate is the solution of equation 11 for the rate.
 #[test]
 fn the_fill_rate_of_the_geforce4_is_implied() {
     let value = |id: &str| printed(id).expect("a figure").value;

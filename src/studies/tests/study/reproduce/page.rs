@@ -19,7 +19,7 @@ fn found(values: &[(f64, RowSource)]) -> Reproduced {
     vec![(entry("ray-engine-figure-7"), EntryFindings { rows, ..EntryFindings::default() })]
 }
 
-/// A missed figure is a finding; a value that is not as recorded fails the command.
+/// A missed figure is a finding; a value that differs from its record fails the command.
 #[test]
 fn only_a_difference_from_the_record_fails() {
     let missed = found(&[(20.0, RowSource::Computed), (30.0, RowSource::Confirmed)]);
@@ -28,7 +28,7 @@ fn only_a_difference_from_the_record_fails() {
     assert_eq!([&missed, &differs].map(|found| findings(found).verdict()), [Verdict::Done, Verdict::Failed]);
 }
 
-/// Sentences about one figure, and about several.
+/// Sentences have the singular for one figure, and the plural for several.
 #[test]
 fn sentences_agree_with_their_numbers() {
     let of = |values: &[(f64, RowSource)]| findings(&found(values)).conclusions().join(" ");
@@ -43,7 +43,7 @@ fn sentences_agree_with_their_numbers() {
     );
 }
 
-/// Values that `row` judges to be predicted, and to be missed.
+/// Values for which the verdict of `row` is predicted, and missed.
 const HIT: f64 = 15.6;
 const MISS: f64 = 20.0;
 

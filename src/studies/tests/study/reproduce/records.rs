@@ -9,7 +9,7 @@ use crossbar_studies::study::reproduce::{
 
 const ENTRY: &str = "cpca-coherence";
 
-/// Findings of every kind that a record keeps: readings, a range, a contradiction.
+/// Findings of every kind that a record stores: readings, a range, a contradiction.
 fn found(value: f64) -> EntryFindings {
     let row = |id: &str, dependence| {
         PaperRow::new(("r300", Method::Pipeline), printed(id).expect("a figure"), (value, dependence))
@@ -28,7 +28,7 @@ fn found(value: f64) -> EntryFindings {
     EntryFindings { rows, text, tables: vec![table], questions: vec!["which?"], ..EntryFindings::default() }
 }
 
-/// The record of such findings, as the program contains records.
+/// The record of such findings, parsed as the program parses its records.
 fn record(value: f64) -> &'static EntryRecord {
     let text = EntryRecord::new(ENTRY, &found(value), RecordMade::default()).text().expect("a file");
     Box::leak(Box::new(EntryRecord::parse(ENTRY, &text).expect("what was written")))
@@ -66,7 +66,7 @@ fn a_run_at_full_size_is_held_against_its_record() {
     assert!(sources(10.0_f64.next_up()).all(|source| source == RowSource::Differs { recorded: 10.0 }));
 }
 
-/// Cells of every kind, in the text of a record and out of it.
+/// Cells of every kind, encoded as in a record, and decoded again.
 #[test]
 fn cells_read_back() {
     let cells: Vec<Cell> = vec![
@@ -97,7 +97,7 @@ fn cells_read_back() {
     }
 }
 
-/// Numbers are put into their places in the sentence, without a sign before 0.
+/// The status sentence contains the numbers; a time that rounds to -0 is printed as 0.
 #[test]
 fn a_record_says_how_it_was_made() {
     let [command, version, commit] = ["crossbar reproduce", "1.0", "abc"].map(str::to_owned);

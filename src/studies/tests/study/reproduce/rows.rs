@@ -24,7 +24,7 @@ fn target(value: f64, decimals: u8) -> PaperFigure {
     }
 }
 
-/// A value of ours beside 15.6, which may have an error of 10 % and of the rounding of the print.
+/// A row with our value and the printed value 15.6, within a bound of 10 % plus the printed value's rounding.
 pub(super) fn row(ours: f64) -> PaperRow {
     let dependence = Dependence::Predicted { from: "" };
     PaperRow::new(("nv20", Method::Pipeline), &target(15.6, 1), (ours, dependence)).expect("a judged figure")
@@ -48,7 +48,7 @@ fn a_value_outside_its_bound_is_missed_and_no_word_changes_that() {
     assert_eq!([15.0, 18.0].map(|ours| row(ours).missed()), [None, Some(MissClass::ModelLost)]);
 }
 
-/// Consistency of print, and an order, are distinguished from predictions.
+/// Success by consistency, or by order alone, is distinguished from a prediction.
 #[test]
 fn classes_of_success_are_told_apart() {
     let equation = with(row(15.6), |row| row.method = Method::Equation);
@@ -58,7 +58,7 @@ fn classes_of_success_are_told_apart() {
     assert_eq!(bounded(equation, Bound::Order).verdict(), RowVerdict::Consistent);
 }
 
-/// A reading that fits does not hide another one that the text allows as well.
+/// A reading within the bound does not hide another allowed reading outside it.
 #[test]
 fn every_reading_must_lie_within_the_bound() {
     assert_eq!(row(15.6).with_readings([15.0, 16.0]).verdict(), RowVerdict::Predicted);
@@ -72,7 +72,8 @@ fn a_row_says_that_it_needs_the_rounding() {
     assert!(row(14.0).holds_by_rounding() && !row(14.1).holds_by_rounding() && !row(13.0).holds_by_rounding());
 }
 
-/// 15.6 and 33.2 contradict each other, each within 10 %: 15.6 and 36.0 agree with one, 20.0 with neither.
+/// 15.6 and 33.2 contradict each other, each with a bound of 10 %: 15.6 and 36.0 agree with one of them, 20.0 with
+/// neither.
 #[test]
 fn a_figure_that_its_paper_contradicts_is_missed_by_a_value_that_agrees_with_neither() {
     let contradiction = || Contradiction::between(&target(15.6, 1), 33.2, "the other table");
@@ -85,8 +86,8 @@ fn a_figure_that_its_paper_contradicts_is_missed_by_a_value_that_agrees_with_nei
     assert_eq!(verdicts, [RowVerdict::Contradictory, RowVerdict::Missed]);
 }
 
-/// A bound that admits every possible value judges nothing; a bound that a possible value misses does. Equal values
-/// have no order, and do not save a row whose order is impossible to reverse.
+/// A bound that admits every possible value judges nothing; a bound that some possible value misses does. Equal values
+/// have no order, so they do not make a row meaningful whose order cannot be reversed.
 #[test]
 fn what_cannot_fail_is_met_by_construction() {
     let confined = |range, bound| bounded(row(15.6), bound).confined(range, "a tree").verdict();
@@ -98,8 +99,8 @@ fn what_cannot_fail_is_met_by_construction() {
     assert_eq!(outside.verdict(), RowVerdict::Missed, "a wrong reason hides no miss");
 }
 
-/// A frame of 20 ms that the host works for 20 ms is the host's, at a calibrated rate; one that waits for the card
-/// is not.
+/// If the host works for all 20 ms of a frame, the host decides its rate, which is calibrated; if it waits for the
+/// card, it does not.
 #[test]
 fn a_frame_that_the_host_decides_is_an_equation() {
     let frame = Picoseconds(20_000_000_000);
@@ -151,14 +152,14 @@ fn an_order_is_a_side_of_1() {
     assert_eq!(side(0.4), [false, false, true]);
 }
 
-/// "About twice" is not satisfied by everything that rounds to 2.
+/// Not every value that rounds to 2 satisfies "about twice".
 #[test]
 fn about_twice_is_no_wider_than_any_prediction() {
     let twice = (2.0, 0.05);
     assert!(admits(PREDICTION, twice, 1.8) && !admits(PREDICTION, twice, 1.6) && !admits(PREDICTION, twice, 2.4));
 }
 
-/// "About 8" is met by 6.713 within 15 % only if 8 may have been 7.9.
+/// 6.713 satisfies "about 8" within 15 % only if 8 may have been 7.9 before rounding.
 #[test]
 fn rounding_is_told_from_the_bound() {
     let eight = (8.0, 0.5);
@@ -167,7 +168,7 @@ fn rounding_is_told_from_the_bound() {
     assert!(!Bound::Print.needs_rounding(eight, 8.4));
 }
 
-/// A prediction that the card brings no gain is outside.
+/// A prediction that the card brings no gain is outside the bound.
 #[test]
 fn the_calibrated_value_itself_is_outside() {
     let gained = (147_630.0, 0.5);
@@ -207,7 +208,7 @@ fn what_no_setting_reaches_stays_missed() {
     assert_eq!(rows[0].verdict(), RowVerdict::Missed);
 }
 
-/// Among settings that exclude each other, only the one that explains most rows counts.
+/// Among settings that exclude each other, only the setting that explains the most rows counts.
 #[test]
 fn one_setting_explains_all_that_a_sweep_explains() {
     let explained = |settings: &[[f64; 3]]| {

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use num_bigint::{BigInt, Sign};
 use num_traits::{Signed, Zero};
 
-/// Magnitudes above `2^LIMIT` are infinite, those below `2^-LIMIT` are zero or `2^-LIMIT`: on the safe side.
+/// Magnitudes above `2^LIMIT` become infinite; those below `2^-LIMIT` become zero or `2^-LIMIT`, rounded outward.
 pub(super) const LIMIT: i64 = 1 << 60;
 
 /// A dyadic number.
@@ -28,7 +28,7 @@ impl Dyadic {
         self.digits.is_negative()
     }
 
-    /// Smallest `t` such that the magnitude is below `2^t`; for zero the smallest integer there is.
+    /// Smallest `t` such that the magnitude is below `2^t`; a very negative integer for zero.
     pub(super) fn top(&self) -> i64 {
         if self.is_zero() { i64::MIN / 2 } else { self.exponent + self.digits.bits().cast_signed() }
     }
@@ -51,7 +51,7 @@ impl Dyadic {
         shifted(&self.digits, self.exponent + places)
     }
 
-    /// The nearest number of at most `bits` bits above or below.
+    /// The nearest number with at most `bits` bits, above or below.
     pub(super) fn rounded(self, bits: u64, up: bool) -> Self {
         let length = self.digits.bits();
         if length <= bits {
@@ -62,7 +62,7 @@ impl Dyadic {
         Self { digits, exponent: self.exponent + drop.cast_signed() }
     }
 
-    /// The sum, rounded to `bits` bits. What is far below the last bit is replaced by one unit far below it.
+    /// The sum, rounded to `bits` bits. An operand far below the last bit is replaced by one unit far below it.
     pub(super) fn plus(&self, other: &Self, bits: u64, up: bool) -> Self {
         let (large, small) = if self.top() >= other.top() { (self, other) } else { (other, self) };
         if small.is_zero() {
@@ -102,7 +102,7 @@ impl Dyadic {
         Self { digits, exponent: self.exponent - other.exponent - places.cast_signed() }.rounded(bits, up)
     }
 
-    /// The square or cube root, rounded to about `bits` bits, and whether it is exact; a number that is not negative.
+    /// The square or cube root of a nonnegative number, rounded to about `bits` bits, and `true` if it is exact.
     pub(super) fn root(&self, degree: u32, bits: u64, up: bool) -> (Self, bool) {
         let degree_bits = u64::from(degree);
         let mut places = (degree_bits * (bits + 2)).saturating_sub(self.digits.bits()).cast_signed();
@@ -173,7 +173,7 @@ pub(crate) enum End {
 }
 
 impl End {
-    /// An end on the safe side of a number within the limits of exponents: `up` for upper ends.
+    /// An end for a number, moved outward if its exponent is out of range: `up` for upper ends.
     pub(super) fn safe(x: Dyadic, up: bool) -> Self {
         let one = BigInt::from(if x.is_negative() { -1 } else { 1 });
         let outward = x.is_negative() != up;
@@ -225,7 +225,7 @@ impl End {
         }
     }
 
-    /// A product; zero times infinity is zero, as it is for ends.
+    /// A product; zero times infinity is zero, as required for ends.
     pub(super) fn times(&self, other: &Self, bits: u64, up: bool) -> Self {
         match (self, other) {
             (Self::At(x), Self::At(y)) => Self::safe(x.times(y, bits, up), up),
@@ -234,7 +234,7 @@ impl End {
         }
     }
 
-    /// A quotient by an end that is not zero; infinity by infinity is none.
+    /// A quotient by a nonzero end; `None` for infinity divided by infinity.
     pub(super) fn over(&self, other: &Self, bits: u64, up: bool) -> Option<Self> {
         Some(match (self, other) {
             (Self::At(x), Self::At(y)) => Self::safe(x.over(y, bits, up), up),

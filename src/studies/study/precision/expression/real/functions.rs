@@ -4,7 +4,7 @@ use super::dyadic::{Dyadic, End};
 use super::interval::{Real, RealInterval};
 use super::series;
 
-/// A function that grows, at both ends; where it has no end, its limit there.
+/// Encloses an increasing function by its values at both ends; at an infinite end, by its limit there.
 fn growing(x: &RealInterval, below: End, at: impl Fn(&Dyadic) -> RealInterval, above: End) -> RealInterval {
     if let Some(point) = x.as_point() {
         return at(point);
@@ -21,7 +21,7 @@ pub(super) fn exp(x: &RealInterval, bits: u64) -> RealInterval {
     growing(x, End::At(Dyadic::new(0, 0)), |x| series::exp(x, bits), End::Above)
 }
 
-/// `ln x` of what is not below zero.
+/// `ln x` of a nonnegative interval.
 pub(super) fn log(x: &RealInterval, bits: u64) -> RealInterval {
     let at = |x: &Dyadic| match x.is_zero() {
         true => RealInterval { low: End::Below, high: End::Below },
@@ -35,7 +35,7 @@ pub(super) fn atan(x: &RealInterval, bits: u64) -> RealInterval {
     growing(x, right.high.negated(), |x| series::atan(x, bits), right.high.clone())
 }
 
-/// Sine or cosine: that of the lower end, and as much more or less as the interval is wide, since no slope is above 1.
+/// Sine or cosine: the value at the lower end, plus or minus the width of the interval, since the slope is at most 1.
 pub(super) fn circular(sine: bool, x: &RealInterval, bits: u64) -> RealInterval {
     let (one, End::At(low)) = (RealInterval::integer(1), &x.low) else {
         return RealInterval { low: End::At(Dyadic::new(-1, 0)), high: End::At(Dyadic::new(1, 0)) };
@@ -57,7 +57,7 @@ pub(super) fn asin(x: &RealInterval, bits: u64) -> Option<RealInterval> {
     Some(atan(&x.over(&one.plus(&root, bits), bits)?, bits).scaled(1))
 }
 
-/// The angle of the point (x, y); none for the origin.
+/// The angle of the point (x, y); undefined for the origin.
 pub(super) fn atan2(y: &RealInterval, x: &RealInterval, bits: u64) -> Real {
     let is_origin = |x: &RealInterval| x.as_point().is_some_and(Dyadic::is_zero);
     if is_origin(x) && is_origin(y) {
@@ -80,7 +80,7 @@ pub(super) fn sum_of_exponentials(x: &RealInterval, cosh: bool, bits: u64) -> Re
         let (up, down) = (exp(x, bits), exp(&x.negated(), bits));
         if cosh { up.plus(&down, bits) } else { up.minus(&down, bits) }.scaled(-1)
     };
-    // Both grow where x is not negative; cosh is even.
+    // Both increase for nonnegative x; cosh is even.
     let x = if cosh { x.abs() } else { x.clone() };
     let [low, high] = [&x.low, &x.high].map(|end| at(&RealInterval { low: end.clone(), high: end.clone() }));
     RealInterval { low: low.low, high: high.high }

@@ -6,14 +6,14 @@ use num_bigint::BigInt;
 
 use super::dyadic::{Dyadic, End};
 
-/// Value of an expression over the reals, as far as a number of bits shows it.
+/// Value of an expression over the reals, as far as a given number of bits determines it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Real {
     /// The value lies between the ends.
     Range(RealInterval),
     /// There is no real value: a division by zero, a root or a logarithm of a negative number.
     Undefined,
-    /// These bits do not tell.
+    /// These bits do not determine the value.
     Unknown,
     /// Truth value.
     Truth(bool),
@@ -41,13 +41,13 @@ impl RealInterval {
         Self { low: at(middle - error, false), high: at(middle + error, true) }
     }
 
-    /// The rational `numerator / denominator`; the denominator is above 0.
+    /// The rational `numerator / denominator`; the denominator is positive.
     pub(crate) fn ratio(numerator: &BigInt, denominator: &BigInt, bits: u64) -> Self {
         let [n, d] = [numerator, denominator].map(|x| Dyadic::new(x.clone(), 0));
         Self { low: End::At(n.over(&d, bits, false)), high: End::At(n.over(&d, bits, true)) }
     }
 
-    /// The number, if the interval is one.
+    /// The number, if the interval contains only one.
     pub(crate) fn as_point(&self) -> Option<&Dyadic> {
         match (&self.low, &self.high) {
             (End::At(low), End::At(high)) if low == high => Some(low),
@@ -55,12 +55,12 @@ impl RealInterval {
         }
     }
 
-    /// Returns `true` if all of the interval is below zero.
+    /// Returns `true` if the whole interval is below zero.
     pub(super) fn is_negative(&self) -> bool {
         self.high.is_negative()
     }
 
-    /// Returns `true` if all of the interval is above zero.
+    /// Returns `true` if the whole interval is above zero.
     pub(super) fn is_positive(&self) -> bool {
         !self.low.is_negative() && !self.low.is_zero()
     }
@@ -69,7 +69,7 @@ impl RealInterval {
         !self.is_negative() && !self.is_positive()
     }
 
-    /// How all of one interval compares with all of another; `None` where they overlap.
+    /// Order of all numbers of one interval relative to all of another; `None` if the intervals overlap.
     pub(crate) fn order(&self, other: &Self) -> Option<Ordering> {
         match (self.as_point(), other.as_point()) {
             (Some(x), Some(y)) if x == y => Some(Ordering::Equal),
@@ -121,7 +121,7 @@ impl RealInterval {
         Self { low: x.low.times(&x.low, bits, false), high: x.high.times(&x.high, bits, true) }
     }
 
-    /// The quotient; `None` where the divisor may be zero, or both are without bound.
+    /// The quotient; `None` if the divisor may be zero, or both intervals are unbounded.
     pub(super) fn over(&self, other: &Self, bits: u64) -> Option<Self> {
         if other.has_zero() {
             return None;
@@ -131,7 +131,7 @@ impl RealInterval {
         Some(Self { low: all(false)?.into_iter().min()?, high: all(true)?.into_iter().max()? })
     }
 
-    /// The square root of what is not negative, or the cube root of what is on one side of zero.
+    /// The square root of a nonnegative interval, or the cube root of an interval on one side of zero.
     pub(super) fn root(&self, degree: u32, bits: u64) -> Self {
         let at = |end: &End, up: bool| match end {
             End::At(x) if x.is_negative() => End::At(x.abs().root(degree, bits, !up).0.negated()),

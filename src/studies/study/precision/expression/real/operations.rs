@@ -17,7 +17,7 @@ macro_rules! functions {
                 match (name, operands) { $(($name, $operands) => Some(Self::$variant),)* _ => None }
             }
 
-            /// Numbers of operands of the functions with this name.
+            /// Numbers of operands that functions with this name may have.
             pub(crate) fn operands(name: &str) -> Vec<usize> {
                 [$(($name, $operands),)*].iter().filter(|known| known.0 == name).map(|known| known.1).collect()
             }
@@ -143,7 +143,7 @@ fn unary(function: Function, x: &RealInterval, bits: u64) -> Real {
     range.map_or(Real::Unknown, Real::Range)
 }
 
-/// Whether all of an interval, or none of it, is above zero.
+/// `true` if the whole interval is above zero, `false` if none of it is; `None` if some is.
 fn positive(x: &RealInterval) -> Option<bool> {
     match x {
         _ if x.is_positive() => Some(true),
@@ -152,7 +152,7 @@ fn positive(x: &RealInterval) -> Option<bool> {
     }
 }
 
-/// Whether all of an interval, or none of it, is at most another.
+/// `true` if all of `x` is at most all of `y`, `false` if all of `x` is above; otherwise `None`.
 fn not_above(x: &RealInterval, y: &RealInterval) -> Option<bool> {
     if x.high <= y.low { Some(true) } else { (x.low > y.high).then_some(false) }
 }

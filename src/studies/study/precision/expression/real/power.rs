@@ -1,4 +1,4 @@
-//! Powers: those that are rational are exact, so that their rounding is decided.
+//! Powers. Rational powers are exact, so that their rounding is decided.
 
 use num_traits::One;
 
@@ -6,9 +6,9 @@ use super::dyadic::Dyadic;
 use super::interval::{Real, RealInterval};
 use super::{functions, series};
 
-/// Largest integer exponent of powers by multiplication, and of powers of two.
+/// Largest integer exponent for powers by multiplication, and for powers of two.
 const MAX_WHOLE: u64 = 1 << 12;
-/// Square roots that are taken out of an exponent such as 1.5.
+/// Maximum number of square roots taken for an exponent such as 1.5.
 const MAX_ROOTS: u32 = 12;
 
 /// `2^x`
@@ -19,7 +19,7 @@ pub(super) fn exp2(x: &RealInterval, bits: u64) -> RealInterval {
     }
 }
 
-/// `log2 x` of what is above zero.
+/// `log2 x` of a positive interval.
 pub(super) fn log2(x: &RealInterval, bits: u64) -> Option<RealInterval> {
     if let Some(x) = x.as_point()
         && let zeros = x.digits.trailing_zeros().unwrap_or_default()
@@ -56,7 +56,7 @@ pub(super) fn pow(x: &RealInterval, y: &RealInterval, bits: u64) -> Real {
     if x.is_positive() {
         return Real::Range(rational_power(x, y, bits).unwrap_or_else(|| by_logarithm(x)));
     }
-    // Of a negative number only integer powers are real.
+    // A negative number has real powers only for integer exponents.
     let Some(exponent) = y.as_point().filter(|_| x.is_negative()) else { return Real::Unknown };
     let is_whole = |scale: i64| exponent.exponent + scale >= 0 || exponent.scaled(scale).whole().is_some();
     match (is_whole(0), is_whole(-1)) {
@@ -69,7 +69,7 @@ pub(super) fn pow(x: &RealInterval, y: &RealInterval, bits: u64) -> Real {
 /// `x^n` by squaring.
 fn whole_power(x: &RealInterval, n: u64, bits: u64) -> RealInterval {
     let (mut power, mut rest, mut square) = (RealInterval::integer(1), n, x.clone());
-    // Even powers are those of the magnitude.
+    // An even power equals the power of the magnitude.
     if n.is_multiple_of(2) {
         square = square.abs();
     }
@@ -85,7 +85,7 @@ fn whole_power(x: &RealInterval, n: u64, bits: u64) -> RealInterval {
     power
 }
 
-/// `x^(n/2^k)` of two numbers, if it is rational: `k` exact roots, then a power.
+/// `x^(n/2^k)` for two points, if it is rational: `k` exact roots, then a power.
 fn rational_power(x: &RealInterval, y: &RealInterval, bits: u64) -> Option<RealInterval> {
     let (mut base, exponent) = (x.as_point()?.clone(), y.as_point()?);
     let zeros = exponent.digits.trailing_zeros().unwrap_or_default().cast_signed();
@@ -99,7 +99,7 @@ fn rational_power(x: &RealInterval, y: &RealInterval, bits: u64) -> Option<RealI
     if whole < 0 { RealInterval::integer(1).over(&power, bits) } else { Some(power) }
 }
 
-/// An integer that is a point, small enough to count with.
+/// An integer point, small enough to count with.
 fn small_integer(x: &RealInterval) -> Option<i64> {
     let x = x.as_point()?;
     i64::try_from(Some(x).filter(|x| x.top() < 60)?.whole()?).ok()

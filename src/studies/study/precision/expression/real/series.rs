@@ -1,8 +1,8 @@
 //! Enclosures of elementary functions at a dyadic point, by series in integers.
 //!
 //! Values are integers in units of `2^-places`; every division and shift truncates, so each step errs by less than two
-//! units. All functions work with [`GUARD`] places more than their result needs, and widen the result by `2^ERROR`
-//! units: a series has at most one term per place, places are below `2^14`, and a term errs by at most eight units.
+//! units. All functions work with [`GUARD`] more bits than their result needs, and widen the result by `2^ERROR` units:
+//! a series has at most one term per bit, there are fewer than `2^14` bits, and a term errs by at most eight units.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ use num_traits::{One, Zero};
 use super::dyadic::{Dyadic, End, LIMIT, shifted};
 use super::interval::RealInterval;
 
-/// Places beyond those of the result.
+/// Additional bits for intermediate results.
 const GUARD: i64 = 40;
 /// Bound on the error of a series, as a power of two in its units.
 const ERROR: u32 = 22;
@@ -22,7 +22,7 @@ const ERROR: u32 = 22;
 const MAX_ANGLE: i64 = 1 << 15;
 
 thread_local! {
-    /// ln 2 and pi by places, rounded down, off by one unit at most.
+    /// ln 2 and pi by number of fraction bits, rounded down, with an error of at most one unit.
     static KNOWN: RefCell<BTreeMap<(bool, i64), BigInt>> = const { RefCell::new(BTreeMap::new()) };
 }
 
@@ -72,7 +72,7 @@ fn enclosed(sum: &BigInt, places: i64) -> RealInterval {
     RealInterval::around(sum, 1 << ERROR, -places)
 }
 
-/// From `1 + low` to `1 + high`, where both are `digits * 2^exponent`.
+/// From `1 + low 2^exponent` to `1 + high 2^exponent`.
 fn near_one(low: i32, high: i32, exponent: i64, bits: u64) -> RealInterval {
     let at = |x: i32, up| End::At(Dyadic::new(1, 0).plus(&Dyadic::new(x, exponent), bits, up));
     RealInterval { low: at(low, false), high: at(high, true) }
@@ -92,11 +92,11 @@ pub(super) fn exp(x: &Dyadic, bits: u64) -> RealInterval {
         };
     }
     if top < -bits.cast_signed() - 2 {
-        // Of the sign of x, and below twice its magnitude.
+        // `exp x - 1` has the sign of x, and at most twice its magnitude.
         return if x.is_negative() { near_one(-1, 0, top, bits) } else { near_one(0, 1, top + 1, bits) };
     }
     let places = bits.cast_signed() + GUARD;
-    // A multiple of ln 2 is off by as many units as the multiple has.
+    // A multiple of ln 2 has an error of as many units as the multiple counts.
     let wide = places + top.max(0);
     let (whole, rest) = x.floor_at(wide).div_mod_floor(&known(false, wide));
     let rest = rest >> (wide - places).unsigned_abs();
@@ -131,7 +131,7 @@ pub(super) fn log(x: &Dyadic, bits: u64) -> RealInterval {
         power = (power * &square) >> places.unsigned_abs();
         k += 2;
     }
-    // 64 more places for a multiple of ln 2 with a factor below 2^61.
+    // 64 more bits, because ln 2 is multiplied by a factor below 2^61.
     let shift: BigInt = (known(false, places + 64) * whole) >> 64u32;
     enclosed(&(sum * 2 + shift), places)
 }
@@ -192,7 +192,7 @@ pub(super) fn circular(sine: bool, x: &Dyadic, bits: u64) -> RealInterval {
         return if sine { below(x, bits) } else { near_one(-1, 0, 2 * top, bits) };
     }
     let places = precision + GUARD + if sine { (-top).max(0) } else { 0 };
-    // A multiple of pi/2 is off by as many units as the multiple has.
+    // A multiple of pi/2 has an error of as many units as the multiple counts.
     let wide = places + top.max(0) + 4;
     let quarter = known(true, wide) >> 1u32;
     let (turns, rest) = (x.floor_at(wide) + (&quarter >> 1u32)).div_mod_floor(&quarter);

@@ -1,4 +1,4 @@
-//! The error of expressions.
+//! Errors in the text of expressions.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,10 +7,10 @@ use miette::{Diagnostic, SourceSpan};
 
 use crate::report::SourceText;
 
-/// Text that is no expression, or one that cannot be taken: the reason, and the place.
+/// Error of a text that is not an expression, or is not supported: the reason and the position.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[error("{message}")]
-#[diagnostic(code(crossbar::expression), help("docs/precision.md lists what is taken"))]
+#[diagnostic(code(crossbar::expression), help("docs/precision.md lists what is supported"))]
 pub struct ExpressionError {
     message: String,
     #[source_code]
@@ -28,7 +28,7 @@ impl ExpressionError {
         Self { message: message.into(), source_code: Arc::clone(source), span: place.into() }
     }
 
-    /// Line and column of the place, from 1.
+    /// Line and column of the error, from 1.
     pub fn line_and_column(&self) -> (usize, usize) {
         let at = self.span.offset();
         (self.source_code.line_of(at) + 1, self.source_code.column_of(at) + 1)

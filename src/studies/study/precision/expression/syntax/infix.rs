@@ -1,6 +1,7 @@
 //! Formulas in infix notation, as trees of FPCore.
 //!
-//! From loose to tight: `a ? b : c`, `||`, `&&`, comparisons, sums, products, signs, powers (`^`, from the right).
+//! Operators by increasing precedence: `a ? b : c`, `||`, `&&`, comparisons, sums, products, signs, powers (`^`,
+//! right-associative).
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,7 +10,7 @@ use super::ExpressionError;
 use super::text::{MAX_DEPTH, Tree};
 use crate::report::SourceText;
 
-/// Binary operators by how tightly they bind, and the names of their operations.
+/// Binary operators with their precedence, and the names of their operations.
 const OPERATORS: [(&str, u8, &str); 13] = [
     ("||", 1, "or"),
     ("&&", 2, "and"),
@@ -30,13 +31,13 @@ const SIGN: u8 = 6;
 /// Most operators in a formula.
 const MAX_OPERATORS: usize = 2000;
 
-/// Names that shading languages have for functions and constants of FPCore.
+/// Names in shading languages of functions and constants of FPCore.
 const NAMES: [(&str, &str); 5] = [("abs", "fabs"), ("min", "fmin"), ("max", "fmax"), ("ln", "log"), ("pi", "PI")];
 
 /// Parses a formula.
 ///
 /// # Errors
-/// Where something else is expected.
+/// At the first unexpected token.
 pub(super) fn parse(source: &Arc<SourceText>) -> Result<Tree, ExpressionError> {
     let mut parser = Parser { source, at: 0, depth: 0, operators: 0 };
     let tree = parser.choice()?;
@@ -81,7 +82,7 @@ impl Parser<'_> {
         Tree::List(std::iter::once(name).chain(operands).collect(), place)
     }
 
-    /// One level deeper.
+    /// Enters one level of nesting.
     fn enter(&mut self) -> Result<(), ExpressionError> {
         self.skip_blanks();
         self.depth += 1;
@@ -105,7 +106,7 @@ impl Parser<'_> {
         Ok(tree)
     }
 
-    /// Operands joined by operators that bind at least so tightly.
+    /// Operands joined by operators of at least this precedence.
     fn operation(&mut self, least: u8) -> Result<Tree, ExpressionError> {
         self.enter()?;
         let from = self.at;
@@ -128,7 +129,7 @@ impl Parser<'_> {
                 return Err(self.expected(&format!("at most {MAX_OPERATORS} operators")));
             }
             self.at += sign.len();
-            // Powers join from the right.
+            // Powers are right-associative.
             let right = self.operation(if *name == "pow" { SIGN } else { tight + 1 })?;
             let place = from..right.place().end.max(end);
             left = Self::list(name, vec![left, right], place);
@@ -137,7 +138,7 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// A number, a variable, a call, or a formula in brackets.
+    /// A number, a variable, a call, or a formula in parentheses.
     fn operand(&mut self) -> Result<Tree, ExpressionError> {
         let from = self.at;
         if self.take("(") {
@@ -166,7 +167,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Bytes of the name or number here; the sign of an exponent belongs to its number.
+    /// Length in bytes of the name or number at the current position; the sign of an exponent belongs to its number.
     fn word_length(&self) -> usize {
         let is_number = self.rest().starts_with(|c: char| c.is_ascii_digit() || c == '.');
         let is_hexadecimal = self.rest().starts_with("0x");

@@ -1,4 +1,4 @@
-//! From text to expressions: FPCore, and formulas in infix notation, both by way of one tree.
+//! From text to expressions: FPCore and formulas in infix notation, both through one tree.
 
 mod error;
 mod infix;
@@ -16,10 +16,10 @@ use self::translate::core;
 use super::graph::Expression;
 use crate::report::SourceText;
 
-/// Expressions of an FPCore file in order, each with the reason if it cannot be taken.
+/// Expressions of an FPCore file in order; an unsupported one is an error with the reason.
 ///
 /// # Errors
-/// If the text has no balanced brackets, or something outside of `(FPCore ...)`.
+/// If brackets are unbalanced, or something is outside of `(FPCore ...)`.
 pub(super) fn cores(source: &Arc<SourceText>) -> Result<Vec<Result<Expression, ExpressionError>>, ExpressionError> {
     let trees = text::parse(source)?;
     if trees.is_empty() {

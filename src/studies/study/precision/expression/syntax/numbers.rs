@@ -3,10 +3,10 @@
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-/// Longest text of a number, and largest exponent.
+/// Maximum length of a number's text, and largest exponent.
 const MAX: usize = 5000;
 
-/// Numerator and denominator, above 0, of a number of FPCore; `None` for other text.
+/// Numerator and positive denominator of a number in FPCore; `None` for other text.
 pub(super) fn parse(text: &str) -> Option<(BigInt, BigInt)> {
     if text.len() > MAX {
         return None;
@@ -28,7 +28,7 @@ fn digits(text: &str, radix: u32) -> Option<BigInt> {
     all.then(|| BigInt::parse_bytes(text.as_bytes(), radix))?
 }
 
-/// `1.5e3`: digits, and a power of `base` behind the mark.
+/// `1.5e3`: digits, then `mark` and a power of `base`.
 fn scaled(text: &str, radix: u32, mark: char, base: u32) -> Option<(BigInt, BigInt)> {
     let lower = text.to_ascii_lowercase();
     let (mantissa, exponent) = lower.split_once(mark).unwrap_or((&lower, "0"));

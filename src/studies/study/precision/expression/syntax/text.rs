@@ -1,4 +1,4 @@
-//! Trees of FPCore: atoms and lists, each with its place.
+//! Trees of FPCore: atoms and lists, each with its span.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ impl Tree {
 /// Parses all trees of a text.
 ///
 /// # Errors
-/// At a bracket without its partner, a string without an end, or beyond the deepest nesting.
+/// At an unmatched bracket, an unterminated string, or nesting beyond [`MAX_DEPTH`].
 pub(super) fn parse(source: &Arc<SourceText>) -> Result<Vec<Tree>, ExpressionError> {
     let (text, mut at) = (source.text(), 0);
     let mut open: Vec<(char, usize, Vec<Tree>)> = Vec::new();

@@ -9,16 +9,16 @@ use crate::report::SourceText;
 use crate::study::precision::expression::graph::{Expression, Graph, Node, NumberComparison, Operation};
 use crate::study::precision::expression::real::{Constant, Function};
 
-/// Largest number of operations.
+/// Maximum number of operations.
 const MAX_NODES: usize = 20_000;
 
-/// Operators of FPCore that are not taken, and why.
+/// Unsupported operators of FPCore, with the reasons.
 const REFUSED: [(&str, &str); 6] = [
-    ("!", "the format under study is that of every operation, so that annotations of some have no meaning"),
-    ("while while* for for*", "loops are not taken: expressions are straight-line"),
-    ("tensor tensor* array ref dim size", "tensors are not taken"),
+    ("!", "the studied format applies to every operation, so annotations of single operations have no meaning"),
+    ("while while* for for*", "loops are not supported: expressions are straight-line"),
+    ("tensor tensor* array ref dim size", "tensors are not supported"),
     ("erf erfc tgamma lgamma", "it has no enclosure over the reals here"),
-    ("floor ceil trunc round nearbyint fmod remainder fdim copysign", "functions with jumps are not taken"),
+    ("floor ceil trunc round nearbyint fmod remainder fdim copysign", "functions with jumps are not supported"),
     ("isfinite isinf isnan isnormal signbit INFINITY NAN", "it has no meaning over the reals"),
 ];
 
@@ -35,7 +35,9 @@ pub(super) fn core(tree: &Tree, source: &Arc<SourceText>) -> Result<Expression, 
     };
     let named = |argument: &Tree| match argument.atom() {
         Some(name) => Ok(name.to_owned()),
-        None => Err(fail("expected the name of an argument; annotations and tensors are not taken", argument.place())),
+        None => {
+            Err(fail("expected the name of an argument; annotations and tensors are not supported", argument.place()))
+        }
     };
     let variables = arguments.iter().map(named).collect::<Result<Vec<String>, _>>()?;
     let (mut preconditions, mut spec) = (Vec::new(), None);
@@ -71,7 +73,7 @@ pub(in crate::study::precision::expression) fn formula(
     Ok(Expression { source: Arc::clone(source), name, variables, body, spec: None, preconditions: Vec::new() })
 }
 
-/// Precondition that variables are within bounds: `x=-1..1`.
+/// Precondition that variables lie within bounds: `x=-1..1`.
 pub(in crate::study::precision::expression) fn bounds(
     ranges: &[String],
     variables: &[String],
@@ -139,7 +141,7 @@ impl<'a> GraphBuilder<'a> {
         }
         let root = translator.typed(tree, is_truth)?;
         let mut nodes = translator.nodes;
-        // The result is the last node: a name of an earlier one is copied behind all.
+        // The result must be the last node: if it is a name for an earlier node, that node is copied to the end.
         if root + 1 < nodes.len() {
             nodes.push(nodes[root].clone());
         }
@@ -163,7 +165,7 @@ impl<'a> GraphBuilder<'a> {
         Ok(self.nodes.len() - 1)
     }
 
-    /// Translates a part that must be a number, or a truth value.
+    /// Translates a subtree that must be a number, or a truth value.
     fn typed(&mut self, tree: &Tree, is_truth: bool) -> Result<usize, ExpressionError> {
         let node = self.node(tree)?;
         match (self.nodes[node].is_truth, is_truth) {
@@ -275,7 +277,7 @@ impl<'a> GraphBuilder<'a> {
         Ok(node)
     }
 
-    /// Of several operands each neighboring pair is compared; with `!=` every pair.
+    /// With several operands, each neighboring pair is compared; with `!=`, every pair.
     fn comparison(
         &mut self,
         comparison: NumberComparison,

@@ -1,4 +1,4 @@
-//! Transferred radiance from representatives and weights in fewer bits.
+//! Transferred radiance from representatives and weights with fewer bits.
 
 use super::pixels::exact_pixels;
 use super::subject::{AllFrequencyOnCard, in_double};
@@ -12,7 +12,7 @@ use crate::transfer::light::HaarLight;
 /// Numbers of bits to try, if the file has more.
 const BITS: [u8; 5] = [8, 10, 12, 14, 15];
 
-/// Choices of a file.
+/// Variants of a file's code.
 fn choices(coded: &CodedTransfer) -> Vec<(&'static str, u8, CodeOptions)> {
     let of = coded.options;
     let mut all = Vec::new();
@@ -30,7 +30,7 @@ pub(super) fn ways_to_code(coded: &CodedTransfer) -> u64 {
     1 + choices(coded).len() as u64
 }
 
-/// Varies the code alone: sums and pixels are in f64.
+/// Varies only the code: sums and pixels are in f64.
 pub(super) fn coarse_codes(
     study: &AllFrequencyOnCard,
     coded: &CodedTransfer,

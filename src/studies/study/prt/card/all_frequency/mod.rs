@@ -1,5 +1,5 @@
 //! All-frequency transfer on an emulated card: a picture with its errors and its time ([`AllFrequencyOnCard`]), and
-//! number formats, maps and filters varied one after the other ([`factored_precision`]).
+//! number formats, maps and filters, varied one after the other ([`factored_precision`]).
 
 mod coding;
 mod pixels;

@@ -7,12 +7,12 @@ use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_product
 use crate::all_frequency::on_card::{ProductPlace, TransferredMesh};
 use crate::card::SeenPixel;
 
-/// The view that a method interpolates; vertex colors use the view of products, which they represent.
+/// The view format that a method interpolates; for vertex colors, the view format of the products that they represent.
 fn view_of(place: &ProductPlace) -> ViewNumbers {
     if let ProductPlace::Pixels(options) = place { options.view } else { ViewNumbers::default() }
 }
 
-/// The picture of an exact card: exposed, neither clamped nor quantised. 0 where no surface is visible.
+/// The picture of an exact card: exposed, neither clamped nor quantised. Pixels without a surface are 0.
 pub(super) fn exact_pixels(
     mesh: &TransferredMesh<'_>,
     seen: &[Option<SeenPixel>],

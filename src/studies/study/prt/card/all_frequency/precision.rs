@@ -1,4 +1,4 @@
-//! Number formats, maps and filters varied one after the other, against step 4 in f64 of the same pixels.
+//! Number formats, maps and filters varied one after the other, compared with step 4 in f64 at the same pixels.
 
 use refsim::device::Profile;
 use refsim::machine::Executor;
@@ -16,10 +16,10 @@ use crate::study::prt::card::{PictureVariant, PixelErrors};
 
 /// Numbers of bits of G to try.
 const BITS: [u32; 5] = [8, 10, 12, 14, 16];
-/// Sets of texture coordinates of ps_2_0.
+/// Number of texture coordinate sets of ps_2_0.
 const SETS: usize = 8;
 
-/// A way to draw.
+/// A variant of drawing.
 struct Choice {
     axis: &'static str,
     label: String,
@@ -111,8 +111,8 @@ pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
 }
 
 /// Draws a mesh into floats in many ways, and compares each picture with one that the host computes in f64 from the
-/// same numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with
-/// [`CardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
+/// same numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with a
+/// [`CardError`] for meshes that do not fit the cards: more than thirty terms, or mismatched parts.
 pub fn factored_precision(
     mesh: TransferredMesh<'_>,
     executor: &Executor,

@@ -67,7 +67,7 @@ impl Study for AllFrequencyOnCard {
     }
 }
 
-/// Counts of colors that a picture cannot show.
+/// Reports the number of colors that a picture cannot show.
 fn conclude(drawing: &FactoredDrawing, found: &mut Findings) {
     let counts = &drawing.counts;
     for (count, what) in [
@@ -154,7 +154,7 @@ impl AllFrequencyOnCard {
         rows.into_iter().map(|(what, number)| (what, number.map_or(Cell::Empty, Cell::from))).collect()
     }
 
-    /// Representatives, weights, G, arithmetic and filters, varied one after the other.
+    /// Varies representatives, weights, G, arithmetic and filters, one after the other.
     fn variants(
         &self,
         steps: &HostSteps,

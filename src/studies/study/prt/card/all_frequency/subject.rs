@@ -1,4 +1,4 @@
-//! A lit model with all-frequency transfer, and the steps of the host before a card draws it.
+//! A lit model with all-frequency transfer, and the steps that the host computes before a card draws it.
 
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::file::AllFrequencyFile;
@@ -18,7 +18,7 @@ pub struct AllFrequencyOnCard {
     pub lit: LitModel,
     /// The card that draws.
     pub card: CardSetting,
-    /// Where products with G are made.
+    /// Where products with G are computed.
     pub place: ProductPlace,
 }
 
@@ -39,12 +39,12 @@ impl AllFrequencyOnCard {
         exact::coefficients((&self.lit.light, self.lit.decimation), keep)
     }
 
-    /// The host's work before a card draws.
+    /// Computes the host's steps, before a card draws.
     pub(super) fn steps(&self) -> Result<HostSteps, StudyError> {
         let cut = self.cut(self.lit.keep)?;
         let (transferred, multiplies) = match &self.lit.file.coded {
             Some(coded) => by_shader(coded, &cut.light)?,
-            // Each non-zero light coefficient is multiplied in the raw matrix of every vertex.
+            // Each nonzero light coefficient is multiplied with the raw matrix of every vertex.
             None => {
                 let per_vertex = 3 * (self.lit.file.reflectance.terms() * cut.kept * self.lit.vertices.len()) as u64;
                 (self.raw(&self.lit.file, &cut.light)?, Multiplies { per_cluster: 0, per_vertex })
@@ -53,7 +53,7 @@ impl AllFrequencyOnCard {
         Ok(HostSteps { cut, transferred, multiplies })
     }
 
-    /// Transferred radiance by raw matrices in f64, one rounding to f32 each.
+    /// Transferred radiance by raw matrices in f64, with one rounding to f32.
     pub(super) fn raw(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<TransferredRadiance, StudyError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
@@ -66,7 +66,7 @@ impl AllFrequencyOnCard {
     }
 }
 
-/// Steps 2 and 3 in f32, as frames compute them.
+/// Steps 2 and 3 in f32, as in rendering a frame.
 pub(super) fn by_shader(
     coded: &CodedTransfer,
     light: &HaarLight,
@@ -75,7 +75,7 @@ pub(super) fn by_shader(
     Ok((shader.transferred(&light)?, shader.multiplies(&light)))
 }
 
-/// Steps 2 and 3 in f64, one rounding to f32 each.
+/// Steps 2 and 3 in f64, with one rounding to f32.
 pub(super) fn in_double(coded: &CodedTransfer, light: &HaarLight) -> Result<TransferredRadiance, LightSizeError> {
     let light: Vec<[f64; 3]> = light.singles().into_iter().map(|rgb| rgb.map(f64::from)).collect();
     Ok(singles(coded.rows, plain::transferred_of_code(coded, &light)?))

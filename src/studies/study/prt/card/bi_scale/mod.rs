@@ -1,4 +1,4 @@
-//! Bi-scale transfer on an emulated card: a picture with its errors and its times, and number formats varied one after
+//! Bi-scale transfer on an emulated card: a picture with its errors and its times, and number formats, varied one after
 //! the other.
 
 mod picture;

@@ -1,4 +1,4 @@
-//! Pictures by the card and by the host in f64.
+//! Pictures drawn by the card, and computed by the host in f64.
 
 use rayon::prelude::*;
 use refsim::event::Event;
@@ -11,14 +11,14 @@ use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, Gathe
 use crate::card::{MeshView, SeenPixel};
 use crate::study::StudyError;
 
-/// L~ by the card, and its counts.
+/// L~ as the card computes it, and its counts.
 pub(super) struct CardLight {
     pub(super) local: Vec<[f32; 3]>,
     pub(super) counts: GatherCounts,
     pub(super) log: Vec<Event>,
 }
 
-/// A picture by the card.
+/// A picture drawn by the card.
 pub(super) struct Drawn {
     pub(super) pixels: Vec<[f64; 3]>,
     pub(super) counts: DisplayCounts,
@@ -49,7 +49,7 @@ impl BiScaleOnCard {
         Ok(Drawn { pixels: texels.colors(), counts: card.counts(), log })
     }
 
-    /// Equation 3 in f64, exposed, neither clamped nor quantised. 0 where nothing is seen.
+    /// Equation 3 in f64, exposed, neither clamped nor quantised. Pixels without a surface are 0.
     pub(super) fn exact(
         &self,
         local: &[[f64; 3]],

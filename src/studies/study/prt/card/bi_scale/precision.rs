@@ -1,4 +1,4 @@
-//! Number formats varied one after the other, against the same picture in f64.
+//! Number formats varied one after the other, compared with the same picture in f64.
 
 use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;

@@ -25,7 +25,7 @@ const SWEEP: &str = "Each row has one number format of fewer bits, and single pr
 const TIME: &str = "Modelled, not measured, by the pipeline model of the card, in which texture reads run at the full \
     rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is reused.";
 
-/// Times of a frame: with a new view only, and with new light too; `None` if the card has no timing.
+/// Times of a frame: with a new view only, and with a new light too; `None` if the card has no timing.
 type Times = Option<(FrameTime, FrameTime)>;
 
 impl Study for BiScaleOnCard {

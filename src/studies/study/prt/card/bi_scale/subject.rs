@@ -1,4 +1,4 @@
-//! A model with bi-scale transfer and textures, lit and seen.
+//! A model with bi-scale transfer and textures, with a light and a camera.
 
 use glam::DMat3;
 
@@ -22,9 +22,9 @@ pub struct BiScaleOnCard {
     pub view: LitView,
     /// The model's vertices.
     pub vertices: Vertices,
-    /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
+    /// Texture coordinates of each corner, triangle by triangle; one unit is one patch.
     pub coordinates: Vec<[[f32; 2]; 3]>,
-    /// Transfer to the textures' directions of light.
+    /// Transfer from the light to the textures' directions of light.
     pub biclusters: Biclustering,
     /// The textures.
     pub textures: Vec<BidirectionalTexture>,
@@ -51,7 +51,7 @@ impl BiScaleOnCard {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
 
-    /// Refuses biclusters of other vertices, directions or light.
+    /// Rejects biclusters of other vertices, directions or light.
     pub(super) fn check(&self) -> Result<(), StudyError> {
         let [rows, columns] = self.biclusters.matrix_size();
         let expected = self.vertices.len() * self.directions();
@@ -68,7 +68,7 @@ impl BiScaleOnCard {
         Ok(())
     }
 
-    /// L: red, green and blue of each light texel, times its solid angle.
+    /// L: red, green and blue of each light texel, multiplied by its solid angle.
     pub(super) fn light_texels(&self) -> Result<Vec<[f64; 3]>, InputError> {
         let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
         Ok(side_by_side(light_vectors(&cube)))

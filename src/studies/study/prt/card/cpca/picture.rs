@@ -1,4 +1,4 @@
-//! A picture by a card and by the host, and how they differ.
+//! A picture by the card and by the host, and their differences.
 
 use glam::DVec3;
 use refsim::device::Profile;
@@ -13,13 +13,13 @@ use crate::geom::vector::wide;
 use crate::study::prt::interpolate::SeenSurface;
 use crate::transfer::brdf::ExitBasis;
 
-/// A way to draw.
+/// Inputs of a card's picture.
 #[derive(Clone, Copy)]
 pub(super) struct CardDrawing<'a> {
     pub(super) profile: &'a Profile,
     pub(super) format: TexelFormat,
     pub(super) options: PrtCardOptions,
-    /// True to log the work of host and card.
+    /// `true` to log the work of host and card.
     pub(super) timed: bool,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct ChunkCounts {
     pub(super) superclusters: usize,
     /// Triangles of the mesh.
     pub(super) triangles: usize,
-    /// Triangles drawn, one for each group that a triangle has a vertex in.
+    /// Number of drawn triangles: each triangle counts once per group that has one of its vertices.
     pub(super) drawn: u64,
 }
 
@@ -69,7 +69,7 @@ impl CardDrawing<'_> {
     }
 }
 
-/// Linear radiance of visible pixels, from exit coefficients of the vertices.
+/// Linear radiance of visible pixels, computed from exit coefficients of the vertices.
 pub(super) fn on_host(
     study: &OnCard,
     seen: &[Option<SeenPixel>],

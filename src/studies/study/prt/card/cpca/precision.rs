@@ -1,4 +1,4 @@
-//! Number formats, maps and targets varied one after the other, against a picture in single precision throughout.
+//! Number formats, maps and targets varied one after the other, compared with a picture in single precision throughout.
 
 use refsim::device::Profile;
 use refsim::texture::TexelFormat;
@@ -18,7 +18,7 @@ const FINE: usize = 512;
 /// Sides of maps to try, in texels.
 const SIDES: [usize; 5] = [8, 16, 32, 64, 128];
 
-/// A variant of the reference.
+/// A variant of the reference picture.
 struct Choice {
     /// The varied setting.
     axis: &'static str,
@@ -34,7 +34,7 @@ pub(super) const EXPLAINED: &str = "Each row changes one thing in a picture in s
     of clusters: negative light is lost if the group that balances it is drawn later. `together` draws clusters in \
     groups, `alone` one after the other.";
 
-/// The reference: single precision everywhere, maps of many texels in single precision, a float target.
+/// The reference: single precision everywhere, large maps in single precision, and a float target.
 fn reference() -> Choice {
     let options = PrtCardOptions { map_side: FINE, map_format: TexelFormat::Rgba32f, ..PrtCardOptions::default() };
     let (axis, label) = ("reference", format!("fp32, maps of {FINE}"));
@@ -80,7 +80,7 @@ pub(super) fn pictures(transfer: &CompressedTransfer<'_>) -> u64 {
     1 + choices(transfer.is_glossy()).len() as u64
 }
 
-/// Draws all choices, and compares them with the reference where pixels show the mesh.
+/// Draws all variants, and compares them with the reference at pixels that show the mesh.
 pub(super) fn variants(
     study: &OnCard,
     transfer: CompressedTransfer<'_>,

@@ -1,4 +1,4 @@
-//! A model with compressed transfer, lit and seen.
+//! A model with compressed transfer, with a light and a camera.
 
 use crate::clustering::Clustering;
 use crate::cpca::coherence::Superclusters;
@@ -17,15 +17,15 @@ use crate::transfer::file::PrtMeaning;
 pub struct OnCard {
     /// Names, camera and exposure.
     pub view: LitView,
-    /// The model's vertices, the points of the clusters.
+    /// The model's vertices, which are the points of the clusters.
     pub vertices: Vertices,
-    /// Meaning of the numbers of a vertex.
+    /// Meaning of the numbers at a vertex.
     pub meaning: PrtMeaning,
-    /// The clusters.
+    /// Clusters of the compressed transfer.
     pub clustering: Clustering,
     /// Superclusters of these clusters, if the file has any.
     pub superclusters: Option<Superclusters>,
-    /// The light, of the order of the transfer.
+    /// The light, with the same order as the transfer.
     pub light: HarmonicLight,
     /// The card that draws.
     pub card: CardSetting,

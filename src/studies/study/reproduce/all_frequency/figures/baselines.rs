@@ -1,4 +1,4 @@
-//! Figure 1: our method and spherical harmonics beside the exact picture.
+//! Figure 1: our method and spherical harmonics, compared with the exact picture.
 
 use glam::DVec3;
 
@@ -30,11 +30,11 @@ const HOW: &str = "Figure 1 has a bird with {} vertices on a ground with {} unde
     arrives, and the reflectance's own coefficients towards the eye. The bird has Schlick's model in the textbooks' form, and in the form \
     that is nearest to the errors of section 3, whose highlights can be seen.";
 
-/// Colors of vertices: exact, ours, harmonics.
+/// Colors of vertices by method: exact, ours, harmonics.
 type MethodColors = Vec<Vec<[f64; 3]>>;
 
-/// Compression options: the number of representatives is doubled, as the command does by default, or two models would
-/// take seven hours of processor time at full size.
+/// Compression options. The number of representatives is doubled, as the command does by default; otherwise two models
+/// would take seven hours of processor time at full size.
 fn options(size: ModelSize) -> SegmentOptions {
     SegmentOptions { method: CpcaMethod::Doubling, ..models::options(size, VECTORS) }
 }
@@ -67,7 +67,7 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
     ))
 }
 
-/// All methods on a scene under the stand-in for the light of St. Peter's.
+/// All methods for a scene under the stand-in for the light of St. Peter's.
 struct Methods<'a> {
     scene: &'a FigureScene,
     light: CubeLight,
@@ -76,7 +76,7 @@ struct Methods<'a> {
 }
 
 impl Methods<'_> {
-    /// Colors of the model or the ground. Like segments, they are kept as a piece of the work.
+    /// Colors of the model or the ground. Like segments, they are stored as a piece of the work.
     fn colors(
         &self,
         subject: (&VisibilityMaps, &dyn ProductFunction, &Reflectance),

@@ -8,7 +8,7 @@ use super::{EntryFindings, Shared, StudyError, models, number, paragraph, solved
 use crate::all_frequency::Reflectance;
 use crate::report::{Cell, Table};
 
-/// Numbers of representatives; the paper's is the last.
+/// Numbers of representatives; the last is the paper's.
 const VECTORS: [usize; 4] = [1, 4, 8, 16];
 
 const HOW: &str = "Figure 5 has a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty, {} vertices each on average.";

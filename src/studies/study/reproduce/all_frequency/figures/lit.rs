@@ -10,14 +10,14 @@ use crate::study::prt::{CompressionTally, SegmentedCompression};
 use crate::transfer::light::HaarLight;
 use crate::transfer::visibility::VisibilityMaps;
 
-/// Surface of a scene: the vertices of some maps with a reflectance and a color.
+/// Surface of a scene: the vertices of some visibility maps, with a reflectance and a color.
 #[derive(Clone, Copy)]
 pub(super) struct Surface<'a> {
     pub(super) scene: &'a FigureScene,
     pub(super) maps: &'a VisibilityMaps,
     pub(super) reflectance: &'a Reflectance,
     pub(super) color: [f64; 3],
-    /// Keeper of finished pieces, and the prefix of their names.
+    /// Storage of finished pieces, and the prefix of their names.
     pub(super) pieces: (&'a Shared, &'a str),
 }
 
@@ -38,14 +38,14 @@ impl Surface<'_> {
         compression.run(&mut |_, _, _| ()).on(HOST)
     }
 
-    /// Radiance of the maps' vertices towards the scene's eye, from encoded transfer.
+    /// Radiance of the maps' vertices towards the scene's eye, from coded transfer.
     pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
         let shader = Shader::new(coded);
         let transferred = shader.transferred(&light.singles()).on(HOST)?;
         Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
     }
 
-    /// Step 4 with T_p of the mesh's vertices.
+    /// Step 4 with T_p for the mesh's vertices.
     fn exit(&self, transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync)) -> Vec<[f64; 3]> {
         let color = self.color;
         let color = |_: usize| color;

@@ -1,4 +1,4 @@
-//! Figures 1, 2 and 5 to 7: errors and derived counts. Figure 3 is in the module of the reflectance factors.
+//! Figures 1, 2 and 5 to 7: errors and derived counts. Figure 3 is in the module `factors`.
 
 mod baselines;
 mod clusters;

@@ -1,4 +1,4 @@
-//! Models of the figures, in printed or reduced size.
+//! Models of the figures, at the printed or a reduced size.
 
 use super::{ModelSize, RunResult, StudyError};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -9,16 +9,17 @@ use crate::study::reproduce::all_frequency::forms::{bare, quarter_of_half_vector
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
 pub(super) use crate::study::reproduce::all_frequency::models::ground_side as ground;
 
-/// Builds the stand-ins for tweety and for the Buddha.
+/// Builds the stand-in for the paper's tweety.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
     TransferModel::Tweety.mesh(if models == ModelSize::Printed { 1 } else { 9 })
 }
 
+/// Builds the stand-in for the paper's Buddha.
 pub(super) fn buddha(models: ModelSize) -> Mesh {
     TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 12 })
 }
 
-/// Vertices per cluster: fewer for models with few vertices, so that there are several clusters.
+/// Number of vertices per cluster: smaller for models with few vertices, so that there are several clusters.
 pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
     match models {
         ModelSize::Printed => 200,
@@ -39,19 +40,19 @@ pub(super) fn options(models: ModelSize, vectors: usize) -> SegmentOptions {
 /// Reflectance of a figure: the name of its form, and the lobe.
 pub(super) type NamedLobe = (&'static str, Lobe);
 
-/// Anisotropic reflectance of Figures 1 and 7: the textbooks' form, and the one nearest to the printed errors.
+/// Anisotropic reflectance of Figures 1 and 7: the textbook form, and the form nearest to the printed errors.
 pub(super) fn schlick() -> [NamedLobe; 2] {
     let lobe = Lobe::schlick(0.2, 0.2, 0.8);
     [("textbook", lobe), ("quarter of half vector", quarter_of_half_vector(lobe))]
 }
 
-/// Reflectance of Figure 2 and of the glossy Buddha in the same form.
+/// Reflectance of Figure 2 and of the glossy Buddha, in the same forms.
 pub(super) fn cook_torrance() -> [NamedLobe; 2] {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     [("textbook", lobe), ("distribution alone", bare(lobe))]
 }
 
-/// Suffix of file names per form: empty for the textbooks' form.
+/// Suffix of file names per form: empty for the textbook form.
 pub(super) fn ending(form: &str) -> String {
     if form == "textbook" { String::new() } else { format!("-{}", form.replace(' ', "-")) }
 }

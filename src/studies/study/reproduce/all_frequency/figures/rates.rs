@@ -1,4 +1,4 @@
-//! Figure 7: frame rates by the model, including the ground.
+//! Figure 7: frame rates, modelled with the ground included.
 
 use glam::DVec3;
 use refsim::device::Profile;
@@ -23,14 +23,14 @@ const CARD: &str = "r350";
 const TEAPOT: usize = 1;
 const BUDDHA: usize = 4;
 const GLOSSY_BUDDHA: usize = 5;
-/// Printed frame rates, with the column of Table 1.
+/// Printed frame rates, each with a column of Table 1.
 const PRINTED: [(&str, usize); 4] = [
     ("all-frequency/fps-figure-7-diffuse", BUDDHA),
     ("all-frequency/fps-figure-7-glossy", GLOSSY_BUDDHA),
     ("all-frequency/fps-figure-7-low", TEAPOT),
     ("all-frequency/fps-figure-7-all", TEAPOT),
 ];
-/// Columns of Table 1 in the names of their drawn rates, in the order of [`TABLE_1`].
+/// Names of Table 1's columns in the figures of rates with drawing, in the order of [`TABLE_1`].
 const COLUMNS: [&str; 6] = ["bunny", "teapot", "tweety-diffuse", "tweety-glossy", "buddha-diffuse", "buddha-glossy"];
 /// Representatives per cluster, coefficients and number of segments, vertices per cluster, channels.
 const VECTORS: u64 = 16;
@@ -44,10 +44,10 @@ const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} ve
     side, colors of vertices are sent as bytes, no pixel takes time, {} vertices are run per triangle. Rates of Table 1 with drawing are the same without a ground. Light of low frequency has as many \
     Haar coefficients as any, so the model has one rate for both lights.";
 
-/// Vertices processed per triangle, for meshes that are not ordered for the card's vertex cache.
+/// Number of vertices processed per triangle, for meshes that are not ordered for the card's vertex cache.
 const RUN_PER_TRIANGLE: f64 = 1.1;
 
-/// Cost of steps 2 and 3 for a ground, with a fraction `omega` of non-empty segments.
+/// Cost of steps 2 and 3 for a ground whose fraction of non-empty segments is `omega`.
 fn of_ground(omega: f64) -> (u64, Multiplies) {
     let vertices = u64::from(GROUND_SIDE * GROUND_SIDE);
     let entries = ((vertices * SEGMENTS) as f64 * omega) as u64;
@@ -59,8 +59,8 @@ fn of_ground(omega: f64) -> (u64, Multiplies) {
 /// Fraction of the segments above the horizon of an open ground.
 const OPEN_GROUND: f64 = 0.5;
 
-/// Cost of the diffuse Buddha with its ground under light with a fraction of non-zero coefficients, where columns of
-/// zero light are skipped.
+/// Cost of the diffuse Buddha with its ground under a light whose fraction of nonzero coefficients is `share`; columns
+/// without light are skipped.
 pub(super) fn buddha_without_drawing(share: f64) -> Multiplies {
     let (own, ground) = (TABLE_1[BUDDHA].multiplies(), of_ground(OPEN_GROUND).1);
     Multiplies {
@@ -75,8 +75,8 @@ pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, StudyError> {
     Ok(host.time_of(HostOperation::MultiplyAdd, steps.per_cluster + steps.per_vertex).seconds())
 }
 
-/// Time of a frame including drawing, on a ground with a fraction `omega` of non-empty segments; or without one, as in
-/// section 7 for Table 1.
+/// Time of a frame including drawing, on a ground whose fraction of non-empty segments is `ground`; or without a
+/// ground, as in section 7 for Table 1.
 fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, StudyError> {
     let place = ProductPlace::Vertices(VertexColors::Bytes);
     let vertices = 100 * model.vertex_hundreds;

@@ -31,7 +31,7 @@ pub(super) struct FigureScene {
 }
 
 impl FigureScene {
-    /// Creates the scene, seen from an eye in units of the model's size, relative to its center.
+    /// Creates the scene; the eye is relative to the model's center, in units of the model's size.
     pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3) -> Result<Self, StudyError> {
         let (mesh, materials) = on_ground(model, ground).on(HOST)?;
         let vertices = Vertices::with_materials(&mesh, &materials, Tangents::Along(DVec3::Z)).on(HOST)?;
@@ -53,7 +53,7 @@ impl FigureScene {
         DVec3::from(self.camera.eye().map(f64::from))
     }
 
-    /// Colors of all vertices from those of the model's maps and of the ground's.
+    /// Merges the colors of the model's and the ground's vertices into one list over all vertices.
     pub(super) fn joined(&self, model: &[[f64; 3]], ground: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut all = vec![[0.0; 3]; self.vertices.len()];
         for (maps, colors) in [(&self.of_model, model), (&self.of_ground, ground)] {
@@ -62,8 +62,7 @@ impl FigureScene {
         all
     }
 
-    /// Difference of a picture from the exact one: root mean square of the pixels' differences, relative to that of the
-    /// picture.
+    /// Difference of a picture from the exact one: RMS of the pixels' differences, relative to the exact picture's RMS.
     pub(super) fn rms(&self, found: &[[f64; 3]], exact: &[[f64; 3]]) -> f64 {
         let [found, exact] = [found, exact].map(|of_vertex| self.seen.colors(of_vertex, [0.0; 3]));
         let pairs = found.iter().flatten().zip(exact.iter().flatten());

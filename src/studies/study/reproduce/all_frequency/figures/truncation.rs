@@ -22,7 +22,7 @@ const RADIUS: f64 = 3.0;
 const KEPT: [usize; 5] = [50, 100, 200, 400, 800];
 /// Number of steps of half a degree around z.
 const FRAMES: u32 = 6;
-/// Threshold of visible flicker: one percent of the picture, chosen by us before any was computed.
+/// Threshold of visible flicker, one percent of the picture: our choice, before any was computed.
 const SEEN: f64 = 0.01;
 
 const HOW: &str = "Figure 6 has a diffuse Buddha of {} vertices under {} disks with radii of {} degrees, spread evenly, of random colors; the light turns by half \
@@ -34,7 +34,7 @@ fn sources() -> Vec<DiskSource> {
     let random = CounterRng::new(6);
     let source = |at: u64| {
         let z = 1.0 - (2 * at + 1) as f64 / SOURCES as f64;
-        // Turns of the golden angle.
+        // Rotation by multiples of the golden angle.
         let [x, y] = on_circle((at as f64 * 0.381_966_011_250_105).fract());
         let radius = (1.0 - z * z).sqrt();
         let radiance = [0, 1, 2].map(|channel| 1.0 + 9.0 * random.unit(at, 0, channel));
@@ -68,7 +68,7 @@ fn radiance(segments: &[TransferSegment], vertices: usize, light: &HaarLight) ->
     all
 }
 
-/// Sum of squares of a difference.
+/// Sum of squared differences.
 fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum()
 }
@@ -95,7 +95,7 @@ impl FlickerFrames {
         Ok(found)
     }
 
-    /// Root mean square change of the error between frames, per number of coefficients.
+    /// RMS change of the error between frames, per number of coefficients.
     fn flicker(&self) -> Vec<f64> {
         let none = vec![[0.0; 3]; self.whole[0].len()];
         let steps = self.whole.len() - 1;

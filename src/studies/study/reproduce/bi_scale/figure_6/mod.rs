@@ -1,4 +1,4 @@
-//! Figure 6: biclusters compared with clusters of rows and wavelets, and with the other methods of sections II and
+//! Figure 6: biclusters compared with clusters of rows, with wavelets, and with the other methods of sections II and
 //! IV-A.
 
 mod sizes;
@@ -22,7 +22,7 @@ use crate::transfer::light::{CubeLight, Decimation, DistantLight};
 use crate::transfer::visibility::Horizon;
 use sizes::chair_sizes;
 
-/// Order of the harmonics of low-frequency bi-scale transfer.
+/// Order of the harmonics in low-frequency bi-scale transfer.
 const ORDER: usize = 5;
 
 const HOW: &str = "Figure 6 has a chair with {} vertices that is not at hand; ours is made by code and has {}. Each way to store its transfer \
@@ -75,7 +75,8 @@ fn lights() -> Result<[LightChannels; 2], StudyError> {
     Ok([of(DistantLight::Sky(HARD_SUN))?, of(DistantLight::RedAndBlue)?])
 }
 
-/// Rows on sizes and losses. "Severe" artifacts of other storages are no printed number: the table shows their errors.
+/// Rows for sizes and losses. "Severe" artifacts of other storages are not a printed number: the table shows their
+/// errors.
 fn rows(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Vec<PaperRow>, StudyError> {
     let sum = biclusters.sum().on(HOST)?;
     let given_back = (0..matrix.rows()).filter(|&row| matrix.row(row) == sum.row(row)).count();

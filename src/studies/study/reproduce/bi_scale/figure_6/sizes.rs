@@ -1,24 +1,24 @@
-//! Bytes of the chair by each method, from printed numbers alone.
+//! Bytes of the chair for each method, from printed numbers alone.
 
 use super::super::scenes::SCENES;
 use super::{StudyError, printed_value};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
-/// Printed values: clusters of rows, vectors of each, wavelets per row.
+/// Printed values: clusters of rows, vectors per cluster, wavelets per row.
 const CLUSTERS: usize = 32;
 const VECTORS: usize = 8;
 const WAVELETS: usize = 12;
-/// Name of the figure of the wavelets' megabytes.
+/// Name of the figure with the wavelets' megabytes.
 const PRINTED_WAVELETS: &str = "bi-scale/wavelets-chair";
-/// Bytes of a wavelet: two for its index, one for its value.
+/// Bytes per wavelet: two for its index, one for its value.
 const WAVELET_BYTES: usize = 3;
 
 fn wavelets(bytes: usize) -> Result<f64, StudyError> {
     Ok(1e-6 * (SCENES[2].rows()? * WAVELETS * bytes) as f64)
 }
 
-/// Table of every method with its layouts, beside the printed values; the size of clusters is illegible in the scan.
+/// Table of every method and layout, with the printed values; the size of clusters is illegible in the scan.
 pub(super) fn chair_sizes() -> Result<Table, StudyError> {
     let mut table = Table::of("The chair by printed numbers", "way layout MB MiB MB_printed");
     let of_print = |what: &str| Ok::<_, StudyError>(SCENES[2].printed(what)?.value);

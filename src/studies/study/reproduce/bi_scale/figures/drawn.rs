@@ -1,4 +1,4 @@
-//! Pictures of a figure: by transfer, by rays, by low-frequency light, and of the sources of error.
+//! Pictures of a figure: by transfer, by rays, by low-frequency light, and for the causes of error.
 
 use super::scene::{FigureSize, TexturedModel};
 use super::{HOST, RunResult, StudyError};
@@ -8,18 +8,18 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::study::prt::{BiScaleDrawing, BiScaleRendering, CausePictures};
 
-/// Order of the harmonics of low-frequency bi-scale transfer.
+/// Order of the harmonics in low-frequency bi-scale transfer.
 pub(super) const ORDER: usize = 5;
 
 /// Colors of a figure.
 pub(super) struct DrawnFigure {
     pub(super) causes: CausePictures,
-    /// Colors by low-frequency light.
+    /// Colors from low-frequency light.
     pub(super) smooth: Vec<[f64; 3]>,
 }
 
 impl DrawnFigure {
-    /// Draws a model with `side` local directions along an edge.
+    /// Draws a model with `side` local directions per side.
     pub(super) fn new(model: &TexturedModel, side: usize, size: FigureSize) -> Result<Self, StudyError> {
         let rendering = model.rendering(side, size)?;
         let drawing = BiScaleDrawing::new(&rendering).on(HOST)?;
@@ -27,18 +27,19 @@ impl DrawnFigure {
         let local = drawing.local(&cube).on(HOST)?;
         let drawn = drawing.shade(&local.rows);
         let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).on(HOST)?;
-        let matrix = rendering.file.matrix.as_ref().ok_or("a rendering without its matrix").on(HOST)?;
+        let matrix = rendering.file.matrix.as_ref().ok_or("the rendering has no transfer matrix").on(HOST)?;
         let low = low_frequency(&rendering, matrix, side, &light_vectors(&cube))?;
         Ok(Self { causes, smooth: drawing.shade(&low) })
     }
 
-    /// Errors of a picture in percent, relative to the ray-traced picture without and with the textures of transfer.
+    /// RMS errors of a picture in percent, relative to the ray-traced picture with patches, and to the one with
+    /// textures as in transfer.
     pub(super) fn errors(&self, picture: &[[f64; 3]]) -> [f64; 2] {
         [self.causes.exact(), self.causes.textured()].map(|other| self.causes.apart(other, picture))
     }
 }
 
-/// Computes L~ by low-frequency bi-scale transfer: harmonics on both sides.
+/// Computes L~ by low-frequency bi-scale transfer, with harmonics for both directions.
 fn low_frequency(
     rendering: &BiScaleRendering,
     matrix: &SparseMatrix,

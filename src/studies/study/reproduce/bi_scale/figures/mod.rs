@@ -1,4 +1,4 @@
-//! Figures 1 and 5: errors of pictures by transfer and by low-frequency light beside pictures by rays, by cause.
+//! Figures 1 and 5: pictures by transfer and by low-frequency light compared with pictures by rays; errors by cause.
 
 mod drawn;
 mod scene;
@@ -18,7 +18,7 @@ const HOW: &str = "Models, materials, light and cameras are not at hand. Stand-i
     pictures that do one thing after the other as transfer does it; a step is how far one lies from the one before, in percent of the root mean square of the \
     picture by rays. Low frequency is transfer of harmonics of order {} on both sides, as low-frequency bi-scale rendering has it, with the same textures.";
 const QUESTION: &str = "the models, their textures, the light and the cameras; whether the references are by rays at every pixel or by transfer that was not compressed.";
-/// Local directions along an edge of the bunny, and of the armor.
+/// Number of local directions per side for the bunny, and for the armor.
 const SIDE: usize = 8;
 const ARMOR_SIDE: usize = 12;
 
@@ -52,7 +52,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(found)
 }
 
-/// Row of section IV on the share of the bunny's matrix that is not zero.
+/// Row for section IV's fraction of nonzero entries in the bunny's matrix.
 fn nonzero_share(coarser: u32) -> Result<PaperRow, StudyError> {
     let seen = ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Normal)?;
     let matrix = seen.matrix(SIDE)?;

@@ -21,15 +21,15 @@ const EYE: DVec3 = DVec3::new(1.6, -2.4, 0.9);
 /// Sizes of models, pictures and textures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FigureSize {
-    /// Edge length of models, relative to the paper's.
+    /// Edge length of models, as a multiple of the paper's.
     pub(super) coarser: u32,
     /// Size of the pictures, in pixels.
     pub(super) picture: [u32; 2],
-    /// Texels along an edge of patches.
+    /// Number of texels per side of a patch.
     pub(super) texels: usize,
-    /// View directions along an edge.
+    /// Number of view directions per side.
     pub(super) views: usize,
-    /// Repetitions of a patch per unit of texture coordinates, so that it is visible at this picture size.
+    /// Repetitions of a patch per unit of texture coordinates, so that patches are visible at this picture size.
     repeat: f64,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct TexturedModel {
 }
 
 impl TexturedModel {
-    /// Computes the transfer to `side` local directions along an edge as biclusters, the texture and a camera, under a
+    /// Computes the transfer to `side` local directions per side as biclusters, with the texture and a camera, under a
     /// clear sky with a sun.
     pub(super) fn rendering(&self, side: usize, size: FigureSize) -> Result<BiScaleRendering, StudyError> {
         let mesh = &self.mesh;
@@ -85,7 +85,7 @@ impl TexturedModel {
         Ok(SurfaceTexture { name: self.patch.to_string(), samples, patch: Some(patch) })
     }
 
-    /// Camera of a picture that the model fills.
+    /// Camera for a picture that the model fills.
     fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, StudyError> {
         let [low, high] = self.mesh.bounds().unwrap_or_default().map(wide);
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
