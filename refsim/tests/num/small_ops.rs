@@ -195,16 +195,11 @@ impl Reference {
         }
     }
 
-    /// Returns `true` if `rsq`, `log2` and `pow` take magnitudes.
-    fn magnitudes(&self) -> bool {
-        !self.f.is_fixed() && self.f.specials == Specials::Ieee
-    }
-
     pub(crate) fn rsq(&self, a: Val) -> Outcome {
         match a {
             Nan { .. } => self.nan(&[a]).expect("a NaN"),
-            Num(x, q) if q.n == 0 => self.pole(x && !self.magnitudes()),
-            Num(true, _) | Inf(true) if !self.magnitudes() => self.invalid(),
+            Num(x, q) if q.n == 0 => self.pole(x),
+            Num(true, _) | Inf(true) => self.invalid(),
             Inf(_) => self.zero(false),
             // Compares 1/sqrt(q) with c by comparing 1 with q c^2.
             Num(_, q) => rational::round(&self.f, self.tininess, false, |c| ONE.cmp(q.mul(c.mul(c)))),

@@ -21,7 +21,12 @@ fn float_values() {
     same(f, ops::div(f, n("1"), n("3")), "0.3333");
     same(f, ops::sqrt(f, n("2")), "1.414");
     same(f, ops::rsq(f, n("4")), "0.5");
-    same(f, ops::rsq(f, n("-4")), "0.5");
+    for negative in ["-4", "-inf"] {
+        assert_eq!(ops::rsq(f, n(negative)), Outcome::new(0x7e00, Flags::INVALID));
+        assert_eq!(ops::log2(f, n(negative)), Outcome::new(0x7e00, Flags::INVALID));
+        assert_eq!(ops::pow(f, n(negative), n("2")), Outcome::new(0x7e00, Flags::INVALID));
+    }
+    assert_eq!(ops::rsq(f, n("-0")), Outcome::new(0xfc00, Flags::DIVIDE_BY_ZERO));
     same(f, ops::exp2(f, n("-3")), "0.125");
     same(f, ops::log2(f, n("8")), "3");
     same(f, ops::pow(f, n("3"), n("2")), "9");

@@ -295,7 +295,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         let mag = f64::from(a.abs());
         let regular = (mag > 0.0) & (mag < f64::INFINITY);
         let root = self.round_f64(odd::rsq_odd(if regular { mag } else { 1.0 }));
-        let zero = self.pole(if self.nv { a.to_bits() & SIGN_BIT } else { 0 });
+        let zero = self.pole(a.to_bits() & SIGN_BIT);
         let special = if mag == 0.0 {
             zero
         } else if mag > 0.0 {
@@ -304,7 +304,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
             f32::NAN
         };
         let value = if regular { root } else { special };
-        if self.nv & (a < 0.0) { self.nan } else { value }
+        if a < 0.0 { self.nan } else { value }
     }
 
     fn exp2(&self, a: f32) -> f32 {
@@ -313,7 +313,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     fn log2(&self, a: f32) -> f32 {
         let mag = f64::from(a.abs());
-        if self.nv & (a < 0.0) {
+        if a < 0.0 {
             self.nan
         } else if mag == 0.0 {
             self.pole(SIGN_BIT)

@@ -18,7 +18,7 @@ use super::flags::{Flags, Outcome};
 use super::format::FormatKind;
 use super::ops::mul;
 use super::round::{divide_by_zero, from_parts, in_units, infinite, zero};
-use super::rules::{Overflow, Specials};
+use super::rules::Overflow;
 use super::unit;
 use super::unit::UnitOperation;
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
@@ -73,9 +73,8 @@ fn floor_clamped(sign: bool, sig: u64, exp: i32, den: u32) -> i32 {
 
 /// `log2 x`, correctly rounded.
 ///
-/// Zero gives -inf with `DIVIDE_BY_ZERO` (the most negative number in fixed point and `:sat` floats). With
-/// [`Specials::Ieee`] a negative operand's magnitude is taken, as Direct3D's `log` does; with [`Specials::Nv`], and
-/// in fixed point, it is `INVALID`.
+/// Zero gives -inf with `DIVIDE_BY_ZERO` (the most negative number in fixed point and `:sat` floats). A negative operand
+/// is `INVALID` (IEEE 754, 9.2.1).
 pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Log2, &[x]) {
@@ -83,11 +82,10 @@ pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
     }
     let format = &env.format;
     let value = unpack(format, x);
-    let magnitude = format.specials == Specials::Ieee && !format.is_fixed();
     match value {
         Unpacked::Nan { .. } => nan_result(format, &[value]),
         Unpacked::Finite { sig: 0, .. } => divide_by_zero(format, true),
-        Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } if !magnitude => invalid(format),
+        Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => invalid(format),
         Unpacked::Inf { .. } => infinite(format, false),
         Unpacked::Finite { sig, exp, den, .. } => {
             let den = u64::from(den);
@@ -150,12 +148,10 @@ fn circular(env: Env, x: u32, sine: bool) -> Outcome {
     }
 }
 
-/// `x^y` as ps_2_0 expands it: `exp2(y * log2|x|)`, each of the three steps rounded once in the format. So `pow(0, 0)`
-/// is NaN (0 times -inf), as in `NV_fragment_program`. The magnitude is taken with [`Specials::Ieee`] and in fixed
-/// point; with [`Specials::Nv`] a negative `x` is `INVALID`.
+/// `x^y` as `exp2(y * log2 x)`, each of the three steps rounded once in the format. So `pow(0, 0)` is NaN (0 times
+/// -inf), and a negative `x` is `INVALID`, as in `NV_fragment_program`. Direct3D's `pow` takes the magnitude of `x`.
 pub fn pow(env: impl Into<Env>, x: u32, y: u32) -> Outcome {
     let env = env.into();
-    let x = if env.format.specials == Specials::Ieee { super::ops::abs(env, x).bits } else { x };
     let log = log2(env, x);
     let product = mul(env, y, log.bits);
     exp2(env, product.bits).also(log.flags | product.flags)

@@ -3,7 +3,6 @@
 use crate::num::env::Env;
 use crate::num::flags::Outcome;
 use crate::num::round::{divide_by_zero, in_units, infinite, zero};
-use crate::num::rules::Specials;
 use crate::num::unit;
 use crate::num::unit::UnitOperation;
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
@@ -28,9 +27,9 @@ pub fn sqrt(env: impl Into<Env>, x: u32) -> Outcome {
 
 /// `1 / sqrt(x)`, rounded once.
 ///
-/// Special values: with [`Specials::Ieee`] the operand's magnitude is taken, as in Direct3D, so `rsq(-4)` is 0.5 and
-/// both zeros give +inf with `DIVIDE_BY_ZERO`. With [`Specials::Nv`] `rsq(-0)` is -inf and negative operands are
-/// `INVALID`. In fixed point zero gives the largest number and negative operands are `INVALID`, result 0.
+/// Special values are those of `rSqrt` in IEEE 754 (9.2.1) and of `RSQ` in NV_fragment_program: `rsq(-0)` is -inf with
+/// `DIVIDE_BY_ZERO`, and negative operands are `INVALID`. In fixed point zero gives the largest number and negative
+/// operands are `INVALID`, result 0.
 pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     if let Some(done) = unit::evaluate(&env.format, UnitOperation::Rsq, &[x]) {
@@ -38,11 +37,10 @@ pub fn rsq(env: impl Into<Env>, x: u32) -> Outcome {
     }
     let format = &env.format;
     let value = unpack(format, x);
-    let magnitude = format.specials == Specials::Ieee && !format.is_fixed();
     match value {
         Unpacked::Nan { .. } => nan_result(format, &[value]),
-        Unpacked::Finite { sign, sig: 0, .. } => divide_by_zero(format, sign && !magnitude),
-        Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } if !magnitude => invalid(format),
+        Unpacked::Finite { sign, sig: 0, .. } => divide_by_zero(format, sign),
+        Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => invalid(format),
         Unpacked::Inf { .. } => zero(format, false),
         Unpacked::Finite { sig, exp, den, .. } => {
             // In units of 1/d, 1/sqrt(s/d * 2^e) = sqrt(d^3 2^p / s) * 2^(-e/2 - p/2) with s in [2^31, 2^33), p even

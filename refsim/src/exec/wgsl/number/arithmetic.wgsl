@@ -64,10 +64,9 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     // make such text much longer.
     let empty = x.kind == 0u && x.sig == 0u;
     let by_zero = y.kind == 0u && y.sig == 0u;
-    let magnitude = inverse && f.special == 0u && n_is_float(f);
-    let sign = select(x.sign ^ y.sign, select(0u, x.sign, empty && !magnitude), root);
+    let sign = select(x.sign ^ y.sign, select(0u, x.sign, empty), root);
     let undefined = y.kind == 2u || (x.kind == 1u && y.kind == 1u) || (empty && by_zero);
-    let nan = x.kind == 2u || select(undefined, x.sign == 1u && !magnitude && !empty, root);
+    let nan = x.kind == 2u || select(undefined, x.sign == 1u && !empty, root);
     let infinite = x.kind == 1u && !inverse;
     let pole = select(by_zero, empty && inverse, root) && !infinite;
     let zero = select(empty || y.kind == 1u, select(empty, x.kind == 1u, inverse), root);
@@ -197,7 +196,7 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
         if empty {
             return n_known(n_pole(f, 1u));
         }
-        if x.sign == 1u && (f.special == 1u || !n_is_float(f)) {
+        if x.sign == 1u {
             return n_known(n_nan(f));
         }
         if x.kind == 1u {
