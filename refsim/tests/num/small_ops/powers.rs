@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use num_bigint::BigInt;
 use num_traits::Pow;
-use refsim::num::{Flags, FormatKind, Outcome, Overflow, Specials};
+use refsim::num::{Flags, FormatKind, Outcome, Overflow};
 
 use super::Val::{Inf, Nan, Num};
 use super::{ONE, Reference, Val, signed};
@@ -32,7 +32,7 @@ impl Reference {
         let q = match a {
             Nan { .. } => return self.nan(&[a]).expect("a NaN"),
             Num(_, q) if q.n == 0 => return self.pole(true),
-            Num(true, _) | Inf(true) if !self.magnitudes() => return self.invalid(),
+            Num(true, _) | Inf(true) => return self.invalid(),
             Inf(_) => return self.infinity(false),
             Num(_, q) => q,
         };
@@ -46,7 +46,6 @@ impl Reference {
     }
 
     pub(crate) fn pow(&self, x: u32, y: u32) -> Outcome {
-        let x = if self.f.specials == Specials::Ieee { self.abs(x).bits } else { x };
         let log = self.log2(self.val(x));
         let product = self.mul(self.val(y), self.val(log.bits));
         self.exp2(self.val(product.bits)).also(log.flags | product.flags)
