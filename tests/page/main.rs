@@ -5,6 +5,7 @@
 mod browser;
 #[path = "../../refsim/tests/common/environment.rs"]
 mod environment;
+mod shader;
 
 use environment::is_full;
 use std::path::{Path, PathBuf};
@@ -42,7 +43,10 @@ fn main() -> ExitCode {
             "without_webgpu_there_are_pictures_and_stored_traces",
             without_webgpu_there_are_pictures_and_stored_traces,
         ),
+        trial("a_shader_stands_beside_that_of_the_gpu", shader::a_shader_stands_beside_that_of_the_gpu),
         trial("the_emulator_in_the_page_has_the_native_bits", the_emulator_in_the_page_has_the_native_bits)
+            .with_ignored_flag(name.is_none() || !emulator().is_file()),
+        trial("shaders_of_the_module_are_near_the_gpu", shader::shaders_of_the_module_are_near_the_gpu)
             .with_ignored_flag(name.is_none() || !emulator().is_file()),
     ];
     if is_full() {
@@ -308,13 +312,9 @@ fn emulator() -> PathBuf {
 /// The emulator in the page gives the same answers as natively (`refsim/web/answers.txt`): identical pictures and
 /// traces.
 fn the_emulator_in_the_page_has_the_native_bits(name: &str, file: &Path) {
-    let folder = file.with_file_name("emulator");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
-    let output = command.args(["page", "--emulator"]).arg(emulator()).arg("--out").arg(&folder).output();
-    let output = output.expect("the program");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = shader::page_with(&emulator(), file, "emulator");
     let mut browser = without_webgpu(name);
-    browser.open(&folder.join("index.html"));
+    browser.open(&page);
     browser.wait("document.getElementById('playground').parentElement.dataset.state === 'ready'");
     let dataset = |browser: &mut Browser, name: &str| {
         let value = browser.value(&format!("document.getElementById('playground').parentElement.dataset.{name}"));

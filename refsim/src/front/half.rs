@@ -74,7 +74,27 @@ fn word(text: &str) -> usize {
     closes.map_or(end, |at| end + at + 1)
 }
 
-/// The words and marks of a text, without its comments.
+/// Length of the comment at the start of a text, 0 if there is none. Comments between `/*` and `*/` nest.
+pub(super) fn comment(text: &str) -> usize {
+    if text.starts_with("//") {
+        const LINE_ENDS: [char; 7] = ['\n', '\u{b}', '\u{c}', '\r', '\u{85}', '\u{2028}', '\u{2029}'];
+        return text.find(LINE_ENDS).unwrap_or(text.len());
+    }
+    let (mut at, mut open) = (0, 0_usize);
+    while let Some(pair) = text.as_bytes().get(at..at + 2) {
+        match pair {
+            b"/*" => (at, open) = (at + 2, open + 1),
+            b"*/" => (at, open) = (at + 2, open.saturating_sub(1)),
+            _ => at += 1,
+        }
+        if open == 0 {
+            return if text.starts_with("/*") { at } else { 0 };
+        }
+    }
+    if open > 0 { text.len() } else { 0 }
+}
+
+/// Words and marks of a text without its comments.
 fn tokens(text: &str) -> Vec<Token> {
     const PAIRS: [&str; 15] =
         ["<<", "<=", ">>", ">=", "==", "!=", "&&", "||", "+=", "-=", "*=", "/=", "%=", "->", "::"];
@@ -83,15 +103,14 @@ fn tokens(text: &str) -> Vec<Token> {
     while let Some(first) = text[start..].chars().next() {
         let rest = &text[start..];
         let is_word = first.is_alphanumeric() || first == '_' || first == '.';
-        let length = match first {
-            _ if first.is_whitespace() => first.len_utf8(),
-            '/' if rest.starts_with("//") => rest.find('\n').unwrap_or(rest.len()),
-            '/' if rest.starts_with("/*") => rest.find("*/").map_or(rest.len(), |at| at + 2),
+        let skipped = if first.is_whitespace() { first.len_utf8() } else { comment(rest) };
+        let length = match skipped {
+            1.. => skipped,
             _ if is_word => word(rest),
             _ => PAIRS.iter().find(|pair| rest.starts_with(**pair)).map_or(first.len_utf8(), |pair| pair.len()),
         };
         let end = start + length;
-        if !(first.is_whitespace() || rest.starts_with("//") || rest.starts_with("/*")) {
+        if skipped == 0 {
             let closes = first == ')' || first == ']';
             depth -= usize::from(closes && depth > 0);
             found.push(Token { start, end, depth, follows });

@@ -3,11 +3,13 @@
 
 #[cfg_attr(not(feature = "wgsl"), expect(dead_code, reason = "operations are found by the translation"))]
 mod half;
+mod interface;
 mod refusal;
 #[cfg(feature = "wgsl")]
 mod wgsl;
 
 pub use half::WgslOperation;
+pub use interface::{WgslInput, WgslInterface, WgslUniform};
 pub use refusal::Refusal;
 
 use crate::isa::Program;
@@ -20,7 +22,7 @@ use crate::isa::Program;
 /// If the text is not WGSL, or uses a construct without translation; the error has the position. Always without the
 /// feature `wgsl`.
 pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
-    Ok(translated(text)?.0)
+    Ok(translated(text)?.program)
 }
 
 /// The operations on f32 that the fragment entry point executes, in the order of their spans.
@@ -28,16 +30,31 @@ pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
 /// # Errors
 /// As [`translate_wgsl`].
 pub fn wgsl_operations(text: &str) -> Result<Vec<WgslOperation>, Refusal> {
-    Ok(translated(text)?.1)
+    Ok(translated(text)?.operations)
+}
+
+/// As [`translate_wgsl`], with what a GPU must be given to draw the same text.
+///
+/// # Errors
+/// As [`translate_wgsl`].
+pub fn wgsl_with_interface(text: &str) -> Result<(Program, WgslInterface), Refusal> {
+    translated(text).map(|found| (found.program, found.interface))
+}
+
+/// Everything that is found in a text.
+struct Translation {
+    program: Program,
+    operations: Vec<WgslOperation>,
+    interface: WgslInterface,
 }
 
 #[cfg(feature = "wgsl")]
-fn translated(text: &str) -> Result<(Program, Vec<WgslOperation>), Refusal> {
+fn translated(text: &str) -> Result<Translation, Refusal> {
     wgsl::translate(text)
 }
 
 #[cfg(not(feature = "wgsl"))]
-fn translated(_text: &str) -> Result<(Program, Vec<WgslOperation>), Refusal> {
+fn translated(_text: &str) -> Result<Translation, Refusal> {
     Err(Refusal::new("the feature `wgsl` is off, which reads shaders", Default::default())
         .with_help("build with it: cargo build --release --features wgsl"))
 }

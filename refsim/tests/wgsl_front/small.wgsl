@@ -46,5 +46,5 @@ let c = vec3f(uv, 0.4); let y = dot(c, vec3f(0.2126, 0.7152, 0.0722));
 return vec4f(vec3f(y) + (c - vec3f(y)) * 1.5, 1.0);
 
 // contour
-let h = sin(uv.x * 5.0) * cos(uv.y * 4.0); let line = abs(fract(h * 4.0 + 0.3) - 0.5);
+let h = sin(uv.x /* of a, ( /* nested */ comment */ * 5.0) * cos(uv.y * /* ) */ 4.0); let line = abs(fract(h * 4.0 + 0.3) - 0.5);
 return vec4f(vec3f(smoothstep(0.02, 0.1, line)), 1.0);

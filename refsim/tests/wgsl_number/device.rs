@@ -46,13 +46,11 @@ impl Item {
     fn expected(&self, formats: &[Format]) -> Option<u32> {
         let [a, b, c] = self.operands;
         let format = &formats[self.format];
-        let (unit, source) = (format.unit.is_card(), formats[self.source]);
+        let source = &formats[self.source];
         match self.operation {
-            // Programs copy the words of single floats into a unit of a card.
-            NumberOperation::Convert if unit && source.kind == SINGLE.kind && source.encoding == SINGLE.encoding => {
-                None
-            }
-            NumberOperation::Convert => Some(ops::convert(&formats[self.source], format, a).bits),
+            // Programs copy these patterns.
+            NumberOperation::Convert if format.takes_patterns_of(source) => None,
+            NumberOperation::Convert => Some(ops::convert(source, format, a).bits),
             // Programs in units of cards do not use it.
             NumberOperation::Factor if format.unit.is_card() => None,
             operation => reference(operation, format, a, b, c),

@@ -1,4 +1,4 @@
-//! Example programs, one per language.
+//! Programs and shaders to begin with.
 
 use serde::Serialize;
 
@@ -50,4 +50,48 @@ pub(crate) const EXAMPLES: [Example; 3] = [
                MAD result.color, r.x, 0.5, 0.5;\n\
                END\n",
     },
+];
+
+/// A shader with values of its uniforms.
+#[cfg(feature = "wgsl")]
+#[derive(Debug, Serialize)]
+pub(crate) struct ShaderExample {
+    pub(crate) title: &'static str,
+    pub(crate) text: &'static str,
+    pub(crate) uniforms: &'static [(&'static str, &'static [f32])],
+}
+
+#[cfg(feature = "wgsl")]
+macro_rules! shader {
+    ($name:literal, $title:literal $(, $uniform:literal = $value:expr)*) => {
+        ShaderExample {
+            title: $title,
+            text: include_str!(concat!("../../../docs/examples/wgsl/", $name, ".wgsl")),
+            uniforms: &[$(($uniform, &$value)),*],
+        }
+    };
+}
+
+/// The shaders of docs/wgsl.md that read no texture.
+#[cfg(feature = "wgsl")]
+pub(crate) const SHADERS: [ShaderExample; 10] = [
+    shader!("ggx", "ggx: a highlight", "roughness" = [0.3]),
+    shader!("dither", "dither: a dark gradient", "levels" = [255.0]),
+    shader!("fresnel", "fresnel: reflectance of a sphere", "f0" = [0.04, 0.3, 0.9]),
+    shader!("gamma", "gamma: sRGB decoded and encoded"),
+    shader!("noise", "noise: three octaves", "scale" = [5.0]),
+    shader!("parallax", "parallax: relief by eight steps", "view" = [0.3, 0.2, 0.9], "depth" = [0.2]),
+    shader!("rounded_box", "rounded_box: a distance", "box.half_size" = [24.0, 16.0], "box.radius" = [6.0]),
+    shader!("shadow", "shadow: bias by the slope", "bias" = [1.0], "texels" = [24.0]),
+    shader!(
+        "skin",
+        "skin: a face between two bones",
+        "bones.first[0]" = [1.0, 0.0, 0.0],
+        "bones.first[1]" = [0.0, 1.0, 0.0],
+        "bones.first[2]" = [0.0, 0.0, 1.0],
+        "bones.second[0]" = [0.8, 0.6, 0.0],
+        "bones.second[1]" = [-0.6, 0.8, 0.0],
+        "bones.second[2]" = [0.0, 0.0, 1.0]
+    ),
+    shader!("tone_map", "tone_map: twelve stops", "exposure" = [1.0]),
 ];

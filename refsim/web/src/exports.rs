@@ -18,8 +18,21 @@ pub extern "C" fn refsim_push(byte: u32) {
 #[expect(unsafe_code, reason = "an exported name")]
 #[unsafe(no_mangle)]
 pub extern "C" fn refsim_answer() -> u32 {
+    answered(crate::answer)
+}
+
+/// Answers the request as one about a shader in WGSL, in the same way. `crossbar page` knows by this name that the
+/// module takes shaders.
+#[cfg(feature = "wgsl")]
+#[expect(unsafe_code, reason = "an exported name")]
+#[unsafe(no_mangle)]
+pub extern "C" fn refsim_shader() -> u32 {
+    answered(crate::shader_answer)
+}
+
+fn answered(answer: impl Fn(&str) -> String) -> u32 {
     let request = REQUEST.take();
-    let answer = crate::answer(&String::from_utf8_lossy(&request)).into_bytes();
+    let answer = answer(&String::from_utf8_lossy(&request)).into_bytes();
     let length = answer.len() as u32;
     ANSWER.set(answer);
     length

@@ -15,9 +15,9 @@ use crate::examples::{EXAMPLES, Example};
 use crate::scene::{SIDE, Scene};
 use crate::shown::{ShownDifference, ShownTrace};
 
-/// Maximum number of bytes of a program; a page has no longer ones.
-const MAX_TEXT: usize = 1 << 16;
-/// Maximum number of instructions that a fragment may execute, so that the page responds in time.
+/// Most characters of a program; a page has no longer ones.
+pub(crate) const MAX_TEXT: usize = 1 << 16;
+/// Most instructions that a fragment may execute, so that the page answers.
 const STEP_BUDGET: u32 = 10_000;
 
 /// A device, with a register format if it replaces the device's own.
@@ -45,7 +45,7 @@ pub struct Request {
 
 /// An error or warning about the program, with its position.
 #[derive(Debug, Serialize)]
-struct Remark {
+pub(crate) struct Remark {
     message: String,
     help: String,
     /// Line and column, from 1; 0 if there is no position.
@@ -92,11 +92,11 @@ pub fn answer(request: &str) -> String {
 }
 
 impl Remark {
-    fn about_nothing(message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub(crate) fn about_nothing(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self { message: message.into(), help: help.into(), line: 0, column: 0, start: 0, end: 0 }
     }
 
-    fn new(text: &str, span: Span, message: String, help: String) -> Self {
+    pub(crate) fn new(text: &str, span: Span, message: String, help: String) -> Self {
         let before = |end: u32| text.get(..end as usize).unwrap_or(text);
         let units = |text: &str| text.encode_utf16().count();
         let (start, end) = (before(span.start), before(span.end));
@@ -112,6 +112,31 @@ impl Remark {
     }
 }
 
+impl Device {
+    /// The profile of the device, in its format and with a limit of steps.
+    pub(crate) fn profile(&self) -> Result<Profile, Vec<Remark>> {
+        let refused = |error: &dyn std::fmt::Display, help: &str| vec![Remark::about_nothing(error.to_string(), help)];
+        let mut profile = Profile::named(&self.device).map_err(|error| refused(&error, "choose another device"))?;
+        if let Some(format) = self.format.as_ref().filter(|format| !format.is_empty()) {
+            let help = "for example `s3.12`, `fp24` or `e5m10:rtz`";
+            let set = format.parse::<Format>().and_then(|format| profile.set_format(format));
+            set.map_err(|error: FormatError| refused(&error, help))?;
+        }
+        profile.limits.set_step_budget(STEP_BUDGET);
+        Ok(profile)
+    }
+}
+
+/// Checks the program of a text for a device.
+pub(crate) fn checked(text: &str, program: Program, profile: &Profile) -> Result<Checked<Program>, Vec<Remark>> {
+    check(program, profile).map_err(|report| {
+        let remark = |violation: &refsim::check::Violation| {
+            Remark::new(text, violation.span, violation.message.clone(), violation.help.clone())
+        };
+        report.violations.iter().map(remark).collect()
+    })
+}
+
 /// A program on one device.
 struct Side {
     profile: Profile,
@@ -120,26 +145,13 @@ struct Side {
 
 impl Side {
     fn new(text: &str, device: &Device) -> Result<Self, Vec<Remark>> {
-        let refused = |error: &dyn std::fmt::Display, help: &str| vec![Remark::about_nothing(error.to_string(), help)];
-        let mut profile = Profile::named(&device.device).map_err(|error| refused(&error, "choose another device"))?;
-        if let Some(format) = device.format.as_ref().filter(|format| !format.is_empty()) {
-            let help = "for example `s3.12`, `fp24` or `e5m10:rtz`";
-            let set = format.parse::<Format>().and_then(|format| profile.set_format(format));
-            set.map_err(|error: FormatError| refused(&error, help))?;
-        }
-        profile.limits.set_step_budget(STEP_BUDGET);
+        let profile = device.profile()?;
         let program = assemble(text).map_err(|found| {
             let remark =
                 |error: &refsim::asm::SyntaxError| Remark::new(text, error.span, error.to_string(), error.help.clone());
             found.errors.iter().map(remark).collect::<Vec<_>>()
         })?;
-        let program = check(program, &profile).map_err(|report| {
-            let remark = |violation: &refsim::check::Violation| {
-                Remark::new(text, violation.span, violation.message.clone(), violation.help.clone())
-            };
-            report.violations.iter().map(remark).collect::<Vec<_>>()
-        })?;
-        Ok(Self { profile, program })
+        Ok(Self { program: checked(text, program, &profile)?, profile })
     }
 
     fn drawn(&self) -> Result<Drawn, MachineError> {

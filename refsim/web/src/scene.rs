@@ -53,7 +53,7 @@ impl<'p> Scene<'p> {
                 textures.push((sampler, machine.create_texture(image(sampler, kind)?)?));
             }
         }
-        let inputs = Inputs { program, constants: Constants::default(), quad: quad(), target, textures };
+        let inputs = Inputs { program, constants: Constants::default(), quad: quad(SIDE), target, textures };
         Ok(Self { machine, inputs })
     }
 
@@ -81,8 +81,9 @@ impl Inputs<'_> {
     }
 }
 
-fn quad() -> [Vertex; 4] {
-    let side = SIDE as f32;
+/// The quad over a picture with `side` pixels a side.
+pub(crate) fn quad(side: u32) -> [Vertex; 4] {
+    let side = side as f32;
     let mut quad = full_screen_quad(|s, t| {
         let texels = [side * s, side * t, 0.0, 1.0];
         [[s, t, 0.0, 1.0], [2.0 * s - 1.0, 1.0 - 2.0 * t, 1.0, 1.0], texels, texels, texels, texels, texels, texels]

@@ -4,7 +4,7 @@ use super::env::Env;
 use super::flags::{Flags, Outcome};
 use super::format::Format;
 use super::round::{from_parts, infinite, round_quotient};
-use super::rules::{Denormals, Encoding, Unit};
+use super::rules::{Denormals, Unit};
 use super::unpack::{Unpacked, nan_bits, unpack, zero};
 
 /// Converts the number `bits` from format `from` to format `to`, rounding once by `to`'s rules.
@@ -18,8 +18,8 @@ use super::unpack::{Unpacked, nan_bits, unpack, zero};
 /// NaN).
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
-    // Units of cards accept single floats unchanged, including NaN and subnormals.
-    if to.format.unit.is_card() && from.kind == Format::FP32.kind && from.encoding == Encoding::Ieee {
+    // Including NaN and subnormals.
+    if to.format.takes_patterns_of(from) {
         return Outcome::exact(bits);
     }
     // GT200 flushes magnitudes below 2^-33 to zero half floats in every rounding.

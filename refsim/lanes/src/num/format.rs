@@ -165,6 +165,12 @@ impl Format {
         self
     }
 
+    /// Returns `true` if a conversion from `from` keeps the pattern: from single floats to the unit of a card.
+    #[inline]
+    pub fn takes_patterns_of(&self, from: &Format) -> bool {
+        self.unit.is_card() && from.kind == Self::FP32.kind && from.encoding == Encoding::Ieee
+    }
+
     /// Returns `true` for fixed-point and normalized formats: a pattern is a two's complement integer in units of the
     /// format, with one zero, no infinity and no NaN.
     #[inline]

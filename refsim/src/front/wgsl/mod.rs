@@ -10,19 +10,19 @@ mod translator;
 mod values;
 
 use std::collections::BTreeMap;
-use std::panic::resume_unwind;
-use std::thread;
+#[cfg(not(target_family = "wasm"))]
+use std::{panic::resume_unwind, thread};
 
 use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Binding, BuiltIn, EntryPoint, Interpolation, Module, ShaderStage, Type};
 
-use super::{Refusal, WgslOperation};
+use super::{Refusal, Translation, WgslInput, half::comment};
 use crate::isa::{
     ConstantDef, ConstantValue, FIRST_LITERAL, Program, ProgramText, Register, RegisterFile, Span, Version,
 };
 use translator::{Meaning, Translator, place};
-use values::{Component, Value, scalars};
+use values::{Component, Value, is_half, scalars};
 
 /// Maximum length of a text, in bytes.
 const MAX_TEXT: usize = 1 << 18;
@@ -30,12 +30,17 @@ const MAX_TEXT: usize = 1 << 18;
 /// WGSL extensions that a text may use: f16 and `quantizeToF16`.
 const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16.union(Capabilities::SHADER_FLOAT16_IN_FLOAT32);
 
-/// Stack size of the front end, in bytes: it recurses for each term of an expression.
+/// Stack of the front end, in bytes: it calls itself for each term of an expression.
+#[cfg(not(target_family = "wasm"))]
 const STACK: usize = 1 << 28;
 
-/// A translated program, and the operations of its text that can be rewritten in f16.
-type Translation = (Program, Vec<WgslOperation>);
+/// WebAssembly has no threads, and its stack is the browser's, which ends the module's work where it is too small.
+#[cfg(target_family = "wasm")]
+pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
+    translated(text)
+}
 
+#[cfg(not(target_family = "wasm"))]
 pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
     thread::scope(|scope| {
         let work = thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || translated(text));
@@ -76,7 +81,9 @@ fn translated(text: &str) -> Result<Translation, Refusal> {
     }
     let value = translator.call(&entry.function, info.get_entry_point(index), arguments, 0)?;
     let operations = std::mem::take(&mut translator.operations).into_values().collect();
-    Ok((translator.finish(entry, head, &value)?, operations))
+    let mut interface = std::mem::take(&mut translator.interface);
+    interface.entry.clone_from(&entry.name);
+    Ok(Translation { program: translator.finish(entry, head, &value)?, operations, interface })
 }
 
 fn parsed(text: &str) -> Result<Module, Refusal> {
@@ -93,12 +100,16 @@ fn parsed(text: &str) -> Result<Module, Refusal> {
 /// Extends the span of a function's name, which is all that naga keeps, to the whole call.
 fn with_arguments(text: &str, span: Span) -> Span {
     let rest = text.get(span.end as usize..).filter(|rest| rest.starts_with('(')).unwrap_or_default();
-    let mut open = 0;
-    let closes = rest.bytes().position(|byte| {
-        open += i32::from(byte == b'(') - i32::from(byte == b')');
-        open == 0
-    });
-    closes.map_or(span, |at| Span::new(span.start, span.end + at as u32 + 1))
+    let (mut open, mut at) = (0, 0);
+    while let Some(byte) = rest.as_bytes().get(at) {
+        open += i32::from(*byte == b'(') - i32::from(*byte == b')');
+        at += 1;
+        if open == 0 {
+            return Span::new(span.start, span.end + at as u32);
+        }
+        at += rest.get(at..).map_or(0, comment);
+    }
+    span
 }
 
 /// The root cause of an error, which says what is wrong; the errors above it name naga's internal handles.
@@ -137,6 +148,10 @@ impl Translator<'_> {
         let list = scalars(self.module, inner).unwrap_or_default();
         if list.is_empty() || list.len() > 4 || list.iter().any(|scalar| scalar.kind != naga::ScalarKind::Float) {
             return self.builder.refuse("inputs are f32, f16 and vectors of them");
+        }
+        if let Binding::Location { location, .. } = binding {
+            let (width, half) = (list.len(), is_half(list.first().copied()));
+            self.interface.inputs.push(WgslInput { location: *location, width, half });
         }
         Ok((0..list.len() as u8).map(|lane| Component::Place(register, lane)).collect())
     }

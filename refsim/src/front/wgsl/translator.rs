@@ -3,11 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use naga::valid::{FunctionInfo, ModuleInfo};
-use naga::{AddressSpace, Expression, Function, GlobalVariable, Handle, LocalVariable, Module, ScalarKind, TypeInner};
+use naga::{
+    AddressSpace, Expression, Function, GlobalVariable, Handle, LocalVariable, Module, Scalar, ScalarKind, TypeInner,
+};
 
-use super::super::{Refusal, WgslOperation};
+use super::super::{Refusal, WgslInterface, WgslOperation, WgslUniform};
 use super::builder::Builder;
-use super::values::{Component, MAX_SCALARS, Value, scalars};
+use super::values::{Component, MAX_SCALARS, Value, is_half, scalars};
 use crate::isa::{FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Register, RegisterFile, Span};
 
 /// Maximum number of statements and expressions translated, with loops unrolled.
@@ -59,6 +61,9 @@ pub(super) struct Translator<'a> {
     pub(super) accesses: BTreeSet<(usize, usize, bool)>,
     pub(super) builder: Builder,
     pub(super) parameters: Vec<Parameter>,
+    pub(super) interface: WgslInterface,
+    /// Binding and size of the uniform variable that is being declared.
+    memory: ([u32; 2], u32),
     pub(super) variables: Variables,
     /// Mask of the fragments that execute the current statement.
     pub(super) live: Component,
@@ -87,6 +92,8 @@ impl<'a> Translator<'a> {
             accesses: BTreeSet::new(),
             builder: Builder::default(),
             parameters: Vec::new(),
+            interface: WgslInterface::default(),
+            memory: ([0; 2], 0),
             variables: Variables::new(),
             live: Component::Bool(true),
             killed: Component::Bool(false),
@@ -131,7 +138,9 @@ impl<'a> Translator<'a> {
             let entry = match (global.space, inner) {
                 (AddressSpace::Uniform, _) => {
                     let mut value = Value::new();
-                    self.uniform(global.name.clone().unwrap_or_default(), inner, &mut value)?;
+                    let binding = global.binding.map_or([0; 2], |binding| [binding.group, binding.binding]);
+                    self.memory = (binding, inner.size(module.to_ctx()));
+                    self.uniform(global.name.clone().unwrap_or_default(), inner, 0, &mut value)?;
                     let (length, slot) = (value.len(), self.variable(value));
                     Meaning::Pointer { slot, offset: 0, length, path: 0 }
                 }
@@ -195,27 +204,35 @@ impl<'a> Translator<'a> {
     }
 
     /// Declares the parameters of a uniform, one for each scalar, vector and column of a matrix.
-    fn uniform(&mut self, name: String, inner: &TypeInner, value: &mut Value) -> Result<(), Refusal> {
+    fn uniform(&mut self, name: String, inner: &TypeInner, at: u32, value: &mut Value) -> Result<(), Refusal> {
         let module = self.module;
         let of = |handle: Handle<naga::Type>| &module.types[handle].inner;
         match inner {
-            TypeInner::Scalar(scalar) => self.parameter(name, 1, scalar.kind, value),
-            TypeInner::Vector { size, scalar } => self.parameter(name, *size as usize, scalar.kind, value),
-            TypeInner::Matrix { columns, rows, scalar } => (0..*columns as usize)
-                .try_for_each(|column| self.parameter(format!("{name}[{column}]"), *rows as usize, scalar.kind, value)),
-            TypeInner::Array { base, size: naga::ArraySize::Constant(count), .. } => {
-                (0..count.get()).try_for_each(|index| self.uniform(format!("{name}[{index}]"), of(*base), value))
-            }
+            TypeInner::Scalar(scalar) => self.parameter(name, 1, *scalar, at, value),
+            TypeInner::Vector { size, scalar } => self.parameter(name, *size as usize, *scalar, at, value),
+            TypeInner::Matrix { columns, rows, scalar } => (0..*columns as u32).try_for_each(|column| {
+                let at = at + column * (naga::proc::Alignment::from(*rows) * u32::from(scalar.width));
+                self.parameter(format!("{name}[{column}]"), *rows as usize, *scalar, at, value)
+            }),
+            TypeInner::Array { base, size: naga::ArraySize::Constant(count), stride } => (0..count.get())
+                .try_for_each(|i| self.uniform(format!("{name}[{i}]"), of(*base), at + i * stride, value)),
             TypeInner::Struct { members, .. } => members.iter().try_for_each(|member| {
                 let member_name = member.name.as_deref().unwrap_or_default();
-                self.uniform(format!("{name}.{member_name}"), of(member.ty), value)
+                self.uniform(format!("{name}.{member_name}"), of(member.ty), at + member.offset, value)
             }),
             _ => self.builder.refuse("uniforms of this type are not translated"),
         }
     }
 
-    fn parameter(&mut self, name: String, width: usize, kind: ScalarKind, value: &mut Value) -> Result<(), Refusal> {
-        if kind != ScalarKind::Float {
+    fn parameter(
+        &mut self,
+        name: String,
+        width: usize,
+        scalar: Scalar,
+        offset: u32,
+        value: &mut Value,
+    ) -> Result<(), Refusal> {
+        if scalar.kind != ScalarKind::Float {
             value.extend(vec![Component::Unknown; width]);
             return Ok(());
         }
@@ -226,6 +243,8 @@ impl<'a> Translator<'a> {
         let register = Register::new(RegisterFile::Constant, FIRST_NAMED + count as u16);
         let (source, span) = (ParameterSource::Named([0; 4]), self.builder.span);
         self.parameters.push(Parameter { name, register, source, width, span });
+        let ((binding, size), half) = (self.memory, is_half(Some(scalar)));
+        self.interface.uniforms.push(WgslUniform { binding, size, offset, half });
         value.extend((0..width as u8).map(|lane| Component::Place(register, lane)));
         Ok(())
     }

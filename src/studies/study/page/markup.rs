@@ -2,13 +2,14 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use super::own::{self, Emulator};
 use super::page_data::PageData;
 use super::teapot::{FixedView, VerdictColor};
 use crate::report::page_style;
 use crate::report::words::counted;
 
-/// Script of the page, in order of dependency.
-const SCRIPT: [&str; 11] = [
+/// Script of the page, in the order in which its parts need each other.
+const SCRIPT: [&str; 9] = [
     include_str!("assets/helpers.js"),
     include_str!("assets/arithmetic.js"),
     include_str!("assets/native.js"),
@@ -18,15 +19,16 @@ const SCRIPT: [&str; 11] = [
     include_str!("assets/numbers.js"),
     include_str!("assets/programs.js"),
     include_str!("assets/stepper.js"),
-    include_str!("assets/playground.js"),
-    include_str!("assets/main.js"),
 ];
 
-/// Renders the page around its data as JSON, and the emulator as base64.
-pub(super) fn html(data: &PageData, json: &str, emulator: Option<&str>) -> String {
+/// Its end.
+const MAIN: &str = include_str!("assets/main.js");
+
+/// Renders the page around its data as JSON.
+pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> String {
     // A less-than sign could end the element.
     let json = json.replace('<', "\\u003c");
-    let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPT.concat());
+    let script = format!("\"use strict\";\n(() => {{\n{}}})();\n", SCRIPT.concat() + &own::script(emulator) + MAIN);
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -51,13 +53,14 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&str>) -> Strin
                     (live(&data.teapot.verdicts))
                     (programs())
                     (fixed_views(&data.teapot.views))
-                    (playground(emulator.is_some()))
+                    (own::playground(emulator.is_some()))
+                    @if emulator.is_some_and(|emulator| emulator.takes_shaders) { (own::shader()) }
                     (results())
                     p.provenance { "Crossbar " (data.version) ". The page loads nothing and sends nothing." }
                 }
                 script #data type="application/json" { (PreEscaped(json)) }
                 @if let Some(emulator) = emulator {
-                    script #emulator type="application/octet-stream" { (emulator) }
+                    script #emulator type="application/octet-stream" { (emulator.packed) }
                 }
                 script { (PreEscaped(script)) }
             }
@@ -202,53 +205,6 @@ fn fixed_views(views: &[FixedView]) -> Markup {
                             }
                         }
                     }
-                }
-            }
-        }
-    }
-}
-
-/// Section for a program of the visitor's own; without the emulator, a paragraph that explains how to get it.
-fn playground(has_emulator: bool) -> Markup {
-    html! {
-        section aria-labelledby="playground" {
-            h2 #playground { "Your own program" }
-            @if has_emulator {
-                p {
-                    "The emulator itself runs in this page: write a program in a language of Direct3D or OpenGL, choose a device \
-                     and a pixel. Texture coordinates 0 go from (0, 0) to (1, 1), 1 from -1 to 1; samplers 0 to 3 hold a \
-                     checkerboard, a gradient, normals and a ramp."
-                }
-                div.stand {
-                    div.chooser {
-                        canvas #play-picture tabindex="0" role="application" aria-label="Picture: arrow keys choose a pixel"
-                            aria-describedby="play-said" {}
-                        form #play-controls aria-label="Device and program" {}
-                        p { a #play-link href="#playground" { "Link to this program" } }
-                    }
-                    div.player {
-                        textarea #program-text rows="14" spellcheck="false" aria-label="Program" aria-describedby="remarks" {}
-                        ul #remarks role="status" {}
-                        p #play-said role="status" {}
-                        div.scroll {
-                            table {
-                                caption { "What each instruction writes" }
-                                thead {
-                                    tr {
-                                        @for name in ["line", "instruction", "register", "number", "bits", "exceptions"] {
-                                            th scope="col" { (name) }
-                                        }
-                                    }
-                                }
-                                tbody #play-trace {}
-                            }
-                        }
-                    }
-                }
-            } @else {
-                p {
-                    "This page was written without the emulator, which runs programs of your own. " code { "refsim/web/build" }
-                    " compiles it, and " code { "crossbar page --emulator target/web/refsim_web.wasm" } " writes it into the page."
                 }
             }
         }

@@ -7,6 +7,7 @@ mod arithmetic;
 mod encode;
 mod markup;
 mod operands;
+mod own;
 mod page_data;
 mod program_cases;
 mod programs;
@@ -27,9 +28,9 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
         let error = StudyError::new("page::emulator", "expected a WebAssembly module as the emulator");
         return Err(error.with_help("name the file that `refsim/web/build` writes"));
     }
-    let emulator = emulator.map(encode::packed).transpose();
+    let emulator = emulator.map(own::Emulator::new).transpose();
     let emulator = emulator.map_err(|error| not_encoded("gzip", error))?;
     let data = PageData::compute(progress)?;
     let json = serde_json::to_string(&data).map_err(|error| not_encoded("JSON", error))?;
-    Ok(markup::html(&data, &json, emulator.as_deref()))
+    Ok(markup::html(&data, &json, emulator.as_ref()))
 }

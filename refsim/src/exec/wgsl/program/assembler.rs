@@ -242,7 +242,7 @@ impl Assembler<'_> {
             NodeKind::Convert(from, into, a) => {
                 let format = self.formats.format(from);
                 self.parts.add_format(&format);
-                if takes_words(&format, &self.formats.format(into)) {
+                if self.formats.format(into).takes_patterns_of(&format) {
                     let a = places.of(a);
                     let to = self.result(node, places);
                     self.emit(op::COPY, 0, to, [a; 3]);
@@ -396,11 +396,6 @@ impl Assembler<'_> {
             }
         }
     }
-}
-
-/// Returns `true` if a conversion keeps the word: from single floats to the unit of a card.
-fn takes_words(from: &Format, into: &Format) -> bool {
-    into.unit.is_card() && from.kind == into.kind && from.encoding == into.encoding
 }
 
 fn pair(low: u16, high: u16) -> u32 {

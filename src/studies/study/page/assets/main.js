@@ -148,7 +148,7 @@ const openDevice = async () => {
 const begin = async () => {
   cellTable();
   stepperControls();
-  await beginPlayground();
+  if (at("emulator")) { await beginPlayground(); }
   at("vectors").disabled = false;
   at("vectors").onclick = () => save(`crossbar-${DATA.version}-vectors.txt`, vectorText());
   at("copy").disabled = false;
@@ -168,6 +168,7 @@ const begin = async () => {
   } catch (error) {
     said(String(error));
   }
+  if (at("shader")) { await beginShader(device); }
   if (!device) {
     at("live").parentElement.hidden = true;
     end("without", "This browser has no WebGPU here, so nothing runs: the traces and pictures below are the emulator's, stored in the page.");

@@ -2,18 +2,16 @@
 
 const PLAY_CELL = 9;
 
-// The emulator as a function from requests to answers; null if the page does not contain it.
+// The emulator as a function from requests to answers, by the name of the module's function.
 const emulator = async () => {
-  const element = document.getElementById("emulator");
-  if (!element) { return null; }
-  const packed = new Blob([bytesOf(element.textContent)]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const packed = new Blob([bytesOf(at("emulator").textContent)]).stream().pipeThrough(new DecompressionStream("gzip"));
   const module = await WebAssembly.compile(await new Response(packed).arrayBuffer());
   let calls = null;
-  return async (request) => {
+  return async (request, name = "refsim_answer") => {
     calls ??= (await WebAssembly.instantiate(module)).exports;
     try {
       new TextEncoder().encode(JSON.stringify(request)).forEach((byte) => calls.refsim_push(byte));
-      const length = calls.refsim_answer();
+      const length = calls[name]();
       const words = Uint32Array.from({ length: Math.ceil(length / 4) }, (_, k) => calls.refsim_read(4 * k));
       return new TextDecoder().decode(new Uint8Array(words.buffer, 0, length));
     } catch (error) {
@@ -24,12 +22,12 @@ const emulator = async () => {
   };
 };
 
-const linkOf = (request) => {
+const linkOf = (request, name = "program") => {
   const bytes = new TextEncoder().encode(JSON.stringify(request));
-  return `#program=${btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
+  return `#${name}=${btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
 };
-const linkedRequest = () => {
-  const [, text] = location.hash.split("#program=");
+const linkedRequest = (name = "program") => {
+  const [, text] = location.hash.split(`#${name}=`);
   if (!text) { return null; }
   try {
     return JSON.parse(new TextDecoder().decode(bytesOf(text.replaceAll("-", "+").replaceAll("_", "/"))));
@@ -46,23 +44,32 @@ const playRequest = () => {
 
 const playground = { ask: null, pixel: [9, 9], state: "idle" };
 
-const showRemarks = ({ errors, warnings }) => {
-  const list = at("remarks");
+// The line of a place from a little before it, with carets below it.
+const quoted = (text, start, end) => {
+  const from = Math.max(text.lastIndexOf("\n", start - 1) + 1, start - 32);
+  const [line] = text.slice(from).split("\n", 1);
+  const before = line.slice(0, start - from).replace(/[^\t]/gu, " ");
+  return `${line}\n${before}${"^".repeat(Math.max(1, Math.min(end - start, line.length - before.length)))}`;
+};
+
+// Shows errors and warnings about the text of one element in the list of another.
+const showRemarks = ({ errors, warnings = [] }, textId = "program-text", listId = "remarks") => {
+  const [list, source] = [at(listId), at(textId)];
   list.replaceChildren();
   const remarks = [...errors.map((remark) => [remark, "error"]), ...warnings.map((remark) => [remark, "warning"])];
   remarks.forEach(([{ message, help, line, column, start, end }, kind]) => {
     const item = add(list, "li", { className: kind === "error" ? "wrong" : "" });
     if (line > 0) {
       add(item, "button", { type: "button" }, `line ${line}, column ${column}`).onclick = () => {
-        const text = at("program-text");
-        text.focus();
-        text.setSelectionRange(start, Math.max(end, start + 1));
+        source.focus();
+        source.setSelectionRange(start, Math.max(end, start + 1));
       };
     }
     item.append(` ${kind}: ${message}`);
+    if (line > 0) { add(item, "pre", {}, quoted(source.value, start, end)); }
     add(item, "div", { className: "small" }, help);
   });
-  at("program-text").setAttribute("aria-invalid", String(errors.length > 0));
+  source.setAttribute("aria-invalid", String(errors.length > 0));
 };
 
 const differentPixels = ({ drawn, other }) => (
@@ -183,7 +190,6 @@ const playControls = ({ devices, examples }) => {
 
 const beginPlayground = async () => {
   playground.ask = await emulator();
-  if (!playground.ask) { return; }
   const begun = JSON.parse(await playground.ask({ text: "", device: "" }));
   playControls(begun);
   choosePlayed(linkedRequest() ?? { ...begun.examples[0], other: { device: "r300" } });

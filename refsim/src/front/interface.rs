@@ -1,0 +1,36 @@
+//! What a fragment shader in WGSL takes from outside.
+
+/// Inputs and uniforms of a fragment entry point, for a host that draws its text on a GPU.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct WgslInterface {
+    /// Name of the entry point.
+    pub entry: String,
+    /// Inputs with a location.
+    pub inputs: Vec<WgslInput>,
+    /// Uniforms of floats, one for each parameter of the program and in its order.
+    pub uniforms: Vec<WgslUniform>,
+}
+
+/// An input of an entry point.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WgslInput {
+    /// Number of its `@location`.
+    pub location: u32,
+    /// Number of its components, 1 to 4.
+    pub width: usize,
+    /// `true` for f16.
+    pub half: bool,
+}
+
+/// A scalar, a vector, or a column of a matrix in uniform memory.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WgslUniform {
+    /// Numbers of `@group` and `@binding`.
+    pub binding: [u32; 2],
+    /// Size of the variable of this binding, in bytes.
+    pub size: u32,
+    /// Place in that variable, in bytes.
+    pub offset: u32,
+    /// `true` for f16.
+    pub half: bool,
+}
