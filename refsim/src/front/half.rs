@@ -122,6 +122,17 @@ fn tokens(text: &str) -> Vec<Token> {
     found
 }
 
+/// Returns `true` if a text declares a name of f16 or of a type of f16 as its own.
+pub(super) fn redefines_half(text: &str) -> bool {
+    const DECLARES: [&str; 8] = ["let", "const", "var", "override", "alias", "fn", "struct", ">"];
+    let words: Vec<&str> = tokens(text).iter().map(|token| &text[token.start..token.end]).collect();
+    words.windows(3).any(|three| {
+        let [before, name, behind] = three else { return false };
+        let is_half = *name == "f16" || ((name.starts_with("vec") || name.starts_with("mat")) && name.ends_with('h'));
+        is_half && (DECLARES.contains(before) || *behind == ":")
+    })
+}
+
 impl WgslOperation {
     /// The operation at a span of the text. `operands` are the names of the operands' types in the order of the text,
     /// and `result` is the name of the result's type; a name is `None` if the type does not consist of f32. Returns
@@ -149,6 +160,8 @@ impl WgslOperation {
             let at = tokens.iter().rposition(|token| token.depth == 0 && token.follows && is(token, mark));
             let assigns = format!("{mark}=");
             match tokens.iter().position(|token| token.depth == 0 && is(token, &assigns)) {
+                // A call in the target would be made twice.
+                Some(at) if tokens[..at].iter().any(|token| is(token, "(")) => return None,
                 Some(at) => {
                     let target = &own[tokens.first()?.start..tokens.get(at.checked_sub(1)?)?.end];
                     let target = match operands.first()? {

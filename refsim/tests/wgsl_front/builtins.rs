@@ -41,6 +41,11 @@ fn holds(text: &str, name: &str, steps: f64, expected: impl Fn(f64, f64) -> f64)
 pub(crate) fn functions_compute_their_formulas() {
     type Row = (&'static str, f64, Value);
     let table: &[Row] = &[
+        // Negative numbers lie outside the domain.
+        ("sqrt(a)", 3.0, |a, _| a.sqrt()),
+        ("inverseSqrt(a)", 2.0, |a, _| 1.0 / a.sqrt()),
+        ("log2(a)", 2.0, |a, _| a.log2()),
+        ("pow(a, 2.0)", 16.0, |a, _| if a < 0.0 { f64::NAN } else { a * a }),
         ("a % b", 8.0, |a, b| a - b * (a / b).trunc()),
         ("faceForward(vec2f(a, b), vec2f(1.0, 0.0), vec2f(a, 0.0)).y", 0.0, |a, b| if a < 0.0 { b } else { -b }),
         ("select(a, b, a < b)", 0.0, |a, b| if a < b { b } else { a }),
@@ -64,7 +69,14 @@ pub(crate) fn functions_compute_their_formulas() {
 }
 
 pub(crate) fn control_flow_keeps_the_values_of_each_fragment() {
-    let rows: [(&str, &str, Value); 8] = [
+    let rows: [(&str, &str, Value); 9] = [
+        // A quotient by zero is the dividend, a remainder 0, and the magnitude of the least i32 itself.
+        (
+            "fn f() -> f32 { var zero = 0; var least = -2147483647 - 1;\n\
+             return f32(7 / zero + 7 % zero + abs(least) / 65536); }",
+            "f()",
+            |_, _| 7.0 - 32768.0,
+        ),
         (
             "fn f(a: f32, b: f32) -> f32 { if (a < 0.0) { return b; } if (b < 1.0) { return 7.0; } return a; }",
             "f(a, b)",

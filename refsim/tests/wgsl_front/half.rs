@@ -57,6 +57,29 @@ pub(crate) fn rewritten_texts_as_they_are() {
     }
 }
 
+/// Some operations stay f32, as the text could not say the same in f16: those with a constant beyond f16, assignments
+/// whose target calls a function, and all of a text that uses a name of f16 as its own.
+pub(crate) fn some_operations_stay_single() {
+    let found = |before: &str, inside: &str| {
+        let text = format!(
+            "{before}\n@fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f {{ {inside} return vec4f(x); }}"
+        );
+        let operations = wgsl_operations(&text).unwrap_or_else(|refusal| panic!("{text}: {refusal}"));
+        let span =
+            |operation: &WgslOperation| text[operation.span.start as usize..operation.span.end as usize].to_owned();
+        operations.iter().map(span).collect::<Vec<_>>()
+    };
+    assert_eq!(found("", "let x = min(uv.x + 1.0, 1e6);"), ["uv.x + 1.0"]);
+    assert_eq!(found("const FAR = vec2f(1, 70000);", "let x = dot(uv * FAR, uv);"), ["dot(uv * FAR, uv)"]);
+    assert_eq!(found("", "let x = clamp(uv.x, -65504.0, 65504.0);"), ["clamp(uv.x, -65504.0, 65504.0)"]);
+    let counts = "var<private> k: i32;\nfn next() -> i32 { k++; return k; }";
+    assert_eq!(found(counts, "var a = array<f32, 3>(); a[next()] += uv.x; let x = a[1];"), [""; 0]);
+    assert_eq!(found("alias f16 = f32;", "let x = uv.x * 2.0;"), [""; 0]);
+    assert_eq!(found("", "let vec2h = uv; let x = vec2h.x * 2.0;"), [""; 0]);
+    assert_eq!(found("fn vec3h(x: f32) -> f32 { return x; }", "let x = vec3h(uv.x) * 2.0;"), [""; 0]);
+    assert_eq!(found("enable f16;", "let h: f16 = f16(uv.x); let x = f32(h) * 2.0;"), ["f32(h) * 2.0"]);
+}
+
 /// Converts a program's value to f16.
 fn to_half(x: f32) -> Half {
     Single::from_bits(x.to_bits().into()).convert(&mut false).value

@@ -20,6 +20,7 @@ fn main() -> std::process::ExitCode {
         accuracy::functions_are_as_accurate_as_wgsl_demands_in_f16,
         half::rewritten_texts_have_the_bits_of_formats,
         half::rewritten_texts_as_they_are,
+        half::some_operations_stay_single,
         half::straight_programs_compute_what_ieee_half_computes,
         texts::translations_as_they_are,
         texts::what_is_refused_says_where_and_why,

@@ -10,6 +10,9 @@ use super::values::{Component, Value, is_half, part, scalar};
 use super::with_arguments;
 use crate::isa::{Opcode, RegisterFile, Span};
 
+/// The largest number of f16.
+const LARGEST_HALF: f32 = 65504.0;
+
 type Result<T = Value> = std::result::Result<T, Refusal>;
 
 impl<'a> Translator<'a> {
@@ -194,6 +197,12 @@ impl<'a> Translator<'a> {
         if !on_f32 || types.iter().any(|inner| is_half(scalar(inner))) {
             return;
         }
+        // Constants that f16 does not represent can't be converted in the text.
+        let beyond = |component: &Component| matches!(component, Component::Float(bits) if f32::from_bits(*bits).abs() > LARGEST_HALF);
+        let values = operands.iter().filter_map(|operand| frame.values.get(operand));
+        if values.into_iter().any(|entry| matches!(entry, Meaning::Value(value) if value.iter().any(beyond))) {
+            return;
+        }
         let names: Vec<Option<String>> = types.iter().map(|inner| name(inner)).collect();
         let operation = WgslOperation::new(self.text, span, form, &names, result.as_deref());
         self.operations.extend(operation.map(|operation| (key, operation)));
@@ -262,7 +271,10 @@ impl<'a> Translator<'a> {
                 _ => return self.builder.refuse("textureSampleLevel is translated for level 0.0 alone"),
             },
             SampleLevel::Gradient { x, y } => Some([self.value(frame, *x)?, self.value(frame, *y)?]),
-            SampleLevel::Bias(_) => return self.builder.refuse("textureSampleBias is not translated"),
+            SampleLevel::Bias(_) => {
+                self.builder.span = span;
+                return self.builder.refuse("textureSampleBias is not translated");
+            }
         };
         self.builder.span = span;
         match gradient {

@@ -17,7 +17,10 @@ use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Binding, BuiltIn, EntryPoint, Interpolation, Module, ShaderStage, Type};
 
-use super::{Refusal, Translation, WgslInput, half::comment};
+use super::{
+    Refusal, Translation, WgslInput,
+    half::{comment, redefines_half},
+};
 use crate::isa::{
     ConstantDef, ConstantValue, FIRST_LITERAL, Program, ProgramText, Register, RegisterFile, Span, Version,
 };
@@ -80,7 +83,10 @@ fn translated(text: &str) -> Result<Translation, Refusal> {
         arguments.push(Meaning::Value(translator.input(argument.ty, argument.binding.as_ref())?));
     }
     let value = translator.call(&entry.function, info.get_entry_point(index), arguments, 0)?;
-    let operations = std::mem::take(&mut translator.operations).into_values().collect();
+    let operations = match redefines_half(text) {
+        true => Vec::new(),
+        false => std::mem::take(&mut translator.operations).into_values().collect(),
+    };
     let mut interface = std::mem::take(&mut translator.interface);
     interface.entry.clone_from(&entry.name);
     Ok(Translation { program: translator.finish(entry, head, &value)?, operations, interface })

@@ -188,8 +188,9 @@ impl Translator<'_> {
                 B::Add => a.checked_add(b),
                 B::Subtract => a.checked_sub(b),
                 B::Multiply => a.checked_mul(b),
-                B::Divide => a.checked_div(b),
-                B::Modulo => a.checked_rem(b),
+                // By zero while the shader runs, a quotient is the dividend and a remainder is 0 (WGSL, 8.7).
+                B::Divide => Some(a.checked_div(b).unwrap_or(a)),
+                B::Modulo => Some(a.checked_rem(b).unwrap_or(0)),
                 B::And => Some(a & b),
                 B::ExclusiveOr => Some(a ^ b),
                 B::InclusiveOr => Some(a | b),
