@@ -153,7 +153,7 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
 }
 
 /// A usage error as JSON: clap's sentence and its help.
-pub(super) fn usage_problem(error: &clap::Error) -> Problem {
+fn usage_problem(error: &clap::Error) -> Problem {
     let text = visible(&error.render().to_string()).into_owned();
     let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
     let joined = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -26,13 +26,11 @@ mod man;
 mod materials;
 mod matmul;
 mod measure;
-mod merge;
 mod model_file;
 mod model_name;
 mod out;
 mod outputs;
 mod page;
-mod part;
 mod pixel;
 mod precision;
 mod progress;
@@ -61,7 +59,6 @@ use std::{io::Write as _, process::ExitCode};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::report::Verdict;
-use crate::split::PartSet;
 
 use resolved::CommandLine;
 
@@ -141,7 +138,6 @@ enum Command {
     Materials(materials::Args),
     Matmul(matmul::Args),
     Measure(measure::Args),
-    Merge(merge::Args),
     Page(page::Args),
     Precision(precision::Args),
     Radiosity(radiosity::Args),
@@ -216,16 +212,6 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Obeys the command of parts, whose results take the place of its work.
-fn merge(args: &merge::Args, out: &mut Out) -> miette::Result<Verdict> {
-    let parts: PartSet = args.open()?;
-    args.require_divisible(&program(), &parts)?;
-    let (cli, mut command_line, fits) = parse(&args.command(&parts)).map_err(|error| error::usage_problem(&error))?;
-    fits?;
-    command_line.parts = Some(parts);
-    obey(cli.command, &command_line, out)
-}
-
 fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     match command {
         Command::AllFrequency(args) => all_frequency::run(&args, command_line, out),
@@ -244,7 +230,6 @@ fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::
         Command::Materials(args) => materials::run(&args, out),
         Command::Matmul(args) => study::run(&args, command_line, out),
         Command::Measure(args) => study::run(&args, command_line, out),
-        Command::Merge(args) => merge(&args, out),
         Command::Page(args) => page::run(&args, out),
         Command::Precision(args) => study::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),

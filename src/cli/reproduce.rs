@@ -10,8 +10,8 @@ use super::study::{self, StudyArgs, StudyFiles};
 use super::version::{self, COMMIT};
 use super::{CommandLine, Out, Problem, ProgressBar};
 use crate::io::atomic::{FileSet, write_file};
+use crate::kept::{KeptResults, KeptWork, SpentTime};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
-use crate::split::{KeptResults, SpentTime, SplitCommand};
 use crate::study::reproduce::{ENTRIES, EntryRecord, Parameters, RecordMade, ReproduceEntry, choose, recorded};
 
 const EXAMPLES: &str = "\
@@ -84,7 +84,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "the names of single entries (`crossbar reproduce --list`)";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), None, Vec::new())
+        StudyFiles::new(Some(&self.out), Vec::new())
     }
 
     fn study(&self) -> miette::Result<Parameters> {
@@ -135,9 +135,8 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
 
 /// Runs an entry at full size, and writes its record. Intermediate results of an interrupted run are beside the record.
 fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
-    let arguments = ["reproduce", entry.id, "--record"].map(str::to_owned).to_vec();
-    let command = SplitCommand { program: version::program()?, arguments };
-    let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), command, clock)?);
+    let work = KeptWork::new(version::program()?, format!("crossbar reproduce {} --record", entry.id), &[])?;
+    let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), work, clock));
     let found = entry.at_full_size(Rc::clone(&kept))?;
     let spent = kept.spent();
     let made = RecordMade {

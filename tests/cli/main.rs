@@ -31,7 +31,6 @@ mod materials;
 mod models;
 mod options;
 mod page;
-mod parts;
 mod precision;
 mod program;
 mod radiosity;

@@ -54,7 +54,7 @@ enum Verb {
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
-        Verb::Precompute(args) => precompute::run(args, command_line)?,
+        Verb::Precompute(args) => precompute::run(args)?,
         Verb::Bicluster(args) => bicluster::run(args)?,
         Verb::Multiply(args) => multiply::run(args)?,
         Verb::Compare(args) => compare::run(args)?,

@@ -24,7 +24,6 @@ pub mod timeline_trace;
 pub mod tour;
 
 use crate::report::{Findings, Provenance};
-use crate::split::{Computed, SplitRun};
 
 pub use error::StudyError;
 
@@ -36,13 +35,6 @@ pub trait Study {
     /// Runs the study. Fails if the input does not suit the study, or a library refuses it.
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError>;
 
-    /// The same where the study's items can be split: of all of them, of those of a part, or out of parts. Without such
-    /// items, [`Self::findings`]. Errors: those of [`Self::findings`], and [`InputError`](crate::error::InputError) of
-    /// parts.
-    fn findings_split(&self, _: &SplitRun, progress: &mut ProgressFn<'_>) -> Result<Computed<Findings>, StudyError> {
-        self.findings(progress).map(Computed::Whole)
-    }
-
     /// Adds the devices, switches and seed that are used; by default there are none.
     fn provenance(&self, provenance: Provenance) -> Provenance {
         provenance
@@ -53,14 +45,6 @@ pub trait Study {
 impl Study for Box<dyn Study> {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         (**self).findings(progress)
-    }
-
-    fn findings_split(
-        &self,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<Findings>, StudyError> {
-        (**self).findings_split(split, progress)
     }
 
     fn provenance(&self, provenance: Provenance) -> Provenance {

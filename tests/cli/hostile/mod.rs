@@ -66,7 +66,6 @@ const COMMANDS: &[&str] = &[
     "materials nowhere",
     "matmul nowhere.npy nowhere.npy --unit hopper-fp8",
     "measure nowhere.csv --device r200",
-    "merge nowhere.part --out x",
     "precision nowhere.toml",
     "precision --fpcore nowhere.fpcore",
     "radiosity nowhere.obj",

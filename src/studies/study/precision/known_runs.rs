@@ -9,7 +9,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::bits::Assignment;
 use super::subject::{PrecisionSubject, WorstPlace};
-use crate::io::read_kept;
+use crate::io::read_limited;
 use crate::report::sha256;
 
 /// Name of the file in the study's folder.
@@ -29,9 +29,6 @@ pub struct KnownRuns {
     /// Number of known runs that were repeated.
     #[serde(skip)]
     checked: u32,
-    /// Runs made by parts of this study. A run that the study asks for moves to `runs`.
-    #[serde(skip)]
-    of_parts: BTreeMap<String, KnownRun>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,7 +41,7 @@ struct KnownRun {
 impl KnownRuns {
     /// Reads the runs of the study that was written to a folder; empty if there is no file, or a damaged one.
     pub fn of_folder(folder: &Path) -> Self {
-        let bytes = read_kept(&folder.join(FILE), MAX_BYTES).ok().flatten().unwrap_or_default();
+        let bytes = read_limited(&folder.join(FILE), MAX_BYTES).ok().flatten().unwrap_or_default();
         serde_json::from_slice(&bytes).unwrap_or_default()
     }
 
@@ -54,28 +51,13 @@ impl KnownRuns {
         if self.subject == digest { self.clone() } else { Self { subject: digest, ..Self::default() } }
     }
 
-    /// Adds the runs that parts have made.
-    pub(super) fn with_parts(self, parts: Self) -> Self {
-        let known = if self.subject == parts.subject { self } else { Self::default() };
-        Self { subject: parts.subject, of_parts: parts.runs, ..known }
-    }
-
-    /// Adds runs of the same subject and measure; ignores others.
-    pub(super) fn add(&mut self, other: Self) {
-        if self.subject == other.subject {
-            self.runs.extend(other.runs);
-        }
-    }
-
     /// Value and place of the largest error of a run; `None` if it is not known or must be repeated.
     pub(super) fn get(&mut self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
-        let key = digest(assignment);
-        let run = self.runs.get(&key).or_else(|| self.of_parts.get(&key))?.clone();
+        let run = self.runs.get(&digest(assignment))?.clone();
         if self.checked < CHECKED {
             self.checked += 1;
             return None;
         }
-        self.runs.insert(key, run.clone());
         Some((f64::from_bits(run.bits), run.worst))
     }
 
@@ -83,9 +65,8 @@ impl KnownRuns {
     pub(super) fn insert(&mut self, assignment: &Assignment, value: f64, worst: Option<WorstPlace>) {
         let run = KnownRun { bits: value.to_bits(), worst };
         let key = digest(assignment);
-        if self.runs.get(&key).or_else(|| self.of_parts.get(&key)).is_some_and(|known| *known != run) {
+        if self.runs.get(&key).is_some_and(|known| *known != run) {
             self.runs.clear();
-            self.of_parts.clear();
         }
         self.runs.insert(key, run);
     }

@@ -110,7 +110,6 @@ impl Precision {
     pub(super) fn runs<'a>(
         &'a self,
         goal: &'a Goal,
-        known: &KnownRuns,
         progress: &'a mut ProgressFn<'a>,
     ) -> Result<Runs<'a>, StudyError> {
         if self.budget == 0 {
@@ -119,7 +118,7 @@ impl Precision {
                 StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
             );
         }
-        let mut runs = Runs::new(&*self.subject, goal, self.budget, known, progress);
+        let mut runs = Runs::new(&*self.subject, goal, self.budget, &self.known, progress);
         if runs.count() == 0 {
             let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
             let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));
@@ -187,7 +186,7 @@ fn compute_curve(curve: &mut Curve, runs: &mut Runs<'_>) -> Result<(), RunError>
 }
 
 /// Value of the exact run, which meets the goal.
-pub(super) fn exact_run(runs: &mut Runs<'_>) -> Result<f64, RunError> {
+fn exact_run(runs: &mut Runs<'_>) -> Result<f64, RunError> {
     runs.step("the exact run");
     let exact = runs.value(&vec![None; runs.count()])?;
     if runs.goal.met(exact) { Ok(exact) } else { Err(missed_by_exact(runs.goal, exact).into()) }
@@ -201,7 +200,7 @@ fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
 
 impl FamilyOutcome {
     /// Without findings.
-    pub(super) fn new(curve: Curve, instructions: usize) -> Self {
+    fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
         let refutations = Vec::new();
         Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None, refutations }
@@ -263,22 +262,5 @@ impl FamilyOutcome {
         let mut order: Vec<usize> = (0..self.needs.len()).collect();
         order.sort_by(|a, b| blame(a).total_cmp(&blame(b)));
         Ok(order)
-    }
-
-    /// Makes the runs of one search of [`Self::run`], and those for the bits of as large a share of the instructions.
-    pub(super) fn run_share(
-        &mut self,
-        number: usize,
-        costs: &FormatCosts,
-        runs: &mut Runs<'_>,
-    ) -> Result<(), RunError> {
-        compute_curve(&mut self.curve, runs)?;
-        let Some(minimum) = self.curve.minimum else { return Ok(()) };
-        let order = self.share_blame(minimum, runs)?;
-        search((minimum, STARTS[number]), &order, costs, runs, &mut self.mixed)?;
-        for (place, needs) in self.needs.iter_mut().enumerate().skip(number).step_by(STARTS.len()) {
-            fewest_bits(needs, place, minimum, self.curve.range, runs)?;
-        }
-        Ok(())
     }
 }

@@ -13,7 +13,6 @@ mod factor;
 mod interpolate;
 mod light_picture;
 mod lit_view;
-mod parts;
 mod precompute;
 mod render;
 mod stored_ways;

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::shared::Shared;
 use super::{ModelSize, Paper, PaperRow, RecordStatus, StudyError, equations};
 use crate::report::{NamedChart, Table};
-use crate::split::KeptResults;
+use crate::kept::KeptResults;
 
 /// Findings of one entry.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -16,7 +16,7 @@ use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::scene::built::ground::{GROUND_SIDE, on_ground};
 use crate::scene::built::transfer_models::TransferModel;
-use crate::split::KeptResults;
+use crate::kept::KeptResults;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
