@@ -14,7 +14,7 @@ use textwrap::WordSplitter::NoHyphenation;
 use super::shown::{MAX_SHOWN, ShownError};
 use crate::case::{CaseError, meant};
 use crate::error::InputError;
-use crate::io::atomic::WriteError;
+use crate::io::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
 
 /// Width of tables and errors that go to a file or pipe, so that their text does not depend on a terminal.
@@ -38,13 +38,6 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Input(#[from] InputError),
-    /// A signal ended the work before its files were written.
-    #[error("interrupted before anything was written; what an earlier run wrote is as it was")]
-    #[diagnostic(
-        code(crossbar::interrupted),
-        help("the same command starts from the beginning, but for what `--resume` or `--record` keeps")
-    )]
-    Interrupted,
     /// Options that do not go together.
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]

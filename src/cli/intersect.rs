@@ -16,7 +16,7 @@ use crate::case::device_named;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::vector::wide;
 use crate::geom::{Hit, Mesh, Ray};
-use crate::io::atomic::write_file;
+use crate::io::write_file;
 use crate::io::rays::{load_rays, write_hits};
 use crate::options::sides;
 use crate::ray_engine::Crossbar;

@@ -19,7 +19,6 @@ mod error;
 mod executor;
 mod given;
 mod groups;
-mod interrupt;
 mod intersect;
 mod leaky_teapot;
 mod man;
@@ -193,7 +192,6 @@ pub fn main() -> ExitCode {
         error::print(problem.into(), cli.json);
         return ExitCode::from(BAD_INPUT);
     }
-    interrupt::clean_up_on_signals(cli.json);
     let mut out = Out::new(cli.json);
     let result = obey(cli.command, &command_line, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;

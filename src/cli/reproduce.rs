@@ -9,7 +9,7 @@ use std::time::Instant;
 use super::study::{self, StudyArgs, StudyFiles};
 use super::version::{self, COMMIT};
 use super::{CommandLine, Out, Problem, ProgressBar};
-use crate::io::atomic::{FileSet, write_file};
+use crate::io::{require_writable, write_file};
 use crate::kept::{KeptResults, KeptWork, SpentTime};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 use crate::study::reproduce::{ENTRIES, EntryRecord, Parameters, RecordMade, ReproduceEntry, choose, recorded};
@@ -112,7 +112,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
         entries.retain(|entry| recorded(entry).is_ok_and(|record| record.is_some()));
     }
     // Checked before the long work, so that an unwritable folder is found at once.
-    drop(FileSet::new(folder).map_err(Problem::from)?);
+    require_writable(folder).map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
     let mut table = Table::of("Records", "entry record processor_s wall_s");
     for (done, entry) in (0..).zip(&entries) {

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::{CommandLine, Out, Problem, ProgressBar, view};
-use crate::io::atomic::FileSet;
+use super::{CommandLine, Out, Problem, ProgressBar};
+use crate::io::{require_writable, write_files};
 use crate::report::{Findings, Provenance, Verdict, sha256};
 use crate::study::Study;
 
@@ -46,23 +46,23 @@ impl<'a> StudyFiles<'a> {
 /// Runs a study; `command_line` is the command that reproduces its findings.
 pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let study = args.study()?;
-    let StudyFiles { folder: out_folder, inputs } = args.files();
+    let StudyFiles { folder, inputs } = args.files();
     // Checked before the long work, so that an unwritable folder is found at once.
-    let folder = out_folder.map(FileSet::new).transpose().map_err(Problem::from)?;
+    folder.map(require_writable).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
     let mut found = study.findings(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
     let provenance = study.provenance(with_inputs(Provenance::new(&command_line.text), &inputs));
     if let Some(folder) = folder {
-        view::write_folder(folder, &found.take_files(&provenance)?)?;
+        write_files(folder, &found.take_files(&provenance)?).map_err(Problem::from)?;
     }
     if out.json() {
         let mut document = found.document(&provenance);
-        document["out"] = json!(out_folder);
+        document["out"] = json!(folder);
         out.document(&document)?;
         return Ok(found.verdict());
     }
-    print(&found, out_folder, out)?;
+    print(&found, folder, out)?;
     Ok(found.verdict())
 }
 

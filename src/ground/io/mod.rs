@@ -1,7 +1,7 @@
 //! Input and output of files: models, scenes, pictures, rays and hits; writing is atomic, so that no file is left
 //! partial.
 
-pub mod atomic;
+mod atomic;
 pub mod cube_map;
 pub mod error;
 mod faces;
@@ -25,7 +25,7 @@ pub mod scene_obj;
 pub mod stl;
 
 pub use crate::error::FilePlace;
-pub use atomic::{FileSet, WriteError, write_file};
+pub use atomic::{WriteError, require_writable, write_file, write_files};
 pub use cube_map::{load_cube_table, parse_cube_table, write_cube_table};
 pub use error::read_file;
 pub use gltf::parse_gltf;
