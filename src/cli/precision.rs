@@ -9,7 +9,7 @@ use crate::case::{Overrides, Setup};
 use crate::options::one_of::{OneOf, one_of};
 use crate::study::Study;
 use crate::study::precision::{
-    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, KnownRuns, PaperSystem, Precision,
+    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, PaperSystem, Precision,
     PrecisionSubject,
 };
 
@@ -218,7 +218,6 @@ impl Args {
     }
 
     fn of(&self, subject: Box<dyn PrecisionSubject>, costs: FormatCosts) -> Precision {
-        let known = KnownRuns::of_folder(&self.out);
         let both = vec![FormatFamily::Float, FormatFamily::Fixed];
         Precision {
             subject,
@@ -226,7 +225,6 @@ impl Args {
             families: self.family.clone().map_or(both, |Families(families)| families),
             budget: self.budget.unwrap_or(BUDGET),
             costs,
-            known,
         }
     }
 }

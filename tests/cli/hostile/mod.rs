@@ -45,7 +45,6 @@ const COMMANDS: &[&str] = &[
     "bi-scale bicluster nowhere.mtx",
     "bi-scale card nowhere.npz --model nowhere.obj --texture mail",
     "bi-scale compare nowhere.mtx",
-    "bi-scale multiply nowhere.mtx",
     "bi-scale precompute nowhere.obj --out x.npz",
     "bi-scale render nowhere.npz --model nowhere.obj --texture mail",
     "bi-scale show nowhere.mtx",

@@ -319,10 +319,6 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried { bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"], options: "--out=other.npz" },
     Tried {
-        bases: &["bi-scale multiply docs/examples/court_biclusters.npz"],
-        options: "--light=red-and-blue --csv=other.csv",
-    },
-    Tried {
         bases: &[
             "bi-scale compare court.npz --clusters 2 --vectors 2 --sample 60",
             "bi-scale compare court.npz --model docs/examples/court.obj --clusters 2 --vectors 2 --sample 60",

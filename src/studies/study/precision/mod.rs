@@ -14,7 +14,6 @@ mod goal;
 mod half;
 mod half_report;
 mod instructions;
-mod known_runs;
 mod outcome;
 mod pictures;
 mod refutation_tables;
@@ -38,7 +37,6 @@ pub use case::CaseSubject;
 pub use costs::FormatCosts;
 pub use expression::{ExpressionError, ExpressionStudy, InputDraw};
 pub use goal::{Goal, GoalError, GoalRelation};
-pub use known_runs::KnownRuns;
 pub use outcome::Precision;
 pub use subject::{
     ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,

@@ -8,7 +8,6 @@ use super::curve::Curve;
 use super::goal::Goal;
 use super::half::{HalfExpression, half_expressions};
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
-use super::known_runs::KnownRuns;
 use super::refutations::{self, RefutationTrace};
 use super::runs::{RunError, Runs};
 use super::sampled::sample_results;
@@ -40,8 +39,6 @@ pub struct Precision {
     pub budget: u64,
     /// Costs of formats.
     pub costs: FormatCosts,
-    /// Runs that need not be made again.
-    pub known: KnownRuns,
 }
 
 /// Findings in one family of formats.
@@ -118,7 +115,7 @@ impl Precision {
                 StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
             );
         }
-        let mut runs = Runs::new(&*self.subject, goal, self.budget, &self.known, progress);
+        let mut runs = Runs::new(&*self.subject, goal, self.budget, progress);
         if runs.count() == 0 {
             let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
             let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));

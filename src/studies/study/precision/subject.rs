@@ -1,13 +1,11 @@
 //! Interface to that whose precision is studied.
 
 use std::collections::BTreeMap;
-use std::fmt::Debug;
 
 use refsim::device::{Profile, takes_format};
 use refsim::isa::{Instruction, Opcode, Program};
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
-use serde::{Deserialize, Serialize};
 
 use super::goal::Goal;
 use crate::picture::RgbImage;
@@ -52,7 +50,7 @@ pub struct Measured {
 }
 
 /// Place where a run differs most from the expected result.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorstPlace {
     /// The place, with the found and the expected value.
     pub text: String,
@@ -167,9 +165,6 @@ pub trait PrecisionSubject {
 
     /// Goal if none is given.
     fn default_goal(&self) -> Goal;
-
-    /// Everything that decides the values of a run beside its device, for a digest.
-    fn content(&self) -> &dyn Debug;
 
     /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`. Fails if the
     /// device cannot run the programs.

@@ -4,7 +4,6 @@ mod drawn;
 mod errors;
 
 use std::collections::BTreeMap;
-use std::fmt::Debug;
 
 use refsim::device::Profile;
 use refsim::isa::{Destination, Instruction, Program, Register, RegisterFile};
@@ -97,10 +96,6 @@ impl PrecisionSubject for CaseSubject {
 
     fn measures(&self) -> &[PrecisionMeasure] {
         &self.measures
-    }
-
-    fn content(&self) -> &dyn Debug {
-        &self.setup
     }
 
     /// One code, or one percent on the average where no target has codes.

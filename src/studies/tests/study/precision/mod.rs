@@ -13,7 +13,7 @@ use crossbar_studies::case::Setup;
 use crossbar_studies::report::Verdict;
 use crossbar_studies::study::Study as _;
 use crossbar_studies::study::precision::{
-    CaseSubject, FormatCosts, FormatFamily, KnownRuns, Precision, PrecisionSubject,
+    CaseSubject, FormatCosts, FormatFamily, Precision, PrecisionSubject,
 };
 use refsim::device::{Profile, takes_format};
 use refsim::machine::ExecutorKind;
@@ -50,7 +50,6 @@ fn study_of(subject: Box<dyn PrecisionSubject>, goal: &str, families: &[FormatFa
         families: families.to_vec(),
         budget: 10_000,
         costs: FormatCosts::default(),
-        known: KnownRuns::default(),
     }
 }
 
