@@ -6,8 +6,8 @@ use serde_json::json;
 
 use super::{Out, Problem, ProgressBar, Verdict};
 use crate::error::InputError;
-use crate::io::{require_writable, write_files};
 use crate::io::read_file;
+use crate::io::{require_writable, write_files};
 use crate::study::page::page;
 
 const EXAMPLES: &str = "\

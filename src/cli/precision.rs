@@ -9,8 +9,7 @@ use crate::case::{Overrides, Setup};
 use crate::options::one_of::{OneOf, one_of};
 use crate::study::Study;
 use crate::study::precision::{
-    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, PaperSystem, Precision,
-    PrecisionSubject,
+    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, PaperSystem, Precision, PrecisionSubject,
 };
 
 const EXAMPLES: &str = "\

@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::words::counted;
 use super::{Out, Problem, study};
-use crate::io::write_files;
 use crate::io::scene_files;
+use crate::io::write_files;
 use crate::names::did_you_mean;
 use crate::report::{Findings, Table, Verdict};
 use crate::scene::{Scene, built};

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use crate::error::InputError;
-use crate::report::sha256;
 use crate::kept::unreadable;
+use crate::report::sha256;
 
 /// Commit that the program was built from. `build.rs` sets it in optimised builds; packagers may set it in any build.
 pub(super) const COMMIT: &str = match option_env!("CROSSBAR_COMMIT") {

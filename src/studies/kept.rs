@@ -151,7 +151,8 @@ impl KeptResults {
         }
         let result = compute()?;
         // Numbers, texts and lists of them always encode.
-        let mut bytes = postcard::to_stdvec(&(&self.work, self.spent(), &result)).expect("a result that can be encoded");
+        let mut bytes =
+            postcard::to_stdvec(&(&self.work, self.spent(), &result)).expect("a result that can be encoded");
         bytes.extend_from_slice(&Sha256::digest(&bytes));
         write_file(&path, |file| file.write_all(&bytes)).map_err(unwritable)?;
         Ok(result)

@@ -4,10 +4,9 @@ use std::path::Path;
 
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
-use crate::cli::transfer::model::{load, vertices};
+use crate::cli::transfer::model::model_of;
 use crate::clustering::Clustering;
 use crate::transfer::Vertices;
-use crate::transfer::file::require_mesh;
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 
 /// A `.npz` file with the model that it was made from.
@@ -25,20 +24,6 @@ impl FileOfModel {
         let (model, vertices, digest) = model_of(path, file.mesh, model)?;
         Ok(Self { file, model, vertices, digest })
     }
-}
-
-/// The model of a file's mesh, with its vertices: the file's points.
-pub(super) fn model_of(
-    path: &Path,
-    mesh: Option<MeshDigest>,
-    model: &Path,
-) -> miette::Result<(Model, Vertices, MeshDigest)> {
-    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
-    let model = load(model, tangents)?;
-    let vertices = vertices(&model, tangents)?;
-    let digest = MeshDigest::new(&vertices);
-    require_mesh(path, &digest, mesh)?;
-    Ok((model, vertices, digest))
 }
 
 /// The order of the light that a file's transfer takes.

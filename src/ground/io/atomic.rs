@@ -81,9 +81,8 @@ pub fn require_writable(folder: &Path) -> Result<(), WriteError> {
 /// Writes files into a folder, one after the other, and returns their places. Fails before the first one for a name
 /// that leaves the folder.
 pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, WriteError> {
-    let is_plain = |name: &Path| {
-        name.file_name().is_some() && name.components().all(|part| matches!(part, Component::Normal(_)))
-    };
+    let is_plain =
+        |name: &Path| name.file_name().is_some() && name.components().all(|part| matches!(part, Component::Normal(_)));
     if let Some((name, _)) = files.iter().find(|(name, _)| !is_plain(Path::new(name))) {
         return Err(WriteError::Name { name: name.into() });
     }

@@ -22,9 +22,7 @@ fn clock() -> SpentTime {
 #[test]
 fn work_that_was_stopped_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");
-    let kept = |program, entry| {
-        KeptResults::new(folder.path().join("kept"), work(program, entry), clock)
-    };
+    let kept = |program, entry| KeptResults::new(folder.path().join("kept"), work(program, entry), clock);
     let computed = Cell::new(0);
     let get = |kept: &KeptResults, name: &str| {
         kept.get(name, || {
@@ -113,9 +111,7 @@ fn a_folder_that_cannot_be_made_is_said() {
 #[test]
 fn pieces_make_the_same_model() {
     let folder = tempfile::tempdir().expect("a folder");
-    let kept = || {
-        Some(Rc::new(KeptResults::new(folder.path().to_owned(), work("1", "a"), SpentTime::default)))
-    };
+    let kept = || Some(Rc::new(KeptResults::new(folder.path().to_owned(), work("1", "a"), SpentTime::default)));
     let [without, first, taken] = [None, kept(), kept()].map(|kept| bunny_in_pieces(kept).expect("compressed"));
     assert_eq!((&first.0, &taken.0), (&without.0, &without.0), "computed and kept, and taken");
     assert_eq!([first.1, taken.1], [true, false], "a model that is taken needs no visibility");

@@ -3,7 +3,7 @@
 use crate::environment::by_form;
 use crate::support::cluster_options;
 use crossbar::clustering::{
-    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress, paper,
+    Compression, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress, paper,
 };
 use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::transfer::synthetic::torus_signal;

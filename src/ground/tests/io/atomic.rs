@@ -60,7 +60,10 @@ fn missing_folders_appear_with_their_files() {
     assert!(listing(root.path()).is_empty(), "the check makes no folders");
     let files = ["a.txt", "sub/b.txt"].map(|name| (name.to_owned(), name.as_bytes().to_vec()));
     assert_eq!(write_files(&folder, &files).expect("places"), [folder.join("a.txt"), folder.join("sub/b.txt")]);
-    assert_eq!((listing(&folder), listing(&folder.join("sub"))), (vec!["a.txt".into(), "sub".into()], vec!["b.txt".into()]));
+    assert_eq!(
+        (listing(&folder), listing(&folder.join("sub"))),
+        (vec!["a.txt".into(), "sub".into()], vec!["b.txt".into()])
+    );
     assert_eq!(fs::read(folder.join("sub/b.txt")).expect("read"), b"sub/b.txt");
 }
 

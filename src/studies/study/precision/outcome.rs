@@ -104,11 +104,7 @@ impl Precision {
     }
 
     /// Runs of the subject. Fails if no runs are allowed, or no instruction has a format.
-    pub(super) fn runs<'a>(
-        &'a self,
-        goal: &'a Goal,
-        progress: &'a mut ProgressFn<'a>,
-    ) -> Result<Runs<'a>, StudyError> {
+    pub(super) fn runs<'a>(&'a self, goal: &'a Goal, progress: &'a mut ProgressFn<'a>) -> Result<Runs<'a>, StudyError> {
         if self.budget == 0 {
             let found = "expected a budget of 1 run or more, found 0";
             return Err(

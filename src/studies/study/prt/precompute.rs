@@ -108,11 +108,7 @@ impl Precomputation<'_> {
     }
 
     /// As [`Self::run`], by a caster of the mesh that sees both sides.
-    pub fn run_by(
-        &self,
-        caster: &mut dyn Caster,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Precomputed, StudyError> {
+    pub fn run_by(&self, caster: &mut dyn Caster, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
         self.check()?;
         let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
         let responses = self.channels.iter().map(|(channel, brdfs)| self.responses(&rule, *channel, brdfs));

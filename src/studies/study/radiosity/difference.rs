@@ -1,6 +1,5 @@
 //! Error of a solution against the direct one.
 
-
 use crate::picture::metrics::{ErrorSums, value_error};
 
 /// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the

@@ -15,9 +15,7 @@ use crate::picture::Picture;
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::Dipole;
 use crate::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
-use crate::subsurface::links::{
-    EncodedLinks, IrradianceMeans, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
-};
+use crate::subsurface::links::{EncodedLinks, IrradianceMeans, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL};
 use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::{
     CardModel, FloatTexels, LightStage, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,

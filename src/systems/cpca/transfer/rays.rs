@@ -86,8 +86,7 @@ impl TracedRays {
         };
         let shooter = Shooter::new(vertices, &rule, &origins, &occluders);
         let blocked = vec![0; words * range.len()];
-        let mut traced =
-            Self { rule, range, words, blocked, hits: Vec::new(), keeps_hits: keep_hits, counts };
+        let mut traced = Self { rule, range, words, blocked, hits: Vec::new(), keeps_hits: keep_hits, counts };
         traced.shadows(&shooter, caster)?;
         traced.hits(&shooter, caster)?;
         Ok(traced)

@@ -51,12 +51,7 @@ impl LinkBands {
         bands
     }
 
-    fn fill_fixed<const N: usize>(
-        &mut self,
-        factors: &Factors<'_, N>,
-        level: u32,
-        band_done: &(dyn Fn() + Sync),
-    ) {
+    fn fill_fixed<const N: usize>(&mut self, factors: &Factors<'_, N>, level: u32, band_done: &(dyn Fn() + Sync)) {
         let side = factors.surface().side();
         let ids: Vec<ClusterId> = fixed_clusters(side, level).collect();
         let per_texel = ids.len();

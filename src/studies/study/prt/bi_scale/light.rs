@@ -10,11 +10,11 @@ use crate::transfer::light::CubeLight;
 
 /// L~ of all vertices.
 #[derive(Clone, Debug)]
-pub(super) struct LocalLight {
+pub(in crate::study) struct LocalLight {
     /// `biclusters` or `rows`.
     pub(super) way: &'static str,
     /// Red, green and blue of each row of the transfer.
-    pub(super) rows: Vec<[f64; 3]>,
+    pub(in crate::study) rows: Vec<[f64; 3]>,
     /// Time of the multiplication.
     pub(super) seconds: f64,
 }

@@ -1,9 +1,6 @@
 //! Tests of the steps after a search: held-back input, traces, pictures of errors.
 
-
-use crossbar_studies::report::Provenance;
 use crossbar_studies::study::StudyError;
-use crossbar_studies::study::precision::{Goal, Measured, PrecisionMeasure, StudiedProgram};
 
 use super::*;
 
