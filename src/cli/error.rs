@@ -153,27 +153,16 @@ fn usage_problem(error: &clap::Error) -> Problem {
     Problem::usage(joined(what.trim_start_matches("error: ")), joined(help))
 }
 
-/// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. If a
-/// message quotes characters that are not safe to show, `parse` parses the escaped arguments for another message.
-pub(super) fn print_usage(
-    error: &clap::Error,
-    arguments: &[OsString],
-    parse: fn(Vec<OsString>) -> Option<clap::Error>,
-) {
-    let safe: Vec<String> =
-        arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();
+/// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. A message that quotes
+/// characters that are not safe to show is plain, and escapes them.
+pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) {
     if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
         return print(usage_problem(error).into(), true);
     }
     // A closed pipe is not an error.
-    if safe.iter().zip(arguments).all(|(safe, argument)| argument.to_str() == Some(safe)) {
-        error.print().ok();
-        return;
-    }
-    match parse(safe.into_iter().map(OsString::from).collect()) {
-        Some(same) => same.print().ok(),
-        // The escaped arguments parse: the message is shown plain.
-        None => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
+    match arguments.iter().all(|argument| argument.to_str().is_some_and(|text| visible_line(text) == text)) {
+        true => error.print().ok(),
+        false => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
     };
 }
 

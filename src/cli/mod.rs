@@ -162,7 +162,7 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
     let mut program = program();
     let matches = program.try_get_matches_from_mut(arguments)?;
     let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
-    let fits = model_file::choose(&program, &matches).and_then(|()| outputs::require_different(&program, &matches));
+    let fits = model_file::choose(&program, &matches);
     Ok((cli, resolved::command_line(&program, &matches), fits))
 }
 
@@ -177,7 +177,7 @@ pub fn main() -> ExitCode {
     let (cli, command_line, fits) = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
-            error::print_usage(&error, &arguments, |safe| parse(&safe).err());
+            error::print_usage(&error, &arguments);
             // Help and `--version` come this way too, with code 0.
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
         }

@@ -258,7 +258,6 @@ fn what_is_wrong_is_said() {
         ("run nowhere.toml --trace -1,2", "expected a pixel as `3,4`, column and row from 0; found `-1,2`"),
         ("compare nowhere.toml --pixel -1,2", "found `-1,2`"),
         ("cpca precompute white-box --kind glossy --brdf phong:0.5,0.6,9 --out x.npz", "sum of albedo and specular"),
-        ("bi-scale texture mail --sheet ./same --out same", "`--out` and `--sheet` that both write"),
         ("alu add --format fp16 --threads -1", "-1 is not in 1..=1024"),
         ("alu add --format fp16 --verify", "expected at least one line to verify, found none"),
         ("alu add --format fp16 --verify --json", "expected at least one line to verify, found none"),

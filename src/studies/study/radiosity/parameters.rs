@@ -24,7 +24,7 @@ pub struct Parameters {
     /// Camera of the pictures.
     pub camera: Camera,
     /// What casts the rays of form factors, at least one; several engines are compared, and the first one's room is
-    /// solved. Parts of a run take the host's rays.
+    /// solved.
     pub casters: Vec<CasterChoice>,
     /// Options.
     pub options: RadiosityOptions,
