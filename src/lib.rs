@@ -70,7 +70,7 @@ pub use crossbar_base::{compare, elementary, error, geom, oracle};
 pub use crossbar_ground::{atlas, card, fresnel, io, linalg, names, picture, quadrature, scene, sphere, tracer};
 #[cfg(feature = "cli")]
 #[doc(inline)]
-pub use crossbar_studies::{case, options, report, shader, split, study};
+pub use crossbar_studies::{case, kept, options, report, shader, study};
 #[cfg(feature = "systems")]
 #[doc(inline)]
 pub use crossbar_systems::{

@@ -48,7 +48,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "a smaller `--side`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(self.out.as_deref(), None, model_name::named_file(&self.model))
+        StudyFiles::new(self.out.as_deref(), model_name::named_file(&self.model))
     }
 
     fn study(&self) -> miette::Result<AtlasStudy> {

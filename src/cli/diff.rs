@@ -53,7 +53,7 @@ impl StudyArgs for Args {
     type Study = PictureDifference;
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(self.out.as_deref(), None, vec![&self.first, &self.second])
+        StudyFiles::new(self.out.as_deref(), vec![&self.first, &self.second])
     }
 
     fn study(&self) -> miette::Result<PictureDifference> {

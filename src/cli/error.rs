@@ -14,7 +14,7 @@ use textwrap::WordSplitter::NoHyphenation;
 use super::shown::{MAX_SHOWN, ShownError};
 use crate::case::{CaseError, meant};
 use crate::error::InputError;
-use crate::io::atomic::WriteError;
+use crate::io::WriteError;
 use crate::report::visible::{visible, visible_json, visible_line};
 
 /// Width of tables and errors in a file or pipe, so that the text does not depend on a terminal.
@@ -38,14 +38,7 @@ pub enum Problem {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Input(#[from] InputError),
-    /// A signal ended the work before its files were written.
-    #[error("interrupted before anything was written; files of earlier runs are unchanged")]
-    #[diagnostic(
-        code(crossbar::interrupted),
-        help("the same command starts from the beginning, except for results that `--resume` or `--record` stored")
-    )]
-    Interrupted,
-    /// Options that conflict.
+    /// Options that do not go together.
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]
     Usage {
@@ -153,34 +146,23 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
 }
 
 /// A usage error as JSON: clap's sentence and its help.
-pub(super) fn usage_problem(error: &clap::Error) -> Problem {
+fn usage_problem(error: &clap::Error) -> Problem {
     let text = visible(&error.render().to_string()).into_owned();
     let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
     let joined = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     Problem::usage(joined(what.trim_start_matches("error: ")), joined(help))
 }
 
-/// Writes the error about the arguments, or the requested help; as JSON if `--json` is among the arguments. If a
-/// message quotes characters that are not safe to show, `parse` parses the escaped arguments to get another message.
-pub(super) fn print_usage(
-    error: &clap::Error,
-    arguments: &[OsString],
-    parse: fn(Vec<OsString>) -> Option<clap::Error>,
-) {
-    let safe: Vec<String> =
-        arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();
+/// Writes the error in the arguments, or the requested help; as JSON if `--json` is among them. A message that quotes
+/// characters that are not safe to show is plain, and escapes them.
+pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) {
     if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
         return print(usage_problem(error).into(), true);
     }
     // A closed pipe is not an error.
-    if safe.iter().zip(arguments).all(|(safe, argument)| argument.to_str() == Some(safe)) {
-        error.print().ok();
-        return;
-    }
-    match parse(safe.into_iter().map(OsString::from).collect()) {
-        Some(same) => same.print().ok(),
-        // The escaped arguments parse: the message is shown as plain text.
-        None => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
+    match arguments.iter().all(|argument| argument.to_str().is_some_and(|text| visible_line(text) == text)) {
+        true => error.print().ok(),
+        false => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),
     };
 }
 

@@ -1,6 +1,9 @@
-//! Options that other options make useless.
+//! Options that another option makes useless, and names of nothing.
+
+use std::path::Path;
 
 use super::Problem;
+use crate::names::did_you_mean;
 
 /// Rejects the first option that was given; each option is paired with `true` if it was. `only_for` completes the
 /// phrase "is for". Fails with [`Problem::Usage`].
@@ -13,4 +16,16 @@ pub(super) fn refuse<'a>(
         Some((option, _)) => Err(Problem::usage(format!("`{option}` is for {only_for}"), help)),
         None => Ok(()),
     }
+}
+
+/// Refuses a word that names no `what` and no file: a path without a dot or a folder is a name. Fails with
+/// [`Problem::Usage`], which lists the names.
+pub(super) fn require_file(path: &Path, what: &str, names: &[&str], ending: &str) -> Result<(), Problem> {
+    let name = path.to_str().unwrap_or_default();
+    if path.exists() || path.components().count() != 1 || name.contains('.') {
+        return Ok(());
+    }
+    let meant = did_you_mean(name, names.iter().copied());
+    let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.{ending}`", names.join(", "));
+    Err(Problem::usage(format!("there is no {what} `{name}`"), help))
 }

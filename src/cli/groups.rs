@@ -10,7 +10,7 @@ const GROUPS: [(&str, &str); 5] = [
     ("Systems", "intersect radiosity subsurface cpca all-frequency bi-scale atlas materials"),
     ("Cards and shaders", "devices check run compare timeline measure page"),
     ("Numbers", "alu precision matmul units"),
-    ("Tools", "diff merge completions man help"),
+    ("Tools", "diff completions man help"),
 ];
 /// Width of the list; clap also limits its help to this width.
 const WIDTH: usize = 100;

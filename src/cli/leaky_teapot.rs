@@ -8,7 +8,6 @@ use refsim::num::Format;
 
 use super::executor::DeviceExecutor;
 use super::model_name;
-use super::part::PartArgs;
 use super::scene_name::EyeArgs;
 use super::study::{StudyArgs, StudyFiles};
 use super::{Problem, view};
@@ -82,9 +81,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "K", value_parser = kernels())]
     kernel: Vec<EdgeRule>,
 
-    #[command(flatten)]
-    part: PartArgs,
-
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/leaky-teapot")]
     out: PathBuf,
@@ -103,7 +99,7 @@ impl StudyArgs for Args {
 
     fn files(&self) -> StudyFiles<'_> {
         let model = self.mesh.as_deref().map(model_name::named_file).unwrap_or_default();
-        StudyFiles::new(Some(&self.out), Some(self.part), model.into_iter().chain(self.rays.as_deref()).collect())
+        StudyFiles::new(Some(&self.out), model.into_iter().chain(self.rays.as_deref()).collect())
     }
 
     fn study(&self) -> miette::Result<Parameters> {

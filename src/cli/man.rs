@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap_mangen::Man;
 use serde_json::json;
 
-use super::{Out, Problem, Verdict, view};
-use crate::io::atomic::FileSet;
+use super::{Out, Problem, Verdict};
+use crate::io::write_files;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -25,8 +25,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, program: clap::Command, out: &mut Out) -> miette::Result<Verdict> {
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
-    let written = view::write_folder(folder, &pages(program))?;
+    let written = write_files(&args.out, &pages(program)).map_err(Problem::from)?;
     if out.json() {
         out.document(&json!({ "files": written }))?;
         return Ok(Verdict::Done);

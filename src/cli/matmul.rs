@@ -98,7 +98,7 @@ impl StudyArgs for Args {
 
     fn files(&self) -> StudyFiles<'_> {
         let inputs = [&self.a, &self.b].into_iter().chain(&self.c).map(PathBuf::as_path).collect();
-        StudyFiles::new(Some(&self.out), None, inputs)
+        StudyFiles::new(Some(&self.out), inputs)
     }
 
     fn study(&self) -> miette::Result<MatrixProduct> {

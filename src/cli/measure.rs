@@ -41,7 +41,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "`--switch NAME=VALUE` for what is known";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(None, None, vec![&self.file])
+        StudyFiles::new(None, vec![&self.file])
     }
 
     fn study(&self) -> miette::Result<Measure> {

@@ -19,20 +19,17 @@ mod error;
 mod executor;
 mod given;
 mod groups;
-mod interrupt;
 mod intersect;
 mod leaky_teapot;
 mod man;
 mod materials;
 mod matmul;
 mod measure;
-mod merge;
 mod model_file;
 mod model_name;
 mod out;
 mod outputs;
 mod page;
-mod part;
 mod pixel;
 mod precision;
 mod progress;
@@ -61,7 +58,6 @@ use std::{io::Write as _, process::ExitCode};
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::report::Verdict;
-use crate::split::PartSet;
 
 use resolved::CommandLine;
 
@@ -141,7 +137,6 @@ enum Command {
     Materials(materials::Args),
     Matmul(matmul::Args),
     Measure(measure::Args),
-    Merge(merge::Args),
     Page(page::Args),
     Precision(precision::Args),
     Radiosity(radiosity::Args),
@@ -167,7 +162,7 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
     let mut program = program();
     let matches = program.try_get_matches_from_mut(arguments)?;
     let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
-    let fits = model_file::choose(&program, &matches).and_then(|()| outputs::require_different(&program, &matches));
+    let fits = model_file::choose(&program, &matches);
     Ok((cli, resolved::command_line(&program, &matches), fits))
 }
 
@@ -182,8 +177,8 @@ pub fn main() -> ExitCode {
     let (cli, command_line, fits) = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
-            error::print_usage(&error, &arguments, |safe| parse(&safe).err());
-            // Help and `--version` also arrive here, with code 0.
+            error::print_usage(&error, &arguments);
+            // Help and `--version` come this way too, with code 0.
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
         }
     };
@@ -197,7 +192,6 @@ pub fn main() -> ExitCode {
         error::print(problem.into(), cli.json);
         return ExitCode::from(BAD_INPUT);
     }
-    interrupt::clean_up_on_signals(cli.json);
     let mut out = Out::new(cli.json);
     let result = obey(cli.command, &command_line, &mut out).and_then(|verdict| {
         out.flush().map_err(OutputError::from)?;
@@ -214,16 +208,6 @@ pub fn main() -> ExitCode {
             ExitCode::from(BAD_INPUT)
         }
     }
-}
-
-/// Runs the command that produced the parts, with their results in place of its own computation.
-fn merge(args: &merge::Args, out: &mut Out) -> miette::Result<Verdict> {
-    let parts: PartSet = args.open()?;
-    args.require_divisible(&program(), &parts)?;
-    let (cli, mut command_line, fits) = parse(&args.command(&parts)).map_err(|error| error::usage_problem(&error))?;
-    fits?;
-    command_line.parts = Some(parts);
-    obey(cli.command, &command_line, out)
 }
 
 fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
@@ -244,7 +228,6 @@ fn obey(command: Command, command_line: &CommandLine, out: &mut Out) -> miette::
         Command::Materials(args) => materials::run(&args, out),
         Command::Matmul(args) => study::run(&args, command_line, out),
         Command::Measure(args) => study::run(&args, command_line, out),
-        Command::Merge(args) => merge(&args, out),
         Command::Page(args) => page::run(&args, out),
         Command::Precision(args) => study::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),

@@ -59,7 +59,6 @@ pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Prob
         let options = [("--model-up", up.is_some()), ("--strict", strict)];
         given::refuse(options, "a model's file, found none", "name a model, or leave it out")?;
     }
-    // Set once: one command reads models, either the command line's or the parts' command.
     OPTIONS.set(ModelOptions { up, strict }).ok();
     Ok(())
 }

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::{Problem, model_file, scene_name};
+use super::{given, model_file, scene_name};
 use crate::geom::Mesh;
-use crate::names::did_you_mean;
 use crate::scene::built::flat_models::MaterialMesh;
 use crate::scene::built::{self, meshes};
 use crate::scene::{Material, Scene};
@@ -62,12 +61,6 @@ pub(super) fn model(path: &Path) -> miette::Result<Model> {
         model_file::refuse_options(name)?;
         return Ok(Model::of(&scene));
     }
-    // A word without a dot or a folder is a name, not a file.
-    if !path.exists() && path.components().count() == 1 && !name.contains('.') {
-        let names: Vec<&str> = meshes::names().chain(built::names()).collect();
-        let meant = did_you_mean(name, names.iter().copied());
-        let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
-        return Err(Problem::usage(format!("there is no model `{name}`"), help).into());
-    }
+    given::require_file(path, "model", &meshes::names().chain(built::names()).collect::<Vec<_>>(), "obj")?;
     Ok(Model::of(&model_file::scene(path)?))
 }

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{Out, Problem, ProgressBar, Verdict, view};
+use super::{Out, Problem, ProgressBar, Verdict};
 use crate::error::InputError;
-use crate::io::atomic::FileSet;
 use crate::io::read_file;
+use crate::io::{require_writable, write_files};
 use crate::study::page::page;
 
 const EXAMPLES: &str = "\
@@ -36,13 +36,13 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     // Checked before the work, so that an unwritable folder is found at once.
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
+    require_writable(&args.out).map_err(Problem::from)?;
     let emulator = args.emulator.as_deref().map(read_emulator).transpose()?;
     let bar = ProgressBar::new("", 1);
     let text = page(emulator.as_deref(), &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
     let bytes = text.len();
-    let written = view::write_folder(folder, &[("index.html".to_owned(), text.into_bytes())])?;
+    let written = write_files(&args.out, &[("index.html".to_owned(), text.into_bytes())]).map_err(Problem::from)?;
     if out.json() {
         out.document(&json!({ "files": written, "bytes": bytes }))?;
         return Ok(Verdict::Done);

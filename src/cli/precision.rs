@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use super::part::PartArgs;
 use super::study::{StudyArgs, StudyFiles};
 use super::uniform::{self, Uniform};
 use super::{given, switch};
@@ -10,8 +9,7 @@ use crate::case::{Overrides, Setup};
 use crate::options::one_of::{OneOf, one_of};
 use crate::study::Study;
 use crate::study::precision::{
-    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, KnownRuns, PaperSystem, Precision,
-    PrecisionSubject,
+    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, PaperSystem, Precision, PrecisionSubject,
 };
 
 const EXAMPLES: &str = "\
@@ -108,9 +106,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE.csv")]
     costs: Option<PathBuf>,
 
-    #[command(flatten)]
-    part: PartArgs,
-
     /// Where to write the page, the tables and the device
     #[arg(long, value_name = "DIR", default_value = "out/precision")]
     out: PathBuf,
@@ -143,7 +138,7 @@ impl StudyArgs for Args {
     fn files(&self) -> StudyFiles<'_> {
         let case = self.case.iter().filter(|_| self.system().is_none());
         let inputs = case.chain(&self.fpcore).chain(&self.held_back).chain(&self.costs).map(PathBuf::as_path).collect();
-        StudyFiles::new(Some(&self.out), Some(self.part), inputs)
+        StudyFiles::new(Some(&self.out), inputs)
     }
 
     fn study(&self) -> miette::Result<Box<dyn Study>> {
@@ -169,7 +164,6 @@ impl Args {
             ("--uniform", !self.uniform.is_empty()),
             ("--budget", self.budget.is_some()),
             ("--costs", self.costs.is_some()),
-            ("--part", self.part.is_given()),
         ];
         given::refuse(of_cases, "cases", "leave it out: an expression runs on no device")?;
         let mut study = match (&self.expr, &self.fpcore) {
@@ -223,7 +217,6 @@ impl Args {
     }
 
     fn of(&self, subject: Box<dyn PrecisionSubject>, costs: FormatCosts) -> Precision {
-        let known = KnownRuns::of_folder(&self.out);
         let both = vec![FormatFamily::Float, FormatFamily::Fixed];
         Precision {
             subject,
@@ -231,7 +224,6 @@ impl Args {
             families: self.family.clone().map_or(both, |Families(families)| families),
             budget: self.budget.unwrap_or(BUDGET),
             costs,
-            known,
         }
     }
 }

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use super::card::CardArgs;
 use super::given;
-use super::part::PartArgs;
 use super::scene_name::{self, EyeArgs, Viewpoint};
 use super::study::{StudyArgs, StudyFiles};
 use crate::options::Size;
@@ -54,9 +53,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME")]
     view: Option<String>,
 
-    #[command(flatten)]
-    part: PartArgs,
-
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/radiosity")]
     out: PathBuf,
@@ -70,7 +66,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "fewer `--patches`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), Some(self.part), scene_name::named_file(&self.scene))
+        StudyFiles::new(Some(&self.out), scene_name::named_file(&self.scene))
     }
 
     fn study(&self) -> miette::Result<Parameters> {
@@ -83,7 +79,6 @@ impl StudyArgs for Args {
         }
         let unoccluded = self.options.factors == Factors::Unoccluded;
         given::refuse([("--caster", unoccluded && self.caster.is_named())], "form factors by rays", "leave it out")?;
-        self.part.refuse_engine(&self.caster)?;
         Ok(Parameters {
             casters: self.caster.choose_each(self.card.executor()?)?,
             scene,

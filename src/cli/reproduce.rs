@@ -9,9 +9,9 @@ use std::time::Instant;
 use super::study::{self, StudyArgs, StudyFiles};
 use super::version::{self, COMMIT};
 use super::{CommandLine, Out, Problem, ProgressBar};
-use crate::io::atomic::{FileSet, write_file};
+use crate::io::{require_writable, write_file};
+use crate::kept::{KeptResults, KeptWork, SpentTime};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
-use crate::split::{KeptResults, SpentTime, SplitCommand};
 use crate::study::reproduce::{ENTRIES, EntryRecord, Parameters, RecordMade, ReproduceEntry, choose, recorded};
 
 const EXAMPLES: &str = "\
@@ -84,7 +84,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "the names of single entries (`crossbar reproduce --list`)";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), None, Vec::new())
+        StudyFiles::new(Some(&self.out), Vec::new())
     }
 
     fn study(&self) -> miette::Result<Parameters> {
@@ -112,8 +112,8 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
         entries.retain(|entry| recorded(entry).is_ok_and(|record| record.is_some()));
     }
     // Checked before the long work, so that an unwritable folder is found at once.
-    drop(FileSet::new(folder).map_err(Problem::from)?);
-    let bar = ProgressBar::new("", 1).quicker("names of single entries; after an interruption, it continues");
+    require_writable(folder).map_err(Problem::from)?;
+    let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
     let mut table = Table::of("Records", "entry record processor_s wall_s");
     for (done, entry) in (0..).zip(&entries) {
         bar.show(entry.id.to_owned(), done, entries.len() as u64);
@@ -135,9 +135,8 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
 
 /// Runs an entry at full size, and writes its record. Pieces of an interrupted run are stored next to the record.
 fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
-    let arguments = ["reproduce", entry.id, "--record"].map(str::to_owned).to_vec();
-    let command = SplitCommand { program: version::program()?, arguments };
-    let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), command, clock)?);
+    let work = KeptWork::new(version::program()?, format!("crossbar reproduce {} --record", entry.id), &[])?;
+    let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), work, clock));
     let found = entry.at_full_size(Rc::clone(&kept))?;
     let spent = kept.spent();
     let made = RecordMade {

@@ -6,31 +6,23 @@ use std::fmt::Write as _;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
-use crate::split::PartSet;
-
-/// Options that do not change the result: the output folder, the executor and its adapter, messages.
-const WITHOUT_EFFECT: [&str; 7] = ["out", "executor", "json", "threads", "help", "part", "resume"];
+/// Options that change no result: the output folder, the executor and its adapter, messages.
+const WITHOUT_EFFECT: [&str; 6] = ["out", "executor", "json", "threads", "help", "resume"];
 
 /// A resolved command line.
 #[derive(Debug)]
 pub(super) struct CommandLine {
-    /// The line as text, for people.
     pub(super) text: String,
-    /// Arguments with the same meaning for the parser.
-    pub(super) arguments: Vec<OsString>,
-    /// Parts that were computed before, if `crossbar merge` runs the command.
-    pub(super) parts: Option<PartSet>,
 }
 
 /// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. Omits a
 /// default if a given option replaces it.
 pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLine {
-    let mut line = CommandLine { text: program.get_name().to_owned(), arguments: Vec::new(), parts: None };
+    let mut line = CommandLine { text: program.get_name().to_owned() };
     let (mut command, mut matches) = (program, matches);
     while let Some((name, inner)) = matches.subcommand() {
         // Writing to a string cannot fail.
         let _ = write!(line.text, " {name}");
-        line.arguments.push(name.into());
         let Some(found) = command.find_subcommand(name) else { return line };
         (command, matches) = (found, inner);
     }
@@ -38,7 +30,6 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
         return line;
     }
     let (positional, options): (Vec<&Arg>, Vec<&Arg>) = command.get_arguments().partition(|arg| arg.is_positional());
-    let mut last = Vec::new();
     for arg in positional.into_iter().chain(options) {
         if WITHOUT_EFFECT.contains(&arg.get_id().as_str()) || replaced(command, arg, matches) {
             continue;
@@ -51,18 +42,7 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
                 (Some(long), None) => write!(line.text, " --{long}"),
                 (None, value) => write!(line.text, " {}", value.unwrap_or_default()),
             };
-            match (arg.get_long(), value) {
-                (Some(long), Some(value)) => line.arguments.push(joined(&format!("--{long}="), &value)),
-                (Some(long), None) => line.arguments.push(format!("--{long}").into()),
-                (None, Some(value)) if value.as_encoded_bytes().starts_with(b"-") => last.push(value),
-                (None, value) => line.arguments.extend(value),
-            }
         }
-    }
-    // Without `--`, the parser would take them for options.
-    if !last.is_empty() {
-        line.arguments.push("--".into());
-        line.arguments.extend(last);
     }
     line
 }
@@ -76,12 +56,6 @@ fn quoted(value: &OsStr) -> String {
     } else {
         format!("'{}'", text.replace('\'', r"'\''"))
     }
-}
-
-fn joined(before: &str, value: &OsStr) -> OsString {
-    let mut joined = OsString::from(before);
-    joined.push(value);
-    joined
 }
 
 /// Returns `true` if the argument only has its default, and a given argument excludes it.

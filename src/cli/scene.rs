@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::words::counted;
-use super::{Out, Problem, study, view};
-use crate::io::atomic::FileSet;
+use super::{Out, Problem, study};
 use crate::io::scene_files;
+use crate::io::write_files;
 use crate::names::did_you_mean;
 use crate::report::{Findings, Table, Verdict};
 use crate::scene::{Scene, built};
@@ -68,7 +68,7 @@ fn one(name: &str, folder: Option<&PathBuf>) -> miette::Result<Findings> {
     let mut written = Vec::new();
     if let Some(folder) = folder {
         let files = scene_files(&scene, &name.replace('-', "_")).map_err(miette::Report::msg)?;
-        written = view::write_folder(FileSet::new(folder).map_err(Problem::from)?, &files)?;
+        written = write_files(folder, &files).map_err(Problem::from)?;
     }
     let mut found = Findings::new(format!("{name}: {what}"));
     found.fields(summary(name, what, &scene));

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use miette::IntoDiagnostic as _;
 
-use super::{Problem, model_file, view};
+use super::{Problem, given, model_file, view};
 use crate::geom::Mesh;
 use crate::names::did_you_mean;
 use crate::options::Size;
@@ -18,14 +18,7 @@ pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
         model_file::refuse_options(name)?;
         return Ok(Some(scene));
     }
-    // A word without a dot or a folder is a name, not a file.
-    if !path.exists() && path.components().count() == 1 && !name.contains('.') {
-        let names: Vec<&str> = built::names().collect();
-        let meant = did_you_mean(name, names.iter().copied());
-        let help = format!("{meant}the scenes are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
-        return Err(Problem::usage(format!("there is no scene `{name}`"), help));
-    }
-    Ok(None)
+    given::require_file(path, "scene", &built::names().collect::<Vec<_>>(), "obj").map(|()| None)
 }
 
 /// The path, unless it is the name of a scene of the project.

@@ -8,11 +8,9 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::part::{self, PartArgs};
-use super::{CommandLine, Out, Problem, ProgressBar, view};
-use crate::io::atomic::FileSet;
+use super::{CommandLine, Out, Problem, ProgressBar};
+use crate::io::{require_writable, write_files};
 use crate::report::{Findings, Provenance, Verdict, sha256};
-use crate::split::{Computed, SplitRun};
 use crate::study::Study;
 
 /// The options of a study's command.
@@ -34,48 +32,37 @@ pub(super) trait StudyArgs {
 pub(super) struct StudyFiles<'a> {
     /// Output folder; `None` for no files.
     folder: Option<&'a Path>,
-    /// The `--part` option, if the work can be split.
-    part: Option<PartArgs>,
     /// The files that the study reads.
     inputs: Vec<&'a Path>,
 }
 
 impl<'a> StudyFiles<'a> {
-    /// Creates the description of files: the output folder, the `--part` option if the command has it, and the input
-    /// files.
-    pub(super) fn new(folder: Option<&'a Path>, part: Option<PartArgs>, inputs: Vec<&'a Path>) -> Self {
-        Self { folder, part, inputs }
+    /// A folder for output, and the files that are read.
+    pub(super) fn new(folder: Option<&'a Path>, inputs: Vec<&'a Path>) -> Self {
+        Self { folder, inputs }
     }
 }
 
 /// Runs a study; `command_line` is the command that reproduces its findings.
 pub(super) fn run<A: StudyArgs>(args: &A, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let study = args.study()?;
-    let StudyFiles { folder: out_folder, part, inputs } = args.files();
-    let split = match (part, out_folder) {
-        (Some(part), Some(out)) => part.split(command_line, out)?,
-        _ => SplitRun::Whole,
-    };
+    let StudyFiles { folder, inputs } = args.files();
     // Checked before the long work, so that an unwritable folder is found at once.
-    let folder = out_folder.filter(|_| !split.is_part());
-    let folder = folder.map(FileSet::new).transpose().map_err(Problem::from)?;
+    folder.map(require_writable).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
-    let mut found = match study.findings_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
-        Computed::Whole(found) => found,
-        Computed::Part(written) => return show(&part::findings(&written), out),
-    };
+    let mut found = study.findings(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
     let provenance = study.provenance(with_inputs(Provenance::new(&command_line.text), &inputs));
     if let Some(folder) = folder {
-        view::write_folder(folder, &found.take_files(&provenance)?)?;
+        write_files(folder, &found.take_files(&provenance)?).map_err(Problem::from)?;
     }
     if out.json() {
         let mut document = found.document(&provenance);
-        document["out"] = json!(out_folder);
+        document["out"] = json!(folder);
         out.document(&document)?;
         return Ok(found.verdict());
     }
-    print(&found, out_folder, out)?;
+    print(&found, folder, out)?;
     Ok(found.verdict())
 }
 

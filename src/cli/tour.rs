@@ -36,7 +36,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "a higher `--coarser`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), None, Vec::new())
+        StudyFiles::new(Some(&self.out), Vec::new())
     }
 
     fn study(&self) -> miette::Result<Parameters> {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use crate::error::InputError;
+use crate::kept::unreadable;
 use crate::report::sha256;
-use crate::split::unreadable;
 
 /// Commit from which the program was built. `build.rs` sets it in optimised builds; packagers may set it in any build.
 pub(super) const COMMIT: &str = match option_env!("CROSSBAR_COMMIT") {
@@ -22,7 +22,7 @@ pub(super) static VERSION: LazyLock<String> = LazyLock::new(|| {
     format!("{} ({COMMIT}, features {features})", env!("CARGO_PKG_VERSION"))
 });
 
-/// Identifies the program that computes a part: version and commit, or, for a development build or modified sources,
+/// Identifies the program that computes a result: version and commit, or, for a development build or modified sources,
 /// the SHA-256 of its file. Fails if the program's own file cannot be read.
 pub(super) fn program() -> Result<String, InputError> {
     let version = env!("CARGO_PKG_VERSION");

@@ -1,6 +1,6 @@
-//! Options of all commands that trace rays: sizes, sides, folders of results.
+//! Options of all commands that trace rays: cameras, hits, pictures.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::DVec3;
 use miette::IntoDiagnostic as _;
@@ -10,7 +10,6 @@ use super::Problem;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::io::PictureFile;
-use crate::io::atomic::FileSet;
 use crate::options::Size;
 use crate::picture::Picture;
 use crate::scene::Camera;
@@ -120,12 +119,4 @@ pub(super) fn exact_hits<T>(
 /// Reads a picture. The error says what is wrong with the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
-}
-
-/// Writes all files of a result together, and prints their paths.
-pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, Problem> {
-    for (name, bytes) in files {
-        set.write(Path::new(name), |out| out.write_all(bytes))?;
-    }
-    Ok(set.commit()?)
 }

@@ -8,8 +8,9 @@ use crossbar_systems::{
 };
 
 pub mod case;
+pub mod kept;
 pub mod options;
 pub mod report;
 pub mod shader;
-pub mod split;
+
 pub mod study;

@@ -66,7 +66,7 @@ const CROSSBAR: Law = (
         ("atlas", "error elementary geom"),
         ("report", "error elementary picture"),
         ("options", "geom io"),
-        ("split", "error io report"),
+        ("kept", "error io report"),
         ("shader", "error io report"),
         ("compare", ""),
         ("oracle", "error geom compare"),
@@ -83,12 +83,12 @@ const CROSSBAR: Law = (
         (
             "study",
             "error names ray_engine radiosity subsurface clustering transfer cpca all_frequency bi_scale sphere atlas renderer \
-             case shader split report options picture card tracer elementary geom scene linalg io",
+             case shader kept report options picture card tracer elementary geom scene linalg io",
         ),
         (
             "cli",
             "error names study ray_engine radiosity subsurface clustering transfer cpca all_frequency bi_scale sphere atlas \
-             renderer case compare shader split report options picture card tracer geom scene linalg io",
+             renderer case compare shader kept report options picture card tracer geom scene linalg io",
         ),
         ("lib", ""),
         ("main", "cli"),

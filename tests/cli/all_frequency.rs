@@ -42,7 +42,7 @@ fn finished_segments_are_kept() {
     assert_eq!(in_all["segments_kept"], 0);
     // Same as after an interruption before segment 9: missing segments are computed, existing ones are read.
     for segment in 9..24 {
-        fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.part"))).expect("a finished segment");
+        fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.kept"))).expect("a finished segment");
     }
     let again = document(&format!("{options} --out {out}"));
     assert_eq!(again["segments_kept"], 9);
@@ -51,15 +51,15 @@ fn finished_segments_are_kept() {
         assert_eq!(again[field], in_all[field], "{field}");
     }
     let other = refused_line(&format!("{options} --bits 12 --out {out}"));
-    assert!(other.contains("segment-00.part: expected a result of crossbar"), "{other}");
-    assert!(other.contains("--bits=12") && other.contains("found one of crossbar all-frequency compress"), "{other}");
-    assert!(other.contains("--bits=16") && other.contains("name another folder"), "{other}");
+    assert!(other.contains("segment-00.kept: expected a result of crossbar"), "{other}");
+    assert!(other.contains("--bits 12") && other.contains("found one of crossbar all-frequency compress"), "{other}");
+    assert!(other.contains("--bits 16") && other.contains("name another folder"), "{other}");
     let signal = place(folder.path(), "signal.npz");
     fs::copy(SIGHT, &signal).expect("a copy");
     let of_copy = options.replace(SIGHT, &signal);
     refused_line(&format!("{of_copy} --out {out}"));
     // A damaged segment is computed again.
-    fs::write(folder.path().join("kept/segment-03.part"), "{}").expect("written");
+    fs::write(folder.path().join("kept/segment-03.kept"), "{}").expect("written");
     assert_eq!(document(&format!("{options} --out {out}"))["segments_kept"], 23);
     assert_eq!(fs::read(&out).expect("written"), fs::read(CODED).expect("an example"));
 }

@@ -4,7 +4,7 @@ use crate::{crossbar, tree};
 
 /// All commands, in alphabetical order.
 pub(crate) const COMMANDS: &str = "all-frequency alu atlas bi-scale check compare completions cpca devices diff \
-                        intersect leaky-teapot man materials matmul measure merge page precision radiosity render \
+                        intersect leaky-teapot man materials matmul measure page precision radiosity render \
                         reproduce run scene subsurface timeline tour units";
 
 /// All subcommands that consist of a command and a verb.

@@ -26,14 +26,13 @@ mod factor;
 mod generated;
 mod help;
 mod hostile;
-mod interrupted;
 mod materials;
 mod models;
 mod options;
 mod page;
-mod parts;
 mod precision;
 mod program;
+mod progress;
 mod radiosity;
 #[path = "../../refsim/tests/common/random.rs"]
 mod random;

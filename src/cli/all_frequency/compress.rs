@@ -8,13 +8,12 @@ use super::file::FileOfModel;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
-use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{CommandLine, Problem, ProgressBar};
+use crate::cli::{CommandLine, Problem, ProgressBar, version};
 use crate::clustering::CpcaMethod;
+use crate::kept::{KeptResults, KeptWork, SpentTime};
 use crate::report::{Cell, Findings, Table};
-use crate::split::{Computed, KeptResults, SpentTime};
 use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::SegmentCensus;
@@ -54,11 +53,8 @@ pub(super) struct Args {
     bits: u8,
 
     /// Store finished segments in this folder and reuse those in it; a folder of another run is refused
-    #[arg(long, value_name = "FOLDER", conflicts_with = "part")]
+    #[arg(long, value_name = "FOLDER")]
     resume: Option<PathBuf>,
-
-    #[command(flatten)]
-    part: PartArgs,
 
     /// The file to write
     #[arg(long, value_name = "Y.npz")]
@@ -88,7 +84,8 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     };
     let code = CodeOptions { representative_bits: args.bits, weight_bits: args.bits, ..CodeOptions::default() };
     let kept = |folder: &PathBuf| {
-        let kept = KeptResults::new(folder.clone(), part::command(command_line)?, SpentTime::default)?;
+        let work = KeptWork::new(version::program()?, command_line.text.clone(), &[&args.signal, &args.model])?;
+        let kept = KeptResults::new(folder.clone(), work, SpentTime::default);
         kept.require_no_other_work().map(|()| kept)
     };
     let kept = args.resume.as_ref().map(kept).transpose()?;
@@ -102,12 +99,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         kept: kept.as_ref().map(|kept| (kept, "")),
     };
     let bar = ProgressBar::new("", 1).quicker("more `--points-per-cluster`");
-    let split = args.part.split(command_line, &args.out)?;
-    let (coded, tally) =
-        match compression.run_split(&split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
-            Computed::Whole(found) => found,
-            Computed::Part(written) => return Ok(part::findings(&written)),
-        };
+    let (coded, tally) = compression.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
     let census = SegmentCensus::new(&vertices, maps, &LinearBasis::new(file.hats));
     let raw = compression.raw_bytes();

@@ -157,7 +157,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "fewer `--terms`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), None, self.table.iter().map(PathBuf::as_path).collect())
+        StudyFiles::new(Some(&self.out), self.table.iter().map(PathBuf::as_path).collect())
     }
 
     fn study(&self) -> miette::Result<BrdfFactors> {

@@ -6,12 +6,12 @@ use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
-use crate::cli::transfer::model::{load, vertices};
+use crate::cli::transfer::model::model_of;
 use crate::cli::transfer::picture::PictureArgs;
 use crate::scene::{Material, Surface};
 use crate::study::prt::LitModel;
 use crate::transfer::Vertices;
-use crate::transfer::file::{MeshDigest, require_mesh};
+use crate::transfer::file::MeshDigest;
 use crate::transfer::light::Decimation;
 
 /// A file with the model from which it was made.
@@ -25,10 +25,7 @@ pub(super) struct FileOfModel {
 impl FileOfModel {
     pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
         let file = load_all_frequency(path, None)?;
-        let model = load(model, file.mesh.tangents)?;
-        let vertices = vertices(&model, file.mesh.tangents)?;
-        let digest = MeshDigest::new(&vertices);
-        require_mesh(path, &digest, Some(file.mesh))?;
+        let (model, vertices, digest) = model_of(path, Some(file.mesh), model)?;
         Ok(Self { file, model, vertices, digest })
     }
 }

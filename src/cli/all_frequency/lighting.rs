@@ -65,7 +65,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         ByArg::Area => TruncationPriority::Area,
         ByArg::Magnitude => TruncationPriority::Magnitude,
     };
-    let cut = HaarLight::new(&cube, args.segments).truncated(keep, priority).map_err(refused)?;
+    let cut = HaarLight::new(&cube, args.segments).truncated(keep, priority);
     let texels = cut.light.radiances();
     if let Some(path) = &args.out {
         let text = write_cube_table(&texels, LIGHT_SIDE);

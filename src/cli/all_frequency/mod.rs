@@ -53,7 +53,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     let found = match &args.verb {
         Verb::Factor(args) => return study::run(args, command_line, out),
         Verb::Lighting(args) => lighting::run(args)?,
-        Verb::Precompute(args) => precompute::run(args, command_line)?,
+        Verb::Precompute(args) => precompute::run(args)?,
         Verb::Compress(args) => compress::run(args, command_line)?,
         Verb::Error(args) => error::run(args)?,
         Verb::Show(args) => show::run(args)?,

@@ -9,18 +9,16 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::ProductFactors;
 use crate::all_frequency::file::save_all_frequency;
 use crate::cli::model_name::transfer_model_help;
-use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{CommandLine, Problem, ProgressBar};
+use crate::cli::{Problem, ProgressBar};
 use crate::geom::{Mesh, Sides};
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
 use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
-use crate::split::Computed;
 use crate::study::caster::CasterOptions;
 use crate::study::prt::{FoundSight, SightOfModel};
 use crate::transfer::linear_basis::BasisWidth;
@@ -61,9 +59,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
     tangents: TangentsArg,
 
-    #[command(flatten)]
-    part: PartArgs,
-
     /// The file to write
     #[arg(long, value_name = "X.npz")]
     out: PathBuf,
@@ -72,9 +67,8 @@ pub(super) struct Args {
     caster: CasterOptions,
 }
 
-pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (tangents, path) = (args.tangents.0, args.out.as_path());
-    args.part.refuse_engine(&args.caster)?;
     let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let reflectance =
         args.reflectance.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
@@ -89,13 +83,8 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         reflectance,
         ground: ground.as_ref().map(|ground| &ground.vertices),
     };
-    let split = args.part.split(command_line, path)?;
     let mut caster = caster.open_judged(sight.scene, Sides::Both)?;
-    let found = match sight.run(&mut caster, &split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
-        Computed::Whole(found) => found,
-        Computed::Part(written) => return Ok(part::findings(&written)),
-    };
-    let (found, below) = found;
+    let (found, below) = sight.run(&mut caster, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     save_all_frequency(&found.file, path).map_err(Problem::from)?;
     let [ground_path, ground_mesh] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
     if let (Some(ground), Some(below)) = (&ground, &below) {

@@ -39,7 +39,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), None, self.lit.inputs().into_iter().chain(self.ground.as_deref()).collect())
+        StudyFiles::new(Some(&self.out), self.lit.inputs().into_iter().chain(self.ground.as_deref()).collect())
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {

@@ -130,7 +130,12 @@ pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError
     Ok(value as u32)
 }
 
-/// Appends `value` with the number of digits that `width` bits need.
+/// `value` in as many digits as `width` bits need.
+pub(super) fn digits(value: u32, width: u32) -> String {
+    format!("{value:0places$X}", places = width.div_ceil(4) as usize)
+}
+
+/// Appends [`digits`], without a string.
 pub(super) fn push_hex(text: &mut Vec<u8>, value: u32, width: u32) {
     for place in (0..width.div_ceil(4)).rev() {
         text.push(b"0123456789ABCDEF"[(value >> (4 * place) & 15) as usize]);

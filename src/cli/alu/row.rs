@@ -6,7 +6,7 @@ use std::io::Read;
 use refsim::device::SumRules;
 use refsim::num::{DotOrder, Env, Flags, Format, block::BLOCK, block::BlockFormat, ops};
 
-use super::line::{fields, hex, other_fields, push_hex};
+use super::line::{digits, fields, hex, other_fields, push_hex};
 use super::operation::VectorOperation;
 use super::stream::{TaskOutput, written};
 use crate::cli::Out;
@@ -119,11 +119,6 @@ impl RowUnit {
     }
 
     fn push_json(&self, text: &mut Vec<u8>, converted: &Converted, flags: bool) {
-        let digits = |value, width| {
-            let mut digits = Vec::new();
-            push_hex(&mut digits, value, width);
-            String::from_utf8_lossy(&digits).into_owned()
-        };
         let patterns: Vec<String> = converted.patterns.iter().map(|&bits| digits(bits, self.width())).collect();
         let mut record = match converted.scale {
             Some(scale) => {

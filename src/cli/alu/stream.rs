@@ -11,7 +11,7 @@ use refsim::num::Outcome;
 use serde_json::json;
 
 use super::{
-    line::{AluLine, LineFormat, push_hex},
+    line::{AluLine, LineFormat, digits, push_hex},
     operation::AluUnit,
 };
 use crate::cli::{Out, OutputError, Verdict};
@@ -211,16 +211,11 @@ fn push_mismatch(
     number: u64,
     json: bool,
 ) {
-    let hex = |value, width| {
-        let mut digits = Vec::new();
-        push_hex(&mut digits, value, width);
-        String::from_utf8_lossy(&digits).into_owned()
-    };
     let operands: Vec<String> =
-        line.operands[..unit.op.operands()].iter().map(|&bits| hex(bits, unit.operand_width())).collect();
-    let (expected, found) = (hex(line.result, unit.result_width()), hex(outcome.bits, unit.result_width()));
+        line.operands[..unit.op.operands()].iter().map(|&bits| digits(bits, unit.operand_width())).collect();
+    let (expected, found) = (digits(line.result, unit.result_width()), digits(outcome.bits, unit.result_width()));
     let (expected_flags, found_flags) =
-        (hex(u32::from(line.flags.unwrap_or(0)), 8), hex(u32::from(outcome.flags.bits()), 8));
+        (digits(u32::from(line.flags.unwrap_or(0)), 8), digits(u32::from(outcome.flags.bits()), 8));
     if json {
         let mut record = json!({ "line": number, "operands": operands, "expected": expected, "found": found });
         if flags {

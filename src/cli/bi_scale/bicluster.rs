@@ -20,7 +20,7 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
   crossbar bi-scale bicluster docs/examples/quarters.mtx --out biclusters.npz
-      writes them to a file that `crossbar bi-scale multiply` reads
+      writes them to a file that `crossbar bi-scale compare` reads
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
       the figures as JSON
 

@@ -52,7 +52,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), None, self.textures.inputs(&self.file, &self.picture, &self.light))
+        StudyFiles::new(Some(&self.out), self.textures.inputs(&self.file, &self.picture, &self.light))
     }
 
     fn study(&self) -> miette::Result<BiScaleOnCard> {

@@ -12,13 +12,12 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::light::DistantLightArg;
-use crate::cli::transfer::model::{load as load_model, vertices};
+use crate::cli::transfer::model::{load as load_model, model_of};
 use crate::cli::words::counted;
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::options::number;
 use crate::report::{Cell, Table};
 use crate::study::prt::creased;
-use crate::transfer::file::MeshDigest;
 use crate::transfer::light::{CubeLight, Decimation};
 use crate::transfer::{Tangents, Vertices};
 
@@ -44,13 +43,7 @@ pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMea
         let what = format!("{}: expected transfer of a model, found a matrix without a model", file.display());
         Problem::usage(what, "leave `--model` out, or name what `crossbar bi-scale precompute` wrote")
     })?;
-    let vertices = vertices(&load_model(model, mesh.tangents)?, mesh.tangents)?;
-    let found = MeshDigest::new(&vertices);
-    if found != mesh {
-        let what = format!("{}: expected transfer of {found}, found that of {mesh}", file.display());
-        return Err(Problem::usage(what, "name the model that the file was made from").into());
-    }
-    Ok(vertices)
+    Ok(model_of(file, Some(mesh), model)?.1)
 }
 
 /// Returns `true` if a file name is that of a matrix in text form.

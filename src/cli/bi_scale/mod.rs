@@ -4,7 +4,6 @@ mod bicluster;
 mod card;
 mod compare;
 mod file;
-mod multiply;
 mod patch;
 mod precompute;
 mod render;
@@ -21,8 +20,6 @@ Examples:
       which light texels every vertex sees, by local direction
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       a sparse matrix as a sum of biclusters
-  crossbar bi-scale multiply docs/examples/court_biclusters.npz --light sky:1,-1,1
-      the light that reaches each local direction of each vertex
   crossbar bi-scale texture mail --texels 8 --directions 4 --views 4 --out mail.npy
       the response of a patch of heights by place, view and light
   crossbar bi-scale render docs/examples/court_biclusters.npz --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
@@ -44,7 +41,6 @@ pub(super) struct Args {
 enum Verb {
     Precompute(precompute::Args),
     Bicluster(bicluster::Args),
-    Multiply(multiply::Args),
     Compare(compare::Args),
     Texture(texture::Args),
     Show(show::Args),
@@ -54,9 +50,8 @@ enum Verb {
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
-        Verb::Precompute(args) => precompute::run(args, command_line)?,
+        Verb::Precompute(args) => precompute::run(args)?,
         Verb::Bicluster(args) => bicluster::run(args)?,
-        Verb::Multiply(args) => multiply::run(args)?,
         Verb::Compare(args) => compare::run(args)?,
         Verb::Texture(args) => texture::run(args)?,
         Verb::Show(args) => show::run(args)?,

@@ -3,9 +3,8 @@
 use std::path::Path;
 
 use crate::bi_scale::texture::{HeightField, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
-use crate::cli::Problem;
+use crate::cli::{Problem, given};
 use crate::io::{PictureFile, load_numbers};
-use crate::names::did_you_mean;
 
 /// The name of a patch without relief.
 const PLAIN: &str = "plain";
@@ -33,13 +32,8 @@ fn material() -> Result<MesoMaterial, Problem> {
 
 /// Heights from a table of numbers, in edges of the patch, or from the mean of a picture's channels.
 fn of_file(path: &Path) -> miette::Result<MesoPatch> {
-    let name = path.to_str().unwrap_or_default();
-    if !path.exists() && path.components().count() == 1 && !name.contains('.') {
-        let names: Vec<String> = names().collect();
-        let meant = did_you_mean(name, names.iter().map(String::as_str));
-        let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.png`", names.join(", "));
-        return Err(Problem::usage(format!("there is no patch `{name}`"), help).into());
-    }
+    let names: Vec<String> = names().collect();
+    given::require_file(path, "patch", &names.iter().map(String::as_str).collect::<Vec<_>>(), "png")?;
     let is_table = ["csv", "npy", "txt"]
         .iter()
         .any(|known| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)));

@@ -10,15 +10,13 @@ use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
 use crate::bi_scale::transfer::transfer_matrix;
 use crate::cli::model_name::transfer_model_help;
-use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{CommandLine, Problem, ProgressBar};
+use crate::cli::{Problem, ProgressBar};
 use crate::geom::Sides;
 use crate::report::Findings;
-use crate::split::Computed;
 use crate::study::caster::CasterOptions;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
@@ -56,9 +54,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
     tangents: TangentsArg,
 
-    #[command(flatten)]
-    part: PartArgs,
-
     /// The file to write
     #[arg(long, value_name = "X.npz")]
     out: PathBuf,
@@ -67,9 +62,8 @@ pub(super) struct Args {
     caster: CasterOptions,
 }
 
-pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
-    args.part.refuse_engine(&args.caster)?;
     let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
@@ -78,15 +72,9 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon: Horizon::Geometry };
     let bar = ProgressBar::new("visibility", 1).quicker("fewer `--directions`");
     let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;
-    let maps = args.part.split(command_line, path)?.compute("vertices", vertices.len(), |range| {
-        let range: Vec<u32> = range.map(|vertex| vertex as u32).collect();
-        let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
-        VisibilityMaps::trace_sampled(&vertices, &range, sampling, &mut caster, &mut show).map_err(refused)
-    });
-    let maps = match maps? {
-        Computed::Whole(maps) => maps,
-        Computed::Part(written) => return Ok(part::findings(&written)),
-    };
+    let all: Vec<u32> = (0..vertices.len() as u32).collect();
+    let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
+    let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut show).map_err(refused)?;
     let matrix = transfer_matrix(&vertices, &maps, &directions).map_err(|error| {
         Problem::usage(error.to_string(), "name a model of fewer vertices, or ask for fewer `--directions`")
     })?;

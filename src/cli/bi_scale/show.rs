@@ -22,9 +22,7 @@ Examples:
   crossbar bi-scale show docs/examples/quarters.mtx --json
       any sparse matrix, as JSON
   crossbar bi-scale show docs/examples/step_biclusters.npz --matrix step.mtx
-      the matrix that the biclusters sum to
-
-`crossbar bi-scale multiply --csv` writes the light that reaches all local directions.";
+      the matrix that the biclusters sum to";
 
 /// Show the contents of a matrix or of a .npz file of biclusters: values, sizes of biclusters
 #[derive(Debug, clap::Args)]

@@ -9,7 +9,6 @@ use crate::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_te
 use crate::cli::model_name::Model;
 use crate::cli::transfer::model::vertices;
 use crate::cli::{Problem, given};
-use crate::names::did_you_mean;
 use crate::options::number;
 use crate::study::prt::SurfaceTexture;
 use crate::transfer::Vertices;
@@ -48,12 +47,8 @@ impl PatchArgs {
     pub(super) fn texture(&self, source: &Path, light: &LocalDirections) -> miette::Result<SurfaceTexture> {
         let name = source.display().to_string();
         let Some(kind) = patch_kind(source) else {
-            if !source.exists() && !name.contains(['.', '/']) {
-                let names: Vec<String> = PatchKind::ALL.iter().map(PatchKind::to_string).collect();
-                let meant = did_you_mean(&name, names.iter().map(String::as_str));
-                let help = format!("{meant}there are {}; a file needs its ending", names.join(", "));
-                return Err(Problem::usage(format!("there is no patch `{name}`"), help).into());
-            }
+            let names: Vec<String> = PatchKind::ALL.iter().map(PatchKind::to_string).collect();
+            given::require_file(source, "patch", &names.iter().map(String::as_str).collect::<Vec<_>>(), "npy")?;
             return Ok(SurfaceTexture { name, samples: load_bidirectional_texture(source)?, patch: None });
         };
         let refused = |error: String| Problem::usage(error, "see `--help`");

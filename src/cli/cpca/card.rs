@@ -54,7 +54,7 @@ impl StudyArgs for Args {
     fn files(&self) -> StudyFiles<'_> {
         let inputs =
             [Some(self.file.as_path()), self.light.file()].into_iter().flatten().chain(self.picture.inputs()).collect();
-        StudyFiles::new(Some(&self.out), None, inputs)
+        StudyFiles::new(Some(&self.out), inputs)
     }
 
     fn study(&self) -> miette::Result<OnCard> {

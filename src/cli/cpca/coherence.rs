@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::file::model_of;
+use crate::cli::transfer::model::model_of;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, given};
 use crate::clustering::{Clustering, Signal};

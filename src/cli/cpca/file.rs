@@ -4,10 +4,9 @@ use std::path::Path;
 
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
-use crate::cli::transfer::model::{load, vertices};
+use crate::cli::transfer::model::model_of;
 use crate::clustering::Clustering;
 use crate::transfer::Vertices;
-use crate::transfer::file::require_mesh;
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 
 /// A `.npz` file with the model from which it was made.
@@ -27,21 +26,7 @@ impl FileOfModel {
     }
 }
 
-/// The model with a file's mesh, and its vertices, which are the file's points.
-pub(super) fn model_of(
-    path: &Path,
-    mesh: Option<MeshDigest>,
-    model: &Path,
-) -> miette::Result<(Model, Vertices, MeshDigest)> {
-    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
-    let model = load(model, tangents)?;
-    let vertices = vertices(&model, tangents)?;
-    let digest = MeshDigest::new(&vertices);
-    require_mesh(path, &digest, mesh)?;
-    Ok((model, vertices, digest))
-}
-
-/// The order of the light that a file's transfer needs.
+/// The order of the light that a file's transfer takes.
 pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
     match file.meaning {
         PrtMeaning::Transfer { light_order, .. } => Ok(light_order as usize),

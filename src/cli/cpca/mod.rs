@@ -50,7 +50,7 @@ enum Verb {
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
-        Verb::Precompute(args) => precompute::run(args, command_line)?,
+        Verb::Precompute(args) => precompute::run(args)?,
         Verb::Compress(args) => compress::run(args)?,
         Verb::Error(args) => error::run(args)?,
         Verb::Show(args) => show::run(args)?,

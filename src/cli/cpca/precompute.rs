@@ -8,19 +8,17 @@ use serde_json::json;
 use super::precompute_values::{KindArg, RowsArg};
 use crate::cli::materials::published;
 use crate::cli::model_name::{Model, transfer_model_help};
-use crate::cli::part::{self, PartArgs};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
 use crate::cli::words::{counted, measured};
-use crate::cli::{CommandLine, Problem, ProgressBar, given};
+use crate::cli::{Problem, ProgressBar, given};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
 use crate::error::InputError;
 use crate::geom::Sides;
 use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::report::Findings;
-use crate::split::Computed;
 use crate::study::caster::CasterOptions;
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 use crate::subsurface::Dipole;
@@ -100,9 +98,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
     bounces: u32,
 
-    #[command(flatten)]
-    part: PartArgs,
-
     /// The file to write
     #[arg(long, value_name = "X.npz")]
     out: PathBuf,
@@ -117,9 +112,8 @@ fn channels_of() -> OneOf<&'static [usize]> {
     one_of([scalar, ("rgb", "Red, green and blue", &[0, 1, 2])])
 }
 
-pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let exit = exit(args)?;
-    args.part.refuse_engine(&args.caster)?;
     let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let scatterer = scatterer(args)?;
     let model = load(&args.model, args.tangents.0)?;
@@ -135,14 +129,8 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
         scatterer,
     };
     let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");
-    let split = args.part.split(command_line, &args.out)?;
     let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;
-    let found = match precomputation
-        .run_split(&mut caster, &split, &mut |what, done, of| bar.show(what.to_owned(), done, of))?
-    {
-        Computed::Whole(found) => found,
-        Computed::Part(written) => return Ok(part::findings(&written)),
-    };
+    let found = precomputation.run_by(&mut caster, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     save_prt(&found.file, &args.out).map_err(Problem::from)?;
     let mut findings = findings(args, &vertices, &found);
     if let Some(record) = caster.record() {

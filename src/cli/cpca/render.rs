@@ -50,7 +50,7 @@ impl StudyArgs for Args {
 
     fn files(&self) -> StudyFiles<'_> {
         let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
-        StudyFiles::new(Some(&self.out), None, files.into_iter().flatten().chain(self.picture.inputs()).collect())
+        StudyFiles::new(Some(&self.out), files.into_iter().flatten().chain(self.picture.inputs()).collect())
     }
 
     fn study(&self) -> miette::Result<Rendering> {

@@ -15,7 +15,7 @@ use crate::case::device_named;
 use crate::cli::executor::{Decider, engine_executor};
 use crate::cli::{CommandLine, Out, Problem, ProgressBar, given, scene_name, study, view};
 use crate::geom::exact::Sides;
-use crate::io::atomic::FileSet;
+use crate::io::{require_writable, write_files};
 use crate::renderer::environment::{self, EnvironmentCard};
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     let mapping =
         is_mapped.then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))).transpose()?;
     let camera = camera(args, &asked.scene)?;
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
+    require_writable(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
     let mut open = caster.open(asked.scene.mesh(), Sides::Both)?;
     let view = (&camera, mapping.as_ref());
@@ -70,7 +70,7 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     provenance.profiles.extend(caster.profile().map(|_| caster.label().to_owned()));
     provenance.profiles.extend(mapping.map(|card| card.name));
     report(args, &picture, engine.as_ref(), &mut findings);
-    view::write_folder(folder, &findings.take_files(&provenance)?)?;
+    write_files(&args.out, &findings.take_files(&provenance)?).map_err(Problem::from)?;
     study::show(&findings, out)
 }
 

@@ -14,7 +14,7 @@ use super::{CommandLine, Out, Problem, model_file, scene_name, study, view};
 use crate::case::device_named;
 use crate::geom::Mesh;
 use crate::geom::exact::{ExactT, Sides, Tracer};
-use crate::io::atomic::FileSet;
+use crate::io::{require_writable, write_files};
 use crate::options::Size;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
@@ -35,7 +35,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     let mesh = model_file::mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;
     let Size { width, height } = args.size;
-    let folder = FileSet::new(&args.out).map_err(Problem::from)?;
+    require_writable(&args.out).map_err(Problem::from)?;
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
     let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open()? {
@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     findings.paragraph(format!("{found} of {} pixels hit.", hits.len()));
     findings.fields(json!({ "pixels": hits.len(), "hits": found, "out": args.out }));
     findings.print(hits_line(found, hits.len(), args));
-    view::write_folder(folder, &findings.take_files(&provenance)?)?;
+    write_files(&args.out, &findings.take_files(&provenance)?).map_err(Problem::from)?;
     study::show(&findings, out)
 }
 

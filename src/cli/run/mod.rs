@@ -9,10 +9,10 @@ use serde_json::json;
 
 use super::executor::DeviceExecutor;
 use super::uniform::{self, Uniform};
-use super::{Out, Problem, error, pixel, study, view};
+use super::{Out, Problem, error, pixel, study};
 use crate::{
     case::{self, CaseOutcome, Overrides, PixelTrace, ProbeResult, Setup, Traced},
-    io::atomic::FileSet,
+    io::{require_writable, write_files},
     report::{Cell, Findings, Table, Verdict},
 };
 
@@ -69,9 +69,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         knows_flags: matches!(executor.kind(), ExecutorKind::Scalar | ExecutorKind::Batch),
     });
     // Checked before the work, so that an unwritable folder is found at once.
-    let files = FileSet::new(&folder).map_err(Problem::from)?;
+    require_writable(&folder).map_err(Problem::from)?;
     let outcome = case::run(&setup, &executor)?;
-    let written = view::write_folder(files, &outcome.pictures)?;
+    let written = write_files(&folder, &outcome.pictures).map_err(Problem::from)?;
     out.outlive_reader();
     let mut found = findings(&setup, args, &outcome, &written);
     if let Some(traced) = &traced {

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use super::card::CardArgs;
 use super::materials::published;
-use super::part::PartArgs;
 use super::scene_name::EyeArgs;
 use super::study::{StudyArgs, StudyFiles};
 use super::{Problem, given, model_name};
@@ -81,9 +80,6 @@ pub(super) struct Args {
     #[command(flatten)]
     eye: EyeArgs,
 
-    #[command(flatten)]
-    part: PartArgs,
-
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/subsurface")]
     out: PathBuf,
@@ -102,7 +98,7 @@ impl StudyArgs for Args {
             LightArg::OfPass(_) => None,
         });
         let inputs = model_name::named_file(&self.model).into_iter().chain(lights).collect();
-        StudyFiles::new(Some(&self.out), Some(self.part), inputs)
+        StudyFiles::new(Some(&self.out), inputs)
     }
 
     fn study(&self) -> miette::Result<Parameters> {
@@ -115,12 +111,7 @@ impl StudyArgs for Args {
         let camera = self.eye.framing(&mesh, self.size)?;
         let lighting = lighting(&self.light, &camera)?;
         let idle = self.caster.is_named() && matches!(lighting, Lighting::Lights(_));
-        given::refuse(
-            [("--caster", idle)],
-            "shadows of an environment map",
-            "leave it out, or add an environment map with `--light`",
-        )?;
-        self.part.refuse_engine(&self.caster)?;
+        given::refuse([("--caster", idle)], "shadows of an environment map", "leave it out, or add one by `--light`")?;
         Ok(Parameters {
             model: self.model.display().to_string(),
             caster: self.caster.choose(self.card.executor()?)?,

@@ -6,7 +6,7 @@ mod sensitivity;
 mod show;
 
 use super::{Out, Problem, ProgressBar, Verdict};
-use crate::io::atomic::write_file;
+use crate::io::write_file;
 use crate::study::timeline_trace::trace;
 use run::{Input, TimedLog};
 

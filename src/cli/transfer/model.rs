@@ -10,6 +10,7 @@ use crate::cli::{Problem, model_file};
 use crate::error::InputError;
 use crate::report::Findings;
 use crate::scene::Material;
+use crate::transfer::file::{MeshDigest, require_mesh};
 use crate::transfer::{Tangents, Vertices};
 
 /// Loads the model. If tangents come from texture coordinates, a file is read as a mesh without materials, since scenes
@@ -24,6 +25,20 @@ pub(in crate::cli) fn load(path: &Path, tangents: Tangents) -> miette::Result<Mo
 /// The vertices at which transfer is computed.
 pub(in crate::cli) fn vertices(model: &Model, tangents: Tangents) -> miette::Result<Vertices> {
     Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
+}
+
+/// The model of a file's mesh, with its vertices: the file's points.
+pub(in crate::cli) fn model_of(
+    path: &Path,
+    mesh: Option<MeshDigest>,
+    model: &Path,
+) -> miette::Result<(Model, Vertices, MeshDigest)> {
+    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
+    let model = load(model, tangents)?;
+    let vertices = vertices(&model, tangents)?;
+    let digest = MeshDigest::new(&vertices);
+    require_mesh(path, &digest, mesh)?;
+    Ok((model, vertices, digest))
 }
 
 /// Adds unusual vertices of a model to the findings of `precompute`: vertices without a triangle, vertices without a

@@ -1,13 +1,12 @@
 //! Input and output of files: models, scenes, pictures, rays and hits; writing is atomic, so that no file is left
 //! partial.
 
-pub mod atomic;
+mod atomic;
 pub mod cube_map;
 pub mod error;
 mod faces;
 pub mod gltf;
 mod headed_table;
-mod inputs;
 pub mod light_sources;
 mod lines;
 pub mod matrix_market;
@@ -26,11 +25,10 @@ pub mod scene_obj;
 pub mod stl;
 
 pub use crate::error::FilePlace;
-pub use atomic::{FileSet, WriteError, write_file};
+pub use atomic::{WriteError, require_writable, write_file, write_files};
 pub use cube_map::{load_cube_table, parse_cube_table, write_cube_table};
 pub use error::read_file;
 pub use gltf::parse_gltf;
-pub use inputs::files_read;
 pub use light_sources::{LightSourceRow, load_light_sources, parse_light_sources};
 pub use matrix_market::{CoordinateMatrix, load_matrix_market, parse_matrix_market, write_matrix_market};
 pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, load_scene_with};
@@ -61,13 +59,6 @@ const MAX_DEVICE_BYTES: u64 = 1 << 20;
 /// Opens a file to read up to `limit` + 1 bytes; the last byte tells the reader that the file is too long. A device
 /// with more than [`MAX_DEVICE_BYTES`] is an error.
 pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
-    let opened = open_unnoted(path, limit)?;
-    inputs::note(path);
-    Ok(opened)
-}
-
-/// Like [`open_limited`], for a file that is not an input.
-fn open_unnoted(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
     let file = File::open(path)?;
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
     let left = if is_device { MAX_DEVICE_BYTES } else { u64::MAX };
@@ -106,16 +97,7 @@ fn is_device(_: &std::fs::FileType) -> bool {
 
 /// The contents of a file of at most `limit` bytes, or `None` if it is longer.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
-    contents(open_limited(path, limit)?, limit)
-}
-
-/// Like [`read_limited`], for a cached result of an earlier run, which affects no result and is not one of the
-/// [inputs](files_read).
-pub fn read_kept(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
-    contents(open_unnoted(path, limit)?, limit)
-}
-
-fn contents(mut opened: io::Take<Bounded>, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut opened = open_limited(path, limit)?;
     let mut bytes = Vec::new();
     opened.read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= limit).then_some(bytes))

@@ -2,7 +2,7 @@
 //!
 //! [`Findings`] are text, tables, charts, pictures, files and a verdict; they are encoded as a page (one self-contained
 //! HTML file), CSV, a JSON document, SVG, PNG and EXR. All functions return bytes; the caller writes whole files
-//! through `io::atomic`.
+//! through `io`.
 
 mod cell;
 mod chart;

@@ -13,7 +13,6 @@ use crate::cpca::transfer::{Bounces, Incident};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::sphere::HarmonicLight;
-use crate::split::SplitRun;
 use crate::study::caster::{CastRecord, CasterChoice};
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, no_cpca_card};
 use crate::study::{ProgressFn, StudyError};
@@ -57,7 +56,7 @@ impl GlossyTransfer {
             scatterer: None,
         };
         let mut open = caster.open_judged(mesh, Sides::Both)?;
-        let found = precomputation.run_split(&mut open, &SplitRun::Whole, progress)?.whole();
+        let found = precomputation.run_by(&mut open, progress)?;
         Ok((found, open.record()))
     }
 

@@ -24,7 +24,6 @@ pub mod timeline_trace;
 pub mod tour;
 
 use crate::report::{Findings, Provenance};
-use crate::split::{Computed, SplitRun};
 
 pub use error::StudyError;
 
@@ -36,13 +35,6 @@ pub trait Study {
     /// Runs the study. Fails if the input does not suit the study, or a library refuses it.
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError>;
 
-    /// Runs a study whose items can be split: on all items, on those of a part, or merged from parts. A study without
-    /// such items runs [`Self::findings`]. Fails as [`Self::findings`] does, or with an
-    /// [`InputError`](crate::error::InputError) if a part is invalid.
-    fn findings_split(&self, _: &SplitRun, progress: &mut ProgressFn<'_>) -> Result<Computed<Findings>, StudyError> {
-        self.findings(progress).map(Computed::Whole)
-    }
-
     /// Adds the devices, switches and seed that are used; by default there are none.
     fn provenance(&self, provenance: Provenance) -> Provenance {
         provenance
@@ -53,14 +45,6 @@ pub trait Study {
 impl Study for Box<dyn Study> {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         (**self).findings(progress)
-    }
-
-    fn findings_split(
-        &self,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<Findings>, StudyError> {
-        (**self).findings_split(split, progress)
     }
 
     fn provenance(&self, provenance: Provenance) -> Provenance {

@@ -20,15 +20,13 @@ use crate::clustering::Signal;
 use crate::error::InputError;
 use crate::transfer::Vertices;
 use crate::transfer::error::require;
-use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation};
+use crate::transfer::grid::{FineDirections, Segmentation};
 use crate::transfer::haar::Haar;
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::{VisibilityMaps, check};
 
 /// Number of light texels, and of coefficients, in a segment.
 const LEN: usize = Segmentation::Quarters.len();
-/// Points per chunk of a sum over all points; it fixes the order of the additions.
-const CHUNK: usize = 1024;
 
 /// Input of transfer: visibility, and the light's side of the factored BRDF.
 #[derive(Clone, Copy)]
@@ -141,23 +139,6 @@ impl FactoredTransfer<'_> {
         Ok(Some(TransferSegment { segment, vertices, signal: Signal::new(dimension, values)? }))
     }
 
-    /// The mean response to every coefficient of a light in 24 segments, for [`TruncationPriority::Transfer`]:
-    /// [`TransferSegment::mean_response`] of all segments, 0 where no vertex has transfer.
-    ///
-    /// # Errors
-    /// See [`Self::segment`].
-    ///
-    /// [`TruncationPriority::Transfer`]: crate::transfer::light::TruncationPriority::Transfer
-    pub fn mean_responses(&self) -> Result<Vec<f64>, InputError> {
-        let mut responses = vec![0.0; LIGHT_TEXELS];
-        for segment in self.segments() {
-            let segment = segment?;
-            let mean = segment.mean_response(self.vertices.len());
-            responses[segment.segment * LEN..][..LEN].copy_from_slice(&mean);
-        }
-        Ok(responses)
-    }
-
     /// The raw transfer of a map's vertex for a segment (equation 10): row i and light texel j of the segment are
     /// component 256 i + j. Panics if there is no such segment or map.
     pub fn raw(&self, segment: usize, map: usize) -> Vec<f64> {
@@ -197,23 +178,5 @@ impl TransferSegment {
     /// Indices of a row's components within a point of the signal.
     pub const fn row(row: usize) -> Range<usize> {
         row * LEN..(row + 1) * LEN
-    }
-
-    /// The mean response to each coefficient of the segment: the mean magnitude over rows and over `all` vertices;
-    /// vertices outside the segment count as 0. Used by [`TruncationPriority::Transfer`].
-    ///
-    /// [`TruncationPriority::Transfer`]: crate::transfer::light::TruncationPriority::Transfer
-    pub fn mean_response(&self, all: usize) -> Vec<f64> {
-        let dimension = self.signal.dimension();
-        let chunk = |values: &[f32]| {
-            let mut sums = vec![0.0; LEN];
-            for row in values.chunks_exact(LEN) {
-                sums.iter_mut().zip(row).for_each(|(sum, &value)| *sum += f64::from(value.abs()));
-            }
-            sums
-        };
-        let chunks: Vec<Vec<f64>> = self.signal.values().par_chunks(CHUNK * dimension).map(chunk).collect();
-        let whole = (all.max(1) * (dimension / LEN)) as f64;
-        (0..LEN).map(|at| chunks.iter().map(|sums| sums[at]).sum::<f64>() / whole).collect()
     }
 }

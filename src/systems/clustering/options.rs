@@ -97,9 +97,6 @@ pub enum CpcaError {
     /// A repeated start point.
     #[error("expected different start points, found {found} twice")]
     StartTwice { found: u32 },
-    /// A line of a list of start points that is not a number. Lines count from 1.
-    #[error("expected the number of a point in line {line} of the start points, found another text")]
-    StartText { line: usize },
     /// The principal components of a cluster cannot be computed.
     #[error("the principal components of cluster {cluster} cannot be found: {reason}")]
     Factor { cluster: usize, reason: InputError },
@@ -108,15 +105,6 @@ pub enum CpcaError {
 impl From<CpcaError> for InputError {
     fn from(error: CpcaError) -> Self {
         Self::of("", error)
-    }
-}
-
-impl StartPoints {
-    /// Parses start points from text: the index of one point per line, counted from 0. Empty lines are skipped.
-    pub fn parse(text: &str) -> Result<Self, CpcaError> {
-        let lines = (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty());
-        let points = lines.map(|(line, text)| text.trim().parse().map_err(|_| CpcaError::StartText { line }));
-        points.collect::<Result<_, _>>().map(Self::Given)
     }
 }
 

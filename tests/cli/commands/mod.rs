@@ -48,7 +48,6 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
     ("cpca precompute transfer-bird", "takes minutes; the other examples compute the same of a small model"),
     ("measure measured.csv --device r200", "reads what a card drew; .ci/measuring has a software driver in its place"),
-    ("merge", "reads the parts that other commands write; tests/cli/parts.rs merges those of every command"),
     (
         "page --emulator",
         "reads what refsim/web/build compiles, for which not every machine has the library; tests/page opens it where it is",

@@ -255,8 +255,6 @@ fn inputs() -> &'static Path {
             "all-frequency precompute square.obj --reflectance factors --out glossy_sight.npz",
             "all-frequency compress glossy_sight.npz --model square.obj --vectors 3 --out glossy.npz",
             "bi-scale precompute docs/examples/court.obj --directions 2 --out court.npz",
-            "bi-scale precompute docs/examples/court.obj --directions 2 --part 1/2 --out court_1.part",
-            "bi-scale precompute docs/examples/court.obj --directions 2 --part 2/2 --out court_2.part",
             "bi-scale texture plain --texels 2 --directions 4 --views 2 --out plain.npy",
         ] {
             let ran = crossbar_in(folder.path(), &line.split(' ').collect::<Vec<_>>(), "");

@@ -108,7 +108,7 @@ pub(super) const TABLE: &[Tried] = &[
             "leaky-teapot --mesh odd.obj --rays rays.csv --rays-per-edge 0 --format fp16 --out OUT",
         ],
         options: concat!(
-            "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --kernel=shared-edges --part=1/1 --out=other \
+            "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --kernel=shared-edges --out=other \
              --rays-per-edge=2@0,1 --sides=both@0,2 same:--sides=both@1 same:--executor=scalar --model-up=y --strict",
             eye!()
         ),
@@ -127,7 +127,7 @@ pub(super) const TABLE: &[Tried] = &[
             "--patches=12 --factors=unoccluded@0 same:--factors=unoccluded@1 --enforce-closure --solver=gauss-seidel \
                   --packing=luminance --storage=fp16 --device=nv30 --switch=rounding=rtz same:--executor=scalar \
                   --tolerance=0.5 --iterations=2 --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 \
-                  --sweep-patches=12,30 --part=1/2 same:--view=front@0,2 --view=front@1 --out=other --model-up=y \
+                  --sweep-patches=12,30 same:--view=front@0,2 --view=front@1 --out=other --model-up=y \
                   --strict@1 --size=9x7",
             caster!("3")
         ),
@@ -179,7 +179,7 @@ pub(super) const TABLE: &[Tried] = &[
             "--caster=engine@2 --material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --tolerance=0.5 \
              --light=ambient:1,1,1 --all-pairs=no --device=nv30 --switch=rounding=rtz \
-             same:--executor=scalar --part=1/2 --out=other --model-up=y --strict@1",
+             same:--executor=scalar --out=other --model-up=y --strict@1",
             caster!("3"),
             eye!()
         ),
@@ -204,7 +204,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--kind=glossy@0 --order=3 --rows=9 --brdf=lambert:0.3 --material=skin1@3 --mm-per-unit=2@3 --channels=rgb \
-                  --tangents=1,2,3@1,2 --degree=20 --bounces=2 --part=1/2 --out=other.npz \
+                  --tangents=1,2,3@1,2 --degree=20 --bounces=2 --out=other.npz \
                   --model-up=y --strict@2",
             caster!("4")
         ),
@@ -261,7 +261,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency precompute roof.obj --caster engine --caster-device r300 --octree 1,4 --pass-triangles 1,3 --out OUT.npz",
         ],
         options: concat!(
-            "--reflectance=factors --ground=3 --tangents=1,2,3 --part=1/2 --out=other.npz --model-up=y --strict@1",
+            "--reflectance=factors --ground=3 --tangents=1,2,3 --out=other.npz --model-up=y --strict@1",
             caster!("2")
         ),
     },
@@ -271,7 +271,7 @@ pub(super) const TABLE: &[Tried] = &[
              --vectors 2 --out OUT.npz",
             "all-frequency compress docs/examples/step_all.npz --model odd.obj --out OUT.npz",
         ],
-        options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --bits=8@0 --resume=kept@0 --part=1/2@0 \
+        options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --bits=8@0 --resume=kept@0 \
                   --out=other.npz@0 --model-up=y --strict@1",
     },
     Tried {
@@ -313,15 +313,11 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale precompute docs/examples/court.obj --directions 2 --caster engine --caster-device r300 --out OUT.npz",
         ],
         options: concat!(
-            "--directions=3 --crease=10@0 --tangents=1,2,3@0 --part=2/3 --out=other.npz --model-up=y --strict@1",
+            "--directions=3 --crease=10@0 --tangents=1,2,3@0 --out=other.npz --model-up=y --strict@1",
             caster!("2")
         ),
     },
     Tried { bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"], options: "--out=other.npz" },
-    Tried {
-        bases: &["bi-scale multiply docs/examples/court_biclusters.npz"],
-        options: "--light=red-and-blue --csv=other.csv",
-    },
     Tried {
         bases: &[
             "bi-scale compare court.npz --clusters 2 --vectors 2 --sample 60",
@@ -369,7 +365,6 @@ pub(super) const TABLE: &[Tried] = &[
             picture!("1")
         ),
     },
-    Tried { bases: &["merge court_2.part court_1.part --out OUT.npz"], options: "--out=other.npz" },
     Tried {
         bases: &["matmul docs/examples/matmul_a.npy docs/examples/matmul_b.npy --unit hopper-fp8 --out OUT"],
         options: "--unit=ada-fp8 --c=nowhere.npy --type=e5m2 --promote=64 --against=blackwell-f8f6f4 --blame=1,2 \
@@ -387,7 +382,7 @@ pub(super) const TABLE: &[Tried] = &[
             "precision --expr sqrt(x+1)-sqrt(x) --range x=1..1e9 --goal mean_bits<=9 --samples 30 --out OUT",
         ],
         options: "--expr=x/3 --fpcore=fixtures/fpbench/suite.fpcore --range=x=2..3 --samples=31 --seed=5 --draw=reals \
-                  --uniform=f0=0.5,0.5,0.5 --goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 --part=1/6 \
+                  --uniform=f0=0.5,0.5,0.5 --goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 \
                   --costs=docs/examples/multiplier_area.csv --out=other",
     },
     Tried { bases: &["page --out OUT"], options: "--out=other --emulator=missing.wasm" },

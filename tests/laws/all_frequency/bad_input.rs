@@ -7,8 +7,7 @@ use crossbar::io::{parse_cube_table, parse_light_sources, write_cube_table};
 use crossbar::picture::Picture;
 use crossbar::sphere::{ClearSky, EnvironmentPicture};
 use crossbar::tracer::HostTracer;
-use crossbar::transfer::grid::Segmentation;
-use crossbar::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::transfer::light::{CubeLight, Decimation, DiskSource};
 use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 use glam::{DMat3, DVec3};
@@ -51,9 +50,6 @@ fn what_is_no_light_is_refused() {
     let error = message(CubeLight::from_picture(&picture, &DMat3::IDENTITY, Decimation::Plain));
     assert!(error.contains("found -") && error.contains("channel red of face 4"), "{error}");
     assert!(EnvironmentPicture::new(&Picture::rgb(65, 32, &[])).is_err());
-    let light = HaarLight::new(&CubeLight::constant([1.0; 3]).expect("a light"), Segmentation::Faces);
-    let refused = light.truncated(3, TruncationPriority::Transfer(&[1.0; 7])).unwrap_err().to_string();
-    assert_eq!(refused, "expected 6144 responses, one per coefficient of the light, found 7");
 }
 
 #[test]

@@ -125,7 +125,7 @@ fn more_is_nearer() {
     let (subject, texels) = (clutter.subject(&lobe), light());
     let faces = HaarLight::new(&texels, Segmentation::Faces);
     let kept = [10, 40, 160, 6144].map(|keep| {
-        let cut = faces.truncated(keep, TruncationPriority::Area).expect("a light");
+        let cut = faces.truncated(keep, TruncationPriority::Area);
         cut.light.radiances()
     });
     let lights: Vec<&[[f64; 3]]> = kept.iter().map(Vec::as_slice).chain([texels.texels()]).collect();

@@ -193,20 +193,3 @@ fn empty_segments_are_left_out_and_counted() {
     };
     assert!(none.segment(0).is_err_and(|error| error.to_string().contains("at least 1 for the number of rows")));
 }
-
-/// The mean response equals plain loops over all vertices.
-#[test]
-fn mean_responses_are_means_of_magnitudes() {
-    let mesh = clutter(6, 12, 2.5);
-    let vertices = vertices(&mesh);
-    for segment in segments(&vertices, &mesh, BasisWidth::OneTexel, 3, glossy) {
-        let found = segment.mean_response(vertices.len());
-        for (at, found) in found.into_iter().enumerate() {
-            let points = (0..segment.signal.points()).flat_map(|point| {
-                let point = segment.signal.point(point);
-                [0, 1, 2].map(|row| f64::from(point[row * 256 + at].abs()))
-            });
-            close(found, points.sum::<f64>() / (3 * vertices.len()) as f64, 1e-12, "a mean");
-        }
-    }
-}

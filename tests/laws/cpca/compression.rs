@@ -3,7 +3,7 @@
 use crate::environment::by_form;
 use crate::support::cluster_options;
 use crossbar::clustering::{
-    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress, paper,
+    Compression, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress, paper,
 };
 use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::transfer::synthetic::torus_signal;
@@ -217,10 +217,6 @@ fn options_that_do_not_fit_are_refused() {
     assert_eq!(given(&[0, 1, 2]), "expected 4 start points, one per cluster, found 3");
     assert_eq!(given(&[0, 1, 2, 10]), "expected start points below 10 (counted from 0), found 10");
     assert_eq!(given(&[0, 7, 2, 7]), "expected different start points, found 7 twice");
-    assert_eq!(StartPoints::parse("3\n\n 1 \n"), Ok(StartPoints::Given(vec![3, 1])));
-    for text in ["3\n\n-1", "1\n2\n3.5", "\n\nx", "0\n1\n99999999999"] {
-        assert_eq!(StartPoints::parse(text), Err(CpcaError::StartText { line: 3 }), "{text:?}");
-    }
 }
 
 /// Small signals with many equal numbers: they cause duplicates, ties, clusters without points, and clusters of low

@@ -15,12 +15,10 @@ mod pixel_verdict;
 mod report;
 
 use std::borrow::Cow;
-use std::ops::Range;
 
 use inside::Inside;
 use outcome::SHARED;
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::shade::TeapotShader;
 use super::{ProgressFn, Study};
@@ -32,7 +30,6 @@ use crate::geom::{Mesh, Ray};
 use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{Crossbar, EdgeRule, EngineError};
 use crate::report::{Findings, Provenance};
-use crate::split::{Computed, SplitRun};
 use crate::study::StudyError;
 use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
@@ -102,7 +99,7 @@ impl Parameters {
 }
 
 /// Hits of a configuration: of the listed or camera rays, of rays aimed at edges, of rays aimed at vertices.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug)]
 struct ConfigurationHits {
     view: Vec<Option<Hit>>,
     edges: Vec<Option<Hit>>,
@@ -140,9 +137,14 @@ fn hits(
 /// Traces all configurations. `progress` is called with the label of each before it starts. Fails if a configuration
 /// has no intersection program, or the card refuses the work.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<TeapotOutcome, EngineError> {
-    let aimed = aimed(parameters);
-    let found = of_range(parameters, &aimed, 0..parameters.cases().count(), progress)?;
-    judged(parameters, aimed, found, progress)
+    let [edges, vertices] = aimed(parameters);
+    let steps = parameters.cases().count() as u64 + 1;
+    let found = (0..).zip(parameters.cases()).map(|(done, (configuration, edge_rule))| {
+        progress(&configuration.label, done, steps);
+        hits(parameters, &crossbar(parameters, &configuration, edge_rule), [&edges, &vertices])
+    });
+    let found = found.collect::<Result<_, _>>()?;
+    judged(parameters, [edges, vertices], found, progress)
 }
 
 /// The card of a configuration.
@@ -150,22 +152,6 @@ fn crossbar(parameters: &Parameters, configuration: &Configuration, edges: EdgeR
     Crossbar::new(configuration.profile.clone(), parameters.executor.clone())
         .all_pairs(parameters.options.all_pairs)
         .edges(edges)
-}
-
-/// Traces a range of the cases.
-fn of_range(
-    parameters: &Parameters,
-    [edges, vertices]: &[Vec<Ray>; 2],
-    range: Range<usize>,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Vec<ConfigurationHits>, EngineError> {
-    let steps = range.len() as u64 + 1;
-    let cases = (0..).zip(parameters.cases().skip(range.start).take(range.len()));
-    let found = cases.map(|(done, (configuration, edge_rule))| {
-        progress(&configuration.label, done, steps);
-        hits(parameters, &crossbar(parameters, &configuration, edge_rule), [edges, vertices])
-    });
-    found.collect()
 }
 
 /// Compares the hits of all configurations with exact hits.
@@ -238,17 +224,6 @@ fn judged(
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         Ok(report::findings(self, run(self, progress)?)?)
-    }
-
-    fn findings_split(
-        &self,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<Findings>, StudyError> {
-        let aimed = aimed(self);
-        let of_range = |range| Ok::<_, StudyError>(of_range(self, &aimed, range, progress)?);
-        let found = split.compute("configurations", self.cases().count(), of_range)?;
-        found.and_then(|found| Ok(report::findings(self, judged(self, aimed, found, progress)?)?))
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {

@@ -14,7 +14,6 @@ mod goal;
 mod half;
 mod half_report;
 mod instructions;
-mod known_runs;
 mod outcome;
 mod pictures;
 mod refutation_tables;
@@ -23,7 +22,6 @@ mod report;
 mod runs;
 mod sampled;
 mod search;
-mod split;
 mod steps;
 mod subject;
 mod switches;
@@ -33,14 +31,12 @@ mod ulps;
 
 use super::{ProgressFn, Study, StudyError};
 use crate::report::{Findings, Provenance};
-use crate::split::{Computed, SplitRun};
 
 pub use bits::FormatFamily;
 pub use case::CaseSubject;
 pub use costs::FormatCosts;
 pub use expression::{ExpressionError, ExpressionStudy, InputDraw};
 pub use goal::{Goal, GoalError, GoalRelation};
-pub use known_runs::KnownRuns;
 pub use outcome::Precision;
 pub use subject::{
     ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
@@ -52,20 +48,10 @@ pub use systems::spread;
 
 impl Study for Precision {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        self.findings_with(&self.known, progress)
-    }
-
-    fn findings_split(
-        &self,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<Findings>, StudyError> {
         let goal = self.goal()?;
-        let of_range = |range| self.runs_of(range, &mut self.runs(&goal, &KnownRuns::default(), progress)?);
-        split.known("searches", self.searches(), of_range)?.and_then(|made| match made {
-            Some(made) => self.findings_with(&self.known.clone().with_parts(made.known), progress),
-            None => self.findings(progress),
-        })
+        let mut runs = self.runs(&goal, progress)?;
+        let outcome = self.outcome(&mut runs)?;
+        report::findings(self, &outcome, &runs)
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -74,14 +60,5 @@ impl Study for Precision {
         let set = profile.switches().iter().filter(|switch| switch.current != switch.default);
         provenance.switches.extend(set.map(|switch| (switch.name.clone(), switch.current.clone())));
         provenance
-    }
-}
-
-impl Precision {
-    fn findings_with(&self, known: &KnownRuns, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let goal = self.goal()?;
-        let mut runs = self.runs(&goal, known, progress)?;
-        let outcome = self.outcome(&mut runs)?;
-        report::findings(self, &outcome, &runs)
     }
 }

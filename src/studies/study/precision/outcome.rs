@@ -8,7 +8,6 @@ use super::curve::Curve;
 use super::goal::Goal;
 use super::half::{HalfExpression, half_expressions};
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
-use super::known_runs::KnownRuns;
 use super::refutations::{self, RefutationTrace};
 use super::runs::{RunError, Runs};
 use super::sampled::sample_results;
@@ -40,8 +39,6 @@ pub struct Precision {
     pub budget: u64,
     /// Costs of formats.
     pub costs: FormatCosts,
-    /// Runs that are known from earlier.
-    pub known: KnownRuns,
 }
 
 /// Results for one family of formats.
@@ -107,19 +104,14 @@ impl Precision {
     }
 
     /// Runs of the subject. Fails if no runs are allowed, or no instruction has a format.
-    pub(super) fn runs<'a>(
-        &'a self,
-        goal: &'a Goal,
-        known: &KnownRuns,
-        progress: &'a mut ProgressFn<'a>,
-    ) -> Result<Runs<'a>, StudyError> {
+    pub(super) fn runs<'a>(&'a self, goal: &'a Goal, progress: &'a mut ProgressFn<'a>) -> Result<Runs<'a>, StudyError> {
         if self.budget == 0 {
             let found = "expected a budget of 1 run or more, found 0";
             return Err(
                 StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
             );
         }
-        let mut runs = Runs::new(&*self.subject, goal, self.budget, known, progress);
+        let mut runs = Runs::new(&*self.subject, goal, self.budget, progress);
         if runs.count() == 0 {
             let names: Vec<&str> = runs.programs.iter().map(|program| program.text.name()).collect();
             let found = format!("{}: expected instructions that compute or read texels, found none", names.join(", "));
@@ -187,7 +179,7 @@ fn compute_curve(curve: &mut Curve, runs: &mut Runs<'_>) -> Result<(), RunError>
 }
 
 /// Value of the exact run, which meets the goal.
-pub(super) fn exact_run(runs: &mut Runs<'_>) -> Result<f64, RunError> {
+fn exact_run(runs: &mut Runs<'_>) -> Result<f64, RunError> {
     runs.step("the exact run");
     let exact = runs.value(&vec![None; runs.count()])?;
     if runs.goal.met(exact) { Ok(exact) } else { Err(missed_by_exact(runs.goal, exact).into()) }
@@ -200,8 +192,8 @@ fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
 }
 
 impl FamilyOutcome {
-    /// Creates an outcome without findings.
-    pub(super) fn new(curve: Curve, instructions: usize) -> Self {
+    /// Without findings.
+    fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
         let refutations = Vec::new();
         Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None, refutations }
@@ -263,23 +255,5 @@ impl FamilyOutcome {
         let mut order: Vec<usize> = (0..self.needs.len()).collect();
         order.sort_by(|a, b| blame(a).total_cmp(&blame(b)));
         Ok(order)
-    }
-
-    /// Makes the runs of one search of [`Self::run`], and the runs that find the bits of an equal share of the
-    /// instructions.
-    pub(super) fn run_share(
-        &mut self,
-        number: usize,
-        costs: &FormatCosts,
-        runs: &mut Runs<'_>,
-    ) -> Result<(), RunError> {
-        compute_curve(&mut self.curve, runs)?;
-        let Some(minimum) = self.curve.minimum else { return Ok(()) };
-        let order = self.share_blame(minimum, runs)?;
-        search((minimum, STARTS[number]), &order, costs, runs, &mut self.mixed)?;
-        for (place, needs) in self.needs.iter_mut().enumerate().skip(number).step_by(STARTS.len()) {
-            fewest_bits(needs, place, minimum, self.curve.range, runs)?;
-        }
-        Ok(())
     }
 }

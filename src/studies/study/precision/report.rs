@@ -6,7 +6,7 @@ use super::bits::FormatBits;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
 use super::tables::number;
-use super::{family_report, half_report, known_runs, pictures, tables};
+use super::{family_report, half_report, pictures, tables};
 use crate::report::words::{counted, percent};
 use crate::report::{Chart, Findings, FoundTable, NamedChart, Scale, Series, Verdict};
 use crate::shader::SourceLine;
@@ -43,7 +43,6 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
             found.keep_file("mixed.toml", device.to_device_file(&programs).into_bytes());
         }
     }
-    found.keep_file(known_runs::FILE, runs.known.to_json());
     let has_minimum = outcome.families.iter().any(|family| family.curve.minimum.is_some());
     found.conclude(Verdict::held(has_minimum));
     Ok(found)

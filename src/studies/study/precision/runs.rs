@@ -9,7 +9,6 @@ use refsim::num::Format;
 
 use super::bits::{Assignment, FormatBits};
 use super::goal::Goal;
-use super::known_runs::KnownRuns;
 use super::subject::{
     InstructionPlace, Measured, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
     places,
@@ -43,8 +42,6 @@ pub(super) struct Runs<'a> {
     pub(super) made: u64,
     /// Values of the goal's measure, and the location of the largest error.
     values: BTreeMap<Assignment, (f64, Option<WorstPlace>)>,
-    /// Known runs: of an earlier study, and of this one.
-    pub(super) known: KnownRuns,
     /// Number of runs that the study is likely to make, for progress.
     pub(super) expected: u64,
     /// Name of the current step, for progress.
@@ -57,7 +54,6 @@ impl<'a> Runs<'a> {
         subject: &'a dyn PrecisionSubject,
         goal: &'a Goal,
         budget: u64,
-        known: &KnownRuns,
         progress: &'a mut ProgressFn<'a>,
     ) -> Self {
         let programs = subject.programs();
@@ -71,7 +67,6 @@ impl<'a> Runs<'a> {
             made: 0,
             expected: budget,
             values: BTreeMap::new(),
-            known: known.of(subject, &goal.measure),
             step: String::new(),
             progress,
         }
@@ -122,23 +117,13 @@ impl<'a> Runs<'a> {
         if let Some((value, _)) = self.values.get(assignment) {
             return Ok(*value);
         }
-        let (value, worst) = match self.known.get(assignment) {
-            Some(known) => {
-                self.spend()?;
-                known
-            }
-            None => {
-                let measured = match self.device(self.subject.profile(), assignment) {
-                    Some(device) => self.measure(&device)?,
-                    // A run without values meets no goal.
-                    None => Measured::default(),
-                };
-                let value = measured.value(&self.goal.measure);
-                self.known.insert(assignment, value, measured.worst.clone());
-                (value, measured.worst)
-            }
+        let measured = match self.device(self.subject.profile(), assignment) {
+            Some(device) => self.measure(&device)?,
+            // A run without values meets no goal.
+            None => Measured::default(),
         };
-        self.values.insert(assignment.clone(), (value, worst));
+        let value = measured.value(&self.goal.measure);
+        self.values.insert(assignment.clone(), (value, measured.worst));
         Ok(value)
     }
 

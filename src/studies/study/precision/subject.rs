@@ -1,13 +1,11 @@
 //! Interface to the subject of a precision study.
 
 use std::collections::BTreeMap;
-use std::fmt::Debug;
 
 use refsim::device::{Profile, takes_format};
 use refsim::isa::{Instruction, Opcode, Program};
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
-use serde::{Deserialize, Serialize};
 
 use super::goal::Goal;
 use crate::picture::RgbImage;
@@ -51,8 +49,8 @@ pub struct Measured {
     pub errors: Option<ErrorMap>,
 }
 
-/// Location where a run differs most from the expected result.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// Place where a run differs most from the expected result.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorstPlace {
     /// The location, with the found and the expected value.
     pub text: String,
@@ -168,11 +166,8 @@ pub trait PrecisionSubject {
     /// Goal if none is given.
     fn default_goal(&self) -> Goal;
 
-    /// Everything except the device that decides the values of a run, for a digest.
-    fn content(&self) -> &dyn Debug;
-
-    /// Runs on a device, and measures: one measure, or, if `wanted` is `None`, all of them, with the picture. Fails if
-    /// the device cannot run the programs.
+    /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`. Fails if the
+    /// device cannot run the programs.
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
     /// Runs another text in place of the only pixel program on the device of the exact run, and measures; `None` if the

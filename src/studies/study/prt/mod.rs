@@ -13,7 +13,6 @@ mod factor;
 mod interpolate;
 mod light_picture;
 mod lit_view;
-mod parts;
 mod precompute;
 mod render;
 mod stored_ways;
@@ -29,7 +28,7 @@ pub use all_frequency::{
     SegmentedCompression, SightOfModel, coded_errors,
 };
 pub(super) use bi_scale::{BiScaleDrawing, CausePictures};
-pub use bi_scale::{BiScaleRendering, LocalLight, SurfaceTexture, TexturedSurface, creased};
+pub use bi_scale::{BiScaleRendering, SurfaceTexture, TexturedSurface, creased};
 pub use card::{
     AllFrequencyOnCard, BiScaleOnCard, CardSetting, OnCard, PictureVariant, PixelErrors, factored_precision,
     variants_table,

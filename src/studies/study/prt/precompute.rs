@@ -1,8 +1,5 @@
 //! Computes the transfer of a model's vertices.
 
-use std::ops::Range;
-
-use super::parts::VertexTransfer;
 use crate::clustering::Signal;
 use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
 use crate::error::InputError;
@@ -10,7 +7,6 @@ use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::picture::metrics::ErrorSums;
 use crate::sphere::{DirectionRule, MAX_ORDER};
-use crate::split::{Computed, SplitRun};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, fresnel_transmittance};
 use crate::tracer::{Caster, HostTracer};
@@ -108,71 +104,24 @@ impl Precomputation<'_> {
     /// numbers exceed f32.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
         let mut tracer = HostTracer::new(self.mesh, Sides::Both);
-        Ok(self.run_split(&mut tracer, &SplitRun::Whole, progress)?.whole())
+        self.run_by(&mut tracer, progress)
     }
 
-    /// As [`Self::run`], with a caster of the mesh that sees both sides. Rays and direct light are split by vertices,
-    /// into parts or merged from parts. Work that needs all vertices is not split: bounces, and light that scatters
-    /// below the surface. Fails as [`Self::run`] does, or with an [`InputError`](crate::error::InputError) if a part is
-    /// invalid.
-    pub fn run_split(
-        &self,
-        caster: &mut dyn Caster,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<Precomputed>, StudyError> {
-        let (rule, responses) = self.prepare()?;
-        let of_range = |range| self.of_range(range, (&rule, &responses), caster, progress);
-        match split.compute("vertices", self.vertices.len(), of_range)? {
-            Computed::Whole(found) => Ok(Computed::Whole(self.whole(found, rule, &responses)?)),
-            Computed::Part(part) => Ok(Computed::Part(part)),
-        }
-    }
-
-    /// Returns the direction rule, and the responses of each channel.
-    fn prepare(&self) -> Result<(DirectionRule, Vec<ChannelResponses>), StudyError> {
+    /// As [`Self::run`], by a caster of the mesh that sees both sides.
+    pub fn run_by(&self, caster: &mut dyn Caster, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
         self.check()?;
         let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
         let responses = self.channels.iter().map(|(channel, brdfs)| self.responses(&rule, *channel, brdfs));
-        let responses = responses.collect::<Result<_, _>>()?;
-        Ok((rule, responses))
-    }
-
-    /// Computes the rays and matrices of direct light for a range of vertices.
-    fn of_range(
-        &self,
-        range: Range<usize>,
-        (rule, responses): (&DirectionRule, &[ChannelResponses]),
-        caster: &mut dyn Caster,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<VertexTransfer, StudyError> {
-        let steps = 1 + self.channels.len() as u64;
+        let responses = responses.collect::<Result<Vec<_>, _>>()?;
+        let (directions, steps) = (rule.len(), 1 + self.channels.len() as u64);
         progress("rays", 0, steps);
-        let keep_hits = self.bounces != Bounces::Count(0);
-        let rays = TracedRays::trace_range(self.vertices, range, rule.clone(), caster, keep_hits)?;
+        let rays = TracedRays::trace(self.vertices, rule, caster, self.bounces != Bounces::Count(0))?;
         let mut channels = Vec::new();
         for (responses, step) in responses.iter().zip(1..) {
             progress("transfer", step, steps);
-            let direct = |responses: &[Response]| Transfer::direct(self.vertices, &rays, responses, self.order);
-            let entering = responses.entering.as_ref().map(|(responses, _)| direct(responses)).transpose()?;
-            channels.push((direct(&responses.of_materials)?, entering.unwrap_or_default()));
+            channels.push(self.channel(&rays, responses)?);
         }
-        let answers = rays.into_answers();
-        Ok(VertexTransfer { answers: if keep_hits { answers } else { answers.counts_only() }, channels })
-    }
-
-    /// Computes the transfer from the results for all vertices.
-    fn whole(
-        &self,
-        found: VertexTransfer,
-        rule: DirectionRule,
-        responses: &[ChannelResponses],
-    ) -> Result<Precomputed, StudyError> {
-        let VertexTransfer { answers, channels: direct } = found;
-        let (counts, directions) = (answers.counts.clone(), rule.len());
-        let rays = TracedRays::of(rule, answers);
-        let channels = responses.iter().zip(direct).map(|(responses, direct)| self.channel(&rays, responses, direct));
-        let channels = channels.collect::<Result<Vec<Transfer>, _>>()?;
+        let counts = rays.counts().clone();
         let basis = channels.first().map_or(&ExitBasis::Radiance, Transfer::basis);
         let meaning = PrtMeaning::Transfer {
             channels: channels.len() as u32,
@@ -227,19 +176,14 @@ impl Precomputation<'_> {
         Ok(ChannelResponses { of_materials, entering })
     }
 
-    /// Computes the transfer of a channel from direct light on the surface, and from light that enters below it.
-    fn channel(
-        &self,
-        rays: &TracedRays,
-        responses: &ChannelResponses,
-        (direct, entering): (Vec<f32>, Vec<f32>),
-    ) -> Result<Transfer, InputError> {
-        let whole = |responses: &[Response], direct: Vec<f32>, bounces: Bounces| {
-            Transfer::with_bounces(self.vertices, rays, responses, self.order, (direct, bounces))
+    /// The transfer of a channel out of direct light on the surface, and of that which enters below it.
+    fn channel(&self, rays: &TracedRays, responses: &ChannelResponses) -> Result<Transfer, InputError> {
+        let whole = |responses: &[Response], bounces: Bounces| {
+            Transfer::new(self.vertices, rays, responses, self.order, bounces)
         };
-        let mut transfer = whole(&responses.of_materials, direct, self.bounces)?;
+        let mut transfer = whole(&responses.of_materials, self.bounces)?;
         if let (Some((of_entering, dipole)), Some(Scatterer { options, .. })) = (&responses.entering, &self.scatterer) {
-            let entering = whole(of_entering, entering, Bounces::Count(0))?;
+            let entering = whole(of_entering, Bounces::Count(0))?;
             transfer.add(&Transfer::scattered(self.vertices, &entering, |r| dipole.r_d(r), *options)?)?;
         }
         Ok(transfer)

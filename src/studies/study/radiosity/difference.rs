@@ -1,12 +1,10 @@
 //! Error of a solution compared with the direct one.
 
-use serde::{Deserialize, Serialize};
-
 use crate::picture::metrics::{ErrorSums, value_error};
 
-/// Error of a solution over all patches and channels. Errors are infinite if a radiosity is not finite but the direct
-/// one is, or the reverse.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the
+/// direct one is, or the reverse.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::study) struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
     pub(in crate::study) largest: f64,

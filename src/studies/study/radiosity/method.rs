@@ -3,7 +3,6 @@
 use std::fmt;
 
 use refsim::device::Profile;
-use serde::{Deserialize, Serialize};
 
 use crate::radiosity::on_card::{CardSolution, Cycle, Storage};
 use crate::radiosity::packing::Packing;
@@ -28,7 +27,7 @@ pub enum SolveMethod {
 }
 
 /// Reason why an iteration stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum StopReason {
     /// The residual reached the tolerance.
     Tolerance,

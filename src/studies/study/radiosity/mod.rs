@@ -17,7 +17,6 @@ mod pictures;
 mod report;
 mod room;
 mod solve;
-mod split;
 mod sweep;
 mod tables;
 mod time;
@@ -28,7 +27,6 @@ use crate::radiosity::on_card::Fit;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::{DrawError, Patches, System};
 use crate::report::{Findings, Provenance};
-use crate::split::{Computed, SplitRun};
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
@@ -51,15 +49,7 @@ library_errors! {
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        report::findings(self, run(self, &SplitRun::Whole, progress)?.whole())
-    }
-
-    fn findings_split(
-        &self,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<Findings>, StudyError> {
-        run(self, split, progress)?.and_then(|outcome| report::findings(self, outcome))
+        report::findings(self, run(self, progress)?)
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -74,13 +64,9 @@ impl Study for Parameters {
     }
 }
 
-/// Solves by every method, draws the pictures, and runs the sweep: the whole run, a part, or merged parts.
-fn run(
-    parameters: &Parameters,
-    split: &SplitRun,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Computed<RadiosityOutcome>, StudyError> {
-    // Checked before the patches and their form factors, which take long.
+/// Solves by every method, draws the pictures, and runs the sweep.
+fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, StudyError> {
+    // Before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
         let what = "expected a scene with a material that emits light, found none";
         return Err(
@@ -94,16 +80,7 @@ fn run(
         Fit::of(&parameters.profile, packing).and_then(require).map_err(no_card)?;
     }
     let sweep = Sweep::new(parameters)?;
-    let known = match split::known(split, &patches, &sweep, progress)? {
-        Computed::Whole(known) => known,
-        Computed::Part(written) => return Ok(Computed::Part(written)),
-    };
-    let room = match &known {
-        Some(known) => {
-            room::complete((known.form_factor_rows(&patches, parameters, progress)?, None), &patches, parameters)?
-        }
-        None => room::find(&patches, parameters, parameters.caster(), progress)?,
-    };
+    let room = room::find(&patches, parameters, parameters.caster(), progress)?;
     let leaks = leaks::rows(parameters, &patches, &room, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let changed = change::apply(&parameters.options.changes(), &parameters.scene, &patches, &system)?;
@@ -131,12 +108,8 @@ fn run(
         rows.push(row(one, &system, reference.as_deref(), &mut studio, parameters)?);
     }
     drop(studio);
-    let runs = match known {
-        Some(known) => known.sweep,
-        None => sweep.runs(0..sweep.count(), progress)?,
-    };
-    let sweep = sweep.rows(&runs);
-    Ok(Computed::Whole(RadiosityOutcome { found_sums: room.found_sums, leaks, exposure, rows, frames, sweep, patches }))
+    let sweep = sweep.rows(progress)?;
+    Ok(RadiosityOutcome { found_sums: room.found_sums, leaks, exposure, rows, frames, sweep, patches })
 }
 
 /// Builds a method's row with its error and pictures.

@@ -23,8 +23,8 @@ pub struct Parameters {
     pub executor: Executor,
     /// Camera of the pictures.
     pub camera: Camera,
-    /// Casters of the rays for form factors, at least one. Several engines are compared, and the scene is solved with
-    /// the first one's factors. Parts of a run use the host's rays.
+    /// What casts the rays of form factors, at least one; several engines are compared, and the first one's room is
+    /// solved.
     pub casters: Vec<CasterChoice>,
     /// Options.
     pub options: RadiosityOptions,

@@ -1,10 +1,7 @@
 //! Sweep over numbers of patches and open switches of the card: how the error depends on the size of the system, and on
 //! guesses about the card.
 
-use std::ops::Range;
-
 use refsim::device::Profile;
-use serde::{Deserialize, Serialize};
 
 use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card, room};
 use crate::radiosity::bias::{Accumulator, predicted};
@@ -15,7 +12,7 @@ use crate::study::StudyError;
 use crate::study::configuration::Configuration;
 
 /// Result for one number of patches, one method on the card, and one setting of its switches.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct SweepRow {
     /// Number of patches.
     pub(super) patches: usize,
@@ -43,14 +40,7 @@ impl SweepRow {
     }
 }
 
-/// Run of the sweep, with the data that shows whether another run has the same bits.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct SweepRun {
-    row: SweepRow,
-    radiosity: Vec<[f32; 3]>,
-}
-
-/// Sweep over numbers of patches, for each setting of the card: a method, and the value of a switch.
+/// Sweep over numbers of patches, for each setting of the card: a method with the value of a switch.
 pub(super) struct Sweep<'a> {
     pub(super) parameters: &'a Parameters,
     /// Settings by method, then by value of a switch.
@@ -68,31 +58,29 @@ impl<'a> Sweep<'a> {
         Ok(Self { parameters, settings, values: values.len() })
     }
 
-    /// Number of settings; 0 if the sweep lists no patch counts.
-    pub(super) fn count(&self) -> usize {
-        if self.parameters.options.sweep.is_empty() { 0 } else { self.settings.len() }
-    }
-
-    /// Makes the runs of a range of settings, each with one run per number of patches.
-    pub(super) fn runs(
-        &self,
-        range: Range<usize>,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Vec<Vec<SweepRun>>, StudyError> {
-        let settings = &self.settings[range];
-        let mut runs = vec![Vec::new(); settings.len()];
-        let (mut done, all) = (0, (settings.len() * self.parameters.options.sweep.len()) as u64);
-        let sizes = if settings.is_empty() { &[][..] } else { &self.parameters.options.sweep };
-        for &size in sizes {
+    /// Rows by number of patches, method and value. Rows of one number of patches and one method may have the same
+    /// bits.
+    pub(super) fn rows(&self, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, StudyError> {
+        let mut rows = Vec::new();
+        if self.settings.is_empty() {
+            return Ok(rows);
+        }
+        let all = (self.settings.len() * self.parameters.options.sweep.len()) as u64;
+        for &size in &self.parameters.options.sweep {
             let (system, reference) = self.system(size, progress)?;
-            for ((how, setting), runs) in settings.iter().zip(&mut runs) {
-                progress("sweep", done, all);
-                done += 1;
-                let (radiosity, row) = solved(*how, setting, &system, &reference, self.parameters)?;
-                runs.push(SweepRun { row, radiosity });
+            for of_method in self.settings.chunks(self.values) {
+                let first = rows.len();
+                let mut found: Vec<Vec<[f32; 3]>> = Vec::new();
+                for (how, setting) in of_method {
+                    progress("sweep", rows.len() as u64, all);
+                    let (radiosity, row) = solved(*how, setting, &system, &reference, self.parameters)?;
+                    let same = found.iter().position(|other| same_bits(other, &radiosity));
+                    rows.push(SweepRow { same_as: first + same.unwrap_or(found.len()), ..row });
+                    found.push(radiosity);
+                }
             }
         }
-        Ok(runs)
+        Ok(rows)
     }
 
     /// System with a given number of patches, and its direct solution.
@@ -106,23 +94,6 @@ impl<'a> Sweep<'a> {
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
         let reference = system.solve(Solver::Direct, &self.parameters.options.stopping(), None)?.radiosity();
         Ok((system, reference))
-    }
-
-    /// Rows by number of patches, method and value, from the runs of all settings. Rows with the same number of patches
-    /// and the same method may have the same bits.
-    pub(super) fn rows(&self, runs: &[Vec<SweepRun>]) -> Vec<SweepRow> {
-        let mut rows = Vec::new();
-        for size in 0..self.parameters.options.sweep.len() {
-            for group in runs.chunks(self.values) {
-                let group: Vec<&SweepRun> = group.iter().filter_map(|runs| runs.get(size)).collect();
-                let first = rows.len();
-                for (at, run) in group.iter().enumerate() {
-                    let same = group[..at].iter().position(|other| same_bits(&other.radiosity, &run.radiosity));
-                    rows.push(SweepRow { same_as: first + same.unwrap_or(at), ..run.row.clone() });
-                }
-            }
-        }
-        rows
     }
 }
 

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use super::shared::Shared;
 use super::{ModelSize, Paper, PaperRow, RecordStatus, StudyError, equations};
+use crate::kept::KeptResults;
 use crate::report::{NamedChart, Table};
-use crate::split::KeptResults;
 
 /// Findings of one entry.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::{ModelSize, StudyError};
-use crate::split::KeptResults;
+use crate::kept::KeptResults;
 
 /// Result that entries share: one per type and key.
 pub(super) trait SharedResult: Sized + 'static {

@@ -1,7 +1,5 @@
 //! Reference for all ways of gathering: equation 9 over all pairs of texels.
 
-use std::ops::Range;
-
 use super::Parameters;
 use crate::atlas::Atlas;
 use crate::picture::metrics::{ErrorSums, value_error};
@@ -48,30 +46,22 @@ pub(super) struct AllPairSums<'a> {
 }
 
 impl AllPairSums<'_> {
-    /// Radiosities of the texels in some rows, by channel; empty for a channel that equals an earlier one.
-    pub(super) fn rows(self, rows: &Range<usize>, progress: &mut ProgressFn<'_>) -> Result<[Vec<f64>; 3], StudyError> {
-        let mut found = [const { Vec::new() }; 3];
-        for (channel, into) in found.iter_mut().enumerate() {
-            if self.like(channel).is_none() {
-                let step = format!("all pairs of texels, {}", CHANNELS[channel]);
-                let mut done = |done, rows| progress(&step, done as u64, rows as u64);
-                let values = self.values(channel);
-                *into = self.reference(channel)?.radiosity_of_rows(&values, rows.clone(), &mut done)?;
-            }
-        }
-        Ok(found)
-    }
-
-    /// Radiosities of all texels, row by row, assembled from the results of all rows.
-    pub(super) fn of_rows(self, rows: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
+    /// Radiosities of all texels, row by row. A channel that equals an earlier one has its sums.
+    pub(super) fn radiosity(self, progress: &mut ProgressFn<'_>) -> Result<Vec<[f64; 3]>, StudyError> {
         let mut texels = vec![[0.0; 3]; self.irradiance.len()];
-        for (channel, radiosity) in rows.into_iter().enumerate() {
-            match self.like(channel) {
-                Some(other) => texels.iter_mut().for_each(|b| b[channel] = b[other]),
-                None => texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b),
+        for (channel, name) in CHANNELS.iter().enumerate() {
+            if let Some(other) = self.like(channel) {
+                texels.iter_mut().for_each(|b| b[channel] = b[other]);
+                continue;
             }
+            let step = format!("all pairs of texels, {name}");
+            let mut done = |done, rows| progress(&step, done as u64, rows as u64);
+            let values: Vec<f64> = self.irradiance.iter().map(|e| e[channel]).collect();
+            let reference = Reference::new(self.atlas, self.parameters.options.mm_per_unit, &self.dipoles[channel])?;
+            let radiosity = reference.radiosity(&values, &mut done)?;
+            texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
         }
-        texels
+        Ok(texels)
     }
 
     /// The first earlier channel with the same medium and light.
@@ -80,13 +70,5 @@ impl AllPairSums<'_> {
             self.dipoles[other].coefficients() == self.dipoles[channel].coefficients()
                 && self.irradiance.iter().all(|e| e[other] == e[channel])
         })
-    }
-
-    fn values(self, channel: usize) -> Vec<f64> {
-        self.irradiance.iter().map(|e| e[channel]).collect()
-    }
-
-    fn reference(&self, channel: usize) -> Result<Reference<'_>, StudyError> {
-        Ok(Reference::new(self.atlas, self.parameters.options.mm_per_unit, &self.dipoles[channel])?)
     }
 }

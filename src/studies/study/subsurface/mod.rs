@@ -3,7 +3,6 @@
 
 mod all_pairs;
 mod angles;
-mod bands;
 mod conclusion;
 pub(in crate::study) mod environment;
 mod error;
@@ -21,14 +20,12 @@ mod way;
 
 use crate::atlas::Atlas;
 use crate::report::{Findings, Provenance};
-use crate::split::{Computed, SplitRun};
 use crate::study::{ProgressFn, Study, StudyError};
-use crate::subsurface::links::{LinkBands, Links};
+use crate::subsurface::links::Links;
 use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 use angles::{AngleBin, BinError};
-use bands::GatheredBands;
 use model::ModelLengths;
 use options::ALL_PAIRS_SIDE;
 use outcome::SubsurfaceOutcome;
@@ -43,15 +40,7 @@ pub use parameters::{Lighting, Parameters};
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        report::findings(self, &run(self, &SplitRun::Whole, progress)?.whole())
-    }
-
-    fn findings_split(
-        &self,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<Findings>, StudyError> {
-        run(self, split, progress)?.and_then(|outcome| report::findings(self, &outcome))
+        report::findings(self, &run(self, progress)?)
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -61,14 +50,9 @@ impl Study for Parameters {
     }
 }
 
-/// Builds the atlas, lights it, and gathers over all pairs and in every way. Sums over all pairs and links are split by
-/// bands of rows of texels, into parts or merged from parts. Fails if the model, its medium or its light does not suit
-/// the study, or the card rejects the work.
-fn run(
-    parameters: &Parameters,
-    split: &SplitRun,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Computed<SubsurfaceOutcome>, StudyError> {
+/// Builds the atlas, lights it, gathers over all pairs and by every way. Fails if the model, its medium or its
+/// light does not suit the study, or the card refuses the work.
+fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, StudyError> {
     let eta = parameters.material.eta;
     let [red, green, blue] = parameters.material.channels;
     let dipoles = [Dipole::new(red, eta)?, Dipole::new(green, eta)?, Dipole::new(blue, eta)?];
@@ -98,20 +82,8 @@ fn run(
         truth: None,
         neighbours: &neighbours,
     };
-    let of_range = |range| GatheredBands::new(&scene, range, progress);
-    let mut known = match split.known("bands of texels", LinkBands::count(parameters.options.side), of_range)? {
-        Computed::Whole(known) => known,
-        Computed::Part(written) => return Ok(Computed::Part(written)),
-    };
-    let truth = if parameters.options.gathers_all_pairs() {
-        let rows = match &mut known {
-            Some(known) => std::mem::take(&mut known.all_pairs),
-            None => scene.all_pairs().rows(&(0..parameters.options.side as usize), progress)?,
-        };
-        Some(scene.all_pairs().of_rows(rows))
-    } else {
-        None
-    };
+    let truth =
+        if parameters.options.gathers_all_pairs() { Some(scene.all_pairs().radiosity(progress)?) } else { None };
     let scene = way::Scene { truth: truth.as_deref(), ..scene };
     let mut rows = Vec::new();
     // Ways that differ only in formats follow each other, and share their links.
@@ -119,13 +91,10 @@ fn run(
     for (at, &way) in parameters.ways.iter().enumerate() {
         let links = match last.take() {
             Some((other, links)) if other.has_links_of(&way) => links,
-            _ => match known.as_ref().and_then(|known| known.links(parameters, way)) {
-                Some(bands) => way::links_of(&scene, way, bands.clone())?,
-                None => way::links(&scene, way, progress)?,
-            },
+            _ => way::links(&scene, way, progress)?,
         };
         rows.push(way::run(&scene, way, (&links, at == 0), progress)?);
         last = Some((way, links));
     }
-    Ok(Computed::Whole(SubsurfaceOutcome { lengths, truth, rows, atlas, dipoles, irradiance, cast }))
+    Ok(SubsurfaceOutcome { lengths, truth, rows, atlas, dipoles, irradiance, cast })
 }

@@ -46,11 +46,3 @@ pub enum Lighting {
     /// Distant light of an environment map, per texel and with shadows; replaces pass 1.
     Environment(CubeLight),
 }
-
-impl Parameters {
-    /// The ways whose links differ from those of all earlier ways.
-    pub(super) fn ways_with_links(&self) -> impl Iterator<Item = GatherWay> + '_ {
-        let is_new = |(at, way): &(usize, &GatherWay)| !self.ways[..*at].iter().any(|other| other.has_links_of(way));
-        self.ways.iter().enumerate().filter(is_new).map(|(_, way)| *way)
-    }
-}

@@ -1,7 +1,5 @@
 //! One way of gathering: links, the three passes, and their cost.
 
-use std::ops::Range;
-
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::num::Format;
@@ -17,9 +15,7 @@ use crate::picture::Picture;
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::Dipole;
 use crate::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
-use crate::subsurface::links::{
-    EncodedLinks, IrradianceMeans, LinkBands, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL,
-};
+use crate::subsurface::links::{EncodedLinks, IrradianceMeans, Links, LostFactors, MeanWeighting, SCALAR_CHANNEL};
 use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::{
     CardModel, FloatTexels, LightStage, LinkTextures, MapFormat, PassTime, SubsurfaceCard, SubsurfaceCardOptions, View,
@@ -95,25 +91,11 @@ pub(super) struct WayRow {
     pub(super) log: Vec<Event>,
 }
 
-/// Computes the links of a way, in a range of bands of rows of texels.
-pub(super) fn link_bands(
-    scene: &Scene<'_>,
-    way: GatherWay,
-    range: Range<usize>,
-    progress: &mut ProgressFn<'_>,
-) -> Result<LinkBands, StudyError> {
+/// The links of a way.
+pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
     progress(&format!("links: {}", way.label(scene.parameters.options.side)), 0, 2);
     let (dipoles, tolerance) = (link_dipoles(scene, way), scene.parameters.options.tolerance);
-    Ok(LinkBands::new(scene.surface, dipoles, way.choice, tolerance, range, &|_, _| {})?)
-}
-
-pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
-    links_of(scene, way, link_bands(scene, way, 0..LinkBands::count(scene.parameters.options.side), progress)?)
-}
-
-/// Joins the links of all bands to the links of a way.
-pub(super) fn links_of(scene: &Scene<'_>, way: GatherWay, bands: LinkBands) -> Result<Links, StudyError> {
-    Ok(Links::of_bands(scene.surface, link_dipoles(scene, way).len(), way.choice, bands)?)
+    Ok(Links::new(scene.surface, dipoles, way.choice, tolerance, &|_, _| {})?)
 }
 
 /// The dipoles of a way's factors: for red, green and blue, or green's for all channels.

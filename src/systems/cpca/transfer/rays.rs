@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use crate::error::InputError;
 use crate::geom::{Hit, Ray};
@@ -16,7 +15,7 @@ use crate::transfer::{FrontHit, Occluders, Shooter, VertexRays, Vertices, ones, 
 const BLOCK: usize = 64;
 
 /// Numbers of rays, and vertices with defects.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TransferCounts {
     /// Number of rays: vertices times directions.
     pub rays: u64,
@@ -36,30 +35,10 @@ pub struct TransferCounts {
     pub unclear: Vec<u32>,
 }
 
-impl TransferCounts {
-    /// Adds the counts of the vertices that follow.
-    fn append(&mut self, next: Self) {
-        self.rays += next.rays;
-        self.traced += next.traced;
-        self.blocked += next.blocked;
-        self.below_horizon += next.below_horizon;
-        self.from_behind += next.from_behind;
-        self.dark.extend(next.dark);
-        self.buried.extend(next.buried);
-        self.unclear.extend(next.unclear);
-    }
-}
-
 /// Results of one ray per vertex and direction; directions are a hemisphere rule in the vertex's local frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TracedRays {
     rule: DirectionRule,
-    answers: RayAnswers,
-}
-
-/// The results without the rule.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RayAnswers {
     /// The vertices whose rays were traced.
     range: Range<usize>,
     /// Number of 64-bit words per vertex.
@@ -67,29 +46,7 @@ pub struct RayAnswers {
     blocked: Vec<u64>,
     hits: Vec<Vec<FrontHit>>,
     keeps_hits: bool,
-    /// Numbers of rays, and vertices with defects.
-    pub counts: TransferCounts,
-}
-
-impl RayAnswers {
-    /// The vertices.
-    pub fn range(&self) -> Range<usize> {
-        self.range.clone()
-    }
-
-    /// Keeps the counts, and drops the results of single rays.
-    #[must_use]
-    pub fn counts_only(self) -> Self {
-        Self { blocked: Vec::new(), hits: Vec::new(), ..self }
-    }
-
-    /// Appends the results of the vertices that follow.
-    pub fn append(&mut self, next: Self) {
-        self.range.end = next.range.end;
-        self.blocked.extend(next.blocked);
-        self.hits.extend(next.hits);
-        self.counts.append(next.counts);
-    }
+    counts: TransferCounts,
 }
 
 impl TracedRays {
@@ -119,29 +76,20 @@ impl TracedRays {
     ) -> Result<Self, InputError> {
         assert!(range.end <= vertices.len(), "vertices of the mesh");
         let words = rule.len().div_ceil(64);
-        let counts = TransferCounts { rays: (range.len() * rule.len()) as u64, ..TransferCounts::default() };
-        let blocked = vec![0; words * range.len()];
-        let answers = RayAnswers { words, blocked, hits: Vec::new(), keeps_hits: keep_hits, counts, range };
-        let mut traced = Self { rule, answers };
         let occluders = Occluders::new(vertices);
         let origins = origins(vertices, &occluders);
-        let range = traced.answers.range();
         let unclear = range.clone().filter(|&vertex| !origins[vertex].is_clear);
-        traced.answers.counts.unclear = unclear.map(|vertex| vertex as u32).collect();
-        let shooter = Shooter::new(vertices, &traced.rule, &origins, &occluders);
+        let counts = TransferCounts {
+            rays: (range.len() * rule.len()) as u64,
+            unclear: unclear.map(|vertex| vertex as u32).collect(),
+            ..TransferCounts::default()
+        };
+        let shooter = Shooter::new(vertices, &rule, &origins, &occluders);
+        let blocked = vec![0; words * range.len()];
+        let mut traced = Self { rule, range, words, blocked, hits: Vec::new(), keeps_hits: keep_hits, counts };
         traced.shadows(&shooter, caster)?;
         traced.hits(&shooter, caster)?;
         Ok(traced)
-    }
-
-    /// Combines a rule and the results of [`Self::into_answers`].
-    pub fn of(rule: DirectionRule, answers: RayAnswers) -> Self {
-        Self { rule, answers }
-    }
-
-    /// The results without the rule.
-    pub fn into_answers(self) -> RayAnswers {
-        self.answers
     }
 
     /// The rule whose directions were traced.
@@ -151,12 +99,12 @@ impl TracedRays {
 
     /// The vertices whose rays were traced.
     pub fn range(&self) -> Range<usize> {
-        self.answers.range()
+        self.range.clone()
     }
 
     /// Numbers of rays, and vertices with defects.
     pub fn counts(&self) -> &TransferCounts {
-        &self.answers.counts
+        &self.counts
     }
 
     /// True if the ray of a vertex in a direction is blocked. Panics if there is no such vertex or direction.
@@ -167,17 +115,17 @@ impl TracedRays {
 
     /// The number of vertices.
     pub fn vertex_count(&self) -> usize {
-        self.answers.range.len()
+        self.range.len()
     }
 
     /// True if [`Self::trace`] was called with `keep_hits`.
     pub fn keeps_hits(&self) -> bool {
-        self.answers.keeps_hits
+        self.keeps_hits
     }
 
     /// The hits of a vertex's rays on front faces.
     pub(crate) fn front_hits(&self, vertex: usize) -> &[FrontHit] {
-        self.answers.hits.get(vertex - self.answers.range.start).map_or(&[], Vec::as_slice)
+        self.hits.get(vertex - self.range.start).map_or(&[], Vec::as_slice)
     }
 
     /// The blocked directions of a vertex, in increasing order.
@@ -187,12 +135,12 @@ impl TracedRays {
 
     /// One bit per direction of a vertex, set if the direction is blocked.
     fn words(&self, vertex: usize) -> &[u64] {
-        let RayAnswers { range, words, blocked, .. } = &self.answers;
+        let Self { range, words, blocked, .. } = self;
         &blocked[(vertex - range.start) * words..(vertex - range.start + 1) * words]
     }
 
     fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), InputError> {
-        let RayAnswers { range, words, blocked, counts, .. } = &mut self.answers;
+        let Self { range, words, blocked, counts, .. } = self;
         let words = *words;
         for (first, blocked) in range.clone().step_by(BLOCK).zip(blocked.chunks_mut(BLOCK * words)) {
             let asked: Vec<VertexRays> = blocked
@@ -239,9 +187,9 @@ impl TracedRays {
                 .zip(&answered)
                 .map(|((directions, rays), hits)| shooter.front_hits(directions, rays, hits))
                 .collect();
-            let RayAnswers { counts, hits, keeps_hits, .. } = &mut self.answers;
+            let Self { rule, counts, hits, keeps_hits, .. } = self;
             for (&vertex, (front, behind)) in block.iter().zip(found) {
-                if counts.dark.binary_search(&vertex).is_ok() && 2 * behind > self.rule.len() as u64 {
+                if counts.dark.binary_search(&vertex).is_ok() && 2 * behind > rule.len() as u64 {
                     counts.buried.push(vertex);
                 }
                 if *keeps_hits {

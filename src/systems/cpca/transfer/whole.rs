@@ -53,51 +53,22 @@ impl Transfer {
         bounces: Bounces,
     ) -> Result<Self, InputError> {
         check_bounces(vertices, rays, bounces)?;
-        let direct = Self::direct(vertices, rays, responses, light_order)?;
-        Self::with_bounces(vertices, rays, responses, light_order, (direct, bounces))
-    }
-
-    /// Computes the matrices of direct light at the vertices whose rays were traced, concatenated, row by row. Each
-    /// matrix is independent of the range.
-    pub fn direct(
-        vertices: &Vertices,
-        rays: &TracedRays,
-        responses: &[Response],
-        light_order: usize,
-    ) -> Result<Vec<f32>, InputError> {
         if let Some((triangle, material)) = unknown_material(vertices, responses) {
             return Err(input_error!("crossbar::prt::precompute" =>
                     "triangle {triangle} has material {material}, expected one below {} (counted from 0)",
                     responses.len()));
         }
         check(rays, responses, light_order)?;
-        if rays.range().end > vertices.len() {
-            differ("vertices of rays", [vertices.len(), rays.range().end])?;
-        }
-        Ok(TransferGather::new(vertices, rays, responses, light_order).direct())
-    }
-
-    /// Completes the result of [`Self::direct`] for all vertices with bounces. Without bounces, the results of single
-    /// rays are not needed. Fails as [`Self::new`] does, and if there is not one matrix per vertex.
-    pub fn with_bounces(
-        vertices: &Vertices,
-        rays: &TracedRays,
-        responses: &[Response],
-        light_order: usize,
-        (direct, bounces): (Vec<f32>, Bounces),
-    ) -> Result<Self, InputError> {
-        check(rays, responses, light_order)?;
-        check_bounces(vertices, rays, bounces)?;
         let (basis, columns) = (responses[0].basis().clone(), function_count(light_order));
         let size = basis.len() * columns;
-        differ("numbers", [vertices.len() * size, direct.len()])?;
+        let gather = TransferGather::new(vertices, rays, responses, light_order);
+        let direct = gather.direct();
         let most = match bounces {
             Bounces::Count(most) | Bounces::Tolerance { most, .. } => most,
         };
         if most == 0 {
             return Ok(Self { basis, columns, values: direct, bounces: Vec::new() });
         }
-        let gather = TransferGather::new(vertices, rays, responses, light_order);
         let whole = squares(&direct, size);
         let least = match bounces {
             Bounces::Count(_) => 0.0,

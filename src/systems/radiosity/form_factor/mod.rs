@@ -20,7 +20,6 @@ use crate::linalg::Matrix;
 pub use closure::RowSums;
 pub(super) use polygon::clipped;
 pub use polygon::point_to_polygon;
-pub use rows::FormFactorRows;
 pub use visibility::VisibilityParameters;
 pub(super) use visibility::point_share;
 

@@ -1,14 +1,11 @@
-//! Links of bands (rows of texels); bands are computed independently of each other.
+//! Links of bands (rows of texels), which are computed in parallel.
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::choice::{self, LinkChoice};
 use crate::error::{InputError, ensure, input_error};
-use crate::subsurface::Dipole;
 use crate::subsurface::multipole::{BLOCK_LEVEL, BlockReceiver, ClusterId, Factors, SurfaceMoments};
 
 /// Maximum number of factors: 1 GiB.
@@ -17,9 +14,8 @@ pub const MAX_FACTORS: usize = 1 << 28;
 /// Rows of texels that are computed together.
 const BAND: usize = 1 << BLOCK_LEVEL;
 
-/// The links of consecutive bands; a band is a number of rows of texels that are computed together.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct LinkBands {
+/// Links of all texels of an atlas: clusters and factors.
+pub(super) struct LinkBands {
     /// Clusters of adaptive links: texel by texel, row by row, then link by link. Empty for fixed links.
     pub(super) clusters: Vec<PackedCluster>,
     /// Factors texel by texel, row by row, then link by link, then channel by channel.
@@ -27,75 +23,42 @@ pub struct LinkBands {
 }
 
 impl LinkBands {
-    /// Number of bands of an atlas.
-    pub fn count(side: u32) -> usize {
-        side as usize / Self::rows(side)
-    }
-
-    /// Number of rows of texels of a band.
-    pub fn rows(side: u32) -> usize {
-        BAND.min(side as usize)
-    }
-
-    /// Like [`Links::new`](super::Links::new), for a range of bands.
-    pub fn new(
-        surface: &SurfaceMoments,
-        dipoles: &[Dipole],
-        choice: LinkChoice,
-        tolerance: f64,
-        range: Range<usize>,
-        done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Self, InputError> {
-        match *dipoles {
-            [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice, range, done),
-            [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice, range, done),
-            // One dipole per channel: one channel, or red, green and blue.
-            _ => Err(input_error!("subsurface::links" => "expected one dipole, or three, found {}", dipoles.len())),
-        }
-    }
-
-    /// The links of a range of bands with given factors.
+    /// Computes all links with given factors, `per_texel` of them per texel. `done` is called with finished rows of
+    /// texels, and all.
     pub(super) fn with<const N: usize>(
         factors: &Factors<'_, N>,
         choice: LinkChoice,
-        range: Range<usize>,
+        per_texel: usize,
         done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Self, InputError> {
+    ) -> Self {
         let side = factors.surface().side();
-        let per_texel = check(factors.surface(), choice, N)?;
-        let rows = range.len() * Self::rows(side);
-        let links = rows * side as usize * per_texel;
+        let rows = side as usize;
+        let links = rows * rows * per_texel;
         let mut bands = Self { clusters: Vec::new(), factors: vec![0.0; links * N] };
         let count_of_rows = AtomicUsize::new(0);
         let band_done = || {
-            let before = count_of_rows.fetch_add(Self::rows(side), Ordering::Relaxed);
-            done(before + Self::rows(side), rows);
+            let of_band = BAND.min(rows);
+            done(count_of_rows.fetch_add(of_band, Ordering::Relaxed) + of_band, rows);
         };
         match choice {
-            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level, range.start, &band_done),
+            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level, &band_done),
             LinkChoice::Adaptive { count } => {
                 // An unused link has the factor 0 and points to the root.
                 bands.clusters = vec![PackedCluster::new(root(factors.surface())); links];
-                bands.fill_adaptive(factors, per_texel, count, range.start, &band_done);
+                bands.fill_adaptive(factors, per_texel, count, &band_done);
             }
         }
-        Ok(bands)
+        bands
     }
 
-    fn fill_fixed<const N: usize>(
-        &mut self,
-        factors: &Factors<'_, N>,
-        level: u32,
-        first: usize,
-        band_done: &(dyn Fn() + Sync),
-    ) {
+    fn fill_fixed<const N: usize>(&mut self, factors: &Factors<'_, N>, level: u32, band_done: &(dyn Fn() + Sync)) {
         let side = factors.surface().side();
         let ids: Vec<ClusterId> = fixed_clusters(side, level).collect();
         let per_texel = ids.len();
         let bands = self.factors.par_chunks_mut(BAND * side as usize * per_texel * N);
         bands.enumerate().for_each(|(band, into)| {
             let mut block = BlockReceiver::new(factors.receiver());
-            for square in squares(side, first + band) {
+            for square in squares(side, band) {
                 block.visit(square, &ids, &mut |texel| {
                     let into = &mut into[place_in_band(side, texel.texel()) * per_texel * N..][..per_texel * N];
                     for (node, into) in into.chunks_exact_mut(N).enumerate() {
@@ -112,7 +75,6 @@ impl LinkBands {
         factors: &Factors<'_, N>,
         per_texel: usize,
         count: usize,
-        first: usize,
         band_done: &(dyn Fn() + Sync),
     ) {
         let (side, root) = (factors.surface().side(), root(factors.surface()));
@@ -120,7 +82,7 @@ impl LinkBands {
         let bands = bands.zip(self.factors.par_chunks_mut(BAND * side as usize * per_texel * N));
         bands.enumerate().for_each(|(band, (ids, into))| {
             let mut block = BlockReceiver::new(factors.receiver());
-            for square in squares(side, first + band) {
+            for square in squares(side, band) {
                 block.visit(square, &[root], &mut |texel| {
                     let links = choice::adaptive(texel, count);
                     let at = place_in_band(side, texel.texel());
@@ -135,16 +97,10 @@ impl LinkBands {
             band_done();
         });
     }
-
-    /// Appends the bands that follow.
-    pub fn append(&mut self, next: Self) {
-        self.clusters.extend(next.clusters);
-        self.factors.extend(next.factors);
-    }
 }
 
 /// A cluster in 32 bits: level, row and column of 4, 14 and 14 bits. Atlases have at most 8192 texels per side.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PackedCluster(u32);
 
 impl PackedCluster {
@@ -162,7 +118,8 @@ pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usiz
     let side = surface.side();
     match choice {
         LinkChoice::Fixed { level } if level >= surface.level_count() => {
-            return Err(level_error(level, surface.level_count()));
+            let levels = surface.level_count();
+            return Err(input_error!("subsurface::links" => "expected a level below {levels}, found {level}"));
         }
         LinkChoice::Adaptive { count: 0 } => {
             return Err(input_error!("subsurface::links" => "expected at least one link per texel"));
@@ -175,11 +132,6 @@ pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usiz
         "{links} links of {channels} channels per texel at {side} x {side} texels are {factors} numbers, \
          expected at most {MAX_FACTORS}");
     Ok(links)
-}
-
-/// The error of a level that an atlas does not have.
-pub(super) fn level_error(found: u32, levels: u32) -> InputError {
-    input_error!("subsurface::links" => "expected a level below {levels}, found {found}")
 }
 
 /// The clusters of fixed links, which all texels share.

@@ -1,7 +1,6 @@
 //! Links (section 4.2.1): the clusters from which each texel gathers irradiance, each with its throughput factor.
 //!
-//! - [`Links`]: fixed or adaptive links, with one factor per link or three; [`LinkBands`]: links of some rows of
-//!   texels;
+//! - [`Links`]: fixed or adaptive links, with one factor per link or three;
 //! - [`IrradianceMeans`]: the mean irradiance of every cluster, by area or by number of texels;
 //! - [`EncodedLinks`]: links as texels of textures, and the numbers that fp16 cannot represent.
 
@@ -11,11 +10,11 @@ mod encode;
 mod gather;
 
 use super::Dipole;
-use super::multipole::{ClusterId, Factors, SurfaceMoments, check_values};
-use crate::error::InputError;
-use bands::{PackedCluster, check, fixed_clusters, level_error};
+use super::multipole::{ClusterId, Factors, SurfaceMoments};
+use crate::error::{InputError, input_error};
+use bands::{LinkBands, PackedCluster, check, fixed_clusters};
 
-pub use bands::{LinkBands, MAX_FACTORS};
+pub use bands::MAX_FACTORS;
 pub use choice::LinkChoice;
 pub use encode::{EncodedLinks, LinkPlace, LostFactors};
 pub use gather::{IrradianceMeans, MeanWeighting};
@@ -50,8 +49,12 @@ impl Links {
         tolerance: f64,
         done: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<Self, InputError> {
-        let all = LinkBands::new(surface, dipoles, choice, tolerance, 0..LinkBands::count(surface.side()), done)?;
-        Self::of_bands(surface, dipoles.len(), choice, all)
+        match *dipoles {
+            [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice, done),
+            [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice, done),
+            // One dipole per channel: one channel, or red, green and blue.
+            _ => Err(input_error!("subsurface::links" => "expected one dipole, or three, found {}", dipoles.len())),
+        }
     }
 
     /// Computes the links of every texel with given factors. Fails as [`Self::new`] does.
@@ -60,35 +63,12 @@ impl Links {
         choice: LinkChoice,
         done: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<Self, InputError> {
-        let surface = factors.surface();
-        let all = LinkBands::with(factors, choice, 0..LinkBands::count(surface.side()), done)?;
-        Self::of_bands(surface, N, choice, all)
-    }
-
-    /// Combines the links of all bands, in order. Fails with [`InputError`] if they are not the bands of this atlas
-    /// with this choice.
-    pub fn of_bands(
-        surface: &SurfaceMoments,
-        channels: usize,
-        choice: LinkChoice,
-        bands: LinkBands,
-    ) -> Result<Self, InputError> {
-        let (side, per_texel) = (surface.side(), check(surface, choice, channels)?);
-        let texels = side as usize * side as usize;
-        let LinkBands { mut clusters, factors } = bands;
-        let own = if matches!(choice, LinkChoice::Adaptive { .. }) { texels * per_texel } else { 0 };
-        let expected = [own, texels * per_texel * channels];
-        for (found, texels) in [clusters.len(), factors.len()].into_iter().zip(expected) {
-            check_values(found, texels)?;
-        }
-        let levels = surface.level_count();
-        if let Some(beyond) = clusters.iter().map(|cluster| cluster.id()).find(|id| !id.is_of(side, levels)) {
-            return Err(level_error(beyond.level, levels));
-        }
+        let (side, per_texel) = (factors.surface().side(), check(factors.surface(), choice, N)?);
+        let LinkBands { mut clusters, factors } = LinkBands::with(factors, choice, per_texel, done);
         if let LinkChoice::Fixed { level } = choice {
             clusters = fixed_clusters(side, level).map(PackedCluster::new).collect();
         }
-        Ok(Self { side, choice, channels, per_texel, clusters, factors })
+        Ok(Self { side, choice, channels: N, per_texel, clusters, factors })
     }
 
     /// Texels along a side of the atlas.

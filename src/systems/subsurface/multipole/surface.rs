@@ -20,13 +20,6 @@ pub struct ClusterId {
     pub x: u32,
 }
 
-impl ClusterId {
-    /// Returns `true` if an atlas with this side and number of levels contains the cluster.
-    pub fn is_of(self, side: u32, levels: u32) -> bool {
-        self.level < levels && self.x.max(self.y) < side >> self.level
-    }
-}
-
 /// The moments (area, mean point, covariance) of every cluster of an atlas, in mm. Clusters of a level are in Morton
 /// order, so the children of cluster k are the clusters 4 k to 4 k + 3 of the next finer level.
 #[derive(Clone, Debug)]

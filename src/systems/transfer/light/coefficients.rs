@@ -1,7 +1,6 @@
 //! A light's Haar coefficients, and the few that matter most (section 6; \[NRH03\]'s "non-linear" approximation).
 
 use super::cube_light::CubeLight;
-use crate::error::{InputError, input_error};
 use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation, light_texel};
 use crate::transfer::haar::Haar;
 
@@ -95,17 +94,14 @@ impl HaarLight {
     }
 }
 
-/// The criterion by which coefficients are chosen, one of \[NRH03\]'s three.
+/// The criterion by which coefficients are chosen, of \[NRH03\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum TruncationPriority<'a> {
+pub enum TruncationPriority {
     /// Magnitude.
     #[default]
     Magnitude,
     /// Magnitude times the solid angle of the basis function's support.
     Area,
-    /// Magnitude times the mean response of the transfer to the coefficient, over all vertices: one number per
-    /// coefficient, in the light's segments.
-    Transfer(&'a [f64]),
 }
 
 /// A truncated light and the kept energy.
@@ -126,18 +122,11 @@ pub struct LightTruncation {
 impl HaarLight {
     /// The light with at most `keep` coefficients. A coefficient is kept in all three channels or in none; its
     /// magnitude is the root of the sum of the channels' squares, so that all channels have the same zeros. Among equal
-    /// priorities the lowest index is kept. Fails with [`InputError`] if there is not one mean response per
-    /// coefficient.
-    pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, InputError> {
+    /// priorities the lowest index is kept.
+    pub fn truncated(&self, keep: usize, priority: TruncationPriority) -> LightTruncation {
         let weights = match priority {
             TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],
             TruncationPriority::Area => support_areas(self.segmentation()),
-            TruncationPriority::Transfer(responses) if responses.len() == LIGHT_TEXELS => responses.to_vec(),
-            TruncationPriority::Transfer(responses) => {
-                return Err(input_error!("crossbar::prt::light" =>
-                        "expected {LIGHT_TEXELS} responses, one per coefficient of the light, found {}",
-                        responses.len()));
-            }
         };
         let mut order: Vec<(f64, usize)> = (0..LIGHT_TEXELS)
             .filter(|&at| self.energy_at(at) != 0.0)
@@ -153,7 +142,7 @@ impl HaarLight {
         let light = Self { segmentation: self.segmentation, channels };
         let (energy, kept) = (self.energy(), light.energy());
         let kept_energy = if energy > 0.0 { kept / energy } else { 1.0 };
-        Ok(LightTruncation { light, nonzero, kept: order.len(), energy, kept_energy })
+        LightTruncation { light, nonzero, kept: order.len(), energy, kept_energy }
     }
 }
 

@@ -1,7 +1,5 @@
 //! Visibility maps: one bit per vertex and fine direction.
 
-use std::ops::Range;
-
 use serde::{Deserialize, Serialize};
 
 use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections};
@@ -60,7 +58,7 @@ pub enum Horizon {
 pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 
 /// Numbers of directions, and vertices with defects.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VisibilityCounts {
     /// Directions above the horizon of their vertex's normal.
     pub above: u64,
@@ -74,20 +72,9 @@ pub struct VisibilityCounts {
     pub unclear: Vec<u32>,
 }
 
-impl VisibilityCounts {
-    /// Adds the counts of the vertices that follow.
-    fn append(&mut self, next: Self) {
-        self.above += next.above;
-        self.below_triangles += next.below_triangles;
-        self.traced += next.traced;
-        self.visible += next.visible;
-        self.unclear.extend(next.unclear);
-    }
-}
-
 /// The visibility q_p of some vertices: one bit per vertex and fine direction, 1 if the vertex sees the light.
 /// Directions below the vertex's horizon are 0.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VisibilityMaps {
     sampling: VisibilitySampling,
     vertices: Vec<u32>,
@@ -128,22 +115,6 @@ impl VisibilityMaps {
         let lower = |vertex: &mut u32| *vertex = vertex.checked_sub(first).expect("a vertex of the second mesh");
         self.vertices.iter_mut().chain(&mut self.counts.unclear).for_each(lower);
         self
-    }
-
-    /// Appends the maps of other vertices in the same sampling. Panics if the samplings differ.
-    pub fn append(&mut self, next: Self) {
-        assert_eq!(self.sampling, next.sampling, "maps of one sampling");
-        self.vertices.extend(next.vertices);
-        self.words.extend(next.words);
-        self.counts.append(next.counts);
-    }
-
-    /// True if these are the maps of exactly the vertices of a range, in order.
-    pub fn are_of(&self, range: &Range<usize>) -> bool {
-        let vertices = self.vertices.iter().map(|&vertex| vertex as usize);
-        self.sampling.log2_samples <= VisibilitySampling::default().log2_samples
-            && vertices.eq(range.clone())
-            && self.words.len() == range.len() * self.sampling.words()
     }
 
     /// All words, map by map.

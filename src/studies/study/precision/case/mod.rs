@@ -4,7 +4,6 @@ mod drawn;
 mod errors;
 
 use std::collections::BTreeMap;
-use std::fmt::Debug;
 
 use refsim::device::Profile;
 use refsim::isa::{Destination, Instruction, Program, Register, RegisterFile};
@@ -99,11 +98,7 @@ impl PrecisionSubject for CaseSubject {
         &self.measures
     }
 
-    fn content(&self) -> &dyn Debug {
-        &self.setup
-    }
-
-    /// One code, or a mean error of one percent if no target has codes.
+    /// One code, or one percent on the average where no target has codes.
     fn default_goal(&self) -> Goal {
         let first = self.measures[0];
         let bound = if first == LARGEST_CODES { 1.0 } else { 0.01 };

@@ -1,6 +1,5 @@
 //! Systems whose values are compared with their own exact run.
 
-use std::fmt::Debug;
 use std::sync::Arc;
 
 use refsim::device::Profile;
@@ -108,10 +107,6 @@ impl PrecisionSubject for SystemSubject {
 
     fn measures(&self) -> &[PrecisionMeasure] {
         &MEASURES
-    }
-
-    fn content(&self) -> &dyn Debug {
-        &self.exact
     }
 
     fn default_goal(&self) -> Goal {

@@ -1,6 +1,5 @@
 //! The Ray Engine: eye rays on the teapot, judged by exact arithmetic.
 
-use std::fmt::Debug;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
@@ -150,11 +149,7 @@ impl PrecisionSubject for RayEngineSubject {
         &MEASURES
     }
 
-    fn content(&self) -> &dyn Debug {
-        &MEASURES
-    }
-
-    /// At most one ray in a thousand is wrong. Leaks alone would not suffice: a format in which every ray hits
+    /// At most one ray in a thousand is wrong. Leaks alone are no sufficient goal: a format in which every ray hits
     /// something has none.
     fn default_goal(&self) -> Goal {
         at_most("wrong", 0.001)

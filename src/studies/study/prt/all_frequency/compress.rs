@@ -1,16 +1,13 @@
 //! Transfer computed, compressed and coded, one segment of the light at a time.
 
-use std::ops::Range;
 use std::time::Instant;
-
-use serde::{Deserialize, Serialize};
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::clustering::CpcaError;
-use crate::split::{Computed, Concatenate, KeptResults, SplitRun};
+use crate::kept::KeptResults;
 use crate::study::{ProgressFn, StudyError};
 use crate::transfer::Vertices;
 use crate::transfer::grid::Segmentation;
@@ -18,26 +15,6 @@ use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 
 use super::tally::{CompressionTally, SegmentTally};
-
-/// A finished segment: its code and errors, or `None` if its transfer is 0.
-type FinishedSegment = Option<(CodedSegment, SegmentTally)>;
-
-/// Finished segments of a range.
-#[derive(Debug, Default, Serialize, Deserialize)]
-struct FinishedSegments(Vec<FinishedSegment>);
-
-impl Concatenate for FinishedSegments {
-    fn are_of(&self, range: &Range<usize>) -> bool {
-        let is = |(segment, found): (usize, &FinishedSegment)| {
-            found.as_ref().is_none_or(|(coded, _)| coded.segment == segment)
-        };
-        self.0.are_of(range) && range.clone().zip(&self.0).all(is)
-    }
-
-    fn append(&mut self, next: Self) {
-        self.0.extend(next.0);
-    }
-}
 
 /// Transfer to be compressed, and options.
 #[derive(Debug)]
@@ -68,37 +45,11 @@ impl SegmentedCompression<'_> {
     /// Compresses and codes all segments. Fails if transfer cannot be computed, compressed or coded, or finished
     /// segments cannot be stored or read back.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
-        let found = self.of_range(0..Segmentation::Quarters.count(), progress)?;
-        Ok(self.whole(found))
-    }
-
-    /// Like [`Self::run`], for a whole run, for the segments of a part, or from merged parts. Fails as [`Self::run`]
-    /// does, and with an [`InputError`](crate::error::InputError) if a part is invalid.
-    pub fn run_split(
-        &self,
-        split: &SplitRun,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<(CodedTransfer, CompressionTally)>, StudyError> {
-        let of_range = |range| self.of_range(range, progress);
-        let found = match split.compute("segments", Segmentation::Quarters.count(), of_range)? {
-            Computed::Whole(found) => found,
-            Computed::Part(part) => return Ok(Computed::Part(part)),
-        };
-        let (coded, tally) = self.whole(found);
-        match coded.fault() {
-            None => Ok(Computed::Whole((coded, tally))),
-            Some(fault) => {
-                let what = format!("expected the segments of this transfer, found a contradiction in the {fault}");
-                Err(StudyError::new("crossbar::prt::segments", what).with_help("compute all parts anew"))
-            }
-        }
-    }
-
-    fn of_range(&self, range: Range<usize>, progress: &mut ProgressFn<'_>) -> Result<FinishedSegments, StudyError> {
         let hats = LinearBasis::new(self.hats);
         let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
+        let count = Segmentation::Quarters.count();
         let finished = |segment: usize| {
-            progress("segments", (segment - range.start) as u64, range.len() as u64);
+            progress("segments", segment as u64, count as u64);
             let compute = || {
                 let start = Instant::now();
                 let found = transfer.segment(segment)?;
@@ -109,14 +60,11 @@ impl SegmentedCompression<'_> {
                 None => compute(),
             }
         };
-        range.clone().map(finished).collect::<Result<_, _>>().map(FinishedSegments)
-    }
-
-    fn whole(&self, found: FinishedSegments) -> (CodedTransfer, CompressionTally) {
-        let (segments, tallies) = found.0.into_iter().flatten().unzip();
+        let found = (0..count).map(finished).collect::<Result<Vec<_>, StudyError>>()?;
+        let (segments, tallies) = found.into_iter().flatten().unzip();
         let (rows, coefficients) = (self.reflectance.terms(), Segmentation::Quarters.len());
         let coded = CodedTransfer { rows, coefficients, vertices: self.vertices.len(), options: self.code, segments };
-        (coded, CompressionTally { segments: tallies })
+        Ok((coded, CompressionTally { segments: tallies }))
     }
 
     /// Compresses and codes a segment, whose transfer took `seconds` to compute.

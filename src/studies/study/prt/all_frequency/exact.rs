@@ -20,7 +20,7 @@ pub(in crate::study) fn coefficients(
     keep: Option<usize>,
 ) -> Result<LightTruncation, InputError> {
     let light = HaarLight::new(&light.cube(&DMat3::IDENTITY, decimation)?, Segmentation::Quarters);
-    light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area)
+    Ok(light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area))
 }
 
 /// Transferred radiance per light and vertex: m rows of three channels. The matrices, which take nearly all the time,

@@ -2,12 +2,9 @@
 
 use std::ops::Range;
 
-use serde::{Deserialize, Serialize};
-
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
-use crate::split::{Computed, Concatenate, SplitRun};
 use crate::study::{ProgressFn, StudyError};
 use crate::tracer::Caster;
 use crate::transfer::Vertices;
@@ -39,60 +36,25 @@ pub struct FoundSight {
     pub census: SegmentCensus,
 }
 
-/// Visibility at the vertices of a range, the model's before the ground's.
-#[derive(Debug, Serialize, Deserialize)]
-struct SightRange {
-    /// Number of the model's vertices in all ranges together.
-    of_model: usize,
-    model: VisibilityMaps,
-    ground: VisibilityMaps,
-}
-
-impl Concatenate for SightRange {
-    fn are_of(&self, range: &Range<usize>) -> bool {
-        let [model, ground] = parted(range, self.of_model);
-        self.model.are_of(&model) && self.ground.are_of(&ground)
-    }
-
-    fn append(&mut self, next: Self) {
-        self.model.append(next.model);
-        self.ground.append(next.ground);
-    }
-}
-
-/// Splits a range at an index.
-fn parted(range: &Range<usize>, at: usize) -> [Range<usize>; 2] {
-    [range.start.min(at)..range.end.min(at), range.start.max(at)..range.end.max(at)]
-}
-
 impl SightOfModel<'_> {
-    /// Casts the rays with a caster of the scene that sees both sides, first for the model, then for the ground; or
-    /// only for a part. Fails with an [`InputError`](crate::error::InputError) in a study error.
+    /// Casts the rays by a caster of the scene that sees both sides: the model's, then the ground's. Fails with
+    /// [`InputError`](crate::error::InputError), in a study's.
     pub fn run(
         self,
         caster: &mut dyn Caster,
-        split: &SplitRun,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<Computed<(FoundSight, Option<FoundSight>)>, StudyError> {
-        let count = self.vertices.len();
+    ) -> Result<(FoundSight, Option<FoundSight>), StudyError> {
+        let count = self.vertices.len() as u32;
         let joined = self.ground.map(|ground| self.vertices.joined(ground));
         let vertices = joined.as_ref().unwrap_or(self.vertices);
-        let found = split.compute("vertices", vertices.len(), |range| {
-            let mut maps = |of: Range<usize>| {
-                let of: Vec<u32> = of.map(|vertex| vertex as u32).collect();
-                let mut done = |done: usize, of: usize| progress("visibility", done as u64, of as u64);
-                VisibilityMaps::trace(vertices, &of, caster, &mut done)
-            };
-            let [model, ground] = parted(&range, count);
-            Ok::<_, StudyError>(SightRange { of_model: count, model: maps(model)?, ground: maps(ground)? })
-        })?;
-        let SightRange { model, ground, .. } = match found {
-            Computed::Whole(found) => found,
-            Computed::Part(part) => return Ok(Computed::Part(part)),
+        let mut maps = |of: Range<u32>| {
+            let of: Vec<u32> = of.collect();
+            let mut done = |done: usize, of: usize| progress("visibility", done as u64, of as u64);
+            VisibilityMaps::trace(vertices, &of, caster, &mut done)
         };
-        let below =
-            self.ground.map(|vertices| self.found(vertices, ground.counted_from(count as u32), Reflectance::Diffuse));
-        Ok(Computed::Whole((self.found(self.vertices, model, self.reflectance.clone()), below)))
+        let [model, ground] = [maps(0..count)?, maps(count..vertices.len() as u32)?];
+        let below = self.ground.map(|vertices| self.found(vertices, ground.counted_from(count), Reflectance::Diffuse));
+        Ok((self.found(self.vertices, model, self.reflectance.clone()), below))
     }
 
     fn found(&self, vertices: &Vertices, maps: VisibilityMaps, reflectance: Reflectance) -> FoundSight {

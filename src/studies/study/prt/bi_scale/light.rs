@@ -10,19 +10,19 @@ use crate::transfer::light::CubeLight;
 
 /// L~ of all vertices.
 #[derive(Clone, Debug)]
-pub struct LocalLight {
+pub(in crate::study) struct LocalLight {
     /// `biclusters` or `rows`.
-    pub way: &'static str,
+    pub(super) way: &'static str,
     /// Red, green and blue of each row of the transfer.
-    pub rows: Vec<[f64; 3]>,
+    pub(in crate::study) rows: Vec<[f64; 3]>,
     /// Time of the multiplication.
-    pub seconds: f64,
+    pub(super) seconds: f64,
 }
 
 impl LocalLight {
-    /// Product of the light and a file's transfer: by its biclusters if it has any, otherwise by its matrix; `None` if
-    /// it has neither. Panics if the number of columns differs from the number of light texels.
-    pub fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
+    /// The light times a file's transfer, by its biclusters if it has any, otherwise by its matrix; `None` without
+    /// both. Panics if the number of columns is not that of light texels.
+    pub(super) fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
         let gather = Gather::new(biclusters);
         let channels = light_vectors(light);
@@ -35,9 +35,8 @@ impl LocalLight {
         Some(Self { way: "biclusters", rows: rows.into_iter().map(|row| row.map(f64::from)).collect(), seconds })
     }
 
-    /// Local light in f64: by the file's matrix if it has one, otherwise by its biclusters. Panics as [`Self::new`]
-    /// does.
-    pub fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
+    /// Local light in f64, by the file's matrix if it has one, else by its biclusters. Panics as [`Self::new`] does.
+    pub(super) fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let channels = light_vectors(light);
         let start = Instant::now();
         let (way, channels) = match (&file.matrix, &file.biclusters) {

@@ -11,6 +11,5 @@ mod surface;
 
 pub(in crate::study) use cause_pictures::CausePictures;
 pub(in crate::study) use drawing::BiScaleDrawing;
-pub use light::LocalLight;
 pub use subject::{BiScaleRendering, SurfaceTexture};
 pub use surface::{TexturedSurface, creased};

@@ -12,9 +12,7 @@ use std::path::Path;
 use crossbar_studies::case::Setup;
 use crossbar_studies::report::Verdict;
 use crossbar_studies::study::Study as _;
-use crossbar_studies::study::precision::{
-    CaseSubject, FormatCosts, FormatFamily, KnownRuns, Precision, PrecisionSubject,
-};
+use crossbar_studies::study::precision::{CaseSubject, FormatCosts, FormatFamily, Precision, PrecisionSubject};
 use refsim::device::{Profile, takes_format};
 use refsim::machine::ExecutorKind;
 use refsim::num::Format;
@@ -50,7 +48,6 @@ fn study_of(subject: Box<dyn PrecisionSubject>, goal: &str, families: &[FormatFa
         families: families.to_vec(),
         budget: 10_000,
         costs: FormatCosts::default(),
-        known: KnownRuns::default(),
     }
 }
 

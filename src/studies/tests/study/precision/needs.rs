@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-use std::fmt::Debug;
 use std::rc::Rc;
 
 use crossbar_base::elementary::pow;
@@ -96,10 +95,6 @@ impl PrecisionSubject for Told {
 
     fn default_goal(&self) -> Goal {
         self.case.default_goal()
-    }
-
-    fn content(&self) -> &dyn Debug {
-        self.case.content()
     }
 
     fn measure(&self, profile: &Profile, _: ExecutorKind, _: Option<&str>) -> Result<Measured, StudyError> {

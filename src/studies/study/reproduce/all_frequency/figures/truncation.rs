@@ -50,7 +50,7 @@ fn on_faces(turn: &DMat3) -> Result<HaarLight, StudyError> {
 }
 
 fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, StudyError> {
-    let cut = light.truncated(keep, TruncationPriority::Area).on(HOST)?;
+    let cut = light.truncated(keep, TruncationPriority::Area);
     Ok(cut.light.reprojected(Segmentation::Quarters))
 }
 

@@ -1,40 +1,15 @@
-//! Parts of a run, and results that long work stores.
+//! Results that are kept while long work runs.
 
 use std::cell::Cell;
 use std::fs;
 use std::rc::Rc;
 
 use crossbar_base::error::InputError;
-use crossbar_studies::split::{KeptResults, PartNumber, SpentTime, SplitCommand};
+use crossbar_studies::kept::{KeptResults, KeptWork, SpentTime};
 use crossbar_studies::study::reproduce::tested::bunny_in_pieces;
 
-#[test]
-fn every_item_is_in_one_part() {
-    for count in [0, 1, 2, 3, 24, 1000, usize::MAX] {
-        for of in [1, 2, 3, 7, 24, 25, 1001] {
-            let ranges = (1..=of).map(|number| PartNumber::new(number, of).expect("a part").range(count));
-            let mut next = 0;
-            for range in ranges {
-                assert_eq!(range.start, next, "{count} items in {of} parts");
-                assert!(range.len().abs_diff(count / of as usize) <= 1, "{count} items in {of} parts: {range:?}");
-                next = range.end;
-            }
-            assert_eq!(next, count);
-        }
-    }
-}
-
-#[test]
-fn what_is_no_part_is_refused() {
-    for text in ["", "1", "0/2", "3/2", "-1/2", "1/0", "1/2/3", "a/b", "1/1000001", "1 / 2"] {
-        assert!(text.parse::<PartNumber>().is_err(), "{text}");
-    }
-    let part: PartNumber = "2/8".parse().expect("a part");
-    assert_eq!((part.number(), part.of()), (2, 8));
-}
-
-fn command(program: &str, entry: &str) -> SplitCommand {
-    SplitCommand { program: program.to_owned(), arguments: vec!["reproduce".to_owned(), entry.to_owned()] }
+fn work(program: &str, entry: &str) -> KeptWork {
+    KeptWork::new(program.to_owned(), format!("crossbar reproduce {entry}"), &[]).expect("no inputs")
 }
 
 thread_local!(static NOW: Cell<f64> = const { Cell::new(0.0) });
@@ -47,9 +22,7 @@ fn clock() -> SpentTime {
 #[test]
 fn work_that_was_stopped_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");
-    let kept = |program, entry| {
-        KeptResults::new(folder.path().join("kept"), command(program, entry), clock).expect("no inputs")
-    };
+    let kept = |program, entry| KeptResults::new(folder.path().join("kept"), work(program, entry), clock);
     let computed = Cell::new(0);
     let get = |kept: &KeptResults, name: &str| {
         kept.get(name, || {
@@ -65,7 +38,7 @@ fn work_that_was_stopped_goes_on() {
     kept("1", "a").require_no_other_work().expect("work of its own");
     for (program, entry) in [("1", "b"), ("2", "a")] {
         let refused = kept(program, entry).require_no_other_work().expect_err("other work").to_string();
-        assert!(refused.contains("/one.part: expected a result of\n"), "{refused}");
+        assert!(refused.contains("/one.kept: expected a result of\n"), "{refused}");
         let [expected, found] = match program {
             "2" => ["crossbar 2", "crossbar 1"],
             _ => ["crossbar reproduce b", "crossbar reproduce a"],
@@ -76,7 +49,7 @@ fn work_that_was_stopped_goes_on() {
     }
     let none = || InputError::new("", "no result");
     let failed = kept("1", "a").get::<u8, _>("three", || Err(none()));
-    assert!(failed == Err(none()) && !folder.path().join("kept/three.part").exists());
+    assert!(failed == Err(none()) && !folder.path().join("kept/three.kept").exists());
     kept("1", "a").remove().expect("removed");
     assert!(!folder.path().join("kept").exists());
     kept("1", "a").remove().expect("nothing to remove");
@@ -86,8 +59,8 @@ fn work_that_was_stopped_goes_on() {
 #[test]
 fn time_is_that_of_all_runs() {
     let folder = tempfile::tempdir().expect("a folder");
-    let open = || KeptResults::new(folder.path().to_owned(), command("1", "a"), clock).expect("no inputs");
-    let work = |kept: &KeptResults, name: &str, seconds: f64| {
+    let open = || KeptResults::new(folder.path().to_owned(), work("1", "a"), clock);
+    let spend = |kept: &KeptResults, name: &str, seconds: f64| {
         let compute = || {
             NOW.set(NOW.get() + seconds);
             Ok::<_, InputError>(0)
@@ -96,14 +69,14 @@ fn time_is_that_of_all_runs() {
     };
     NOW.set(1000.0);
     let first = open();
-    work(&first, "one", 10.0);
-    work(&first, "two", 5.0);
+    spend(&first, "one", 10.0);
+    spend(&first, "two", 5.0);
     assert_eq!(first.spent(), SpentTime { processor_s: Some(30.0), wall_s: 15.0 });
     // The run stops in the middle of the third result.
     NOW.set(5000.0);
     let second = open();
     for name in ["one", "two", "three"] {
-        work(&second, name, 7.0);
+        spend(&second, name, 7.0);
     }
     assert_eq!(second.spent(), SpentTime { processor_s: Some(44.0), wall_s: 22.0 });
 }
@@ -111,10 +84,10 @@ fn time_is_that_of_all_runs() {
 #[test]
 fn a_damaged_result_is_computed_again() {
     let folder = tempfile::tempdir().expect("a folder");
-    let kept = KeptResults::new(folder.path().to_owned(), command("1", "a"), clock).expect("no inputs");
+    let kept = KeptResults::new(folder.path().to_owned(), work("1", "a"), clock);
     let get = |result: u32| kept.get("one", || Ok::<_, InputError>(result)).expect("a result");
     assert_eq!([get(7), get(8)], [7, 7]);
-    let path = folder.path().join("one.part");
+    let path = folder.path().join("one.kept");
     let whole = fs::read(&path).expect("a file");
     for damaged in [whole[..whole.len() - 1].to_vec(), b"nothing".to_vec(), Vec::new()] {
         fs::write(&path, damaged).expect("written");
@@ -129,7 +102,7 @@ fn a_damaged_result_is_computed_again() {
 #[test]
 fn a_folder_that_cannot_be_made_is_said() {
     let file = tempfile::NamedTempFile::new().expect("a file");
-    let kept = KeptResults::new(file.path().join("folder"), command("1", "a"), clock).expect("no inputs");
+    let kept = KeptResults::new(file.path().join("folder"), work("1", "a"), clock);
     let error = kept.get("one", || Ok::<_, InputError>(1)).expect_err("no folder").to_string();
     assert!(error.starts_with("cannot write into the folder "), "{error}");
 }
@@ -138,16 +111,12 @@ fn a_folder_that_cannot_be_made_is_said() {
 #[test]
 fn pieces_make_the_same_model() {
     let folder = tempfile::tempdir().expect("a folder");
-    let kept = || {
-        let command = SplitCommand { program: "1".to_owned(), arguments: Vec::new() };
-        let kept = KeptResults::new(folder.path().to_owned(), command, SpentTime::default);
-        Some(Rc::new(kept.expect("no inputs")))
-    };
+    let kept = || Some(Rc::new(KeptResults::new(folder.path().to_owned(), work("1", "a"), SpentTime::default)));
     let [without, first, taken] = [None, kept(), kept()].map(|kept| bunny_in_pieces(kept).expect("compressed"));
     assert_eq!((&first.0, &taken.0), (&without.0, &without.0), "computed and kept, and taken");
     assert_eq!([first.1, taken.1], [true, false], "a model that is taken needs no visibility");
     // The run stops before the last segment.
-    let path = |piece: &str| folder.path().join(format!("{piece}.part"));
+    let path = |piece: &str| folder.path().join(format!("{piece}.kept"));
     for piece in ["bunny", "bunny-segment-21"] {
         fs::remove_file(path(piece)).expect("a piece");
     }

@@ -1,0 +1,188 @@
+//! Results stored in a folder during long work, so that interrupted work can continue from them.
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
+
+use crate::error::{InputError, input_error};
+use crate::io::{WriteError, write_file};
+use crate::report::sha256;
+
+/// Bytes of the digest at the end of a result's file.
+const DIGEST: usize = 32;
+
+/// The work that results belong to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptWork {
+    /// The program: version, and commit or digest.
+    pub program: String,
+    /// The command that computes the results, as a line, without options that change no result.
+    pub command: String,
+    /// The SHA-256 of every file that the results depend on, by its path as it was opened.
+    pub inputs: BTreeMap<String, String>,
+}
+
+impl KeptWork {
+    /// Work of a program and a command on files. Fails if a file cannot be read, as a pipe cannot a second time.
+    pub fn new(program: String, command: String, inputs: &[&Path]) -> Result<Self, InputError> {
+        let digest = |path: &&Path| match File::open(path).and_then(sha256) {
+            Ok(digest) if path.is_file() => Ok((path.display().to_string(), digest)),
+            Ok(_) => Err(input_error!("crossbar::kept::input" => "{}: expected a file, found a pipe", path.display();
+                help "save it to a file: kept results belong to the contents of their input")),
+            Err(source) => Err(unreadable(path, source)),
+        };
+        Ok(Self { program, command, inputs: inputs.iter().map(digest).collect::<Result<_, _>>()? })
+    }
+
+    /// First difference of other work from this work: program, command, or input.
+    fn difference(&self, found: &Self) -> Option<[String; 2]> {
+        if self.program != found.program {
+            return Some([&self.program, &found.program].map(|program| format!("crossbar {program}")));
+        }
+        if self.command != found.command {
+            return Some([self.command.clone(), found.command.clone()]);
+        }
+        let inputs = [&self.inputs, &found.inputs];
+        let of = |name: &String| {
+            inputs.map(|inputs| match inputs.get(name) {
+                Some(digest) => format!("`{name}` with SHA-256 {digest}"),
+                None => format!("another file than `{name}`"),
+            })
+        };
+        let differs = |name: &&String| inputs[0].get(*name) != inputs[1].get(*name);
+        inputs.iter().flat_map(|inputs| inputs.keys()).find(differs).map(of)
+    }
+}
+
+/// Folder of results of one command: a file per result, named after it.
+#[derive(Debug)]
+pub struct KeptResults {
+    folder: PathBuf,
+    work: KeptWork,
+    clock: fn() -> SpentTime,
+    taken: Cell<usize>,
+    /// Reading of the clock when this run began.
+    start: SpentTime,
+    /// Time that earlier runs spent until they stored their last result.
+    before: Cell<SpentTime>,
+}
+
+/// Time in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SpentTime {
+    /// Processor time of all threads, in seconds; `None` if the system does not report it.
+    pub processor_s: Option<f64>,
+    /// Wall-clock time, in seconds.
+    pub wall_s: f64,
+}
+
+impl KeptResults {
+    /// Results of some work in a folder, which is created with the first result. `clock` returns the time since a fixed
+    /// moment.
+    pub fn new(folder: PathBuf, work: KeptWork, clock: fn() -> SpentTime) -> Self {
+        Self { folder, work, clock, taken: Cell::default(), start: clock(), before: Cell::default() }
+    }
+
+    /// Rejects a folder with results of other work, which would be lost. The error names the first such result. Also
+    /// fails for a path that is not a folder.
+    pub fn require_no_other_work(&self) -> Result<(), InputError> {
+        let unreadable = |source| unreadable(&self.folder, source);
+        let files = match fs::read_dir(&self.folder) {
+            Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(()),
+            files => files.map_err(unreadable)?,
+        };
+        let mut paths = files.map(|file| Ok(file?.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
+        paths.sort();
+        for path in paths {
+            // Other files are left alone, and damaged results are computed again.
+            if let Some((work, _)) = read(&path)
+                && let Some([expected, found]) = self.work.difference(&work)
+            {
+                let other = input_error!(
+                    "crossbar::kept::other" => "expected a result of\n{expected}\nfound one of\n{found}";
+                    help "go on with the command, the inputs and the program of the first run, or name another folder"
+                );
+                return Err(other.at(path.as_path()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of results that were taken from the folder.
+    pub fn taken(&self) -> usize {
+        self.taken.get()
+    }
+
+    /// Time of this run so far, plus the time that earlier runs spent on reused results.
+    pub fn spent(&self) -> SpentTime {
+        let (now, start, before) = ((self.clock)(), self.start, self.before.get());
+        let processor = now.processor_s.zip(start.processor_s).map(|(now, start)| now - start);
+        SpentTime {
+            processor_s: processor.map(|processor| processor + before.processor_s.unwrap_or(0.0)),
+            wall_s: now.wall_s - start.wall_s + before.wall_s,
+        }
+    }
+
+    /// Takes a result from the folder; computes and keeps it if it is missing, damaged, or of other work. The result
+    /// must depend only on the work and the name, which is a file name. Errors: those of `compute`, and if a result
+    /// cannot be kept.
+    pub fn get<T: Serialize + DeserializeOwned, E: From<InputError>>(
+        &self,
+        name: &str,
+        compute: impl FnOnce() -> Result<T, E>,
+    ) -> Result<T, E> {
+        let path = self.folder.join(format!("{name}.kept"));
+        if let Some((work, bytes)) = read(&path)
+            && work == self.work
+            && let Ok(((spent, result), [])) = postcard::take_from_bytes::<(SpentTime, T)>(&bytes)
+        {
+            // The last file read has the largest time.
+            if spent.wall_s > self.before.get().wall_s {
+                self.before.set(spent);
+            }
+            self.taken.set(self.taken.get() + 1);
+            return Ok(result);
+        }
+        let result = compute()?;
+        // Numbers, texts and lists of them always encode.
+        let mut bytes =
+            postcard::to_stdvec(&(&self.work, self.spent(), &result)).expect("a result that can be encoded");
+        bytes.extend_from_slice(&Sha256::digest(&bytes));
+        write_file(&path, |file| file.write_all(&bytes)).map_err(unwritable)?;
+        Ok(result)
+    }
+
+    /// Removes the folder when the work is done. Fails if it cannot be removed.
+    pub fn remove(&self) -> Result<(), InputError> {
+        match fs::remove_dir_all(&self.folder) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                Err(unwritable(WriteError::Folder { path: self.folder.clone(), source }))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The work of a result's file, and the result as it is encoded; `None` unless the file is whole.
+fn read(path: &Path) -> Option<(KeptWork, Vec<u8>)> {
+    let bytes = fs::read(path).ok()?;
+    let (contents, digest) = bytes.split_at_checked(bytes.len().checked_sub(DIGEST)?)?;
+    let (work, result) = postcard::take_from_bytes(contents).ok()?;
+    (Sha256::digest(contents).as_slice() == digest).then(|| (work, result.to_vec()))
+}
+
+/// Error for a file that cannot be read.
+pub fn unreadable(path: &Path, source: io::Error) -> InputError {
+    input_error!("crossbar::kept::unreadable" => "cannot read {}", path.display()).with_source(source)
+}
+
+/// Error for a result's file that cannot be written; no incomplete file remains.
+fn unwritable(error: WriteError) -> InputError {
+    InputError::of("crossbar::kept::unwritable", error)
+}
