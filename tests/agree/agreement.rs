@@ -1,7 +1,6 @@
 //! The body of all agreement tests: draw a case with every executor, compare, shrink a difference, print how to
 //! reproduce it.
 
-use crate::blame::{Side, blame};
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Outcome, Programs};
@@ -66,7 +65,7 @@ pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
 /// 105 times as many seeds.
 fn seeds_of(suite: &Suite) -> [Range<u64>; 2] {
     let all = seeds(suite.seeds, 105);
-    if all != (0..suite.seeds) || matches!(suite.kind, Kind::Kernels | Kind::Shaders | Kind::Cases) {
+    if all != (0..suite.seeds) || matches!(suite.kind, Kind::Kernels | Kind::Shaders) {
         return [all, 0..0];
     }
     let half = suite.seeds.div_ceil(2);
@@ -102,8 +101,6 @@ pub(crate) fn report(suite: &Suite, seed: u64, difference: &Difference) -> Strin
     );
     let _ = writeln!(text, "first difference: {}", difference.what);
     let _ = writeln!(text, "cut down: {}", self::difference(&small, executor).unwrap_or_default());
-    let followed = blame(Side { case: &small, executor: &REFERENCE }, Side { case: &small, executor });
-    let _ = writeln!(text, "{followed}");
     let _ = writeln!(text, "{}", small.pixel.join("\n"));
     if let Some(vertex) = &small.vertex {
         let _ = writeln!(text, "{}", vertex.join("\n"));

@@ -10,8 +10,7 @@ const SETS: usize = 4;
 /// The turn of executors that draw every case.
 const QUICK: u64 = 1;
 
-#[test]
-fn a_program_takes_other_constants_than_it_was_decoded_with() {
+pub(crate) fn a_program_takes_other_constants_than_it_was_decoded_with() {
     let mut compared = 0;
     for suite in suite::all().iter().filter(|suite| suite.name.contains("vs_")) {
         for seed in 0..SEEDS {

@@ -77,11 +77,15 @@ pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
 pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     let mut all = Vec::new();
     for level in SimdLevel::available() {
-        // Threads divide tiles the same way at every SIMD level, so by default they draw one case in three.
-        for (threads, every) in [(1, 1), (3, crate::environment::by_form(3, 1))] {
-            let name = format!("batch/{}/{threads}", level.name());
-            let kind = ExecutorKind::Batch;
-            all.push(Executor { name, kind, threads, simd: Some(level), every, ..REFERENCE.clone() });
+        // In the short form the widest level draws every case, and each way to compute the same one case in three: more
+        // threads, and the other levels, which are the same source compiled for other instructions.
+        let some = crate::environment::by_form(3, 1);
+        let is_widest = level == SimdLevel::widest();
+        for (threads, every) in [(1, if is_widest { 1 } else { some }), (3, some)] {
+            if threads == 1 || is_widest || crate::environment::is_full() {
+                let (name, kind) = (format!("batch/{}/{threads}", level.name()), ExecutorKind::Batch);
+                all.push(Executor { name, kind, threads, simd: Some(level), every, ..REFERENCE.clone() });
+            }
         }
     }
     all.push(Executor { name: "watched".to_owned(), watched: true, every: 4, ..REFERENCE.clone() });

@@ -1,20 +1,15 @@
-//! Cases from files: the project's kernels, the shaders and the run cases among the fixtures.
+//! Cases from files: the project's kernels, and the shaders among the fixtures.
 
 use crate::dice::{self, Options};
 use crate::random::Random;
 use crate::rules;
-use crate::scene::{Case, Scene, build};
+use crate::scene::{Case, build};
 use crate::shapes::{self, Shape};
 use crate::suite::{pass_through, shows_all};
-use crossbar::case::schema::Convention;
-use crossbar::case::{Setup, Vertices};
 use refsim::asm;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 use refsim::isa::{Stage, Usage};
-use refsim::machine::StepRate;
-use refsim::output::WriteMask;
-use refsim::raster::{ClipSpace, PixelCenter};
 use refsim::texture::TextureKind;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -48,13 +43,6 @@ pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
 /// The legal shaders among the fixtures.
 pub(crate) static SHADERS: LazyLock<Programs> =
     LazyLock::new(|| Programs::read(walk(&root().join("fixtures/shaders"), &["psa", "vsa"])));
-
-/// The run cases among the fixtures.
-pub(crate) static CASES: LazyLock<Vec<(String, Setup)>> = LazyLock::new(|| {
-    let files = walk(&root().join("fixtures"), &["toml"]);
-    let read = |path: PathBuf| Setup::read(&path).ok().map(|setup| (path.display().to_string(), setup));
-    files.into_iter().filter_map(read).collect()
-});
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -169,59 +157,4 @@ pub(crate) fn program_case(programs: &Programs, seed: u64, r: &mut Random) -> Ca
     };
     let vertex = vertex.filter(|lines| build(lines, &scene.profile).is_ok());
     Case { scene, pixel: program.lines.clone(), vertex }
-}
-
-/// Run case number `seed`; after the last case, the cases repeat with other constants.
-pub(crate) fn run_case(seed: u64, r: &mut Random) -> Case {
-    let count = CASES.len() as u64;
-    assert!(count > 0, "no run case among the fixtures can be read");
-    let setup = &CASES[(seed % count) as usize].1;
-    let mut case = from_setup(setup);
-    if seed >= count {
-        case.scene.pixel_constants = dice::constants(r);
-    }
-    case
-}
-
-fn from_setup(setup: &Setup) -> Case {
-    let opengl = setup.geometry.convention == Convention::Opengl;
-    let (vertices, attributes) = match &setup.geometry.vertices {
-        Vertices::Transformed(vertices) => (vertices.clone(), Vec::new()),
-        Vertices::Attributes(attributes) => (Vec::new(), attributes.clone()),
-    };
-    let stream = |register: usize| (register, StepRate::Vertex, attributes.iter().map(|a| a[register]).collect());
-    let lines = |program: &CheckedProgram| asm::print(program).lines().map(str::to_owned).collect();
-    let scene = Scene {
-        profile: setup.profile.clone(),
-        size: setup.size,
-        pixel_constants: setup.pixel_constants.clone(),
-        vertex_constants: setup.vertex_constants.clone(),
-        textures: setup.textures.iter().map(|(slot, t)| (*slot, t.image.clone(), t.sampler)).collect(),
-        generated: setup.textures.iter().filter(|(_, t)| t.generate_mipmaps).map(|(slot, _)| *slot).collect(),
-        bump: setup.bump,
-        projections: setup.projections,
-        flat: setup.geometry.flat,
-        vertex_count: attributes.len(),
-        streams: if attributes.is_empty() { Vec::new() } else { (0..16).map(stream).collect() },
-        vertices,
-        instances: 1,
-        indices: None,
-        primitive: setup.geometry.primitive,
-        targets: setup.targets.clone(),
-        clear: setup.clear,
-        depth: setup.depth.map(|(format, clear, _)| (format, clear)),
-        depth_state: setup.depth.map(|(_, _, state)| state).unwrap_or_default(),
-        alpha: setup.alpha,
-        blend: setup.blend,
-        masks: [WriteMask(setup.write_mask); 4],
-        center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },
-        clip_space: if opengl { ClipSpace::OpenGl } else { ClipSpace::Direct3d },
-        cull: setup.geometry.cull,
-        viewport: None,
-        scissor: None,
-        draws: 1,
-        second_pass: false,
-        levels: None,
-    };
-    Case { scene, pixel: lines(&setup.pixel), vertex: setup.vertex.as_ref().map(lines) }
 }

@@ -39,8 +39,7 @@ fn duration(text: &str) -> Option<Duration> {
     Some(Duration::from_secs(digits.parse::<u64>().ok()?.checked_mul(unit)?))
 }
 
-#[test]
-fn fuzz() {
+pub(crate) fn fuzz() {
     let Ok(text) = std::env::var("CROSSBAR_FUZZ") else { return };
     let time = duration(&text).unwrap_or_else(|| panic!("CROSSBAR_FUZZ is `90`, `30m` or `1h`, found `{text}`"));
     let first = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(FIRST);
@@ -118,8 +117,7 @@ fn say(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
 
-#[test]
-fn times_are_seconds_minutes_or_hours() {
+pub(crate) fn times_are_seconds_minutes_or_hours() {
     let seconds = |text| duration(text).map(|d| d.as_secs());
     assert_eq!(["90", "5s", "30m", "1h"].map(seconds), [Some(90), Some(5), Some(1800), Some(3600)]);
     assert_eq!(["", "h", "1d", "-1", "1.5h"].map(seconds), [None; 5]);

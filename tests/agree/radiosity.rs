@@ -6,14 +6,39 @@ use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::on_card::{CardSolver, Fit, Storage};
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::{FormFactors, System};
+use refsim::device::Profile;
+#[cfg(feature = "wgpu")]
+use refsim::exec::gpu::testing;
 use refsim::machine::{Executor, ExecutorKind};
 
 use crate::random::Random;
-use crate::system::{all_find, bits, executors, nv35};
 
 const LIMIT: usize = 4096;
 
-/// Form factors, all different, of a room that loses a little light; reflectances below 1.
+fn nv35() -> Profile {
+    Profile::named("nv35").expect("a card")
+}
+
+/// All executors by name; the scalar one first.
+fn executors() -> Vec<(&'static str, Executor)> {
+    let all = vec![("scalar", ExecutorKind::Scalar.into()), ("batch", ExecutorKind::Batch.into())];
+    #[cfg(feature = "wgpu")]
+    let all = all.into_iter().chain(on_gpu()).collect();
+    all
+}
+
+/// The adapter; `None` without one, panics where a missing adapter counts as a failure.
+#[cfg(feature = "wgpu")]
+fn on_gpu() -> Option<(&'static str, Executor)> {
+    let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
+    Some(("wgpu", Executor::Gpu { gpu }))
+}
+
+fn bits(texels: &Texels) -> Vec<[u32; 4]> {
+    texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
+}
+
+/// Form factors of a room that leaks a little, no two alike; reflectances below 1.
 fn room(size: usize, seed: u64) -> System {
     let mut random = Random::named("radiosity", seed);
     let mut number = || f64::from(random.below(1 << 20) as u32 + 1) / f64::from(1 << 20);
@@ -57,8 +82,7 @@ fn luminance(system: &System, block: usize) -> Vec<CardSystem> {
     (0..3).map(channel).collect()
 }
 
-#[test]
-fn every_rgb_pass_is_the_hosts() {
+pub(crate) fn every_rgb_pass_is_the_hosts() {
     for (size, block) in [(1, 254), (5, 2), (23, 6), (64, 16)] {
         let system = room(size, size as u64);
         let rgb = CardSystem::rgb(&system, block, LIMIT).expect("it fits");
@@ -72,8 +96,7 @@ fn every_rgb_pass_is_the_hosts() {
     }
 }
 
-#[test]
-fn every_luminance_pass_is_the_hosts() {
+pub(crate) fn every_luminance_pass_is_the_hosts() {
     for (size, block) in [(1, 254), (6, 1), (23, 4), (64, 5)] {
         let systems = luminance(&room(size, size as u64), block);
         for (name, executor) in executors() {
@@ -82,9 +105,8 @@ fn every_luminance_pass_is_the_hosts() {
     }
 }
 
-/// Sizes around the paper's block of 254 patches: one less, equal, one and two more.
-#[test]
-fn full_blocks_are_the_hosts() {
+/// The paper's block: one short of it, just it, one and two beyond.
+pub(crate) fn full_blocks_are_the_hosts() {
     let fit = Fit::of(&nv35(), Packing::Rgb).expect("a fit");
     assert_eq!(fit, Fit { block: 254, limit: 4096 });
     for size in 253..=256 {
@@ -98,23 +120,4 @@ fn full_blocks_are_the_hosts() {
     passes_agree("batch", &ExecutorKind::Batch.into(), &systems[..1]);
     let rgb = CardSystem::rgb(&room(255, 5), fit.block, LIMIT).expect("it fits");
     passes_agree("scalar", &ExecutorKind::Scalar.into(), &[rgb]);
-}
-
-/// The host has no half-precision loops, so the scalar executor is the reference.
-#[test]
-fn every_pass_in_halves_is_the_scalar_executors() {
-    for systems in [vec![CardSystem::rgb(&room(23, 7), 6, LIMIT).expect("it fits")], luminance(&room(26, 8), 4)] {
-        all_find("halves", |what, executor| {
-            let mut card =
-                CardSolver::of(nv35(), &executor, &systems, Storage::Fp16).unwrap_or_else(|e| panic!("{what}: {e}"));
-            let mut seen = Vec::new();
-            for _ in 0..3 {
-                card.iterate_by_pass(&mut |_, _, texels| seen.push(bits(&texels)))
-                    .unwrap_or_else(|e| panic!("{what}: {e}"));
-            }
-            let last = seen.last().expect("passes");
-            assert!(last.iter().flatten().any(|&b| b != 0) && last.iter().flatten().all(|b| b & 0x1fff == 0), "halves");
-            seen
-        });
-    }
 }

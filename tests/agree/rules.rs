@@ -27,57 +27,24 @@ pub(crate) enum Family {
 }
 
 impl Family {
-    pub(crate) fn formats(self) -> &'static [&'static str] {
-        match self {
-            Self::S3_12 => {
-                &["s3.12", "s3.12:rna", "s3.12:rtz", "s3.12:rdn", "s3.12:wrap", "s3.12:rdn:wrap", "s3.12:rna:wrap"]
+    pub(crate) fn formats(self) -> Vec<&'static str> {
+        let words = match self {
+            Self::S3_12 => "s3.12 s3.12:rna s3.12:rtz s3.12:rdn s3.12:wrap s3.12:rdn:wrap s3.12:rna:wrap",
+            Self::ShortFixed => {
+                "s1.10 s0.8 s7.8 s1.10:rtz s0.15:wrap s2.5:rna s1.6:rdn:wrap n3.8:rna n2.6:rtz s1.10:rup \
+                 s0.8:rup n3.8:rup n2.6:rup:wrap"
             }
-            Self::ShortFixed => &[
-                "s1.10",
-                "s0.8",
-                "s7.8",
-                "s1.10:rtz",
-                "s0.15:wrap",
-                "s2.5:rna",
-                "s1.6:rdn:wrap",
-                "n3.8:rna",
-                "n2.6:rtz",
-                "s1.10:rup",
-                "s0.8:rup",
-                "n3.8:rup",
-                "n2.6:rup:wrap",
-            ],
-            Self::LongFixed => {
-                &["s7.16", "s15.16:rtz", "s0.31", "s8.20:rdn", "s15.0:rna", "s7.24:wrap", "s7.16:rup", "s15.16:rup"]
+            Self::LongFixed => "s7.16 s15.16:rtz s0.31 s8.20:rdn s15.0:rna s7.24:wrap s7.16:rup s15.16:rup",
+            Self::Fp16 => "fp16 fp16:rtz fp16:ftz:nvovf:nv fp16:sat fp16:rna fp16:rdn:ftz",
+            Self::Fp24 => "fp24 fp24:ftz fp24:rtz fp24:rdn:sat fp24:rna fp24:nvovf:nv",
+            Self::Fp32 => "fp32 fp32:ftz fp32:rtz fp32:nv:nvovf fp32:sat fp32:rna:ftz fp32:rdn",
+            Self::OddFloat => {
+                "e4m3fn bf16 e5m2fnuz:sat e3m4 e8m10 e7m16fn:rup:nv e8m10:rna fp16:rup:ftz e5m2 fp24:rod \
+                 e6m9:rtz e2m3fn:nv e4m3:sat e7m10:ftz"
             }
-            Self::Fp16 => &["fp16", "fp16:rtz", "fp16:ftz:nvovf:nv", "fp16:sat", "fp16:rna", "fp16:rdn:ftz"],
-            Self::Fp24 => &["fp24", "fp24:ftz", "fp24:rtz", "fp24:rdn:sat", "fp24:rna", "fp24:nvovf:nv"],
-            Self::Fp32 => &["fp32", "fp32:ftz", "fp32:rtz", "fp32:nv:nvovf", "fp32:sat", "fp32:rna:ftz", "fp32:rdn"],
-            Self::OddFloat => &[
-                "e4m3fn",
-                "bf16",
-                "e5m2fnuz:sat",
-                "e3m4",
-                "e8m10",
-                "e7m16fn:rup:nv",
-                "e8m10:rna",
-                "fp16:rup:ftz",
-                "e5m2",
-                "fp24:rod",
-                "e6m9:rtz",
-                "e2m3fn:nv",
-                "e4m3:sat",
-                "e7m10:ftz",
-            ],
-            Self::Units => &[
-                "e8m23:nv2x",
-                "e8m23:nv3x",
-                "e8m23:nv3x-legacy",
-                "e8m23:gt200",
-                "e8m23:gt200:rtz",
-                "e8m23:gt200-zero-wins",
-            ],
-        }
+            Self::Units => "e8m23:nv2x e8m23:nv3x e8m23:nv3x-legacy e8m23:gt200 e8m23:gt200:rtz e8m23:gt200-zero-wins",
+        };
+        words.split(' ').collect()
     }
 }
 

@@ -41,8 +41,6 @@ pub(crate) enum Kind {
     Kernels,
     /// The shaders among the fixtures.
     Shaders,
-    /// The cases of `crossbar run` among the fixtures.
-    Cases,
 }
 
 #[derive(Clone, Debug)]
@@ -125,7 +123,6 @@ impl Suite {
             }
             Kind::Kernels => files::program_case(&files::KERNELS, seed, r),
             Kind::Shaders => files::program_case(&files::SHADERS, seed, r),
-            Kind::Cases => files::run_case(seed, r),
         }
     }
 }
@@ -199,7 +196,7 @@ fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
 fn mixed(version: Version, mut case: Case, r: &mut Random) -> Case {
     let any = |r: &mut Random| {
         let formats = r.of(Family::VARIANTS).formats();
-        r.of(formats).parse().expect("a format")
+        r.of(&formats).parse().expect("a format")
     };
     for storage in Storage::ALL.into_iter().filter(|_| version.stage() == Stage::Pixel) {
         if r.one_in(3) {
@@ -250,7 +247,14 @@ pub(crate) fn version_name(version: Version) -> &'static str {
     }
 }
 
-/// Every suite, in the order of their modules in `main`.
+/// The name of a variant as used in the names of suites: `less_equal`.
+fn snake_case(variant: impl std::fmt::Debug) -> String {
+    let text = format!("{variant:?}");
+    let inner = |(at, c): (usize, char)| if at > 0 && c.is_ascii_uppercase() { vec!['_', c] } else { vec![c] };
+    text.chars().enumerate().flat_map(inner).collect::<String>().to_lowercase()
+}
+
+/// Every suite.
 pub(crate) fn all() -> Vec<Suite> {
     let mut out = Vec::new();
     for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
@@ -278,9 +282,11 @@ pub(crate) fn all() -> Vec<Suite> {
     for &format in TexelFormat::ALL {
         out.push(Suite::new(format!("textures::{}", format.name()), Kind::Texture(format), 7));
     }
-    for (kind, name) in KINDS {
-        for (address, way) in ADDRESSES {
-            out.push(Suite::new(format!("addressing::{name}::{way}"), Kind::Address(kind, address), 7));
+    let kinds = [TextureKind::D1, TextureKind::D2, TextureKind::Rectangle, TextureKind::Cube, TextureKind::Volume];
+    for kind in kinds {
+        for address in [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border] {
+            let name = format!("addressing::{}::{}", snake_case(kind), snake_case(address));
+            out.push(Suite::new(name, Kind::Address(kind, address), 7));
         }
     }
     for &format in TexelFormat::ALL {
@@ -289,11 +295,11 @@ pub(crate) fn all() -> Vec<Suite> {
     for &format in DepthFormat::ALL {
         out.push(Suite::new(format!("depth::{}", format.name()), Kind::Depth(format), 7));
     }
-    for (compare, name) in COMPARES {
-        out.push(Suite::new(format!("depth::{name}"), Kind::Compare(compare), 7));
+    for &compare in CompareFunction::ALL {
+        out.push(Suite::new(format!("depth::{}", snake_case(compare)), Kind::Compare(compare), 7));
     }
-    for (blend, name) in BLENDS {
-        out.push(Suite::new(format!("blending::{name}"), Kind::Blend(blend), 7));
+    for blend in [BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max] {
+        out.push(Suite::new(format!("blending::{}", snake_case(blend)), Kind::Blend(blend), 7));
     }
     for &shape in Shape::VARIANTS {
         let seeds = if shape == Shape::Fine { 150 } else { 14 };
@@ -301,40 +307,5 @@ pub(crate) fn all() -> Vec<Suite> {
     }
     out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.short()));
     out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.short()));
-    out.push(Suite::new("project::cases", Kind::Cases, files::CASES.len() as u64));
     out
 }
-
-const KINDS: [(TextureKind, &str); 5] = [
-    (TextureKind::D1, "d1"),
-    (TextureKind::D2, "d2"),
-    (TextureKind::Rectangle, "rectangle"),
-    (TextureKind::Cube, "cube"),
-    (TextureKind::Volume, "volume"),
-];
-
-const ADDRESSES: [(AddressMode, &str); 4] = [
-    (AddressMode::Wrap, "wrap"),
-    (AddressMode::Mirror, "mirror"),
-    (AddressMode::Clamp, "clamp"),
-    (AddressMode::Border, "border"),
-];
-
-const COMPARES: [(CompareFunction, &str); 8] = [
-    (CompareFunction::Never, "never"),
-    (CompareFunction::Less, "less"),
-    (CompareFunction::Equal, "equal"),
-    (CompareFunction::LessEqual, "less_equal"),
-    (CompareFunction::Greater, "greater"),
-    (CompareFunction::NotEqual, "not_equal"),
-    (CompareFunction::GreaterEqual, "greater_equal"),
-    (CompareFunction::Always, "always"),
-];
-
-const BLENDS: [(BlendOp, &str); 5] = [
-    (BlendOp::Add, "add"),
-    (BlendOp::Subtract, "subtract"),
-    (BlendOp::ReverseSubtract, "reverse_subtract"),
-    (BlendOp::Min, "min"),
-    (BlendOp::Max, "max"),
-];

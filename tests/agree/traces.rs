@@ -53,8 +53,7 @@ fn same(seed: u64, case: &Case, other: &Executor) -> (usize, usize) {
     (steps, fragments)
 }
 
-#[test]
-fn the_trace_is_what_the_batch_executor_draws() {
+pub(crate) fn the_trace_is_what_the_batch_executor_draws() {
     let (mut steps, mut fragments) = (0, 0);
     let batch = EXECUTORS.iter().find(|e| e.name.starts_with("batch")).unwrap_or_else(|| panic!("a batch executor"));
     let seeds = seeds(75, 60);
@@ -67,8 +66,7 @@ fn the_trace_is_what_the_batch_executor_draws() {
 }
 
 #[cfg(feature = "wgpu")]
-#[test]
-fn the_gpu_trace_is_the_scalar_trace() {
+pub(crate) fn the_gpu_trace_is_the_scalar_trace() {
     for executor in EXECUTORS.iter().filter(|e| e.name.starts_with("wgpu")) {
         let (mut steps, mut fragments) = (0, 0);
         let seeds = seeds(8, 60);
