@@ -7,8 +7,11 @@ use crossbar::all_frequency::on_card::{
     FactoredCard, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors,
 };
 use crossbar::all_frequency::shade::TransferredRadiance;
+use crossbar::geom::Mesh;
+use crossbar::scene::built::ground::ground;
 use crossbar::transfer::synthetic::{hills, signal_at};
 use crossbar::transfer::{Tangents, Vertices};
+use glam::DVec3;
 use refsim::texture::TexelFormat;
 
 use crate::rules::profile;
@@ -30,22 +33,46 @@ impl Hills {
     }
 
     fn of(reflectance: Reflectance) -> Self {
-        let vertices = Vertices::new(&hills(6), Tangents::Any).expect("vertices");
+        Self::on(&hills(6), reflectance)
+    }
+
+    fn on(mesh: &Mesh, reflectance: Reflectance) -> Self {
+        let vertices = Vertices::new(mesh, Tangents::Any).expect("vertices");
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), 3 * reflectance.terms(), 5, place);
         let transferred = TransferredRadiance::new(reflectance.terms(), signal.values().as_chunks().0.to_vec());
         Self { vertices, reflectance, transferred }
     }
 
-    fn agrees(&self, device: &str, format: TexelFormat, place: ProductPlace) {
+    fn mesh(&self) -> TransferredMesh<'_> {
         let Self { vertices, reflectance, transferred } = self;
-        let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
-        pictures_agree(
-            &format!("{} terms, {device}, {format:?}, {place:?}", reflectance.terms()),
-            format,
-            |executor| FactoredCard::new(profile(device), executor, mesh, place),
-            |card, view| card.view_texels(view),
-        );
+        TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred }
+    }
+
+    fn agrees(&self, device: &str, format: TexelFormat, place: ProductPlace) {
+        agree(&[self.mesh()], device, format, place);
+    }
+}
+
+fn agree(meshes: &[TransferredMesh<'_>], device: &str, format: TexelFormat, place: ProductPlace) {
+    pictures_agree(
+        &format!("{} meshes, {} terms, {device}, {format:?}, {place:?}", meshes.len(), meshes[0].terms()),
+        format,
+        |executor| FactoredCard::new(profile(device), executor, meshes, place),
+        |card, view| card.view_texels(view),
+    );
+}
+
+/// A model of ten terms, and a ground of one that hides a part of it.
+#[test]
+fn a_model_and_its_ground_are_the_same_everywhere() {
+    let (hills, ground) = (Hills::new(10), Hills::on(&ground(3, DVec3::ZERO, 1.0), Reflectance::Diffuse));
+    let per_channel = ProductOptions { is_pass_per_channel: true, ..ProductOptions::default() };
+    for (format, place) in [
+        (TexelFormat::Rgba32f, ProductPlace::Pixels(per_channel)),
+        (TexelFormat::Bgra8, ProductPlace::Vertices(VertexColors::Bytes)),
+    ] {
+        agree(&[hills.mesh(), ground.mesh()], "r350", format, place);
     }
 }
 
