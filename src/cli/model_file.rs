@@ -89,7 +89,12 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
 
 /// A scene from a model file, or from a scene file that names one.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
-    let (scene, notes) = scene_file::load_with(path, options())?;
+    scene_with(path, options())
+}
+
+/// A scene, read by options of its own.
+pub(super) fn scene_with(path: &Path, options: ModelOptions) -> miette::Result<Scene> {
+    let (scene, notes) = scene_file::load_with(path, options)?;
     tell(path, &notes);
     Ok(scene)
 }

@@ -6,6 +6,7 @@ use miette::IntoDiagnostic as _;
 
 use super::{Problem, given, model_file, view};
 use crate::geom::Mesh;
+use crate::io::ModelOptions;
 use crate::names::did_you_mean;
 use crate::options::Size;
 use crate::options::number;
@@ -18,7 +19,29 @@ pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
         model_file::refuse_options(name)?;
         return Ok(Some(scene));
     }
-    given::require_file(path, "scene", &built::names().collect::<Vec<_>>(), "obj").map(|()| None)
+    require_file(path)?;
+    Ok(None)
+}
+
+/// Refuses a word that is neither a file nor the name of a scene: a word without a dot or a folder is a name, not a file.
+fn require_file(path: &Path) -> Result<(), Problem> {
+    let name = path.to_str().unwrap_or_default();
+    if path.exists() || path.components().count() != 1 || name.contains('.') {
+        return Ok(());
+    }
+    let names: Vec<&str> = built::names().collect();
+    let meant = did_you_mean(name, names.iter().copied());
+    let help = format!("{meant}the scenes are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
+    Err(Problem::usage(format!("there is no scene `{name}`"), help))
+}
+
+/// The scene around a model, which has lights for it. The options of models say how the model is read, not this.
+pub(super) fn surroundings(path: &Path) -> miette::Result<Scene> {
+    if let Some(scene) = built::build(path.to_str().unwrap_or_default()) {
+        return Ok(scene);
+    }
+    require_file(path)?;
+    model_file::scene_with(path, ModelOptions::default())
 }
 
 /// The path, unless it is the name of a scene of the project.

@@ -106,7 +106,8 @@ fn factors_go_from_one_command_to_the_next() {
 fn a_model_stands_on_a_ground() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [out, ground, ground_model, small, page] =
-        ["on.npz", "on.ground.npz", "on.ground.obj", "small.npz", "page"].map(|name| place(folder.path(), name));
+        ["on.npz", "on.ground.npz", "on.ground.obj", "small/g.npz", "page"].map(|name| place(folder.path(), name));
+    fs::create_dir(folder.path().join("small")).expect("a folder");
     let alone = document(&format!("all-frequency precompute {STEP} --out {out}"));
     assert_eq!(alone["ground"], Value::Null);
     let made = document(&format!("all-frequency precompute {STEP} --ground 8 --out {out}"));
@@ -131,19 +132,18 @@ fn a_model_stands_on_a_ground() {
     document(&format!(
         "all-frequency compress {ground} --model {ground_model} --points-per-cluster 16 --vectors 3 --out {small}"
     ));
-    let render = |options: &str| {
-        document(&format!(
-            "all-frequency render {out} --model {STEP} --light constant --size 32x24 --out {page}{options}"
-        ))
-    };
-    fs::copy(&ground_model, folder.path().join("small.obj")).expect("a copy");
-    let pictures = ["", &format!(" --ground {ground}"), &format!(" --ground {small}")].map(|options| {
-        render(options);
-        fs::read(folder.path().join("page/picture.png")).expect("a picture")
-    });
-    assert!(pictures[0] != pictures[1], "the ground is drawn");
+    assert_eq!(document(&format!("all-frequency show {small}"))["model"], "../on.ground.obj");
+    for (verb, picture) in [("render", "picture"), ("card --device ideal-fp32 --exposure 0.5", "host")] {
+        let pictures = ["", &format!(" --ground {ground}"), &format!(" --ground {small}")].map(|options| {
+            document(&format!(
+                "all-frequency {verb} {out} --model {STEP} --light constant --size 32x24 --out {page}{options}"
+            ));
+            fs::read(folder.path().join(format!("page/{picture}.png"))).expect("a picture")
+        });
+        assert!(pictures[0] != pictures[1] && pictures[1] != pictures[2], "{verb}: the ground, and its compression");
+    }
     let other = crossbar(&["all-frequency", "render", &out, "--model", STEP, "--ground", SIGHT, "--out", &page], "");
-    assert_eq!(other.code, Some(2), "its model is beside a ground's file: {}", other.stderr);
+    assert_eq!(other.code, Some(2), "a file that names no model is no ground: {}", other.stderr);
 }
 
 /// Decomposes light: its energy is the sum over kept and dropped coefficients.

@@ -125,8 +125,41 @@ fn pictures_that_are_no_lights_are_refused() {
     }
 }
 
-/// A square whose first texture coordinate grows with y: the anisotropic material's tangents follow it. The file stores
-/// the tangents, and commands that read the file need no option for them.
+/// Light at a place in a scene: a lamp has the flux of its solid angle in closed form, and the model's picture depends on
+/// the place.
+#[test]
+fn light_comes_from_a_place_in_a_scene() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [lamp, page] = ["lamp.obj", "page"].map(|name| place(folder.path(), name));
+    fs::write(folder.path().join("lamp.mtl"), "newmtl lamp\nKd 0 0 0\nKe 5 2 1\n").expect("written");
+    let square = "v -1 -1 2\nv -1 1 2\nv 1 1 2\nv 1 -1 2";
+    fs::write(&lamp, format!("mtllib lamp.mtl\nusemtl lamp\n{square}\nf 1 2 3 4\n")).expect("written");
+    let light = |at: &str| format!("scene:{lamp}@{at}");
+    let sampled = document(&["all-frequency", "lighting", "--light", &light("0,0,0")]);
+    // Of a square of half width a at distance d: 4 asin(a^2 / (a^2 + d^2)).
+    let solid_angle = 4.0 * 0.2_f64.asin();
+    for (channel, radiance) in [5.0, 2.0, 1.0].into_iter().enumerate() {
+        assert_relative_eq!(number(&sampled["flux"][channel]), radiance * solid_angle, max_relative = 1e-9);
+    }
+    let [model, transfer, _] = STEP;
+    let exposures = ["0,0,0", "0,0,-8"].map(|at| {
+        let options = ["--light", &light(at), "--size", "16x12", "--out", &page];
+        number(&document(&[&["cpca", "render", transfer, "--model", model][..], &options].concat())["exposure"])
+    });
+    assert!(exposures[1] > 10.0 * exposures[0], "a lamp at a fifth of the distance: {exposures:?}");
+    for (light, words) in [
+        ("scene:cornel@0,0,0", "cornell"),
+        ("scene:docs/examples/step.obj@0,0,0", "expected a scene with lights"),
+        ("scene:cornell", "expected constant"),
+        ("scene:cornell@0,0", "X,Y,Z"),
+    ] {
+        let said = refused(&["cpca", "render", transfer, "--model", model, "--light", light]);
+        assert!(said.contains(words), "{light}: {said}");
+    }
+}
+
+/// A square whose first texture coordinate grows with y: the anisotropic material follows it, the file stores the
+/// tangents, and commands that read the file need no option for them.
 #[test]
 fn tangents_come_from_the_texture_and_stay_with_the_file() {
     let folder = tempfile::tempdir().expect("a folder for the test");

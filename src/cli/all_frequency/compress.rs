@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use miette::IntoDiagnostic;
 use serde_json::json;
 
-use super::file::FileOfModel;
+use super::file::{FileOfModel, path_from};
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
@@ -103,7 +104,8 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     drop(bar);
     let census = SegmentCensus::new(&vertices, maps, &LinearBasis::new(file.hats));
     let raw = compression.raw_bytes();
-    let small = AllFrequencyFile { visibility: None, coded: Some(coded), ..file };
+    let model = file.model.as_ref().map(|_| path_from(&args.out, &args.model)).transpose().into_diagnostic()?;
+    let small = AllFrequencyFile { visibility: None, coded: Some(coded), model, ..file };
     save_all_frequency(&small, &args.out).map_err(Problem::from)?;
     let coded = small.coded.as_ref();
     let taken = kept.as_ref().map_or(0, KeptResults::taken);

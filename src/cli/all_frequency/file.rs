@@ -1,6 +1,7 @@
 //! The `.npz` files of `crossbar all-frequency`, their models, and the drawn model.
 
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::{Component, Path, PathBuf, absolute};
 
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
 use crate::cli::Problem;
@@ -9,7 +10,7 @@ use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::cli::transfer::model::model_of;
 use crate::cli::transfer::picture::PictureArgs;
 use crate::scene::{Material, Surface};
-use crate::study::prt::LitModel;
+use crate::study::prt::{LitGround, LitModel};
 use crate::transfer::Vertices;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::Decimation;
@@ -24,8 +25,14 @@ pub(super) struct FileOfModel {
 
 impl FileOfModel {
     pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
-        let file = load_all_frequency(path, None)?;
-        let (model, vertices, digest) = model_of(path, Some(file.mesh), model)?;
+        Self::of(load_all_frequency(path, None)?, path, model)
+    }
+
+    fn of(file: AllFrequencyFile, path: &Path, model: &Path) -> miette::Result<Self> {
+        let model = load(model, file.mesh.tangents)?;
+        let vertices = vertices(&model, file.mesh.tangents)?;
+        let digest = MeshDigest::new(&vertices);
+        require_mesh(path, &digest, Some(file.mesh))?;
         Ok(Self { file, model, vertices, digest })
     }
 }
@@ -40,8 +47,29 @@ fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miett
     Ok(original)
 }
 
+/// A ground, with the model that its file names.
+fn ground(path: &Path) -> miette::Result<LitGround> {
+    let file = load_all_frequency(path, None)?;
+    let Some(model) = file.model.as_ref().map(|name| path.with_file_name(name)) else {
+        let what = format!("{}: expected a ground, whose file names its model, found none named", path.display());
+        let help = "name the ground that `crossbar all-frequency precompute --ground` wrote, or its compressed form";
+        return Err(Problem::usage(what, help).into());
+    };
+    let FileOfModel { file, model, vertices, .. } = FileOfModel::of(file, path, &model)?;
+    Ok(LitGround { colors: model.materials.iter().map(color).collect(), mesh: model.mesh, vertices, file })
+}
+
+/// The way from the folder of a file to another file.
+pub(super) fn path_from(file: &Path, to: &Path) -> io::Result<String> {
+    let [file, to] = [absolute(file)?, absolute(to)?];
+    let (from, to) = (file.parent().unwrap_or(&file).components(), to.components());
+    let shared = from.clone().zip(to.clone()).take_while(|(a, b)| a == b).count();
+    let up = from.skip(shared).map(|_| Component::ParentDir);
+    Ok(up.chain(to.skip(shared)).collect::<PathBuf>().to_string_lossy().into_owned())
+}
+
 /// Factor of a surface's radiance: its albedo, or 1 if it has none.
-pub(super) fn color(material: &Material) -> [f64; 3] {
+fn color(material: &Material) -> [f64; 3] {
     match &material.surface {
         Surface::Diffuse { albedo } | Surface::Glossy { albedo, .. } => albedo.map(f64::from),
         _ => [1.0; 3],
@@ -68,12 +96,16 @@ pub(super) struct LitArgs {
 
     #[command(flatten)]
     picture: PictureArgs,
+
+    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not; it is found with its model
+    #[arg(long, value_name = "G.npz")]
+    ground: Option<PathBuf>,
 }
 
 impl LitArgs {
     /// The input files.
     pub(super) fn inputs(&self) -> Vec<&Path> {
-        let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
+        let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file(), self.ground.as_deref()];
         files.into_iter().flatten().chain(self.picture.inputs()).collect()
     }
 
@@ -88,6 +120,7 @@ impl LitArgs {
             vertices,
             file,
             original,
+            ground: self.ground.as_deref().map(ground).transpose()?,
             light: self.light.distant()?,
             decimation: Decimation::SolidAngle,
             keep: self.keep.map(|keep| keep as usize),

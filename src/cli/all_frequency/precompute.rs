@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use miette::IntoDiagnostic;
 use refsim::machine::ExecutorKind;
 use serde_json::json;
 
+use super::file::path_from;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::ProductFactors;
 use crate::all_frequency::file::save_all_frequency;
@@ -32,7 +34,7 @@ Examples:
   crossbar all-frequency precompute docs/examples/step.obj --out step.npz
       what each vertex sees, for light of all frequencies on a diffuse surface
   crossbar all-frequency precompute docs/examples/step.obj --ground 24 --out step.npz
-      the same on a ground, which `crossbar all-frequency render` draws with its `--ground`
+      the same on a ground, which `crossbar all-frequency render` and `card` draw with their `--ground`
 
 The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes transfer of them.";
 
@@ -84,10 +86,15 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         ground: ground.as_ref().map(|ground| &ground.vertices),
     };
     let mut caster = caster.open_judged(sight.scene, Sides::Both)?;
-    let (found, below) = sight.run(&mut caster, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    let found = match sight.run(&mut caster, &split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
+        Computed::Whole(found) => found,
+        Computed::Part(written) => return Ok(part::findings(&written)),
+    };
+    let (found, mut below) = found;
     save_all_frequency(&found.file, path).map_err(Problem::from)?;
     let [ground_path, ground_mesh] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
-    if let (Some(ground), Some(below)) = (&ground, &below) {
+    if let (Some(ground), Some(below)) = (&ground, &mut below) {
+        below.file.model = Some(path_from(&ground_path, &ground_mesh).into_diagnostic()?);
         save_all_frequency(&below.file, &ground_path).map_err(Problem::from)?;
         write_file(&ground_mesh, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
     }

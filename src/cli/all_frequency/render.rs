@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::file::{FileOfModel, LitArgs, color};
+use super::file::LitArgs;
 use crate::cli::study::{StudyArgs, StudyFiles};
-use crate::study::prt::{AllFrequencyRendering, RenderedGround};
+use crate::study::prt::AllFrequencyRendering;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,11 +24,6 @@ pub(super) struct Args {
     #[command(flatten)]
     lit: LitArgs,
 
-    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not, beside its model
-    /// (`ground.obj`)
-    #[arg(long, value_name = "G.npz")]
-    ground: Option<PathBuf>,
-
     /// Where to write pictures and the page
     #[arg(long, value_name = "DIR", default_value = "out/all-frequency")]
     out: PathBuf,
@@ -39,17 +34,10 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), self.lit.inputs().into_iter().chain(self.ground.as_deref()).collect())
+        StudyFiles::new(Some(&self.out), None, self.lit.inputs())
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
-        let lit = self.lit.load()?;
-        let ground = self.ground.as_ref().map(|path| {
-            let FileOfModel { file, model, vertices, .. } = FileOfModel::load(path, &path.with_extension("obj"))?;
-            let colors = model.materials.iter().map(color).collect();
-            Ok::<_, miette::Report>(RenderedGround { mesh: model.mesh, vertices, colors, file })
-        });
-        let ground = ground.transpose()?;
-        Ok(AllFrequencyRendering { lit, ground })
+        Ok(AllFrequencyRendering { lit: self.lit.load()? })
     }
 }

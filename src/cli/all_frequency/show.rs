@@ -45,7 +45,7 @@ fn header(file: &AllFrequencyFile) -> Value {
     });
     json!({
         "kind": "all-frequency", "mesh": file.mesh.to_string(), "vertices": file.mesh.vertices,
-        "terms": file.reflectance.terms(), "hats": file.hats.to_string(), "directions_visible": visible, "coded": coded,
+        "terms": file.reflectance.terms(), "model": file.model, "hats": file.hats.to_string(), "directions_visible": visible, "coded": coded,
     })
 }
 
@@ -61,6 +61,7 @@ fn all(file: &AllFrequencyFile, found: &mut Findings) {
         }
     };
     found.introduce(format!("factors   {reflectance}; hats of {}", file.hats));
+    file.model.iter().for_each(|model| found.introduce(format!("model     {model}")));
     if let Some(maps) = &file.visibility {
         let per_vertex = maps.counts.visible as f64 / maps.len().max(1) as f64;
         found.introduce(format!("sees      {per_vertex:.0} of 98,304 directions on average"));

@@ -22,8 +22,9 @@ pub(super) enum LightArg {
 }
 
 const LIGHT: &str = "ambient:R,G,B (radiance), directional:X,Y,Z:R,G,B (towards the light; irradiance) or \
-     point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, else 0,0,1), or an environment map: a lat-long, angular-probe \
-     or cube-cross picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun), red-and-blue";
+     point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, else 0,0,1), or an environment map: a lat-long, angular-probe, \
+     cube-cross or cube-strip picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun), red-and-blue, \
+     scene:SCENE@X,Y,Z (as seen from a place in a scene)";
 
 impl FromStr for LightArg {
     type Err = String;
@@ -53,8 +54,10 @@ impl FromStr for LightArg {
                 Light::Point { position, intensity, attenuation }
             }
             ["ambient" | "directional" | "point", ..] => return Err(wrong()),
-            // A word that does not begin a light; a single letter is a drive.
-            [word, _, ..] if word.len() > 1 && !["disk", "constant", "sky"].contains(&word) => return Err(wrong()),
+            // A word that no light begins with; a single letter is a drive.
+            [word, _, ..] if word.len() > 1 && !["disk", "constant", "sky", "scene"].contains(&word) => {
+                return Err(wrong());
+            }
             _ => return text.parse().map(Self::Environment).map_err(|_| wrong()),
         }))
     }

@@ -64,9 +64,9 @@ pub(super) struct Args {
     options: SubsurfaceOptions,
 
     /// ambient:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment
-    /// map, with shadows: a lat-long, angular-probe or cube-cross picture, a table of a cube's texels (.csv) or of
-    /// small sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun) or
-    /// red-and-blue [default: from beside the camera]
+    /// map, with shadows: a lat-long, angular-probe, cube-cross or cube-strip picture, a table of a cube's texels (.csv)
+    /// or of small sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun),
+    /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: from beside the camera]
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Vec<LightArg>,
 

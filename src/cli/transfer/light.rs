@@ -1,29 +1,43 @@
-//! `--light`: distant light by name, by parameters or from a picture.
+//! `--light`: distant light by name, by figures, from a picture or from a place in a scene.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use glam::DVec3;
 
-use crate::cli::{Problem, view};
+use crate::cli::{Problem, ProgressBar, scene_name, view};
+use crate::geom::exact::Sides;
 use crate::io::{load_cube_table, load_light_sources};
 use crate::options::number;
+use crate::renderer::environment::seen_around;
+use crate::renderer::{Settings, path};
 use crate::report::digits::{Quantity, shown};
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
+use crate::tracer::HostTracer;
 use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
 
-/// Forms of light in harmonics, and forms of light on the texels of a cube, for help texts.
-pub(in crate::cli) const HARMONIC_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
-     radius), sky:X,Y,Z (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture";
-pub(in crate::cli) const CUBE_LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
-     radius), sky:X,Y,Z (towards the sun), red-and-blue, a lat-long, angular-probe or cube-cross picture, a table of a \
-     cube's texels (.csv) or of small sources (.sources.csv)";
+/// Forms of light that every command takes.
+macro_rules! forms {
+    ($($more:literal)?) => {
+        concat!(
+            "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun), \
+             red-and-blue, scene:SCENE@X,Y,Z (as seen from a place in a scene), a lat-long, angular-probe, cube-cross or \
+             cube-strip picture (EXR, HDR, PNG)",
+            $($more)?
+        )
+    };
+}
+
+/// Forms of light in harmonics, and those of light on the texels of a cube, for help.
+pub(in crate::cli) const HARMONIC_LIGHT: &str = forms!();
+pub(in crate::cli) const CUBE_LIGHT: &str =
+    forms!(", a table of a cube's texels (.csv) or of small sources (.sources.csv)");
 /// The default light.
 pub(in crate::cli) const DEFAULT_LIGHT: &str = "sky:1,-1,1";
 
-const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z \
-     (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture (EXR, HDR, PNG)";
+/// Samples per texel of light in a scene.
+const SAMPLES: u32 = 16;
 
 /// Radiances of the clear sky at its zenith, of the ground below it, and of the sun.
 const ZENITH: [f64; 3] = [0.25, 0.4, 0.7];
@@ -38,16 +52,21 @@ pub(in crate::cli) enum DistantLightArg {
     Sky { sun: DVec3 },
     RedAndBlue,
     Picture(PathBuf),
+    Scene { scene: PathBuf, at: DVec3 },
 }
 
 impl FromStr for DistantLightArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("expected {LIGHT}; found `{text}`");
+        let wrong = || format!("expected {HARMONIC_LIGHT}; found `{text}`");
         let three = |part: &str| number::three(part, "X,Y,Z or R,G,B").map(|part| part.map(f64::from));
         let color = |part: &str| three(part).ok().filter(|c| c.iter().all(|&value| value >= 0.0)).ok_or_else(wrong);
         let towards = |part: &str| three(part).map(DVec3::from).ok().filter(|&v| v != DVec3::ZERO).ok_or_else(wrong);
+        if let Some(scene) = text.strip_prefix("scene:") {
+            let (scene, at) = scene.rsplit_once('@').filter(|(scene, _)| !scene.is_empty()).ok_or_else(wrong)?;
+            return Ok(Self::Scene { scene: scene.into(), at: three(at)?.into() });
+        }
         Ok(match text.split(':').collect::<Vec<_>>()[..] {
             ["constant"] => Self::Constant([1.0; 3]),
             ["constant", radiance] => Self::Constant(color(radiance)?),
@@ -75,7 +94,11 @@ impl DistantLightArg {
 
     /// The file from which the light is read, if any.
     pub(in crate::cli) fn file(&self) -> Option<&Path> {
-        if let Self::Picture(path) = self { Some(path) } else { None }
+        match self {
+            Self::Picture(path) => Some(path),
+            Self::Scene { scene, .. } => scene_name::named_file(scene).first().copied(),
+            _ => None,
+        }
     }
 
     /// A short name of the light.
@@ -86,6 +109,10 @@ impl DistantLightArg {
             Self::Sky { .. } => "a clear sky with a sun".to_owned(),
             Self::RedAndBlue => "a red and a blue disk".to_owned(),
             Self::Picture(path) => path.display().to_string(),
+            Self::Scene { scene, at } => {
+                let at = at.to_array().map(|at| shown(at, Quantity::Exact)).join(", ");
+                format!("the light at {at} in {}", scene.display())
+            }
         }
     }
 
@@ -112,6 +139,7 @@ impl DistantLightArg {
                 let picture = EnvironmentPicture::new(&view::picture(path)?);
                 DistantLight::Picture(picture.map_err(|error| no_light(path, &error))?)
             }
+            Self::Scene { scene, at } => DistantLight::Texels(seen_from(scene, *at)?),
         })
     }
 
@@ -128,9 +156,27 @@ impl DistantLightArg {
                 let read = HarmonicLight::from_picture(order, &view::picture(path)?);
                 return Ok(read.map_err(|error| no_light(path, &error))?);
             }
+            Self::Scene { scene, at } => seen_from(scene, *at)?.harmonics(order),
         };
         Ok(made.map_err(|error| Problem::usage(error.to_string(), "see this command's `--help`"))?)
     }
+}
+
+/// The light at a place in a scene, by path tracing, a camera for each face of the cube of texels.
+fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
+    let scene = scene_name::surroundings(path)?;
+    if scene.point_lights.is_empty() && scene.emitters().is_empty() {
+        let what = format!("{}: expected a scene with lights, found none", path.display());
+        return Err(Problem::usage(what, "docs/scenes.md says how a scene gets lights").into());
+    }
+    let (mut tracer, bar) = (HostTracer::new(scene.mesh(), Sides::Both), ProgressBar::new("light in the scene", 6));
+    let settings = Settings { samples: SAMPLES, ..Settings::default() };
+    let mut faces = 0..;
+    let texels = seen_around(at, LIGHT_SIDE as u32, |camera| {
+        bar.show("light in the scene".to_owned(), faces.next().unwrap_or(6), 6);
+        Ok(path::render(&scene, camera, &settings, path::Direct::Both, &mut tracer, &mut |_| ())?.color)
+    });
+    Ok(texels.and_then(CubeLight::new).map_err(|error| no_light(path, &error))?)
 }
 
 const fn clear_sky(sun: DVec3) -> ClearSky {

@@ -46,8 +46,8 @@ fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), InputError> {
     let [width, height] = [picture.width(), picture.height()];
     let layout = EnvironmentLayout::of(width, height).ok_or_else(|| {
         input_error!("crossbar::sphere::shape" =>
-            "expected a lat-long picture (width twice the height), an angular probe (a square) or a cube cross (4:3 \
-             or 3:4, of whole squares), found {width}x{height}")
+            "expected a lat-long picture (width twice the height), an angular probe (a square), a cube cross (4:3 \
+             or 3:4, of whole squares) or a cube strip (1:6), found {width}x{height}")
     })?;
     let pixels = picture.linear()?;
     let grid = LayoutGrid::new(layout, width as usize, height as usize);

@@ -1,13 +1,13 @@
-//! Layouts of pictures of the whole sphere: lat-long, angular probe, cube cross.
+//! Layouts of pictures of the whole sphere: lat-long, angular probe, cube cross, cube strip.
 //!
-//! In all three layouts the picture's middle is +y, its right +x, and its top +z, as a viewer sees a scene with z up.
+//! In the first three the picture's middle is +y, its right +x, and its top +z, as a viewer sees a scene with z up.
 //! In y-up conventions these are -Z, +X and +Y.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::cube::{FaceAxes, face_solid_angle};
+use super::cube::{CUBE_FACES, CubeMap, FaceAxes, face_solid_angle};
 use crate::elementary::{atan2, hypot, on_circle, sin_cos};
 use crate::quadrature::{GaussPoint, gauss_legendre};
 
@@ -26,6 +26,10 @@ pub enum EnvironmentLayout {
     /// 4). Other squares are ignored.
     #[strum(to_string = "cube cross")]
     CubeCross,
+    /// Six squares one below the other: the faces of a cube map, in order and orientation of
+    /// [`CUBE_FACES`](super::CUBE_FACES).
+    #[strum(to_string = "cube strip")]
+    CubeStrip,
 }
 
 impl EnvironmentLayout {
@@ -38,6 +42,7 @@ impl EnvironmentLayout {
             () if w == 2 * h => Some(Self::LatLong),
             () if w == h => Some(Self::AngularProbe),
             () if cross => Some(Self::CubeCross),
+            () if h == 6 * w => Some(Self::CubeStrip),
             () => None,
         }
     }
@@ -82,6 +87,10 @@ impl LayoutGrid {
                 [within((1.0 + x) * width, side), within((1.0 - y) * width, side)]
             }
             EnvironmentLayout::CubeCross => return self.cross_pixel(direction),
+            EnvironmentLayout::CubeStrip => {
+                let [face, column, row] = CubeMap::new(width).texel_of(direction);
+                [column, face * width + row]
+            }
         };
         row * width + column
     }
@@ -149,6 +158,7 @@ impl LayoutGrid {
             EnvironmentLayout::CubeCross => self
                 .cross_texel(column, row)
                 .map_or(0.0, |(_, column, row)| face_solid_angle(self.cross_side(), column, row)),
+            EnvironmentLayout::CubeStrip => face_solid_angle(self.width, column, row % self.width),
         }
     }
 
@@ -173,6 +183,10 @@ impl LayoutGrid {
                     Some((axes, column, row)) => axes.at([(column as f64 + u) / side, (row as f64 + v) / side]),
                     None => (DVec3::Y, 0.0),
                 }
+            }
+            EnvironmentLayout::CubeStrip => {
+                let [face, row] = [texel[1] / self.width, texel[1] % self.width];
+                CUBE_FACES[face].at([column + u, row as f64 + v].map(|at| at / self.width as f64))
             }
         }
     }

@@ -9,7 +9,7 @@ use super::glossy_model::Drawn;
 use crate::atlas::Atlas;
 use crate::card::{CardError, MeshView};
 use crate::study::StudyError;
-use crate::study::subsurface::{no_atlas, no_card};
+use crate::study::subsurface::no_card;
 use crate::subsurface::links::{LinkChoice, Links, MeanWeighting, SCALAR_CHANNEL};
 use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::{
@@ -49,12 +49,7 @@ impl MarbleModel {
         Ok(Self { model: CardModel::new(atlas), textures, eta: material.eta })
     }
 
-    /// The atlas of a mesh.
-    pub(super) fn atlas(mesh: &crate::geom::Mesh, side: u32) -> Result<Atlas, StudyError> {
-        Atlas::new(mesh, side).map_err(no_atlas)
-    }
-
-    /// Draws the model under a light; all float textures have the format `texels`.
+    /// Colors of pixels under light, with textures of these floats.
     pub(super) fn draw(
         &self,
         light: impl FnOnce(&mut SubsurfaceCard) -> Result<(), CardError>,

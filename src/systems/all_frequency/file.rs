@@ -15,7 +15,7 @@ use crate::error::InputError;
 use crate::io::{NpzReader, NpzWriter, WriteError, write_file};
 use crate::sphere::ParabolicMap;
 use crate::transfer::file::kind::{begin_reading, begin_writing, bytes_of, contradiction};
-use crate::transfer::file::{MeshDigest, PrtKind, front, require_mesh};
+use crate::transfer::file::{MeshDigest, PrtKind, front, line_fault, require_mesh};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps};
@@ -38,6 +38,8 @@ pub struct AllFrequencyFile {
     pub visibility: Option<VisibilityMaps>,
     /// Transfer, compressed and coded.
     pub coded: Option<CodedTransfer>,
+    /// For a ground, which has no name of its own: the file of its mesh, relative to the folder of this file.
+    pub model: Option<String>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -48,6 +50,8 @@ struct TransferMetadata {
     /// Texels along an edge of the maps of G and F.
     factors: Option<[usize; 2]>,
     code: Option<Code>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    model: Option<String>,
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -66,7 +70,7 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
 /// Reads a file from bytes; `name` is its name in messages.
 pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, InputError> {
     let (mut arrays, metadata) = begin_reading(bytes, name, PrtKind::AllFrequency)?;
-    let TransferMetadata { mesh, hats, terms, factors, code } = metadata;
+    let TransferMetadata { mesh, hats, terms, factors, code, model } = metadata;
     if !(1..=1024).contains(&terms) {
         return Err(arrays.refuse("terms of the reflectance", "1 to 1024", terms.to_string()));
     }
@@ -80,7 +84,7 @@ pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile
     let vertices = mesh.vertices as usize;
     let visibility = arrays.has("visibility").then(|| visibility(&mut arrays, vertices)).transpose()?;
     let coded = code.map(|code| coded(&mut arrays, terms, vertices, code)).transpose()?;
-    let file = AllFrequencyFile { mesh, hats, reflectance, visibility, coded };
+    let file = AllFrequencyFile { mesh, hats, reflectance, visibility, coded, model };
     if let Some((field, expected, found)) = file.fault(terms) {
         return Err(arrays.refuse(field, expected, found));
     }
@@ -101,6 +105,9 @@ impl AllFrequencyFile {
         let counts = [self.visibility.as_ref().map(VisibilityMaps::len), self.coded.as_ref().map(|c| c.vertices)];
         if let Some(found) = counts.into_iter().flatten().find(|&found| found != vertices) {
             return Some(("vertices", vertices.to_string(), found.to_string()));
+        }
+        if let Some(fault) = line_fault("model", self.model.as_deref()) {
+            return Some(fault);
         }
         let coded = self.coded.as_ref()?;
         let last = coded.segments.last().map_or(0, |part| part.segment);
@@ -200,7 +207,8 @@ pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::
     let sides = |factors: &ProductFactors| [factors.view_map().side(), factors.light_map().side()];
     let code = |coded: &CodedTransfer| Code { segments: coded.segments.len(), options: coded.options };
     let (factor_sides, code) = (factors.map(sides), file.coded.as_ref().map(code));
-    let metadata = TransferMetadata { mesh: file.mesh, hats: file.hats, terms, factors: factor_sides, code };
+    let model = file.model.clone();
+    let metadata = TransferMetadata { mesh: file.mesh, hats: file.hats, terms, factors: factor_sides, code, model };
     let mut arrays = begin_writing(out, PrtKind::AllFrequency, &metadata)?;
     if let Some(factors) = factors {
         for ((name, side), values) in ["G", "F"].into_iter().zip(sides(factors)).zip(factors.values()) {

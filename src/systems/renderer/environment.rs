@@ -97,13 +97,25 @@ fn map(scene: &Scene, mirrors: &[u32], place: DVec3, settings: &Settings) -> Res
     let mut around = Scene::new(mesh, scene.materials().to_vec(), material_of, normals)?;
     around.point_lights.clone_from(&scene.point_lights);
     let mut tracer = HostTracer::new(around.mesh(), Sides::Both);
+    seen_around(place, SIDE, |camera| Ok(whitted::render(&around, camera, settings, &mut tracer, &mut |_| {})?.color))
+}
+
+/// Texels of a cube map of what is seen from a place, face by face as in [`CUBE_FACES`]. `seen` returns the pixels of a
+/// camera, row by row.
+///
+/// # Errors
+/// [`InputError`] of `seen`, and for a place that is not finite.
+pub fn seen_around(
+    place: DVec3,
+    side: u32,
+    mut seen: impl FnMut(&Camera) -> Result<Vec<[f64; 3]>, InputError>,
+) -> Result<Vec<[f64; 3]>, InputError> {
     let mut texels = Vec::new();
     for face in CUBE_FACES {
         let [eye, target, up] = [place, place + face.center, -face.down].map(narrow);
-        let camera = Camera::new(eye, target, up, 1.0, SIDE, SIDE)?;
-        let seen = whitted::render(&around, &camera, settings, &mut tracer, &mut |_| {})?;
+        let pixels = seen(&Camera::new(eye, target, up, 1.0, side, side)?)?;
         // Faces of cube maps are seen from outside.
-        texels.extend(seen.color.chunks(SIDE as usize).flat_map(|row| row.iter().rev().copied()));
+        texels.extend(pixels.chunks(side as usize).flat_map(|row| row.iter().rev().copied()));
     }
     Ok(texels)
 }

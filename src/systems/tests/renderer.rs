@@ -5,10 +5,12 @@ use std::f64::consts::PI;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use crossbar_base::geom::exact::Sides;
 use crossbar_base::geom::random::CounterRng;
-use crossbar_base::geom::vector::unit;
+use crossbar_base::geom::vector::{unit, wide};
 use crossbar_base::geom::{Hit, Mesh, Ray};
 use crossbar_ground::scene::{Camera, Material, PointLight, Scene};
+use crossbar_ground::sphere::CubeMap;
 use crossbar_ground::tracer::{CastError, Caster, HostTracer};
+use crossbar_systems::renderer::environment::seen_around;
 use crossbar_systems::renderer::fresnel::{reflected, refracted};
 use crossbar_systems::renderer::photon_map::{Photon, PhotonMap};
 use crossbar_systems::renderer::sampling::{DiscreteDistribution, cosine, disk, lobe, triangle};
@@ -93,6 +95,20 @@ fn frames_are_square() {
         assert!(x.dot(y).abs() < 1e-15 && x.dot(normal).abs() < 1e-15 && y.dot(normal).abs() < 1e-15);
         assert!(abs_diff_eq!(x.length(), 1.0, epsilon = 1e-15) && abs_diff_eq!(y.length(), 1.0, epsilon = 1e-15));
         assert!((x.cross(y) - normal).length() < 1e-15, "right-handed");
+    }
+}
+
+/// Texels of what is seen around a place lie in the directions of a cube map.
+#[test]
+fn a_cube_map_shows_its_directions() {
+    let (place, map) = (DVec3::new(3.0, -1.0, 0.5), CubeMap::new(8));
+    let texels = seen_around(place, 8, |camera| {
+        assert_eq!(wide(camera.eye()), place);
+        Ok(camera.rays().iter().map(|ray| wide(ray.direction()).normalize().to_array()).collect())
+    });
+    for (at, texel) in texels.expect("texels").into_iter().enumerate() {
+        let expected = map.direction(at / 64, at % 8, at / 8 % 8);
+        assert!(DVec3::from(texel).distance(expected) < 1e-6, "texel {at}: {texel:?}, not {expected}");
     }
 }
 

@@ -301,7 +301,7 @@ pub(super) const TABLE: &[Tried] = &[
             "all-frequency card glossy.npz --model square.obj --way colors --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --way=colors@0 --out=other@0,2",
+            "--original=glossy_sight.npz@0,2 --keep=9@0,2 --ground=on.ground.npz@0,2 --way=colors@0 --out=other@0,2",
             card!("nv35"),
             picture!("1")
         ),

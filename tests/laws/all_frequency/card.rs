@@ -81,7 +81,7 @@ fn pixels_show_what_their_rays_meet() {
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
-    let ways = factored_precision(hills.mesh(), &executor, camera(), 2.5, &mut |_| ()).expect("pictures");
+    let ways = factored_precision(&[hills.mesh()], &executor, camera(), 2.5, &mut |_| ()).expect("pictures");
     let seen = seen_pixels(&profile("r350"), hills.vertices.geometry(), &camera()).expect("pixels");
     let brightest = seen.iter().flatten().flat_map(|seen| {
         let (view, eye) = (ViewNumbers::Coordinates, camera().eye());
@@ -133,7 +133,7 @@ fn a_frame_is_counted_and_timed() {
         (ProductPlace::Pixels(per_channel), 120, 3),
     ] {
         assert_eq!(streamed_bytes(&place, 10), bytes);
-        let mut card = FactoredCard::new(r350.clone(), ExecutorKind::Batch, hills.mesh(), place).expect("a card");
+        let mut card = FactoredCard::new(r350.clone(), ExecutorKind::Batch, &[hills.mesh()], place).expect("a card");
         let view = MeshView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
         let (texels, _, log) = card.logged_view(&view, steps).expect("a frame");
         assert!(texels.texels == card.view_texels(&view).expect("a frame").texels);

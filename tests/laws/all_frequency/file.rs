@@ -35,7 +35,8 @@ fn whole() -> AllFrequencyFile {
     let options = CodeOptions { representative_bits: 9, weight_bits: 11, scale: ScaleOf::Segment };
     let coded = CodedTransfer::new(&transfer, options).expect("coded");
     let mesh = MeshDigest::new(&vertices);
-    AllFrequencyFile { mesh, hats: BasisWidth::OneTexel, reflectance, visibility: Some(maps), coded: Some(coded) }
+    let (visibility, coded, model) = (Some(maps), Some(coded), Some("ground.obj".to_owned()));
+    AllFrequencyFile { mesh, hats: BasisWidth::OneTexel, reflectance, visibility, coded, model }
 }
 
 /// A small file with only coded transfer.
@@ -48,7 +49,14 @@ fn small() -> AllFrequencyFile {
     let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
     let mesh = MeshDigest::new(&vertices);
     let reflectance = Reflectance::Diffuse;
-    AllFrequencyFile { mesh, hats: BasisWidth::TwoTexels, reflectance, visibility: None, coded: Some(coded) }
+    AllFrequencyFile {
+        mesh,
+        hats: BasisWidth::TwoTexels,
+        reflectance,
+        visibility: None,
+        coded: Some(coded),
+        model: None,
+    }
 }
 
 #[test]

@@ -228,7 +228,7 @@ fn all_frequency_transfer_shows_front_faces() {
         let (vertices, colors) = (&scene.vertices, &[[0.8, 0.7, 0.6]][..]);
         let mesh = TransferredMesh { vertices, reflectance: &reflectance, colors, transferred: &transferred };
         let place = ProductPlace::Pixels(fine);
-        let mut card = FactoredCard::new(ideal(), ExecutorKind::Batch, mesh, place).expect("a card");
+        let mut card = FactoredCard::new(ideal(), ExecutorKind::Batch, &[mesh], place).expect("a card");
         let view = MeshView { camera: scene.camera, exposure: 1.5, format: FLOATS };
         let texels = card.view_texels(&view).expect("a picture");
         let value = |seen: &SeenPixel| {

@@ -125,8 +125,8 @@ fn what_is_no_environment_is_refused() {
     let refused = |picture: &Picture| HarmonicLight::from_picture(3, picture).expect_err("refused");
     assert_eq!(
         refused(&gradient(65, 32)).to_string(),
-        "expected a lat-long picture (width twice the height), an angular probe (a square) or a cube \
-         cross (4:3 or 3:4, of whole squares), found 65x32"
+        "expected a lat-long picture (width twice the height), an angular probe (a square), a cube \
+         cross (4:3 or 3:4, of whole squares) or a cube strip (1:6), found 65x32"
     );
     assert_eq!(refused(&Picture::new(64, 32)).error_code(), NO_COLOR);
     for bad in [f32::NAN, f32::INFINITY] {

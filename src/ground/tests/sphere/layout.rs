@@ -15,6 +15,7 @@ fn shapes(layout: EnvironmentLayout) -> Vec<[usize; 2]> {
         EnvironmentLayout::LatLong => vec![[2, 1], [64, 32], [200, 100]],
         EnvironmentLayout::AngularProbe => vec![[1, 1], [2, 2], [3, 3], [7, 7], [32, 32], [101, 101]],
         EnvironmentLayout::CubeCross => vec![[4, 3], [3, 4], [64, 48], [75, 100]],
+        EnvironmentLayout::CubeStrip => vec![[1, 6], [5, 30], [16, 96]],
     }
 }
 
@@ -52,10 +53,28 @@ fn shown(layout: EnvironmentLayout, [width, height]: [usize; 2], [x, y]: [f64; 2
                 ([1, 3], false) => DVec3::new(u, -1.0, v),
                 _ => return None,
             };
-            let length = point.length();
-            Some((point / length, 4.0 / (side * side) / (length * length * length)))
+            on_cube(point, side)
+        }
+        EnvironmentLayout::CubeStrip => {
+            let [u, v] = [x, y].map(|at| 2.0 * (at / across).fract() - 1.0);
+            // Direct3D's faces.
+            let point = match (y / across) as usize {
+                0 => DVec3::new(1.0, -v, -u),
+                1 => DVec3::new(-1.0, -v, u),
+                2 => DVec3::new(u, 1.0, v),
+                3 => DVec3::new(u, -1.0, -v),
+                4 => DVec3::new(u, -v, 1.0),
+                _ => DVec3::new(-u, -v, -1.0),
+            };
+            on_cube(point, across)
         }
     }
+}
+
+/// The direction of a point of a cube, and the solid angle per squared pixel there.
+fn on_cube(point: DVec3, side: f64) -> Option<(DVec3, f64)> {
+    let length = point.length();
+    Some((point / length, 4.0 / (side * side) / (length * length * length)))
 }
 
 /// The coefficients of the light of one white pixel.

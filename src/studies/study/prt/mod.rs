@@ -24,7 +24,7 @@ use crate::study::StudyError;
 use crate::study::error::library_errors;
 
 pub use all_frequency::{
-    AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, LitModel, RenderedGround, SegmentTally,
+    AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, LitGround, LitModel, SegmentTally,
     SegmentedCompression, SightOfModel, coded_errors,
 };
 pub(super) use bi_scale::{BiScaleDrawing, CausePictures};

@@ -87,10 +87,12 @@ fn picture_of(light: DistantLight) -> Picture {
         reflectance: Reflectance::Diffuse,
         visibility: None,
         coded: None,
+        model: None,
     };
     let (colors, decimation) = (vec![[1.0; 3]], Decimation::SolidAngle);
-    let lit = LitModel { view, mesh, vertices, colors, file, original: None, light, decimation, keep: None };
-    StudyFiles::of(&AllFrequencyRendering { lit, ground: None }).picture("light.png")
+    let lit =
+        LitModel { view, mesh, vertices, colors, file, original: None, ground: None, light, decimation, keep: None };
+    StudyFiles::of(&AllFrequencyRendering { lit }).picture("light.png")
 }
 
 /// In the picture read as a light, a disk is in its original direction.

@@ -46,7 +46,7 @@ impl TransferredMesh<'_> {
 /// to 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FactoredCounts {
-    /// Pixels that show the mesh; `None` if the device has no floating-point target, which counting needs.
+    /// Pixels that show a mesh; `None` if the device has no floating-point target, which counting needs.
     pub covered: Option<u64>,
     /// Covered pixels with a negative channel before clamping.
     pub below_zero: Option<u64>,
@@ -54,6 +54,15 @@ pub struct FactoredCounts {
     pub vertices_below_zero: Option<u64>,
     /// Vertices with a channel above 1, which bytes clamp.
     pub vertices_above_one: Option<u64>,
+}
+
+impl FactoredCounts {
+    /// Adds the vertices of another mesh.
+    pub(super) fn add_vertices(&mut self, others: Self) {
+        let sum = |of: Option<u64>, others: Option<u64>| of.into_iter().chain(others).reduce(|a, b| a + b);
+        self.vertices_below_zero = sum(self.vertices_below_zero, others.vertices_below_zero);
+        self.vertices_above_one = sum(self.vertices_above_one, others.vertices_above_one);
+    }
 }
 
 /// Computes step 4 per vertex, for vertex colors.

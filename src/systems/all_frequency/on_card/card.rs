@@ -15,7 +15,9 @@ use super::programs::{FactorMaps, Programs};
 use super::time;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::shade::Multiplies;
-use crate::card::{Attribute, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshView, Texels, by_register, slots};
+use crate::card::{
+    Attribute, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshPass, MeshView, Texels, by_register, slots,
+};
 
 /// Write masks of the passes of one channel each; alpha marks covered pixels.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
@@ -29,54 +31,101 @@ pub struct FactoredDrawing {
     pub signed: Option<Texels>,
     /// Counts of clamped colors.
     pub counts: FactoredCounts,
-    /// Texture reads and arithmetic slots of the pixel program.
+    /// Texture reads and arithmetic slots of the first mesh's pixel program.
     pub pixel_slots: [u32; 2],
     /// The log of host and card, for [`frame_time`](crate::card::frame_time::frame_time).
     pub log: Vec<Event>,
 }
 
-/// A mesh with transferred radiance on a card.
+/// Meshes with transferred radiance on a card.
 #[derive(Debug)]
 pub struct FactoredCard<'a> {
     display: MeshDisplay,
-    transferred: TransferredMesh<'a>,
+    meshes: Vec<MeshOnCard<'a>>,
     place: ProductPlace,
+}
+
+/// A mesh with its programs and streams.
+#[derive(Debug)]
+struct MeshOnCard<'a> {
+    transferred: TransferredMesh<'a>,
+    positions: Attribute,
     /// Tangents and normals, if the vertex program computes the view.
     axes: Vec<Attribute>,
-    indices: Vec<u32>,
     programs: Programs,
     maps: Option<FactorMaps>,
 }
 
-impl<'a> FactoredCard<'a> {
-    /// Uploads a mesh, and the maps of G. Fails with [`CardError`] if the device lacks programs, coordinate sets,
-    /// samplers or filtering of the format, or the mesh's parts have inconsistent sizes.
-    pub fn new(
-        profile: impl Into<Arc<Profile>>,
-        executor: impl Into<Executor>,
+impl<'a> MeshOnCard<'a> {
+    fn new(
+        machine: &mut Machine,
         mesh: TransferredMesh<'a>,
-        place: ProductPlace,
+        positions: &[[u32; 4]],
+        place: &ProductPlace,
     ) -> Result<Self, CardError> {
-        let profile = profile.into();
         mesh.check()?;
-        let programs = Programs::new(&profile, &mesh, &place)?;
-        let mut machine = executor.into().machine(profile)?;
-        let maps = match (&place, mesh.reflectance) {
+        let programs = Programs::new(machine.profile(), &mesh, place)?;
+        let maps = match (place, mesh.reflectance) {
             (ProductPlace::Pixels(options), Reflectance::Factored(factors)) => {
-                Some(FactorMaps::new(&mut machine, factors, options)?)
+                Some(FactorMaps::new(machine, factors, options)?)
             }
             _ => None,
         };
         let axes = |vertex: usize| mesh.vertices.frames()[vertex].attributes().to_vec();
-        Ok(Self {
-            axes: if programs.makes_view { by_register(2, mesh.vertices.len(), axes) } else { Vec::new() },
-            display: MeshDisplay::new(machine, mesh.vertices.positions().iter().copied()),
-            transferred: mesh,
-            place,
-            indices: mesh.vertices.triangles().as_flattened().to_vec(),
-            programs,
-            maps,
-        })
+        let axes = if programs.makes_view { by_register(2, mesh.vertices.len(), axes) } else { Vec::new() };
+        Ok(Self { transferred: mesh, positions: positions.to_vec(), axes, programs, maps })
+    }
+
+    fn draw(
+        &self,
+        pass: &mut MeshPass<'_>,
+        place: &ProductPlace,
+        view: &MeshView,
+    ) -> Result<FactoredCounts, CardError> {
+        let Self { transferred, positions, axes, programs, maps } = self;
+        let textures = maps.iter().flat_map(|maps| &maps.textures);
+        let textures: Vec<_> = textures.map(|&texture| (texture, programs.sampler)).collect();
+        let (passes, counts) = attributes(transferred, place, maps.as_ref(), view)?;
+        let mut head = pass.head();
+        head.truncate(if programs.makes_view { 5 } else { 4 });
+        for (number, sets) in passes.iter().enumerate() {
+            pass.draw(MeshDraw {
+                vertex: (&programs.vertex, head.clone()),
+                attributes: [positions].into_iter().chain(sets).chain(axes).collect(),
+                indices: Some(transferred.vertices.triangles().as_flattened()),
+                pixel: (&programs.pixel, Vec::new()),
+                textures: textures.clone(),
+                // The first pass fills the depth buffer; the others write their channel at the same depths.
+                fragments: if number == 0 { KeptFragments::Nearest } else { KeptFragments::Visible },
+                mask: if passes.len() == 1 { WriteMask::ALL } else { CHANNELS[number] },
+            })?;
+        }
+        Ok(counts)
+    }
+}
+
+impl<'a> FactoredCard<'a> {
+    /// Uploads meshes, such as a model and the ground below it, and their maps of G. They share a camera and a depth
+    /// buffer, and are drawn in order. Fails with [`CardError`] if the device lacks programs, coordinate sets, samplers
+    /// or filtering of the format, or a mesh's parts have inconsistent sizes.
+    pub fn new(
+        profile: impl Into<Arc<Profile>>,
+        executor: impl Into<Executor>,
+        meshes: &[TransferredMesh<'a>],
+        place: ProductPlace,
+    ) -> Result<Self, CardError> {
+        let machine = executor.into().machine(profile.into())?;
+        let positions = meshes.iter().flat_map(|mesh| mesh.vertices.positions().iter().copied());
+        let mut display = MeshDisplay::new(machine, positions);
+        let all = display.positions().clone();
+        let mut rest = &all[..];
+        let mut on_card = |&mesh: &TransferredMesh<'a>| {
+            let (positions, others) = rest.split_at(mesh.vertices.len());
+            rest = others;
+            MeshOnCard::new(display.machine_mut(), mesh, positions, &place)
+        };
+        let meshes = meshes.iter().map(&mut on_card).collect::<Result<_, _>>()?;
+        Ok(Self { display, meshes, place })
     }
 
     /// The emulated card.
@@ -92,56 +141,42 @@ impl<'a> FactoredCard<'a> {
     }
 
     /// Like [`Self::view_texels`], with the log of host and card for [`time`]; `host` are the multiplications of steps
-    /// 2 and 3.
+    /// 2 and 3 for all meshes.
     pub fn logged_view(
         &mut self,
         view: &MeshView,
         host: Multiplies,
     ) -> Result<(Texels, FactoredCounts, Vec<Event>), CardError> {
         let (texels, counts, drawn) = self.show(view, true)?;
-        let mut log = time::host_log(&self.transferred, &self.place, host);
+        let mut log = time::host_log(self.meshes.iter().map(|mesh| &mesh.transferred), &self.place, host);
         log.extend(drawn);
         Ok((texels, counts, log))
     }
 
     fn show(&mut self, view: &MeshView, is_logged: bool) -> Result<(Texels, FactoredCounts, Vec<Event>), CardError> {
-        let Self { transferred, place, axes, programs, maps, .. } = self;
-        let textures = maps.iter().flat_map(|maps| &maps.textures);
-        let textures: Vec<_> = textures.map(|&texture| (texture, programs.sampler)).collect();
+        let Self { display, meshes, place } = self;
         let mut counts = FactoredCounts::default();
-        let (texels, log) = self.display.show(view, is_logged, |pass| {
-            let passes;
-            (passes, counts) = attributes(transferred, place, maps.as_ref(), view)?;
-            let mut head = pass.head();
-            head.truncate(if programs.makes_view { 5 } else { 4 });
-            for (number, sets) in passes.iter().enumerate() {
-                pass.draw(MeshDraw {
-                    vertex: (&programs.vertex, head.clone()),
-                    attributes: [pass.positions()].into_iter().chain(sets).chain(axes.iter()).collect(),
-                    indices: Some(&self.indices),
-                    pixel: (&programs.pixel, Vec::new()),
-                    textures: textures.clone(),
-                    // The first pass fills the depth buffer; the others write their channel at the same depths.
-                    fragments: if number == 0 { KeptFragments::Nearest } else { KeptFragments::Visible },
-                    mask: if passes.len() == 1 { WriteMask::ALL } else { CHANNELS[number] },
-                })?;
-            }
-            Ok(())
+        let (texels, log) = display.show(view, is_logged, |pass| {
+            meshes.iter().try_for_each(|mesh| {
+                counts.add_vertices(mesh.draw(pass, place, view)?);
+                Ok(())
+            })
         })?;
         Ok((texels, counts, log))
     }
 }
 
-/// Draws a mesh on a device. `host` are the multiplications of steps 2 and 3.
+/// Draws meshes on a device, in order. `host` are the multiplications of steps 2 and 3 for all of them. Panics if there
+/// is no mesh.
 pub fn draw(
     profile: impl Into<Arc<Profile>>,
     executor: impl Into<Executor>,
-    mesh: TransferredMesh<'_>,
+    meshes: &[TransferredMesh<'_>],
     place: ProductPlace,
     view: &MeshView,
     host: Multiplies,
 ) -> Result<FactoredDrawing, CardError> {
-    let mut card = FactoredCard::new(profile, executor, mesh, place)?;
+    let mut card = FactoredCard::new(profile, executor, meshes, place)?;
     let (texels, mut counts, log) = card.logged_view(view, host)?;
     // A floating-point target shows values that other targets clamp.
     let formats = &card.display.machine().profile().limits.target_formats;
@@ -157,7 +192,7 @@ pub fn draw(
         let is_negative = |texel: &&[f32; 4]| texel[..3].iter().any(|&value| value < 0.0);
         counts.below_zero = Some(covered().filter(is_negative).count() as u64);
     }
-    Ok(FactoredDrawing { texels, signed, counts, pixel_slots: slots(&card.programs.pixel), log })
+    Ok(FactoredDrawing { texels, signed, counts, pixel_slots: slots(&card.meshes[0].programs.pixel), log })
 }
 
 /// The attributes that the host sends for a view between positions and tangents, pass by pass, and counts of colors.
@@ -175,8 +210,11 @@ fn attributes(
     }
     let (colors, counts) = match *place {
         ProductPlace::Vertices(format) => colors(&radiance(mesh, view.camera.eye()), view.exposure, format)?,
-        // A diffuse surface has one term, whose G does not depend on the view.
-        ProductPlace::Pixels(_) => colors(&diffuse_radiance(mesh), view.exposure, VertexColors::Floats)?,
+        // A diffuse surface has one term, whose G does not depend on the view. Floats clamp no colors.
+        ProductPlace::Pixels(_) => {
+            let (colors, _) = colors(&diffuse_radiance(mesh), view.exposure, VertexColors::Floats)?;
+            (colors, FactoredCounts::default())
+        }
     };
     Ok((vec![vec![colors]], counts))
 }

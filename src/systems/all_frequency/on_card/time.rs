@@ -94,10 +94,18 @@ pub fn streamed_bytes(place: &ProductPlace, terms: usize) -> usize {
     }
 }
 
-/// The host's work in a frame: the multiplications of steps 2 and 3, 3 m multiplications per vertex (by G, or by the
-/// scales of G's texels), and the submission and upload of vertices.
-pub(super) fn host_log(mesh: &TransferredMesh<'_>, place: &ProductPlace, host: Multiplies) -> Vec<Event> {
-    share_of_host(mesh.vertices.len() as u64, mesh.terms(), place, host)
+/// The host's work in a frame: the multiplications of steps 2 and 3, then for each mesh 3 m multiplications per vertex
+/// (by G, or by the scales of G's texels), and the submission and upload of vertices.
+pub(super) fn host_log<'a>(
+    meshes: impl Iterator<Item = &'a TransferredMesh<'a>>,
+    place: &ProductPlace,
+    host: Multiplies,
+) -> Vec<Event> {
+    let mut rest = Some(host);
+    let share = |mesh: &TransferredMesh<'_>| {
+        share_of_host(mesh.vertices.len() as u64, mesh.terms(), place, rest.take().unwrap_or_default())
+    };
+    meshes.flat_map(share).collect()
 }
 
 fn share_of_host(vertices: u64, terms: usize, place: &ProductPlace, host: Multiplies) -> Vec<Event> {

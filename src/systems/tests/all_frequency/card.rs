@@ -12,11 +12,14 @@ use crossbar_systems::transfer::synthetic::{hills, signal_at};
 use crossbar_systems::transfer::{Tangents, Vertices};
 use glam::DVec3;
 use refsim::device::Profile;
+use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
 use crate::card::{MeshView, SeenPixel, Texels, seen_pixels};
+use crate::geom::Mesh;
 use crate::scene::Camera;
+use crate::scene::built::ground::ground;
 
 fn device(name: &str) -> Profile {
     Profile::named(name).expect("a device")
@@ -33,7 +36,11 @@ const COLORS: [[f64; 3]; 1] = [[0.9, 0.6, 0.3]];
 
 impl FactoredHills {
     fn new(reflectance: Reflectance) -> Self {
-        let vertices = Vertices::new(&hills(7), Tangents::Along(DVec3::X)).expect("vertices");
+        Self::of(&hills(7), reflectance)
+    }
+
+    fn of(mesh: &Mesh, reflectance: Reflectance) -> Self {
+        let vertices = Vertices::new(mesh, Tangents::Along(DVec3::X)).expect("vertices");
         let terms = reflectance.terms();
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), 3 * terms, 8, place);
@@ -54,7 +61,7 @@ impl FactoredHills {
 
     fn draw(&self, name: &str, place: ProductPlace, format: TexelFormat) -> FactoredDrawing {
         let view = MeshView { camera: camera(), exposure: 0.7, format };
-        draw(device(name), ExecutorKind::Batch, self.mesh(), place, &view, Multiplies::default())
+        draw(device(name), ExecutorKind::Batch, &[self.mesh()], place, &view, Multiplies::default())
             .unwrap_or_else(|e| panic!("{name}, {place:?}: {e}"))
     }
 
@@ -150,6 +157,37 @@ fn colors_of_vertices_are_interpolated() {
     assert!(error < 2e-5, "one term: {error}");
 }
 
+/// A plane of another reflectance cuts the hills: each pixel shows the nearer one, in one pass and in one per channel.
+#[test]
+fn meshes_hide_each_other() {
+    let [hills, plane] =
+        [FactoredHills::glossy(5), FactoredHills::of(&ground(4, DVec3::ZERO, 1.0), Reflectance::Diffuse)];
+    let (meshes, first) = ([hills.mesh(), plane.mesh()], hills.vertices.len() as u32);
+    let joined = hills.vertices.joined(&plane.vertices);
+    let seen = seen_pixels(&device("ideal-fp32"), joined.geometry(), &camera()).expect("pixels");
+    let (view, work) = (MeshView { camera: camera(), exposure: 0.7, format: FLOATS }, Multiplies::default());
+    for is_pass_per_channel in [false, true] {
+        let place = ProductPlace::Pixels(ProductOptions { is_pass_per_channel, ..exact() });
+        let drawing = draw(device("ideal-fp32"), ExecutorKind::Batch, &meshes, place, &view, work).expect("a picture");
+        let mut shown = [0; 2];
+        for (texel, seen) in drawing.texels.texels.iter().zip(&seen) {
+            let Some(SeenPixel { corners, weights, .. }) = *seen else { continue };
+            let number = usize::from(corners[0] >= first);
+            shown[number] += 1;
+            let corners = if number == 1 { corners.map(|corner| corner - first) } else { corners };
+            let eye = camera().eye();
+            let expected = pixel_of_products(&meshes[number], ViewNumbers::Coordinates, eye, corners, weights);
+            for (found, expected) in texel.iter().zip(expected) {
+                assert!((f64::from(*found) - 0.7 * expected).abs() < 1e-5, "{found}, not {expected}");
+            }
+        }
+        assert!(shown.iter().all(|&pixels| pixels > 100), "{shown:?}");
+        let sent = |event: &Event| if let Event::Upload { bytes, .. } = event { *bytes } else { 0 };
+        let bytes = drawing.log.iter().map(sent).sum::<u64>();
+        assert_eq!(bytes, 60 * u64::from(first) + 12 * plane.vertices.len() as u64);
+    }
+}
+
 #[test]
 fn what_is_clamped_is_counted() {
     let hills = FactoredHills::glossy(10);
@@ -172,7 +210,7 @@ fn what_is_clamped_is_counted() {
 fn what_does_not_fit_is_refused() {
     let message = |name: &str, terms: usize, options: ProductOptions| {
         let hills = FactoredHills::glossy(terms);
-        let card = FactoredCard::new(device(name), ExecutorKind::Batch, hills.mesh(), ProductPlace::Pixels(options));
+        let card = FactoredCard::new(device(name), ExecutorKind::Batch, &[hills.mesh()], ProductPlace::Pixels(options));
         card.map(|_| ()).expect_err("refused").to_string()
     };
     let options = ProductOptions::default();
@@ -197,11 +235,12 @@ fn what_does_not_fit_is_refused() {
     let fewer = TransferredRadiance::new(2, vec![[0.0; 3]; 2 * hills.vertices.len()]);
     let mesh = TransferredMesh { transferred: &fewer, ..hills.mesh() };
     let place = ProductPlace::Pixels(options);
-    let error = FactoredCard::new(device("r350"), ExecutorKind::Batch, mesh, place).map(|_| ()).expect_err("refused");
+    let error =
+        FactoredCard::new(device("r350"), ExecutorKind::Batch, &[mesh], place).map(|_| ()).expect_err("refused");
     assert_eq!(error.to_string(), "expected 3 rows, one per term, found 2");
     let bright = TransferredRadiance::new(3, vec![[3e38; 3]; 3 * hills.vertices.len()]);
     let mesh = TransferredMesh { transferred: &bright, ..hills.mesh() };
-    let mut card = FactoredCard::new(device("r350"), ExecutorKind::Batch, mesh, place).expect("a card");
+    let mut card = FactoredCard::new(device("r350"), ExecutorKind::Batch, &[mesh], place).expect("a card");
     let view = |exposure| MeshView { camera: camera(), exposure, format: FLOATS };
     for (exposure, expected) in [(1e3, "radiance that its format holds"), (-1.0, "an exposure of 0 to 1e30")] {
         let refused = card.view_texels(&view(exposure)).expect_err("refused").to_string();

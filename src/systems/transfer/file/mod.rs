@@ -18,8 +18,8 @@ use crate::clustering::Signal;
 /// Largest size of a file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
 
-/// Maximum length of [`PrtFile::provenance`], in bytes.
-const MAX_PROVENANCE: usize = 4096;
+/// Maximum length of a line of text in a file, in bytes.
+const MAX_LINE: usize = 4096;
 
 /// The contents of a file of low-frequency transfer.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,7 +142,7 @@ impl PrtFile {
         if first.1 != expected {
             return Some(("numbers per point", expected.to_string(), first.1.to_string()));
         }
-        self.superclusters_fault().or_else(|| self.provenance_fault())
+        self.superclusters_fault().or_else(|| line_fault("provenance", self.provenance.as_deref()))
     }
 
     fn superclusters_fault(&self) -> Option<(&'static str, String, String)> {
@@ -164,11 +164,12 @@ impl PrtFile {
         }
         None
     }
+}
 
-    fn provenance_fault(&self) -> Option<(&'static str, String, String)> {
-        let line = self.provenance.as_ref()?;
-        let is_line = (1..=MAX_PROVENANCE).contains(&line.len()) && !line.chars().any(char::is_control);
-        let expected = || format!("a line of 1 to {MAX_PROVENANCE} bytes without control characters");
-        (!is_line).then(|| ("provenance", expected(), format!("{} bytes", line.len())))
-    }
+/// The fault of a field that is not one line of text.
+pub(crate) fn line_fault(field: &'static str, line: Option<&str>) -> Option<(&'static str, String, String)> {
+    let line = line?;
+    let is_line = (1..=MAX_LINE).contains(&line.len()) && !line.chars().any(char::is_control);
+    let expected = || format!("a line of 1 to {MAX_LINE} bytes without control characters");
+    (!is_line).then(|| (field, expected(), format!("{} bytes", line.len())))
 }

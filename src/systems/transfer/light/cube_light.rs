@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::disks::{DiskSource, add_disk};
 use crate::error::{InputError, input_error};
+use crate::picture::Picture;
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
 use crate::transfer::grid::{
     FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
@@ -149,6 +150,13 @@ impl CubeLight {
     /// The radiances by texel index.
     pub fn texels(&self) -> &[[f64; 3]] {
         &self.texels
+    }
+
+    /// The light in harmonics, each integrated over the texels, from radiances in single precision. Panics if the order
+    /// is not 1 to 10.
+    pub fn harmonics(&self, order: usize) -> Result<HarmonicLight, InputError> {
+        let single: Vec<[f32; 3]> = self.texels.iter().map(|texel| texel.map(|value| value as f32)).collect();
+        HarmonicLight::from_picture(order, &Picture::rgb(LIGHT_SIDE as u32, 6 * LIGHT_SIDE as u32, &single))
     }
 
     /// The integral over all directions of the radiance, which is constant over each texel.

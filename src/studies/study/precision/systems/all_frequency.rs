@@ -53,7 +53,7 @@ impl SystemRun for FactoredBunny {
         let Self { vertices, reflectance, transferred, .. } = self;
         let mesh = TransferredMesh { vertices, reflectance, colors: &[[0.9, 0.5, 0.7]], transferred };
         let place = ProductPlace::Pixels(ProductOptions::default());
-        let card = FactoredCard::new(profile.clone(), executor.clone(), mesh, place);
+        let card = FactoredCard::new(profile.clone(), executor.clone(), &[mesh], place);
         let view = MeshView { camera: self.cameras[input as usize], exposure: 0.8, format: TexelFormat::Rgba32f };
         Ok(card.and_then(|mut card| card.view_texels(&view)).map_err(no_all_frequency_card)?.colors())
     }

@@ -1,5 +1,6 @@
 //! The model, light and camera that studies of all-frequency transfer share.
 
+use super::part::Part;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
 use crate::study::prt::LitView;
@@ -21,10 +22,33 @@ pub struct LitModel {
     pub file: AllFrequencyFile,
     /// A file with visibility, for measuring the loss of compression.
     pub original: Option<AllFrequencyFile>,
+    /// The ground below the model.
+    pub ground: Option<LitGround>,
     /// The light.
     pub light: DistantLight,
     /// Decimation of the light.
     pub decimation: Decimation,
     /// Number of light coefficients kept, the largest by area times magnitude; `None` for all.
     pub keep: Option<usize>,
+}
+
+/// The ground below a model, with transfer of its own.
+#[derive(Debug)]
+pub struct LitGround {
+    /// The ground's mesh.
+    pub mesh: Mesh,
+    /// The ground's vertices.
+    pub vertices: Vertices,
+    /// Color per material.
+    pub colors: Vec<[f64; 3]>,
+    /// Visibility, coded transfer or both.
+    pub file: AllFrequencyFile,
+}
+
+impl LitModel {
+    /// The model, then the ground below it.
+    pub(in crate::study::prt) fn parts(&self) -> Vec<Part<'_>> {
+        let ground = self.ground.as_ref().map(|ground| Part::new(&ground.vertices, &ground.colors, &ground.file));
+        std::iter::once(Part::new(&self.vertices, &self.colors, &self.file)).chain(ground).collect()
+    }
 }

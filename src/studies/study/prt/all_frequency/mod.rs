@@ -12,7 +12,8 @@ mod tally;
 
 pub use compress::SegmentedCompression;
 pub use errors::{CodedErrors, coded_errors};
-pub use lit_model::LitModel;
+pub use lit_model::{LitGround, LitModel};
+pub(super) use part::{FrameTimes, Part, singles};
 pub use precompute::{FoundSight, SightOfModel};
-pub use render::{AllFrequencyRendering, RenderedGround};
+pub use render::AllFrequencyRendering;
 pub use tally::{CompressionTally, SegmentTally};

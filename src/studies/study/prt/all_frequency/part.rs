@@ -3,7 +3,9 @@
 use std::time::Instant;
 
 use super::exact;
+use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::file::AllFrequencyFile;
+use crate::all_frequency::on_card::TransferredMesh;
 use crate::all_frequency::shade::{Multiplies, Shader, TransferredRadiance, exit_radiance};
 use crate::error::InputError;
 use crate::geom::vector::wide;
@@ -13,14 +15,30 @@ use crate::transfer::Vertices;
 use crate::transfer::light::HaarLight;
 
 /// Transferred radiance, from coded transfer or from raw matrices.
-pub(super) enum Transferred {
+pub(in crate::study::prt) enum Transferred {
     Coded(TransferredRadiance),
     Exact { rows: usize, values: Vec<[f64; 3]> },
 }
 
+impl Transferred {
+    /// In single precision, as a card takes it.
+    pub(in crate::study::prt) fn singles(self) -> TransferredRadiance {
+        match self {
+            Self::Coded(radiance) => radiance,
+            Self::Exact { rows, values } => singles(rows, values),
+        }
+    }
+}
+
+/// Transferred radiance with one rounding to f32 each.
+pub(in crate::study::prt) fn singles(rows: usize, values: Vec<[f64; 3]>) -> TransferredRadiance {
+    let values = values.into_iter().map(|row| row.map(|value| value as f32)).collect();
+    TransferredRadiance::new(rows, values)
+}
+
 /// Times of a frame, in seconds.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct FrameTimes {
+pub(in crate::study::prt) struct FrameTimes {
     pub(super) light: f64,
     pub(super) clusters: f64,
     pub(super) vertices: f64,
@@ -34,7 +52,7 @@ impl FrameTimes {
 }
 
 /// A mesh's vertices with transfer, laid out for rendering.
-pub(super) struct Part<'a> {
+pub(in crate::study::prt) struct Part<'a> {
     vertices: &'a Vertices,
     colors: &'a [[f64; 3]],
     file: &'a AllFrequencyFile,
@@ -48,12 +66,27 @@ impl<'a> Part<'a> {
     }
 
     /// Returns `true` if transfer is coded.
-    pub(super) fn is_coded(&self) -> bool {
+    pub(in crate::study::prt) fn is_coded(&self) -> bool {
         self.shader.is_some()
     }
 
-    /// Computes transferred radiance by steps 2 and 3, or by raw matrices if transfer is not coded.
-    pub(super) fn transferred(&self, light: &HaarLight, times: &mut FrameTimes) -> Result<Transferred, StudyError> {
+    /// The coded transfer.
+    pub(in crate::study::prt) fn coded(&self) -> Option<&'a CodedTransfer> {
+        self.file.coded.as_ref()
+    }
+
+    /// What a card draws.
+    pub(in crate::study::prt) fn mesh(&self, transferred: &'a TransferredRadiance) -> TransferredMesh<'a> {
+        let Self { vertices, colors, .. } = *self;
+        TransferredMesh { vertices, reflectance: &self.file.reflectance, colors, transferred }
+    }
+
+    /// Transferred radiance by steps 2 and 3, or by raw matrices if transfer is not coded.
+    pub(in crate::study::prt) fn transferred(
+        &self,
+        light: &HaarLight,
+        times: &mut FrameTimes,
+    ) -> Result<Transferred, StudyError> {
         let Some(shader) = &self.shader else { return Ok(self.exact(self.file, light)?) };
         let light = light.singles();
         let start = Instant::now();
@@ -65,8 +98,12 @@ impl<'a> Part<'a> {
         Ok(Transferred::Coded(transferred))
     }
 
-    /// Computes transferred radiance by the raw matrices of a file.
-    pub(super) fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, InputError> {
+    /// Transferred radiance by the raw matrices of a file.
+    pub(in crate::study::prt) fn exact(
+        &self,
+        file: &AllFrequencyFile,
+        light: &HaarLight,
+    ) -> Result<Transferred, InputError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
             Some(maps) => exact::transferred((self.vertices, maps), file.hats, &file.reflectance, &[light])?.remove(0),
@@ -88,10 +125,14 @@ impl<'a> Part<'a> {
         radiance
     }
 
-    /// Number of multiplications in steps 2, 3 and 4.
-    pub(super) fn multiplies(&self, light: &[[f32; 3]]) -> [u64; 3] {
-        let steps = self.shader.as_ref().map(|shader| shader.multiplies(light));
-        let Multiplies { per_cluster, per_vertex } = steps.unwrap_or_default();
-        [per_cluster, per_vertex, 3 * (self.file.reflectance.terms() * self.vertices.len()) as u64]
+    /// Multiplications of steps 2, 3 and 4. Without a code each light coefficient that is not 0 is multiplied in the raw
+    /// matrix of every vertex.
+    pub(in crate::study::prt) fn multiplies(&self, light: &[[f32; 3]]) -> [u64; 3] {
+        let products = 3 * (self.file.reflectance.terms() * self.vertices.len()) as u64;
+        let Some(shader) = &self.shader else {
+            return [0, products * light.iter().filter(|rgb| **rgb != [0.0; 3]).count() as u64, products];
+        };
+        let Multiplies { per_cluster, per_vertex } = shader.multiplies(light);
+        [per_cluster, per_vertex, products]
     }
 }

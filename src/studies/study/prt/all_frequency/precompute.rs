@@ -60,7 +60,8 @@ impl SightOfModel<'_> {
     fn found(&self, vertices: &Vertices, maps: VisibilityMaps, reflectance: Reflectance) -> FoundSight {
         let census = SegmentCensus::new(vertices, &maps, &LinearBasis::new(self.hats));
         let mesh = MeshDigest::new(vertices);
-        let file = AllFrequencyFile { mesh, hats: self.hats, reflectance, visibility: Some(maps), coded: None };
+        let file =
+            AllFrequencyFile { mesh, hats: self.hats, reflectance, visibility: Some(maps), coded: None, model: None };
         FoundSight { file, census }
     }
 }

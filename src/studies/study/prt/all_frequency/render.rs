@@ -7,8 +7,6 @@ use serde_json::json;
 use super::exact;
 use super::lit_model::LitModel;
 use super::part::{FrameTimes, Part, Transferred};
-use crate::all_frequency::file::AllFrequencyFile;
-use crate::geom::Mesh;
 use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
@@ -16,7 +14,6 @@ use crate::scene::Camera;
 use crate::study::prt::render::cluster_color;
 use crate::study::prt::{SeenSurface, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
-use crate::transfer::Vertices;
 use crate::transfer::light::{HaarLight, LightTruncation};
 
 /// Number of segments whose clusters are drawn, as in Figure 4.
@@ -27,21 +24,6 @@ const CLUSTER_PICTURES: usize = 3;
 pub struct AllFrequencyRendering {
     /// The model, its transfer, the light and the camera.
     pub lit: LitModel,
-    /// The ground below the model.
-    pub ground: Option<RenderedGround>,
-}
-
-/// The ground below a model, with its own transfer.
-#[derive(Debug)]
-pub struct RenderedGround {
-    /// The ground's mesh.
-    pub mesh: Mesh,
-    /// The ground's vertices.
-    pub vertices: Vertices,
-    /// Color per material.
-    pub colors: Vec<[f64; 3]>,
-    /// Visibility, coded transfer or both.
-    pub file: AllFrequencyFile,
 }
 
 impl Study for AllFrequencyRendering {
@@ -49,7 +31,7 @@ impl Study for AllFrequencyRendering {
         progress("rays", 0, 2);
         let seen = self.seen();
         progress("radiance", 1, 2);
-        let parts = self.parts();
+        let parts = self.lit.parts();
         let mut times = FrameTimes::default();
         let cut = self.light(&mut times)?;
         let transferred: Vec<Transferred> =
@@ -108,15 +90,9 @@ fn time(parts: &[Part<'_>], light: &HaarLight, times: FrameTimes, found: &mut Fi
 }
 
 impl AllFrequencyRendering {
-    /// The model, and the ground below it.
-    fn parts(&self) -> Vec<Part<'_>> {
-        let ground = self.ground.as_ref().map(|ground| Part::new(&ground.vertices, &ground.colors, &ground.file));
-        std::iter::once(Part::new(&self.lit.vertices, &self.lit.colors, &self.lit.file)).chain(ground).collect()
-    }
-
-    /// The surface point at each of the camera's pixels; vertices of the ground follow the model's.
+    /// The surface point in each of the camera's pixels; vertices of the ground follow those of the model.
     fn seen(&self) -> SeenSurface {
-        let ground = self.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
+        let ground = self.lit.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
         let parts: Vec<_> = std::iter::once((&self.lit.mesh, &self.lit.vertices)).chain(ground).collect();
         SeenSurface::of_parts(&parts, &self.lit.view.camera)
     }

@@ -38,11 +38,22 @@ pub(super) const fn picture(models: ModelSize) -> [u32; 2] {
     }
 }
 
-/// Draws a mesh with `side` local directions per side into a picture of `width` x `height` pixels.
-pub(super) fn display(
+/// Camera of the bunnies.
+pub(super) fn of_bunny([width, height]: [u32; 2]) -> Result<Camera, StudyError> {
+    Camera::new([3.0, -5.5, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.22, width, height).on(CARD)
+}
+
+/// Draws a mesh of one texture with `side` local directions along an edge.
+pub(super) fn display(model: (&Mesh, &Vertices), side: usize, camera: Camera) -> Result<DisplayRun, StudyError> {
+    display_textured(model, &vec![0; model.0.len()], side, camera)
+}
+
+/// Draws a mesh with a texture for each material.
+pub(super) fn display_textured(
     (mesh, vertices): (&Mesh, &Vertices),
+    texture_of: &[u32],
     side: usize,
-    [width, height]: [u32; 2],
+    camera: Camera,
 ) -> Result<DisplayRun, StudyError> {
     let directions = |side| LocalDirections::new(side).on(CARD);
     let (view, light) = (directions(VIEWS)?, directions(side)?);
@@ -50,13 +61,11 @@ pub(super) fn display(
     let samples = vec![[0.0; 3]; VIEWS * VIEWS * lights * PATCH * PATCH];
     let texture = BidirectionalTexture::new(PATCH, view, light, samples).on(CARD)?;
     let coordinates = corner_coordinates(mesh, [1.0; 2]).on(CARD)?;
-    let (textures, texture_of) = ([texture], vec![0; mesh.len()]);
-    let textured = TexturedMesh { vertices, coordinates: &coordinates, textures: &textures, texture_of: &texture_of };
+    let textures = vec![texture; texture_of.iter().max().map_or(0, |&most| most as usize + 1)];
+    let textured = TexturedMesh { vertices, coordinates: &coordinates, textures: &textures, texture_of };
     let profile = Profile::named(CARD).on(CARD)?;
     let options = DisplayOptions::default();
     let mut card = BiScaleCard::new(profile.clone(), ExecutorKind::Batch, textured, options).on(CARD)?;
-    let camera = Camera::new([3.0, -5.5, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.22, width, height);
-    let camera = camera.on(CARD)?;
     let view = MeshView { camera, exposure: 1.0, format: TexelFormat::Rgba8 };
     let local = vec![[0.0; 3]; vertices.len() * lights];
     let (texels, log) = card.logged_view(&local, &view).on(CARD)?;

@@ -1,6 +1,6 @@
 //! Figure 8: more local directions.
 
-use super::display::{CARD, display};
+use super::display::{CARD, display, of_bunny};
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
 use super::{Dependence, EntryFindings, Method, ModelSize, Shared, StudyError, number, paper_row, paragraph, solved};
@@ -28,7 +28,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (mut megabytes, mut seconds) = (Vec::new(), Vec::new());
     for side in SIDES {
         let found = model.clustered(side)?;
-        let run = display((&model.mesh, &model.vertices), side, PICTURE)?;
+        let run = display((&model.mesh, &model.vertices), side, of_bunny(PICTURE)?)?;
         megabytes.push(found.megabytes() * of_paper / vertices);
         seconds.push(run.time.frame.seconds());
         let last = seconds.len() - 1;

@@ -1,13 +1,18 @@
 //! Stand-ins for the paper's models: visibility at their vertices, transfer to local directions, biclusters.
 
+use glam::DVec3;
+
 use super::scenes::SCENES;
 use super::{HOST, RunResult, Shared, StudyError};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::transfer_matrix;
+use crate::geom::vector::wide;
 use crate::geom::{Mesh, Sides};
+use crate::scene::Camera;
 use crate::scene::built::transfer_models::TransferModel;
+use crate::study::framing::framed;
 use crate::study::reproduce::shared::SharedResult;
 use crate::tracer::HostTracer;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
@@ -17,6 +22,9 @@ use crate::transfer::{Tangents, Vertices};
 pub(super) const BUNNY: TransferModel = TransferModel::BiScaleBunny;
 /// Base-2 logarithm of the number of visibility samples per side of a light texel.
 pub(super) const LOG2_SAMPLES: u32 = 1;
+
+/// Position of the eye, in units of the model's size, relative to its center.
+const EYE: DVec3 = DVec3::new(1.6, -2.4, 0.9);
 
 /// Model with the visibility at its vertices.
 #[derive(Debug)]
@@ -33,7 +41,16 @@ pub(super) struct ClusteredModel {
     pub(super) biclusters: Biclustering,
 }
 
-/// Visibility determined by the triangles of a model alone.
+/// Camera of a picture that a model fills.
+pub(super) fn filled(mesh: &Mesh, [width, height]: [u32; 2]) -> Result<Camera, StudyError> {
+    let [low, high] = mesh.bounds().unwrap_or_default().map(wide);
+    let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
+    let points: Vec<DVec3> = mesh.positions().iter().map(|&at| wide(at)).collect();
+    let view = framed(middle + size * EYE, &points, f64::from(width) / f64::from(height));
+    view.camera(width, height).on(HOST)
+}
+
+/// Visibility by the triangles of a model alone.
 impl SharedResult for ModelVisibility {
     type Key = TransferModel;
 

@@ -12,11 +12,13 @@ pub(super) struct PrintedScene {
     pub(super) name: &'static str,
     /// Number of local directions per side.
     pub(super) side: usize,
+    /// Width and height of the picture that is timed; Table II names none.
+    pub(super) picture: [u32; 2],
 }
 
 impl PrintedScene {
-    const fn new(id: &'static str, name: &'static str, side: usize) -> Self {
-        Self { id, name, side }
+    const fn new(id: &'static str, name: &'static str, side: usize, picture: [u32; 2]) -> Self {
+        Self { id, name, side, picture }
     }
 
     /// Name of one of the scene's figures.
@@ -41,10 +43,10 @@ impl PrintedScene {
 }
 
 pub(super) const SCENES: [PrintedScene; 6] = [
-    PrintedScene::new("bunny", "bunny", 8),
-    PrintedScene::new("armor", "armor", 12),
-    PrintedScene::new("chair", "chair", 8),
-    PrintedScene::new("temple", "temple", 8),
-    PrintedScene::new("middle-bunny", "middle bunny", 8),
-    PrintedScene::new("fine-bunny", "fine bunny", 8),
+    PrintedScene::new("bunny", "bunny", 8, [640, 480]),
+    PrintedScene::new("armor", "armor", 12, [480, 640]),
+    PrintedScene::new("chair", "chair", 8, [640, 640]),
+    PrintedScene::new("temple", "temple", 8, [640, 480]),
+    PrintedScene::new("middle-bunny", "middle bunny", 8, [640, 480]),
+    PrintedScene::new("fine-bunny", "fine bunny", 8, [640, 480]),
 ];

@@ -30,19 +30,19 @@ pub(super) fn ways_to_code(coded: &CodedTransfer) -> u64 {
     1 + choices(coded).len() as u64
 }
 
-/// Varies only the code: sums and pixels are in f64.
+/// Varies the code of the model alone: sums and pixels are in f64.
 pub(super) fn coarse_codes(
     study: &AllFrequencyOnCard,
-    coded: &CodedTransfer,
-    light: &HaarLight,
+    (coded, light): (&CodedTransfer, &HaarLight),
     seen: &[Option<SeenPixel>],
     exposure: f64,
     done: &mut dyn FnMut(u64),
 ) -> Result<Vec<PictureVariant>, StudyError> {
     let place = ProductPlace::Pixels(ProductOptions::default());
-    let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, StudyError> {
-        let transferred = in_double(coded, light)?;
-        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, study.lit.view.camera.eye(), exposure))
+    let mut transferred = study.in_double(light)?;
+    let mut pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, StudyError> {
+        transferred[0] = in_double(coded, light)?;
+        Ok(exact_pixels(&study.meshes(&transferred), seen, &place, study.lit.view.camera.eye(), exposure))
     };
     let expected = pixels(coded)?;
     done(1);

@@ -4,13 +4,13 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::pixels::exact_pixels;
+use super::pixels::{exact_pixels, seen_by};
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
 use crate::all_frequency::on_card::{
     ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw,
 };
 use crate::all_frequency::shade::Multiplies;
-use crate::card::{CardError, MeshView, seen_pixels};
+use crate::card::{CardError, MeshView};
 use crate::scene::Camera;
 use crate::study::prt::card::{PictureVariant, PixelErrors};
 
@@ -99,22 +99,23 @@ fn choices_of_colors() -> Vec<Choice> {
     all
 }
 
-fn choices(mesh: &TransferredMesh<'_>) -> Vec<Choice> {
-    let mut all = if mesh.terms() > 1 { choices_of_products(mesh.terms()) } else { Vec::new() };
+fn choices(meshes: &[TransferredMesh<'_>]) -> Vec<Choice> {
+    let terms = meshes[0].terms();
+    let mut all = if terms > 1 { choices_of_products(terms) } else { Vec::new() };
     all.extend(choices_of_colors());
     all
 }
 
 /// Number of pictures of [`factored_precision`].
-pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
-    choices(mesh).len() as u64
+pub(super) fn ways_of_precision(meshes: &[TransferredMesh<'_>]) -> u64 {
+    choices(meshes).len() as u64
 }
 
-/// Draws a mesh into floats in many ways, and compares each picture with one that the host computes in f64 from the
-/// same numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with a
-/// [`CardError`] for meshes that do not fit the cards: more than thirty terms, or mismatched parts.
+/// Draws meshes, in order, into floats in many ways, and compares each picture with one that the host computes in f64 from the
+/// same numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with
+/// [`CardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
 pub fn factored_precision(
-    mesh: TransferredMesh<'_>,
+    meshes: &[TransferredMesh<'_>],
     executor: &Executor,
     camera: Camera,
     exposure: f64,
@@ -122,11 +123,11 @@ pub fn factored_precision(
 ) -> Result<Vec<PictureVariant>, CardError> {
     let view = MeshView { camera, exposure, format: TexelFormat::Rgba32f };
     let mut found = Vec::new();
-    for Choice { axis, label: choice, device, place } in choices(&mesh) {
+    for Choice { axis, label: choice, device, place } in choices(meshes) {
         let profile = Profile::named(device).expect("a device of the project");
-        let seen = seen_pixels(&profile, mesh.vertices.geometry(), &camera)?;
-        let drawing = draw(profile, executor.clone(), mesh, place, &view, Multiplies::default())?;
-        let expected = exact_pixels(&mesh, &seen, &place, camera.eye(), exposure);
+        let seen = seen_by(&profile, meshes, &camera)?;
+        let drawing = draw(profile, executor.clone(), meshes, place, &view, Multiplies::default())?;
+        let expected = exact_pixels(meshes, &seen, &place, camera.eye(), exposure);
         let errors = PixelErrors::of(&seen, &drawing.texels.colors(), &expected);
         let below_zero = Some(drawing.counts.below_zero.unwrap_or(0));
         found.push(PictureVariant { axis, choice, errors, below_zero });

@@ -3,15 +3,15 @@
 use serde_json::json;
 
 use super::coding::{coarse_codes, ways_to_code};
-use super::pixels::exact_pixels;
+use super::pixels::{exact_pixels, seen_by};
 use super::precision::{factored_precision, ways_of_precision};
-use super::subject::{AllFrequencyOnCard, HostSteps, in_double};
+use super::subject::{AllFrequencyOnCard, HostSteps};
 use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
-use crate::all_frequency::on_card::{
-    FactoredDrawing, ProductOptions, ProductPlace, TransferredMesh, VertexColors, draw,
-};
-use crate::card::{MeshView, SeenPixel, seen_pixels};
+use crate::all_frequency::on_card::{FactoredDrawing, ProductOptions, ProductPlace, VertexColors, draw};
+use crate::all_frequency::shade::TransferredRadiance;
+use crate::card::{MeshView, SeenPixel};
 use crate::report::{Cell, Findings, Provenance};
+use crate::study::prt::all_frequency::Part;
 use crate::study::prt::card::blame::{Blame, report_blame};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
@@ -31,15 +31,15 @@ impl Study for AllFrequencyOnCard {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         progress("host", 0, 2);
         let (steps, lit, card) = (self.steps()?, &self.lit, &self.card);
-        let mesh = self.mesh_of(&steps.transferred);
-        let seen = seen_pixels(&card.profile, lit.vertices.geometry(), &lit.view.camera)?;
+        let meshes = self.meshes(&steps.transferred);
+        let seen = seen_by(&card.profile, &meshes, &lit.view.camera)?;
         let study = PictureStudy { card, view: &lit.view, from: "the same numbers" };
-        let (exposure, host) = study.exposed(exact_pixels(&mesh, &seen, &self.place, lit.view.camera.eye(), 1.0));
+        let (exposure, host) = study.exposed(exact_pixels(&meshes, &seen, &self.place, lit.view.camera.eye(), 1.0));
         progress("card", 1, 2);
         let view = MeshView { camera: lit.view.camera, exposure, format: card.format };
         let (profile, executor) = (card.profile.clone(), card.executor.clone());
         let drawing =
-            draw(profile, executor, mesh, self.place, &view, steps.multiplies).map_err(no_all_frequency_card)?;
+            draw(profile, executor, &meshes, self.place, &view, steps.multiplies).map_err(no_all_frequency_card)?;
         let drawn = drawing.texels.colors();
         let is_clamped = card.is_clamped() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
         let compared = ComparedPicture::new(&seen, &drawn, &host, is_clamped);
@@ -47,7 +47,7 @@ impl Study for AllFrequencyOnCard {
         conclude(&drawing, &mut found);
         let radiances = steps.cut.light.radiances();
         found.pictures(vec![lit.view.light_picture(of_texels(&radiances))?]);
-        report_blame(&self.blame(&steps, &seen, exposure, &mesh, compared.errors)?, &mut found);
+        report_blame(&self.blame(&steps, &seen, exposure, compared.errors)?, &mut found);
         report_sizes(self.sizes(&steps, &drawing), &mut found);
         if let Some(time) = frame::modelled(&card.profile, &drawing.log, host_of_table_1())? {
             found.conclusion(format!("{}.", frame::rate(&time, &card.profile.title)));
@@ -55,7 +55,7 @@ impl Study for AllFrequencyOnCard {
             study.report_time(frame::times(&time), TIME, &drawing.log, what, &mut found)?;
         }
         if card.sweep {
-            report_sweep(&self.variants(&steps, &seen, exposure, &mesh, progress)?, SWEEP, &mut found);
+            report_sweep(&self.variants(&steps, &seen, exposure, progress)?, SWEEP, &mut found);
         }
         found.field("kept", json!(steps.cut.kept));
         found.field("nonzero", json!(steps.cut.nonzero));
@@ -88,37 +88,34 @@ impl AllFrequencyOnCard {
         steps: &HostSteps,
         seen: &[Option<SeenPixel>],
         exposure: f64,
-        mesh: &TransferredMesh<'_>,
         of_card: PixelErrors,
     ) -> Result<Vec<Blame>, StudyError> {
         let eye = self.lit.view.camera.eye();
-        let pixels = |mesh: &TransferredMesh<'_>, place| exact_pixels(mesh, seen, place, eye, exposure);
+        let pixels = |transferred: &[TransferredRadiance], place| {
+            exact_pixels(&self.meshes(transferred), seen, place, eye, exposure)
+        };
         let products = ProductPlace::Pixels(ProductOptions::default());
         let mut found = vec![Blame { step: "the card: arithmetic, storage, target", errors: of_card }];
         let mut push =
             |step, a: &[[f64; 3]], b: &[[f64; 3]]| found.push(Blame { step, errors: PixelErrors::of(seen, a, b) });
-        let ours = pixels(mesh, &products);
+        let ours = pixels(&steps.transferred, &products);
         if self.lit.file.reflectance.terms() > 1 {
-            let colors = pixels(mesh, &ProductPlace::Vertices(VertexColors::Floats));
+            let colors = pixels(&steps.transferred, &ProductPlace::Vertices(VertexColors::Floats));
             push("colors of vertices interpolated, not products", &colors, &ours);
         }
-        if let Some(coded) = &self.lit.file.coded {
-            let exact = in_double(coded, &steps.cut.light)?;
-            push("sums over representatives in single precision", &ours, &pixels(&self.mesh_of(&exact), &products));
+        if self.lit.parts().iter().any(Part::is_coded) {
+            let exact = pixels(&self.in_double(&steps.cut.light)?, &products);
+            push("sums over representatives in single precision", &ours, &exact);
         }
         let compressed = self.lit.original.as_ref().filter(|_| self.lit.file.coded.is_some());
         if let Some(original) = compressed {
-            let raw = self.raw(original, &steps.cut.light)?;
-            let raw = pixels(&self.mesh_of(&raw), &products);
-            push("compression and coding", &ours, &raw);
+            let mut raw = steps.transferred.clone();
+            raw[0] = self.lit.parts()[0].exact(original, &steps.cut.light)?.singles();
+            push("compression and coding", &ours, &pixels(&raw, &products));
         }
         if steps.cut.kept < steps.cut.nonzero {
             let whole = self.cut(None)?.light;
-            let whole = match &self.lit.file.coded {
-                Some(coded) => in_double(coded, &whole)?,
-                None => self.raw(&self.lit.file, &whole)?,
-            };
-            push("light coefficients left out", &ours, &pixels(&self.mesh_of(&whole), &products));
+            push("light coefficients left out", &ours, &pixels(&self.in_double(&whole)?, &products));
         }
         Ok(found)
     }
@@ -133,10 +130,11 @@ impl AllFrequencyOnCard {
             ProductPlace::Pixels(options) if terms > 1 && options.is_pass_per_channel => 3,
             _ => 1,
         };
-        let [reads, arithmetic] = drawing.pixel_slots;
+        let ([reads, arithmetic], ground) = (drawing.pixel_slots, self.lit.ground.as_ref());
         let rows = [
             ("vertices", Some(self.lit.vertices.len() as u64)),
             ("triangles", Some(self.lit.vertices.triangles().len() as u64)),
+            ("vertices of the ground", ground.map(|ground| ground.vertices.len() as u64)),
             ("terms", Some(terms as u64)),
             ("light coefficients kept", Some(steps.cut.kept as u64)),
             ("host multiplications for clusters", Some(steps.multiplies.per_cluster)),
@@ -160,18 +158,18 @@ impl AllFrequencyOnCard {
         steps: &HostSteps,
         seen: &[Option<SeenPixel>],
         exposure: f64,
-        mesh: &TransferredMesh<'_>,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Vec<PictureVariant>, StudyError> {
-        let drawn = ways_of_precision(mesh);
+        let meshes = self.meshes(&steps.transferred);
+        let drawn = ways_of_precision(&meshes);
         let all = drawn + self.lit.file.coded.as_ref().map_or(0, ways_to_code);
         let mut done = |done| progress("sweep", done, all);
         let camera = self.lit.view.camera;
-        let variants = factored_precision(*mesh, &self.card.executor, camera, exposure, &mut done);
+        let variants = factored_precision(&meshes, &self.card.executor, camera, exposure, &mut done);
         let mut variants = variants.map_err(no_all_frequency_card)?;
         if let Some(coded) = &self.lit.file.coded {
             let mut done = |done| progress("sweep", drawn + done, all);
-            variants.extend(coarse_codes(self, coded, &steps.cut.light, seen, exposure, &mut done)?);
+            variants.extend(coarse_codes(self, (coded, &steps.cut.light), seen, exposure, &mut done)?);
         }
         Ok(variants)
     }

@@ -3,7 +3,7 @@
 mod drawn;
 mod scene;
 
-use super::models::ModelVisibility;
+use super::models::{ModelVisibility, filled};
 use super::{EntryFindings, HOST, ModelSize, PaperRow, RunResult, Shared, StudyError, number, paragraph, solved};
 use crate::bi_scale::texture::PatchKind;
 use crate::report::{Cell, Table};

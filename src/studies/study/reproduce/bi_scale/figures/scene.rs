@@ -1,22 +1,14 @@
 //! Models with a bidirectional texture, for pictures by transfer and by rays.
 
-use glam::DVec3;
-
-use super::{HARD_SUN, HOST, Horizon, ModelSize, ModelVisibility, RunResult, StudyError};
+use super::{HARD_SUN, HOST, Horizon, ModelSize, ModelVisibility, RunResult, StudyError, filled};
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
 use crate::bi_scale::texture::{PatchKind, TextureSampling};
 use crate::geom::Mesh;
-use crate::geom::vector::wide;
-use crate::scene::Camera;
-use crate::study::framing::framed;
 use crate::study::prt::{BiScaleRendering, LitView, SurfaceTexture, TexturedSurface};
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::DistantLight;
-
-/// Position of the eye, in units of the model's size, relative to its center.
-const EYE: DVec3 = DVec3::new(1.6, -2.4, 0.9);
 
 /// Sizes of models, pictures and textures.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +57,7 @@ impl TexturedModel {
             view: LitView {
                 model: self.name.to_owned(),
                 light: "a clear sky with a sun".to_owned(),
-                camera: self.camera(size.picture)?,
+                camera: filled(mesh, size.picture)?,
                 exposure: None,
             },
             surface: surface.on(HOST)?,
@@ -83,14 +75,5 @@ impl TexturedModel {
         let patch = self.patch.patch(1.0);
         let samples = patch.texture(&sampling, &mut |_, _| ()).on(HOST)?;
         Ok(SurfaceTexture { name: self.patch.to_string(), samples, patch: Some(patch) })
-    }
-
-    /// Camera for a picture that the model fills.
-    fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, StudyError> {
-        let [low, high] = self.mesh.bounds().unwrap_or_default().map(wide);
-        let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
-        let points: Vec<DVec3> = self.mesh.positions().iter().map(|&at| wide(at)).collect();
-        let view = framed(middle + size * EYE, &points, f64::from(width) / f64::from(height));
-        view.camera(width, height).on(HOST)
     }
 }
