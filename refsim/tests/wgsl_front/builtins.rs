@@ -41,7 +41,6 @@ pub(crate) fn functions_compute_their_formulas() {
     type Row = (&'static str, f64, Value);
     let table: &[Row] = &[
         ("a % b", 8.0, |a, b| a - b * (a / b).trunc()),
-        ("faceForward(vec2f(a, b), vec2f(1.0, 0.0), vec2f(a, 0.0)).y", 0.0, |a, b| if a < 0.0 { b } else { -b }),
         ("select(a, b, a < b)", 0.0, |a, b| if a < b { b } else { a }),
         ("f32(any(vec2f(a, b) > vec2f(1.0, 2.0)))", 0.0, |a, b| f64::from(a > 1.0 || b > 2.0)),
         ("f32(all(vec2f(a, b) > vec2f(1.0, 2.0)))", 0.0, |a, b| f64::from(a > 1.0 && b > 2.0)),
