@@ -337,7 +337,8 @@ fn the_emulator_in_the_page_has_the_native_bits(name: &str, file: &Path) {
     }
     // A mistake is reported with its line and column, and the link contains the program.
     let text = "document.getElementById('program-text')";
-    browser.value(&format!("{text}.value = 'ps_1_4\nmull r0, r0, r0\n'; {text}.dispatchEvent(new Event('input'))"));
+    let wrong = json!("ps_1_4\nmull r0, r0, r0\n");
+    browser.value(&format!("{text}.value = {wrong}; {text}.dispatchEvent(new Event('input'))"));
     browser.wait("document.querySelector('#remarks button')?.textContent === 'line 2, column 1'");
     let link = attribute(&mut browser, "play-link", "href");
     browser.call("Page.navigate", json!({ "url": "about:blank" }));

@@ -1,4 +1,14 @@
-//! What a fragment shader in WGSL takes from outside.
+//! What is found in a fragment shader in WGSL.
+
+use super::half::WgslOperation;
+use crate::isa::Program;
+
+/// A shader's program, the operations that its text has, and what it takes from outside.
+pub(super) struct Translation {
+    pub(super) program: Program,
+    pub(super) operations: Vec<WgslOperation>,
+    pub(super) interface: WgslInterface,
+}
 
 /// Inputs and uniforms of a fragment entry point, for a host that draws its text on a GPU.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

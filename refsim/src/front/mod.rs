@@ -13,6 +13,7 @@ pub use interface::{WgslInput, WgslInterface, WgslUniform};
 pub use refusal::Refusal;
 
 use crate::isa::Program;
+use interface::Translation;
 
 /// Translates the fragment entry point of a WGSL module into an `!!FP1.0` program whose spans refer to the WGSL text.
 /// Uniforms become the program's parameters, `u.color` for example; texture `n` of the text, from 0, becomes image unit
@@ -39,13 +40,6 @@ pub fn wgsl_operations(text: &str) -> Result<Vec<WgslOperation>, Refusal> {
 /// As [`translate_wgsl`].
 pub fn wgsl_with_interface(text: &str) -> Result<(Program, WgslInterface), Refusal> {
     translated(text).map(|found| (found.program, found.interface))
-}
-
-/// Everything that is found in a text.
-struct Translation {
-    program: Program,
-    operations: Vec<WgslOperation>,
-    interface: WgslInterface,
 }
 
 #[cfg(feature = "wgsl")]

@@ -47,7 +47,6 @@ pub(crate) fn functions_compute_their_formulas() {
         ("log2(a)", 2.0, |a, _| a.log2()),
         ("pow(a, 2.0)", 16.0, |a, _| if a < 0.0 { f64::NAN } else { a * a }),
         ("a % b", 8.0, |a, b| a - b * (a / b).trunc()),
-        ("faceForward(vec2f(a, b), vec2f(1.0, 0.0), vec2f(a, 0.0)).y", 0.0, |a, b| if a < 0.0 { b } else { -b }),
         ("select(a, b, a < b)", 0.0, |a, b| if a < b { b } else { a }),
         ("f32(any(vec2f(a, b) > vec2f(1.0, 2.0)))", 0.0, |a, b| f64::from(a > 1.0 || b > 2.0)),
         ("f32(all(vec2f(a, b) > vec2f(1.0, 2.0)))", 0.0, |a, b| f64::from(a > 1.0 && b > 2.0)),

@@ -1,10 +1,11 @@
 //! Expressions of a function.
 
 use naga::diagnostic_filter::{FilterableTriggeringRule, Severity, StandardFilterableTriggeringRule};
-use naga::{BinaryOperator as B, Expression, Function, Handle, MathFunction, SampleLevel, Scalar, TypeInner};
+use naga::{Expression, Function, Handle, MathFunction, SampleLevel, Scalar, TypeInner};
 
 use super::super::Refusal;
 use super::super::half::{OperationForm, WgslOperation};
+use super::operators::symbol;
 use super::translator::{Frame, Meaning, Translator, place};
 use super::values::{Component, Value, is_half, part, scalar};
 use super::with_arguments;
@@ -289,26 +290,7 @@ impl<'a> Translator<'a> {
     }
 }
 
-/// The operator in texts.
-fn symbol(operator: B) -> &'static str {
-    match operator {
-        B::Add => "+",
-        B::Subtract => "-",
-        B::Multiply => "*",
-        B::Divide => "/",
-        B::Modulo => "%",
-        B::Equal => "==",
-        B::NotEqual => "!=",
-        B::Less => "<",
-        B::LessEqual => "<=",
-        B::Greater => ">",
-        B::GreaterEqual => ">=",
-        // Of no numbers.
-        _ => "",
-    }
-}
-
-/// The WGSL name of a type whose scalars are f32; `None` for other types.
+/// The name of a type of f32.
 fn name(inner: &TypeInner) -> Option<String> {
     scalar(inner).filter(|scalar| *scalar == Scalar::F32)?;
     Some(match inner {

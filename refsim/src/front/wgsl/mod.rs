@@ -17,10 +17,9 @@ use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Binding, BuiltIn, EntryPoint, Interpolation, Module, ShaderStage, Type};
 
-use super::{
-    Refusal, Translation, WgslInput,
-    half::{comment, redefines_half},
-};
+use super::half::comment;
+use super::interface::{Translation, WgslInput};
+use super::refusal::Refusal;
 use crate::isa::{
     ConstantDef, ConstantValue, FIRST_LITERAL, Program, ProgramText, Register, RegisterFile, Span, Version,
 };

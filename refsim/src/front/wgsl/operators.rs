@@ -11,6 +11,26 @@ use crate::isa::{Modifier, Opcode};
 
 type Result<T = Value> = std::result::Result<T, Refusal>;
 
+/// Operators of numbers, as texts write them, and those that are one instruction.
+const OPERATORS: [(B, &str, Option<Opcode>); 11] = [
+    (B::Add, "+", Some(Opcode::Add)),
+    (B::Subtract, "-", Some(Opcode::Sub)),
+    (B::Multiply, "*", Some(Opcode::Mul)),
+    (B::Divide, "/", None),
+    (B::Modulo, "%", None),
+    (B::Equal, "==", Some(Opcode::Seq)),
+    (B::NotEqual, "!=", Some(Opcode::Sne)),
+    (B::Less, "<", Some(Opcode::Slt)),
+    (B::LessEqual, "<=", Some(Opcode::Sle)),
+    (B::Greater, ">", Some(Opcode::Sgt)),
+    (B::GreaterEqual, ">=", Some(Opcode::Sge)),
+];
+
+/// The operator in texts; nothing for those of conditions and bits.
+pub(super) fn symbol(operator: B) -> &'static str {
+    OPERATORS.iter().find(|(known, ..)| *known == operator).map_or("", |(_, symbol, _)| symbol)
+}
+
 impl Translator<'_> {
     pub(super) fn unary(&mut self, operator: UnaryOperator, value: &[Component]) -> Result {
         match (operator, value) {
@@ -60,10 +80,11 @@ impl Translator<'_> {
             // rounded yet.
             let half = is_half(Some(from)) || is_half(Some(to));
             self.builder.half = half;
-            return match half {
-                true => Ok(self.each_column(value, |this, column| this.builder.op(Opcode::Mov, &[column]))?),
-                false => Ok(value.to_vec()),
-            };
+            let columns = value.chunks(4).map(|column| match half {
+                true => self.builder.op(Opcode::Mov, &[column]),
+                false => Ok(column.to_vec()),
+            });
+            return Ok(columns.collect::<Result<Vec<_>>>()?.concat());
         }
         let one = |this: &mut Self, component: &Component| {
             Ok(match (*component, to.kind) {
@@ -89,12 +110,6 @@ impl Translator<'_> {
         value.iter().map(|component| one(self, component)).collect()
     }
 
-    /// Applies a function to a value of any length, four scalars at a time.
-    fn each_column(&mut self, value: &[Component], mut of: impl FnMut(&mut Self, &[Component]) -> Result) -> Result {
-        let columns = value.chunks(4).map(|column| of(self, column)).collect::<Result<Vec<_>>>()?;
-        Ok(columns.concat())
-    }
-
     pub(super) fn binary(&mut self, operator: B, a: &[Component], b: &[Component], types: [&TypeInner; 2]) -> Result {
         let kind = scalar(types[0]).map(|scalar| scalar.kind);
         match (operator, kind, types) {
@@ -117,15 +132,15 @@ impl Translator<'_> {
                 let columns = b.chunks(*inner as usize).map(|column| self.columns_by(a, column, *rows));
                 Ok(columns.collect::<Result<Vec<_>>>()?.concat())
             }
-            (_, _, [TypeInner::Matrix { rows, .. }, other]) => {
+            (_, _, [TypeInner::Matrix { rows, .. }, _] | [_, TypeInner::Matrix { rows, .. }]) => {
                 let rows = *rows as usize;
-                let matrix = matches!(other, TypeInner::Matrix { .. });
-                let of = |at: usize| if matrix { &b[at * rows..(at + 1) * rows] } else { b };
-                let columns = a.chunks(rows).enumerate().map(|(at, column)| self.float(operator, column, of(at)));
-                Ok(columns.collect::<Result<Vec<_>>>()?.concat())
-            }
-            (_, _, [_, TypeInner::Matrix { rows, .. }]) => {
-                let columns = b.chunks(*rows as usize).map(|column| self.float(operator, a, column));
+                let columns = (0..a.len().max(b.len()) / rows).map(|at| {
+                    let [a, b] = [(a, types[0]), (b, types[1])].map(|(value, inner)| match inner {
+                        TypeInner::Matrix { .. } => &value[at * rows..(at + 1) * rows],
+                        _ => value,
+                    });
+                    self.float(operator, a, b)
+                });
                 Ok(columns.collect::<Result<Vec<_>>>()?.concat())
             }
             _ => self.float(operator, a, b),
@@ -146,21 +161,13 @@ impl Translator<'_> {
     }
 
     fn float(&mut self, operator: B, a: &[Component], b: &[Component]) -> Result {
-        let opcode = match operator {
-            B::Add => Opcode::Add,
-            B::Subtract => Opcode::Sub,
-            B::Multiply => Opcode::Mul,
-            B::Equal => Opcode::Seq,
-            B::NotEqual => Opcode::Sne,
-            B::Less => Opcode::Slt,
-            B::LessEqual => Opcode::Sle,
-            B::Greater => Opcode::Sgt,
-            B::GreaterEqual => Opcode::Sge,
-            B::Divide => return self.builder.divide(a, b),
-            B::Modulo => return self.builder.function("remainder", &[a.to_vec(), b.to_vec()]),
-            _ => return self.builder.refuse("bit operations are not translated"),
-        };
-        self.builder.op(opcode, &[a, b])
+        let known = OPERATORS.iter().find(|(known, ..)| *known == operator);
+        match (operator, known.and_then(|(.., opcode)| *opcode)) {
+            (_, Some(opcode)) => self.builder.op(opcode, &[a, b]),
+            (B::Divide, _) => self.builder.divide(a, b),
+            (B::Modulo, _) => self.builder.function("remainder", &[a.to_vec(), b.to_vec()]),
+            _ => self.builder.refuse("bit operations are not translated"),
+        }
     }
 
     fn condition(&mut self, operator: B, a: Component, b: Component) -> Result<Component> {

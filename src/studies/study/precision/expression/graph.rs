@@ -9,42 +9,33 @@ use num_bigint::BigInt;
 use super::real::{Constant, Function, Real, RealInterval, apply};
 use crate::report::SourceText;
 
-/// A comparison.
+/// A comparison: whether it holds of a lesser, an equal and a greater number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum NumberComparison {
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Equal,
-    NotEqual,
-}
+pub(super) struct NumberComparison([bool; 3]);
+
+const COMPARISONS: [(&str, NumberComparison); 6] = [
+    ("<", NumberComparison([true, false, false])),
+    ("<=", NumberComparison([true, true, false])),
+    (">", NumberComparison([false, false, true])),
+    (">=", NumberComparison([false, true, true])),
+    ("==", NumberComparison([false, true, false])),
+    ("!=", NumberComparison([true, false, true])),
+];
 
 impl NumberComparison {
     pub(super) fn named(name: &str) -> Option<Self> {
-        Some(match name {
-            "<" => Self::Less,
-            "<=" => Self::LessEqual,
-            ">" => Self::Greater,
-            ">=" => Self::GreaterEqual,
-            "==" => Self::Equal,
-            "!=" => Self::NotEqual,
-            _ => return None,
-        })
+        COMPARISONS.iter().find(|(known, _)| *known == name).map(|(_, comparison)| *comparison)
     }
 
     /// Returns `true` if the comparison holds for two numbers in this order; `None`, the order with NaN, only satisfies
     /// `!=`.
     pub(super) fn holds(self, order: Option<Ordering>) -> bool {
-        match (self, order) {
-            (Self::NotEqual, order) => order != Some(Ordering::Equal),
-            (_, None) => false,
-            (Self::Less, Some(order)) => order.is_lt(),
-            (Self::LessEqual, Some(order)) => order.is_le(),
-            (Self::Greater, Some(order)) => order.is_gt(),
-            (Self::GreaterEqual, Some(order)) => order.is_ge(),
-            (Self::Equal, Some(order)) => order.is_eq(),
-        }
+        order.map_or(self.is_inequality(), |order| self.0[(order as i8 + 1) as usize])
+    }
+
+    /// Returns `true` for `!=`.
+    pub(super) fn is_inequality(self) -> bool {
+        self.0 == [true, false, true]
     }
 }
 
@@ -149,16 +140,14 @@ fn real(operation: &Operation, inputs: &[Real], values: &[Real], bits: u64) -> R
 
 /// Compares intervals; `None` unless all of their numbers compare alike.
 fn compare(comparison: NumberComparison, x: &RealInterval, y: &RealInterval) -> Option<bool> {
-    if let Some(order) = x.order(y) {
-        return Some(comparison.holds(Some(order)));
-    }
-    match comparison {
-        NumberComparison::LessEqual if x.high <= y.low => Some(true),
-        NumberComparison::Greater if x.high <= y.low => Some(false),
-        NumberComparison::GreaterEqual if x.low >= y.high => Some(true),
-        NumberComparison::Less if x.low >= y.high => Some(false),
-        _ => None,
-    }
+    let orders = match x.order(y) {
+        Some(order) => [order; 2],
+        None if x.high <= y.low => [Ordering::Less, Ordering::Equal],
+        None if x.low >= y.high => [Ordering::Greater, Ordering::Equal],
+        None => return None,
+    };
+    let [one, other] = orders.map(|order| comparison.holds(Some(order)));
+    (one == other).then_some(one)
 }
 
 fn connect(all: bool, operands: &[Real]) -> Real {

@@ -1,7 +1,9 @@
 //! Sampled inputs, and the exact results there.
 
+use std::cmp::Ordering;
+
 use super::arithmetic::{Arithmetic, PRECISIONS};
-use super::graph::{Expression, Graph, NumberComparison, Operation};
+use super::graph::{Expression, Graph, Operation};
 use super::real::Real;
 use crate::geom::random::CounterRng;
 
@@ -140,12 +142,7 @@ fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) 
             }
             _ => continue,
         };
-        let (upper, lower) = match comparison {
-            NumberComparison::Less | NumberComparison::LessEqual => (true, false),
-            NumberComparison::Greater | NumberComparison::GreaterEqual => (false, true),
-            NumberComparison::Equal => (true, true),
-            NumberComparison::NotEqual => continue,
-        };
+        let [lower, upper] = [Ordering::Less, Ordering::Greater].map(|order| !comparison.holds(Some(order)));
         for (variable, bound, is_upper, is_lower) in [(left, right, upper, lower), (right, left, lower, upper)] {
             if let (Operation::Variable(index), Real::Range(range)) =
                 (&precondition.0[variable].operation, &values[bound])

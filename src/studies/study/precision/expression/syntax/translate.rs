@@ -289,7 +289,7 @@ impl<'a> GraphBuilder<'a> {
             return self.fail("expected two numbers or more to compare", first.place());
         }
         let numbers = self.all_typed(operands, false)?;
-        let distance = if comparison == NumberComparison::NotEqual { numbers.len() } else { 2 };
+        let distance = if comparison.is_inequality() { numbers.len() } else { 2 };
         let mut pairs = Vec::new();
         for (index, &left) in numbers.iter().enumerate() {
             for &right in numbers.iter().take(index + distance).skip(index + 1) {
