@@ -6,6 +6,10 @@ use num_traits::{One, Zero};
 /// Longest text of a number, and largest exponent.
 const MAX: usize = 5000;
 
+/// What [`parse`] takes, for messages.
+pub(super) const EXPECTED: &str =
+    "expected a number of at most 5,000 characters, with an exponent within 5,000 and a denominator above 0";
+
 /// Numerator and denominator, above 0, of a number of FPCore; `None` for other text.
 pub(super) fn parse(text: &str) -> Option<(BigInt, BigInt)> {
     if text.len() > MAX {
