@@ -14,8 +14,7 @@ use super::real::{Dyadic, End, Function, Real, RealInterval, apply};
 use super::special::special;
 
 /// Bits that values over the reals are computed to, until they decide.
-pub(super) const PRECISIONS: [u64; 8] = [96, 192, 384, 768, 1536, 3072, 6144, MOST_BITS];
-pub(super) const MOST_BITS: u64 = 12_288;
+pub(super) const PRECISIONS: [u64; 8] = [96, 192, 384, 768, 1536, 3072, 6144, 12_288];
 
 /// Exponent beyond which numbers are zero or infinite in every format.
 const FAR: i64 = 1 << 20;

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::arithmetic::{Arithmetic, MOST_BITS, PRECISIONS};
+use super::arithmetic::{Arithmetic, PRECISIONS};
 use super::graph::{Expression, Graph, NumberComparison, Operation};
 use super::real::Real;
 use crate::geom::random::CounterRng;
@@ -43,6 +43,10 @@ pub(super) enum Discard {
     TooLarge,
     /// No precision decides the result.
     Undecided,
+}
+
+impl Discard {
+    pub(super) const ALL: [Self; 3] = [Self::Undefined, Self::TooLarge, Self::Undecided];
 }
 
 /// Sampled inputs.
@@ -147,7 +151,7 @@ pub(super) fn spans(expression: &Expression, arithmetic: Arithmetic) -> Vec<[i64
 
 fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) {
     // As many bits as ever: bounds are few, and no number beside one must stay.
-    let values = precondition.reals(&vec![Real::Unknown; spans.len()], MOST_BITS, None);
+    let values = precondition.reals(&vec![Real::Unknown; spans.len()], PRECISIONS[PRECISIONS.len() - 1], None);
     let ordinal = |end| arithmetic.ordinal(arithmetic.encode(end));
     let mut demanded = vec![precondition.0.len() - 1];
     while let Some(node) = demanded.pop() {

@@ -6,18 +6,18 @@ use std::sync::Arc;
 use super::super::bits::{FormatBits, FormatFamily};
 use super::super::curve::Curve;
 use super::super::goal::Goal;
-use super::arithmetic::{Arithmetic, MOST_BITS};
+use super::arithmetic::Arithmetic;
 use super::blame::OperationError;
 use super::errors::{BitErrors, MEASURES};
 use super::graph::Expression;
-use super::sample::{self, InputDraw, Samples};
+use super::sample::{self, Discard, InputDraw, Samples};
 use super::syntax::{self, ExpressionError};
 use super::{blame, errors};
 use crate::io::read_limited;
 use crate::names::did_you_mean;
 use crate::report::SourceText;
-use crate::report::digits::{count, exact};
-use crate::report::words::listed;
+use crate::report::digits::exact;
+use crate::report::words::{counted, listed};
 use crate::study::StudyError;
 use crate::study::error::library_errors;
 use refsim::num::Format;
@@ -236,23 +236,18 @@ fn without_inputs(expression: &Expression, arithmetic: Arithmetic, samples: &Sam
             return failed(&reason, "its bounds contradict each other");
         }
     }
-    let [undefined, large, undecided] = samples.discarded;
-    let tried = count((undefined + large + undecided) as u64);
-    match samples.discarded.iter().max() {
-        Some(0) | None => failed("expected inputs that meet the precondition, found none", "give it wider bounds"),
-        Some(most) if *most == undefined => failed(
-            &format!("expected a real result, found none at {tried} inputs"),
-            "it divides by zero, or takes a function outside of its domain",
-        ),
-        Some(most) if *most == large => failed(
-            &format!("expected a finite result in single precision, found none at {tried} inputs"),
-            "give it smaller inputs: a result is too large for the format",
-        ),
-        Some(_) => failed(
-            &format!("expected a result that {} bits decide, found none at {tried} inputs", count(MOST_BITS)),
-            "a comparison of equal values is never decided: leave a distance between them",
-        ),
+    let tried: usize = samples.discarded.iter().sum();
+    if tried == 0 {
+        return failed("expected inputs that meet the precondition, found none", "give it wider bounds");
     }
+    let (expected, help) = match Discard::ALL.into_iter().max_by_key(|&reason| samples.discarded[reason as usize]) {
+        Some(Discard::TooLarge) => ("a finite result in single precision", "give it inputs with smaller results"),
+        Some(Discard::Undecided) => {
+            ("a result that 12,288 bits decide", "values that are compared must not be equal: leave a distance")
+        }
+        _ => ("a real result", "it divides by zero, or takes a function outside of its domain"),
+    };
+    failed(&format!("expected {expected}, found none at {}", counted(tried as u64, "input", "inputs")), help)
 }
 
 /// A format with the default rules.

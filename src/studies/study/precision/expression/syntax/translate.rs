@@ -39,7 +39,8 @@ pub(super) fn core(tree: &Tree, source: &Arc<SourceText>) -> Result<Expression, 
     };
     let variables = arguments.iter().map(named).collect::<Result<Vec<String>, _>>()?;
     if let Some(again) = (1..variables.len()).find(|&index| variables[..index].contains(&variables[index])) {
-        return Err(fail("expected each argument once", arguments[again].place()));
+        let message = format!("expected each argument once, found `{}` again", variables[again]);
+        return Err(fail(&message, arguments[again].place()));
     }
     let (mut preconditions, mut spec) = (Vec::new(), None);
     for pair in properties.chunks(2) {
