@@ -29,6 +29,9 @@ Examples:
   crossbar precision docs/examples/highlight.toml --costs docs/examples/multiplier_area.csv --out out/area
       costs of formats of your own, for the format per instruction
 
+The smallest format of an expression has the fewest bits of all formats of its family that meet the goal; of several, it \
+is the one with the smallest error.
+
 Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. Costs have the header `bits,cost`. \
 Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
 tables. docs/precision.md describes what is measured.
@@ -55,7 +58,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE.fpcore")]
     fpcore: Option<PathBuf>,
 
-    /// Bounds of a variable; may be given several times [default: all numbers]
+    /// Bounds of a variable, ends included; may be given once for each variable [default: all numbers]
     #[arg(long, value_name = "NAME=LOW..HIGH")]
     range: Vec<String>,
 

@@ -70,6 +70,7 @@ fn bad_input_is_refused() {
         ("negative", &["--table", "negative.csv"]),
         ("not_square", &["--table", "three.csv"]),
         ("above_rank", &["--table", "equal.csv", "--terms", "2"]),
+        ("above_texels", &["--brdf", "cook-torrance", "--side", "48", "--terms", "2305"]),
         ("dark", &["--table", "zero.csv"]),
         ("roughness", &["--brdf", "schlick", "--roughness", "2"]),
     ];

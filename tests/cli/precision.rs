@@ -85,6 +85,7 @@ fn expressions_are_studied_listed_and_refused() {
     assert_eq!(document["expressions"].as_array().map(Vec::len), Some(32), "{document}");
     assert_eq!(document["not_studied"][0]["place"], "109:3", "{document}");
     fs::write(root.path().join("none.fpcore"), "(FPCore (x) :pre (< x x) x)").expect("a file");
+    fs::write(root.path().join("apart.fpcore"), "(FPCore (x) :pre (and (<= 1 x 2) (<= 3 x 4)) x)").expect("a file");
     fs::write(root.path().join("open.fpcore"), "(FPCore (x) (+ x 1)").expect("a file");
     let messages = [
         run(&["--expr", "sqrt(x"]),
@@ -95,6 +96,12 @@ fn expressions_are_studied_listed_and_refused() {
         run(&["--fpcore", "missing.fpcore"]),
         run(&["--fpcore", "none.fpcore"]),
         run(&["--fpcore", "open.fpcore"]),
+        run(&["--expr", "x + 1", "--range", "x=0.1..0.1"]),
+        run(&["--expr", "x + 1", "--range", "x=1e300..1e305"]),
+        run(&["--fpcore", "apart.fpcore"]),
+        run(&["--expr", "1/0"]),
+        run(&["--expr", "exp(x)", "--range", "x=100..200"]),
+        run(&["--expr", "sqrt(x)*sqrt(x) == x ? 1 : 0", "--range", "x=2..2"]),
         run(&[]),
     ];
     assert!(messages.iter().all(|message| message.code == Some(2)));

@@ -7,7 +7,7 @@ use super::super::goal::Goal;
 use super::graph::Expression;
 use super::sample::{Sample, Samples};
 use super::study::{ExpressionOutcome, ExpressionStudy, FormatErrors};
-use crate::report::digits::{Quantity, shown};
+use crate::report::digits::{Quantity, exact, shown};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
@@ -65,7 +65,7 @@ fn conclude(found: &mut Findings, expression: &Expression, outcome: &ExpressionO
     for curve in &outcome.curves {
         let family = curve.family.name();
         found.conclusion(match curve.minimum {
-            None => format!("No {family} format meets {goal}."),
+            None => format!("No {family} format of up to 32 bits meets {goal}."),
             Some(bits) => format!("Smallest {family} format that meets {goal}: {bits}, {} bits.", bits.width()),
         });
     }
@@ -95,7 +95,7 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     let headings: Vec<String> = std::iter::once("expression".to_owned()).chain(columns).collect();
     let mut table = Table::new("Mean bits of error", &headings);
     for (expression, outcome) in studied {
-        let bits = outcome.formats.iter().map(mean_bits);
+        let bits = outcome.formats.iter().map(|row| error_cell(row.bits.mean));
         let minima = outcome.curves.iter().map(|curve| curve.minimum.map(|bits| bits.to_string()).into());
         table.push(std::iter::once(expression.name.as_str().into()).chain(bits).chain(minima));
     }
@@ -103,17 +103,16 @@ fn count(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], stu
     found.table(FoundTable::from(table).csv("expressions").field("expressions"));
 }
 
-/// Mean of the bits of error, if there are inputs.
-fn mean_bits(row: &FormatErrors) -> Cell {
-    if row.samples.kept.is_empty() { Cell::Empty } else { Cell::error(row.errors.mean_bits) }
+/// An error; without inputs there is none.
+fn error_cell(error: f64) -> Cell {
+    if error.is_nan() { Cell::Empty } else { Cell::error(error) }
 }
 
 /// Adds the tables of errors and of operations; they are printed only for a single expression, and then without its
 /// name.
 fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], goal: &Goal, one: bool) {
-    let measure = if goal.measure.ends_with("_bits") { "mean_relative" } else { goal.measure.as_str() };
     let name = if one { "" } else { "expression " };
-    let columns = format!("{name}format bits mean_bits worst_bits accuracy_% discarded {measure} met");
+    let columns = format!("{name}format bits mean_bits worst_bits accuracy_% discarded {} met", goal.measure);
     let mut errors = Table::of("Bits of error", &columns);
     let title = studied.iter().take(usize::from(one)).map(|(_, outcome)| format!(" in {}", outcome.blamed.0)).next();
     let title = format!("Operations{}", title.unwrap_or_default());
@@ -141,28 +140,23 @@ fn tables(found: &mut Findings, studied: &[(&Expression, ExpressionOutcome)], go
     found.explained_table(printed(FoundTable::from(operations).csv("operations").field("operations")), OPERATIONS);
 }
 
-fn error_cells(row: &FormatErrors, goal: &Goal) -> Vec<Cell> {
-    let FormatErrors { name, arithmetic, samples, errors, value } = row;
+fn error_cells(row: &FormatErrors, goal: &Goal) -> [Cell; 8] {
+    let FormatErrors { name, arithmetic, samples, bits, value } = row;
     let width = arithmetic.width();
-    let mut cells: Vec<Cell> = vec![(*name).into(), width.into(), mean_bits(row)];
-    if samples.kept.is_empty() {
-        cells.extend([Cell::Empty, Cell::Empty]);
-    } else {
-        let accuracy = 100.0 * (1.0 - errors.mean_bits / f64::from(width));
-        cells.extend([Cell::error(errors.worst_bits), Cell::percent(accuracy)]);
-    }
-    let relative = if goal.measure.ends_with("_bits") { errors.mean_relative } else { *value };
-    cells.extend([samples.discarded.into(), Cell::error(relative), goal.met(*value).into()]);
-    cells
+    let accuracy = 100.0 * (1.0 - bits.mean / f64::from(width));
+    let accuracy = if accuracy.is_nan() { Cell::Empty } else { Cell::percent(accuracy) };
+    let discarded: usize = samples.discarded.iter().sum();
+    let [mean, worst, value_cell] = [bits.mean, bits.worst, *value].map(error_cell);
+    [(*name).into(), width.into(), mean, worst, accuracy, discarded.into(), value_cell, goal.met(*value).into()]
 }
 
 /// The input with the largest error.
 fn worst_input(expression: &Expression, row: &FormatErrors) -> [Cell; 7] {
-    let FormatErrors { name, arithmetic, samples: Samples { kept, .. }, errors, .. } = row;
-    let value = |(name, bits): (&String, &u64)| format!("{name}={}", shown(arithmetic.value(*bits), Quantity::Exact));
+    let FormatErrors { name, arithmetic, samples: Samples { kept, .. }, bits, .. } = row;
+    let value = |(name, input): (&String, &u64)| format!("{name}={}", exact(arithmetic.value(*input)));
     let words = |sample: &Sample| expression.variables.iter().zip(&sample.inputs).map(value).collect::<Vec<_>>();
-    let worst = kept.get(errors.worst).map(|sample| words(sample).join(", "));
-    let [mean, error, most] = [errors.mean_bits, errors.standard_error, errors.worst_bits].map(Cell::error);
+    let worst = kept.get(bits.worst_input).map(|sample| words(sample).join(" "));
+    let [mean, error, most] = [bits.mean, bits.standard_error, bits.worst].map(error_cell);
     [(*name).into(), arithmetic.layout().into(), kept.len().into(), mean, error, most, worst.into()]
 }
 

@@ -11,6 +11,9 @@ use crate::geom::random::CounterRng;
 const DRAWS: usize = 1000;
 const DISCARDED: usize = 20;
 
+/// Draws without any input that meets the precondition, before the search for inputs ends.
+const MISSES: usize = 1_000_000;
+
 /// Distribution of inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InputDraw {
@@ -31,12 +34,27 @@ pub(super) struct Sample {
     pub(super) value: f64,
 }
 
+/// Why an input that meets the precondition is discarded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Discard {
+    /// There is no real result.
+    Undefined,
+    /// The result is beyond the largest number of the format.
+    TooLarge,
+    /// No precision decides the result.
+    Undecided,
+}
+
+impl Discard {
+    pub(super) const ALL: [Self; 3] = [Self::Undefined, Self::TooLarge, Self::Undecided];
+}
+
 /// Sampled inputs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Samples {
     pub(super) kept: Vec<Sample>,
-    /// Number of inputs that met the precondition but whose result is not finite, or was not decided.
-    pub(super) discarded: usize,
+    /// Discarded inputs, by [`Discard`].
+    pub(super) discarded: [usize; 3],
 }
 
 /// Samples `count` inputs that meet the precondition and have a finite result, or fewer if they are rare.
@@ -50,6 +68,9 @@ pub(super) fn sample(
     let (spans, rng) = (spans(expression, arithmetic), CounterRng::new(seed));
     let count = if expression.variables.is_empty() { 1 } else { count };
     let mut samples = Samples::default();
+    if spans.iter().any(|[low, high]| low > high) {
+        return samples;
+    }
     for row in 0..DRAWS {
         // Whole rows at once, each input by its number, so that the number of threads changes nothing.
         let numbers: Vec<usize> = (row * count..(row + 1) * count).collect();
@@ -64,11 +85,13 @@ pub(super) fn sample(
         for sample in drawn.into_iter().flatten() {
             match sample {
                 _ if samples.kept.len() == count => return samples,
-                Some(sample) => samples.kept.push(sample),
-                None => samples.discarded += 1,
+                Ok(sample) => samples.kept.push(sample),
+                Err(reason) => samples.discarded[reason as usize] += 1,
             }
         }
-        if samples.kept.len() == count || samples.discarded > DISCARDED * count {
+        let discarded: usize = samples.discarded.iter().sum();
+        let is_missed = samples.kept.is_empty() && discarded == 0 && (row + 1) * count >= MISSES;
+        if samples.kept.len() == count || discarded > DISCARDED * count || is_missed {
             break;
         }
     }
@@ -87,21 +110,21 @@ fn meets(precondition: &Graph, reals: &[Real]) -> bool {
     value.into_iter().find(|value| *value != Some(Real::Unknown)).flatten() == Some(Real::Truth(true))
 }
 
-/// An input with its result, if the result is finite and decided.
-pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>) -> Option<Sample> {
+/// An input with its result, if that is finite and decided.
+pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>) -> Result<Sample, Discard> {
     let reals: Vec<Real> = inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
     let decide = |bits| match expression.exact().reals(&reals, bits, None).pop() {
-        Some(Real::Range(range)) => Some(Some((arithmetic.decided(&range)?, Arithmetic::Double.decided(&range)?))),
-        Some(Real::Undefined) => Some(None),
+        Some(Real::Range(range)) => Some(Ok((arithmetic.decided(&range)?, Arithmetic::Double.decided(&range)?))),
+        Some(Real::Undefined) => Some(Err(Discard::Undefined)),
         _ => None,
     };
-    let (exact, double) = PRECISIONS.into_iter().find_map(decide)??;
+    let (exact, double) = PRECISIONS.into_iter().find_map(decide).unwrap_or(Err(Discard::Undecided))?;
     let (value, finite) = (f64::from_bits(double), arithmetic.finite_ordinals());
     // Fixed point has no infinity: its largest number represents all larger ones.
     let [least, largest] = finite.map(|ordinal| arithmetic.value(arithmetic.at_ordinal(ordinal)));
     let is_within = !arithmetic.is_fixed() || (least..=largest).contains(&value);
     let is_finite = (finite[0]..=finite[1]).contains(&arithmetic.ordinal(exact));
-    (is_within && is_finite).then_some(Sample { inputs, exact, value })
+    if is_within && is_finite { Ok(Sample { inputs, exact, value }) } else { Err(Discard::TooLarge) }
 }
 
 impl Arithmetic {
@@ -118,19 +141,17 @@ impl Arithmetic {
     }
 }
 
-/// For each variable, the indices of the numbers within the constant bounds of the preconditions. All other conditions
-/// are checked input by input.
-fn spans(expression: &Expression, arithmetic: Arithmetic) -> Vec<[i64; 2]> {
+/// For each variable the positions of the first and the last number within the bounds that preconditions state by
+/// constants, in this order unless there is none; what else they demand is tried input by input.
+pub(super) fn spans(expression: &Expression, arithmetic: Arithmetic) -> Vec<[i64; 2]> {
     let mut spans = vec![arithmetic.finite_ordinals(); expression.variables.len()];
     expression.preconditions.iter().for_each(|graph| narrow(&mut spans, graph, arithmetic));
-    for [low, high] in &mut spans {
-        *high = (*high).max(*low);
-    }
     spans
 }
 
 fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) {
-    let values = precondition.reals(&vec![Real::Unknown; spans.len()], PRECISIONS[0], None);
+    // As many bits as ever: bounds are few, and no number beside one must stay.
+    let values = precondition.reals(&vec![Real::Unknown; spans.len()], PRECISIONS[PRECISIONS.len() - 1], None);
     let ordinal = |end| arithmetic.ordinal(arithmetic.encode(end));
     let mut demanded = vec![precondition.0.len() - 1];
     while let Some(node) = demanded.pop() {
@@ -144,13 +165,30 @@ fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) 
         };
         let [lower, upper] = [Ordering::Less, Ordering::Greater].map(|order| !comparison.holds(Some(order)));
         for (variable, bound, is_upper, is_lower) in [(left, right, upper, lower), (right, left, lower, upper)] {
-            if let (Operation::Variable(index), Real::Range(range)) =
+            let (Operation::Variable(index), Real::Range(range)) =
                 (&precondition.0[variable].operation, &values[bound])
-            {
-                // One number more, in case the bound was rounded away from it.
-                let [low, high] = &mut spans[*index];
-                *high = if is_upper { (*high).min(ordinal(&range.high) + 1) } else { *high };
-                *low = if is_lower { (*low).max(ordinal(&range.low) - 1) } else { *low };
+            else {
+                continue;
+            };
+            let is_strict = matches!(comparison, NumberComparison::Less | NumberComparison::Greater);
+            let is_beyond = |position: i64, order| {
+                let Real::Range(x) = arithmetic.real(arithmetic.at_ordinal(position)) else { return false };
+                let found = x.order(range);
+                found == Some(order) || is_strict && found == Some(Ordering::Equal)
+            };
+            // From one number beyond, in case the bound was rounded away from it.
+            let [low, high] = &mut spans[*index];
+            if is_upper {
+                *high = (*high).min(ordinal(&range.high) + 1);
+                while low <= high && is_beyond(*high, Ordering::Greater) {
+                    *high -= 1;
+                }
+            }
+            if is_lower {
+                *low = (*low).max(ordinal(&range.low) - 1);
+                while low <= high && is_beyond(*low, Ordering::Less) {
+                    *low += 1;
+                }
             }
         }
     }

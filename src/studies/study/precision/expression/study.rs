@@ -6,18 +6,18 @@ use std::sync::Arc;
 use super::super::bits::{FormatBits, FormatFamily};
 use super::super::curve::Curve;
 use super::super::goal::Goal;
-use super::super::runs::RunError;
 use super::arithmetic::Arithmetic;
 use super::blame::OperationError;
-use super::errors::Errors;
+use super::errors::{BitErrors, MEASURES};
 use super::graph::Expression;
-use super::sample::{self, InputDraw, Samples};
+use super::sample::{self, Discard, InputDraw, Samples};
 use super::syntax::{self, ExpressionError};
 use super::{blame, errors};
 use crate::io::read_limited;
 use crate::names::did_you_mean;
 use crate::report::SourceText;
-use crate::report::words::listed;
+use crate::report::digits::exact;
+use crate::report::words::{counted, listed};
 use crate::study::StudyError;
 use crate::study::error::library_errors;
 use refsim::num::Format;
@@ -51,7 +51,7 @@ pub(super) struct FormatErrors {
     pub(super) name: &'static str,
     pub(super) arithmetic: Arithmetic,
     pub(super) samples: Samples,
-    pub(super) errors: Errors,
+    pub(super) bits: BitErrors,
     /// Value of the goal's measure.
     pub(super) value: f64,
 }
@@ -134,8 +134,8 @@ impl ExpressionStudy {
         let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
         let of = |expression: &Expression| {
             let samples = sample::sample(expression, arithmetic, self.samples, self.draw, self.seed);
-            let errors = errors::errors(expression, arithmetic, &samples);
-            [errors.mean_bits, errors.standard_error]
+            let bits = errors::bits(expression, arithmetic, &samples);
+            [bits.mean, bits.standard_error]
         };
         self.expressions.iter().map(of).collect()
     }
@@ -145,7 +145,7 @@ impl ExpressionStudy {
     pub fn results(&self, name: &str, format: Option<Format>, inputs: &[u64]) -> Option<[u64; 2]> {
         let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
         let expression = self.expressions.iter().find(|expression| expression.name == name)?;
-        let exact = sample::exact(expression, arithmetic, inputs.to_vec())?.exact;
+        let exact = sample::exact(expression, arithmetic, inputs.to_vec()).ok()?.exact;
         let constants = arithmetic.constants(&expression.body);
         Some([exact, arithmetic.values(&expression.body, inputs, &constants).pop()?])
     }
@@ -155,12 +155,12 @@ impl ExpressionStudy {
         let Some(goal) = &self.goal else {
             return default.parse().map_err(|error| StudyError::coded("crossbar::precision::goal", error));
         };
-        if Errors::MEASURES.contains(&goal.measure.as_str()) {
+        if MEASURES.contains(&goal.measure.as_str()) {
             return Ok(goal.clone());
         }
         let shown: String = goal.measure.chars().take(60).collect();
-        let found = format!("expected a goal for {}, found `{shown}`", listed(&Errors::MEASURES));
-        let help = format!("{}for example `--goal \"{default}\"`", did_you_mean(&shown, Errors::MEASURES));
+        let found = format!("expected a goal for {}, found `{shown}`", listed(&MEASURES));
+        let help = format!("{}for example `--goal \"{default}\"`", did_you_mean(&shown, MEASURES));
         Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
     }
 
@@ -177,35 +177,27 @@ impl ExpressionStudy {
         let sampled = |arithmetic| sample::sample(expression, arithmetic, self.samples, self.draw, self.seed);
         let reference = sampled(single);
         if reference.kept.is_empty() {
-            let found = format!(
-                "{}: expected inputs in single precision that meet the precondition and have a finite result, found none \
-                 ({} without one)",
-                expression.name, reference.discarded
-            );
-            return Err(StudyError::new("crossbar::expression::inputs", found).with_help("narrow the ranges"));
+            return Err(without_inputs(expression, single, &reference));
         }
-        let is_of_bits = goal.measure.ends_with("_bits");
-        let value = |arithmetic: Arithmetic, own: Option<&Errors>| match (is_of_bits, own) {
-            (true, Some(errors)) => errors.measure(&goal.measure),
-            (true, None) => errors::errors(expression, arithmetic, &sampled(arithmetic)).measure(&goal.measure),
-            (false, _) => errors::errors_of_rounded(expression, arithmetic, &reference, single).measure(&goal.measure),
+        let value = |arithmetic, ends_early| {
+            errors::relative_errors(expression, arithmetic, (&reference, single), goal, ends_early)
         };
         let mut formats = Vec::new();
         for (name, arithmetic) in self.formats() {
             let samples = if arithmetic == single { reference.clone() } else { sampled(arithmetic) };
-            let errors = errors::errors(expression, arithmetic, &samples);
-            let value = value(arithmetic, Some(&errors));
-            formats.push(FormatErrors { name, arithmetic, samples, errors, value });
+            let bits = errors::bits(expression, arithmetic, &samples);
+            formats.push(FormatErrors { name, arithmetic, samples, bits, value: value(arithmetic, false) });
         }
-        let mut curves = Vec::new();
-        for &family in &self.families {
+        let curve = |&family: &FormatFamily| {
             let mut curve = Curve::empty(family);
-            let of = &mut |bits| Ok(value(number(bits), None));
-            match curve.compute(goal, of) {
-                Ok(()) | Err(RunError::Budget) => curves.push(curve),
-                Err(RunError::Study(error)) => return Err(error),
-            }
-        }
+            curve.minimum = smallest(family, goal, |bits| value(number(bits), true));
+            curve.range = curve.minimum.map_or(curve.range, |bits| bits.range);
+            let range = curve.range;
+            let at = |digits| (digits, value(number(FormatBits { family, range, digits }), false));
+            curve.scan.points = family.digit_bits(range).map(at).collect();
+            curve
+        };
+        let curves: Vec<Curve> = self.families.iter().map(curve).collect();
         let minimum = curves.iter().find_map(|curve| curve.minimum);
         let blamed = match minimum {
             Some(bits) => (bits.to_string(), blame::blame(expression, number(bits), &sampled(number(bits)))),
@@ -213,6 +205,49 @@ impl ExpressionStudy {
         };
         Ok(ExpressionOutcome { formats, curves, blamed })
     }
+}
+
+/// The format with the fewest bits of all of a family that meet a goal; of several, the one with the best value, and
+/// of these the one with the fewest bits of range. No format is left out: fewer bits can err less than more.
+fn smallest(family: FormatFamily, goal: &Goal, value: impl Fn(FormatBits) -> f64) -> Option<FormatBits> {
+    let digits = |range| family.digit_bits(range).map(move |digits| FormatBits { family, range, digits });
+    let all: Vec<FormatBits> = family.range_bits().flat_map(digits).collect();
+    (1..=32).find_map(|width| {
+        let values = all.iter().filter(|bits| bits.width() == width).map(|bits| (*bits, value(*bits)));
+        let met = values.filter(|(_, value)| goal.met(*value));
+        met.min_by(|a, b| goal.badness(a.1).total_cmp(&goal.badness(b.1))).map(|(bits, _)| bits)
+    })
+}
+
+/// Why an expression has no input at which its result can be judged.
+fn without_inputs(expression: &Expression, arithmetic: Arithmetic, samples: &Samples) -> StudyError {
+    let failed = |reason: &str, help: &str| {
+        let found = format!("{}: {reason}", expression.name);
+        StudyError::new("crossbar::expression::inputs", found).with_help(help.to_owned())
+    };
+    let number = |ordinal| exact(arithmetic.value(arithmetic.at_ordinal(ordinal)));
+    let spans = sample::spans(expression, arithmetic);
+    for ([low, high], name) in spans.into_iter().zip(&expression.variables) {
+        let reason = format!("expected numbers of single precision within the bounds of `{name}`, found none");
+        if low == high + 1 {
+            let help = format!("widen its range: the next numbers are {} and {}", number(high), number(low));
+            return failed(&reason, &help);
+        } else if low > high {
+            return failed(&reason, "its bounds contradict each other");
+        }
+    }
+    let tried: usize = samples.discarded.iter().sum();
+    if tried == 0 {
+        return failed("expected inputs that meet the precondition, found none", "give it wider bounds");
+    }
+    let (expected, help) = match Discard::ALL.into_iter().max_by_key(|&reason| samples.discarded[reason as usize]) {
+        Some(Discard::TooLarge) => ("a finite result in single precision", "give it inputs with smaller results"),
+        Some(Discard::Undecided) => {
+            ("a result that 12,288 bits decide", "values that are compared must not be equal: leave a distance")
+        }
+        _ => ("a real result", "it divides by zero, or takes a function outside of its domain"),
+    };
+    failed(&format!("expected {expected}, found none at {}", counted(tried as u64, "input", "inputs")), help)
 }
 
 /// A format with the default rules.

@@ -17,6 +17,7 @@ const ALBEDO_DEGREE: usize = 95;
 
 impl Study for BrdfFactors {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        self.check_terms()?;
         let table = self.subject.table(&self.sampling, &mut |done, of| progress("views", done, of))?;
         progress("singular values", 0, 1);
         let all = self.factorization(&table)?;

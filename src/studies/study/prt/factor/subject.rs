@@ -1,7 +1,7 @@
 //! The reflectance to be factored, and the errors of choosing it.
 
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductFunction, ProductTable};
-use crate::error::InputError;
+use crate::error::{InputError, ensure};
 use crate::transfer::brdf::Brdf;
 
 /// A reflectance to be factored.
@@ -32,7 +32,19 @@ pub struct BrdfFactors {
 const TERMS: usize = 10;
 
 impl BrdfFactors {
-    /// Singular values of a table, with vectors for the requested number of terms.
+    /// Refuses more terms than a map has texels, which no rank exceeds, before any table is made.
+    pub(super) fn check_terms(&self) -> Result<(), InputError> {
+        let texels = match &self.subject {
+            FactorSubject::Table(table) => table.view().texels().min(table.light().texels()),
+            _ => self.sampling.side.saturating_pow(2),
+        };
+        let terms = self.terms.unwrap_or_default();
+        ensure!(terms <= texels, "crossbar::factor::terms" =>
+            "expected at most {texels} terms, as many as a map has texels, found {terms}"; help "ask for fewer terms");
+        Ok(())
+    }
+
+    /// Singular values of a table, with vectors for the terms that are wanted.
     pub(super) fn factorization(&self, table: &ProductTable) -> Result<Factorization, InputError> {
         self.terms.map_or_else(|| Factorization::up_to(table, TERMS), |terms| Factorization::new(table, terms))
     }

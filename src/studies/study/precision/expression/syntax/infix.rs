@@ -31,8 +31,17 @@ const SIGN: u8 = 6;
 /// Most operators in a formula.
 const MAX_OPERATORS: usize = 2000;
 
-/// Names in shading languages of functions and constants of FPCore.
-const NAMES: [(&str, &str); 5] = [("abs", "fabs"), ("min", "fmin"), ("max", "fmax"), ("ln", "log"), ("pi", "PI")];
+/// Names that shading languages have for functions and constants of FPCore.
+const NAMES: [(&str, &str); 8] = [
+    ("abs", "fabs"),
+    ("min", "fmin"),
+    ("max", "fmax"),
+    ("ln", "log"),
+    ("pi", "PI"),
+    ("π", "PI"),
+    ("true", "TRUE"),
+    ("false", "FALSE"),
+];
 
 /// Parses a formula.
 ///
@@ -121,7 +130,6 @@ impl Parser<'_> {
         };
         loop {
             self.skip_blanks();
-            let end = left.place().end.max(from);
             let next = OPERATORS.iter().find(|(sign, tight, _)| *tight >= least && self.rest().starts_with(sign));
             let Some((sign, tight, name)) = next else { break };
             self.operators += 1;
@@ -131,8 +139,9 @@ impl Parser<'_> {
             self.at += sign.len();
             // Powers are right-associative.
             let right = self.operation(if *name == "pow" { SIGN } else { tight + 1 })?;
-            let place = from..right.place().end.max(end);
-            left = Self::list(name, vec![left, right], place);
+            // Brackets belong to the place of the operation outside of them.
+            let end = self.source.text()[..self.at].trim_end().len();
+            left = Self::list(name, vec![left, right], from..end);
         }
         self.depth -= 1;
         Ok(left)

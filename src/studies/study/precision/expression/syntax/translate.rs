@@ -40,6 +40,10 @@ pub(super) fn core(tree: &Tree, source: &Arc<SourceText>) -> Result<Expression, 
         }
     };
     let variables = arguments.iter().map(named).collect::<Result<Vec<String>, _>>()?;
+    if let Some(again) = (1..variables.len()).find(|&index| variables[..index].contains(&variables[index])) {
+        let message = format!("expected each argument once, found `{}` again", variables[again]);
+        return Err(fail(&message, arguments[again].place()));
+    }
     let (mut preconditions, mut spec) = (Vec::new(), None);
     for pair in properties.chunks(2) {
         match pair {
@@ -67,7 +71,7 @@ pub(in crate::study::precision::expression) fn formula(
 ) -> Result<Expression, ExpressionError> {
     let tree = super::infix::parse(source)?;
     let mut variables = Vec::new();
-    free_names(&tree, &mut variables);
+    free_names(&tree, source, &mut variables)?;
     let body = GraphBuilder::graph(source, &variables, &tree, false)?;
     let name = source.text().trim().to_owned();
     Ok(Expression { source: Arc::clone(source), name, variables, body, spec: None, preconditions: Vec::new() })
@@ -79,6 +83,7 @@ pub(in crate::study::precision::expression) fn bounds(
     variables: &[String],
 ) -> Result<Option<Graph>, ExpressionError> {
     let mut nodes: Vec<Tree> = vec![Tree::Atom("and".into(), 0..0)];
+    let mut bounded = Vec::new();
     for range in ranges {
         let source = Arc::new(SourceText::new("--range", range.clone()));
         let fail = |message: String| ExpressionError::new(&source, message, 0..range.len());
@@ -90,6 +95,10 @@ pub(in crate::study::precision::expression) fn bounds(
             let known = variables.join(", ");
             return Err(fail(format!("expected one of the variables {known}, found `{name}`")));
         }
+        if bounded.contains(&name) {
+            return Err(fail(format!("expected one range of `{name}`, found another")));
+        }
+        bounded.push(name);
         let ends = [low.trim(), high.trim()];
         let [Some((n, d)), Some((other, by))] = ends.map(numbers::parse) else {
             return Err(fail(format!("expected two numbers, found `{low}..{high}`")));
@@ -105,16 +114,30 @@ pub(in crate::study::precision::expression) fn bounds(
     (!ranges.is_empty()).then(|| GraphBuilder::graph(&source, variables, &all, true)).transpose()
 }
 
-/// Adds the names of a formula that are neither numbers nor constants.
-fn free_names(tree: &Tree, names: &mut Vec<String>) {
-    match tree {
-        Tree::List(items, _) => items.iter().skip(1).for_each(|item| free_names(item, names)),
-        Tree::Atom(name, _) => {
-            let is_known =
-                numbers::parse(name).is_some() || Constant::named(name).is_some() || name == "TRUE" || name == "FALSE";
-            if !is_known && !names.contains(name) && name.starts_with(|c: char| c.is_alphabetic() || c == '_') {
+/// Adds the names of a formula that are neither numbers nor constants. A name that differs from a constant's only in
+/// case is refused.
+fn free_names(tree: &Tree, source: &Arc<SourceText>, names: &mut Vec<String>) -> Result<(), ExpressionError> {
+    let (name, place) = match tree {
+        Tree::List(items, _) => return items.iter().skip(1).try_for_each(|item| free_names(item, source, names)),
+        Tree::Atom(name, place) => (name, place.clone()),
+    };
+    let is_constant = |name: &str| Constant::named(name).is_some() || name == "TRUE" || name == "FALSE";
+    if is_constant(name) || !name.starts_with(|c: char| c.is_alphabetic() || c == '_') {
+        return Ok(());
+    }
+    match name.to_uppercase().as_str() {
+        "INF" | "INFINITY" | "NAN" => {
+            Err(ExpressionError::new(source, format!("`{name}`: it has no meaning over the reals"), place))
+        }
+        upper if is_constant(upper) => {
+            let message = format!("`{name}`: write `{upper}` for the constant, or give the variable another name");
+            Err(ExpressionError::new(source, message, place))
+        }
+        _ => {
+            if !names.contains(name) {
                 names.push(name.clone());
             }
+            Ok(())
         }
     }
 }
@@ -250,7 +273,11 @@ impl<'a> GraphBuilder<'a> {
             (_, Some(constant)) => self.add(Operation::Constant(constant), place),
             ("TRUE" | "FALSE", _) => self.add(Operation::Truth(name == "TRUE"), place),
             _ => {
-                let reason = self.reason(name).unwrap_or("expected a number, a constant or a name in scope");
+                let is_number =
+                    name.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit() || c == '.');
+                let other =
+                    if is_number { numbers::EXPECTED } else { "expected a number, a constant or a name in scope" };
+                let reason = self.reason(name).unwrap_or(other);
                 self.fail(format!("`{name}`: {reason}"), place)
             }
         }
