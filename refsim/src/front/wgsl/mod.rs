@@ -17,7 +17,7 @@ use naga::front::wgsl::{Frontend, Options};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{Binding, BuiltIn, EntryPoint, Interpolation, Module, ShaderStage, Type};
 
-use super::half::comment;
+use super::half::{comment, redefines_half};
 use super::interface::{Translation, WgslInput};
 use super::refusal::Refusal;
 use crate::isa::{
