@@ -170,7 +170,7 @@ fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) 
             else {
                 continue;
             };
-            let is_strict = matches!(comparison, NumberComparison::Less | NumberComparison::Greater);
+            let is_strict = !comparison.holds(Some(Ordering::Equal));
             let is_beyond = |position: i64, order| {
                 let Real::Range(x) = arithmetic.real(arithmetic.at_ordinal(position)) else { return false };
                 let found = x.order(range);
