@@ -4,8 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use crossbar::io::{NumberTable, write_npy};
-use crossbar::picture::{Picture, exr};
 use crossbar::transfer::file::load_prt;
 use serde_json::Value;
 
@@ -82,49 +80,6 @@ fn a_card_draws_what_the_host_draws() {
     assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
 }
 
-/// Files and formats that a card does not support are refused with advice, and nothing is written.
-#[test]
-fn cards_refuse_what_they_have_no_programs_for() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [model, whole, small] = STEP;
-    let refused = |arguments: &[&str]| {
-        let out = place(folder.path(), "out");
-        let said = refused(&[&["cpca", "card"], arguments, &["--size", "8x8", "--out", &out]].concat());
-        assert!(!folder.path().join("out").exists(), "{arguments:?}");
-        said
-    };
-    assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer only"));
-    assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
-}
-
-#[test]
-fn pictures_that_are_no_lights_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [model, transfer, _] = STEP.map(|path| place(Path::new(env!("CARGO_MANIFEST_DIR")), path));
-    let mut pixels = [[1.0; 3]; 32];
-    pixels[19] = [1.0, f32::NAN, 1.0];
-    // White scanlines of 8 pixels, one run per channel; the second scanline ends within its second run.
-    let row = [2, 2, 0, 8, 136, 128, 136, 128, 136, 128, 136, 129];
-    let broken = [&b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n"[..], &row, &row[..7], b"\0"].concat();
-    for (name, bytes, words) in [
-        (
-            "nan.exr",
-            exr(&Picture::rgb(8, 4, &pixels)).expect("a file"),
-            "expected finite radiance, found NaN in channel green of the pixel in column 3, row 2",
-        ),
-        ("tall.exr", exr(&Picture::rgb(4, 8, &pixels)).expect("a file"), "found 4x8"),
-        ("cut.hdr", broken, "the Radiance HDR data cannot be read"),
-        ("words.hdr", b"no picture".to_vec(), "6e 6f 20 70"),
-        ("empty.hdr", Vec::new(), "begins with nothing"),
-    ] {
-        let light = place(folder.path(), name);
-        fs::write(&light, bytes).expect("written");
-        let arguments = ["cpca", "render", &transfer, "--model", &model, "--light", &light, "--size", "8x8"];
-        let said = refused_in(folder.path(), &arguments);
-        assert!(said.contains(words) && said.contains(name), "{name}: {said}");
-    }
-}
-
 /// A square whose first texture coordinate grows with y: the anisotropic material follows it, the file stores the
 /// tangents, and commands that read the file need no option for them.
 #[test]
@@ -156,30 +111,6 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
     // A square without texture coordinates is another mesh.
     let square = ["cpca", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
     refused(&square);
-}
-
-/// A NumPy array and a table with equal numbers are one signal.
-#[test]
-fn arrays_of_numpy_are_compressed() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [array, fortran, table] = ["signal.npy", "fortran.npy", "signal.csv"].map(|name| place(folder.path(), name));
-    let numbers: Vec<f32> = (0..120_u16).map(|i| f32::from(i * 37 % 101) / 8.0).collect();
-    let mut bytes = Vec::new();
-    write_npy(&NumberTable { columns: 4, values: numbers.clone() }, &mut bytes).expect("written");
-    fs::write(&array, &bytes).expect("written");
-    let lines = numbers.chunks(4).map(|row| row.iter().map(f32::to_string).collect::<Vec<_>>().join(",") + "\n");
-    fs::write(&table, lines.collect::<String>()).expect("written");
-    let compressed = |signal: &str, out: &str| {
-        let out = place(folder.path(), out);
-        document(&["cpca", "compress", signal, "--clusters", "3", "--vectors", "2", "--out", &out]);
-        fs::read(&out).expect("written")
-    };
-    assert_eq!(compressed(&array, "one.npz"), compressed(&table, "other.npz"));
-    let at = bytes.windows(5).position(|word| word == b"False").expect("the order of the array");
-    bytes[at..at + 5].copy_from_slice(b"True ");
-    fs::write(&fortran, &bytes).expect("written");
-    let said = refused(&["cpca", "compress", &fortran, "--out", &place(folder.path(), "none.npz")]);
-    assert!(said.to_lowercase().contains("fortran"), "{said}");
 }
 
 /// Reclassification draws fewer triangles within its budget; superclusters add no error; the file records both, and the

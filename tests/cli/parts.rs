@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::commands::copy_of_the_repository;
+use crate::crossbar_in;
 use crate::random::Random;
-use crate::{crossbar_in, start};
 
 /// Commands that split, on small input. The result goes to `out`, with an extension if it is a file.
 const COMMANDS: &[&str] = &[
@@ -111,42 +111,6 @@ fn merged_parts_are_the_files_of_one_run() {
             assert!(found == whole, "{command}, {of} parts: {:?}", found.keys());
         }
     }
-}
-
-/// Parts that are killed at any moment leave a complete file or none, and are computed again.
-#[test]
-fn parts_that_were_killed_are_made_again() {
-    let mut random = Random::new(11);
-    let command = "all-frequency precompute docs/examples/court.obj --ground 8 --out out.npz";
-    let folder = copy_of_the_repository();
-    let folder = folder.path();
-    run(folder, &words(command));
-    let whole = written(folder);
-    let names: Vec<String> = (1..=4).map(|number| format!("{number}.part")).collect();
-    for (number, name) in (1..).zip(&names) {
-        let line = part(command, &format!("{number}/4"), name);
-        let mut first = None;
-        for _ in 0..3 {
-            let mut child = start(folder, &words(&line));
-            std::thread::sleep(std::time::Duration::from_millis(random.below(400)));
-            child.kill().expect("a child");
-            child.wait().expect("a child");
-            if let Ok(bytes) = fs::read(folder.join(name)) {
-                let known = first.get_or_insert_with(|| bytes.clone());
-                assert!(*known == bytes, "{name} is whole, or not there");
-            }
-        }
-        run(folder, &words(&line));
-        assert!(first.is_none_or(|first| fs::read(folder.join(name)).expect("a part") == first), "{name}");
-    }
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    // Two simultaneous merges into one file.
-    let merge = [&["merge"], &names[..], &["--out", "out.npz"]].concat();
-    let children = [start(folder, &merge), start(folder, &merge)];
-    for mut child in children {
-        assert!(child.wait().expect("a child").success());
-    }
-    assert!(written(folder) == whole, "both write the same");
 }
 
 /// Both parts of a small command.
@@ -263,21 +227,6 @@ fn parts_of_other_programs_are_refused() {
     forged("results.part", &|header| header["part"] = serde_json::json!({ "number": 1, "of": 1 }));
     refuse("merge results.part --out x.npz");
     insta::assert_snapshot!(said);
-}
-
-/// A disk that fills up during a part or a merge leaves no incomplete file.
-#[test]
-#[cfg(target_os = "linux")]
-fn a_full_disk_leaves_nothing() {
-    let folder = two_parts();
-    let folder = folder.path();
-    let before = fs::read_dir(folder).expect("a folder").count();
-    for line in [part(COMMANDS[0], "1/2", "/dev/full"), "merge 1.part 2.part --out /dev/full".to_owned()] {
-        let ran = crossbar_in(folder, &words(&line), "");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{line}");
-        assert!(ran.stderr.contains("No space left on device"), "{line}: {}", ran.stderr);
-    }
-    assert_eq!(fs::read_dir(folder).expect("a folder").count(), before);
 }
 
 /// Every changed byte of a part is detected.
