@@ -82,26 +82,7 @@ fn errors_are_those_of_compression() {
     assert!(fs::metadata(folder.path().join("page/index.html")).is_ok());
 }
 
-/// Glossy transfer from factors that another command wrote; compares all terms of the rank with few terms.
-#[test]
-fn factors_go_from_one_command_to_the_next() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [factors, sight, coded, page] = ["f", "sight.npz", "coded.npz", "page"].map(|name| place(folder.path(), name));
-    document(&format!("all-frequency factor --brdf phong --side 8 --terms 4 --out {factors}"));
-    let model = "fixtures/models/square.obj";
-    let made = document(&format!("all-frequency precompute {model} --reflectance {factors} --out {sight}"));
-    assert_eq!(made["terms"], 4);
-    let made = document(&format!("all-frequency compress {sight} --model {model} --bits 12 --out {coded}"));
-    assert_eq!(made["code"]["columns"], 1024);
-    let shown = document(&format!("all-frequency show {coded}"));
-    assert_eq!((&shown["terms"], &shown["hats"]), (&Value::from(4), &Value::from("two-texels")));
-    assert_eq!(shown["coded"]["representative_bits"], 12);
-    let drawn =
-        document(&format!("all-frequency render {coded} --model {model} --light constant --size 16x16 --out {page}"));
-    assert!(number(&drawn["multiplies"]["vertices"]) > 0.0);
-}
-
-/// A ground is precomputed, compressed and drawn with its model; each receives light from the other.
+/// A ground is precomputed, compressed and drawn with its model; each lights the other.
 #[test]
 fn a_model_stands_on_a_ground() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -159,31 +140,6 @@ fn light_is_taken_apart() {
     let kept = number(&few["kept_energy"]);
     assert!(kept > 0.5 && kept < 1.0, "{kept}");
     assert_eq!((&few["kept"], &few["segments"]), (&Value::from(20), &Value::from(6)));
-}
-
-/// Light truncated on six faces has negative texels, and is drawn: the picture differs by the dropped part, and its red
-/// channel is the table's.
-#[test]
-fn truncated_light_is_drawn() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [light, page] = ["light.csv", "page"].map(|name| place(folder.path(), name));
-    let cut = document(&format!(
-        "all-frequency lighting --light disk:1,-1,2:20 --segments 6 --keep 60 --by magnitude --out {light}"
-    ));
-    assert!(number(&cut["negative_texels"]) > 0.0, "{cut}");
-    let picture = |light: &str, keep: &str| {
-        let options = format!("--light {light} {keep} --size 32x24 --exposure 0.5 --out {page}");
-        document(&format!("all-frequency render {SIGHT} --model {STEP} {options}"));
-        let bytes = fs::read(folder.path().join("page/picture.exr")).expect("written");
-        crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
-    };
-    let [whole, of_six] = ["disk:1,-1,2:20", &light].map(|light| picture(light, ""));
-    let squares = |values: &mut dyn Iterator<Item = f32>| values.map(|value| f64::from(value * value)).sum::<f64>();
-    let apart = squares(&mut whole.as_flattened().iter().zip(of_six.as_flattened()).map(|(a, b)| a - b));
-    let share = (apart / squares(&mut whole.as_flattened().iter().copied())).sqrt();
-    assert!(share > 1e-4 && share < 0.2, "{share}");
-    // All coefficients in 24 segments represent the same light.
-    assert_eq!(picture(&light, "--keep 6144"), of_six);
 }
 
 #[test]

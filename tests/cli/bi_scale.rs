@@ -37,30 +37,6 @@ fn biclusters_sum_to_transfer() {
     assert_eq!(made, again, "the sum of the biclusters");
 }
 
-/// Numbers that are not multiples of a unit, with unrounded residuals: the matrix is recovered from the biclusters'
-/// file.
-#[test]
-fn any_numbers_come_back_from_files() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [matrix, biclusters, back] = ["a.mtx", "b.npz", "c.mtx"].map(|name| place(folder.path(), name));
-    let row = |row: usize, third: &str| {
-        format!("{row} 1 0.1\n{row} 2 -5e-324\n{row} 3 {third}\n{row} 4 0.30000000000000004\n")
-    };
-    let rows = [row(1, "1e300"), row(2, "1e300"), row(3, "5e299"), row(4, "1e300")].concat();
-    let text = format!("%%MatrixMarket matrix coordinate real general\n5 4 17\n{rows}5 1 -0.0\n");
-    fs::write(&matrix, text).expect("written");
-    let found = document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
-    let of = |key: &str| found[key].clone();
-    assert_eq!((of("residual"), of("biclusters"), of("distinct_values")), (0.into(), 2.into(), 5.into()));
-    assert_eq!([of("unit_bits"), of("beyond_singles")], [Value::Null, 2.into()]);
-    let shown = document(&format!("bi-scale show {biclusters} --matrix {back}"));
-    assert_eq!((shown["distinct_values"].clone(), shown["unit_bits"].clone()), (5.into(), Value::Null));
-    let read = |path: &str| crossbar::io::load_matrix_market(path.as_ref()).expect("a matrix");
-    let (mut before, after) = (read(&matrix), read(&back));
-    before.entries.retain(|&(.., value)| value != 0.0);
-    assert_eq!(before, after);
-}
-
 #[test]
 fn what_cannot_be_done_is_said() {
     let folder = tempfile::tempdir().expect("a folder for the test");

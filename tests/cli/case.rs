@@ -100,53 +100,6 @@ fn opengl_programs_are_followed() {
 }
 
 #[test]
-fn any_number_of_threads_writes_the_same_bytes() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let bytes = |threads: &str| {
-        let ran =
-            crossbar_in(folder.path(), &["run", &example("two_triangles"), "--threads", threads, "--out", threads], "");
-        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-        let read = |file: &str| fs::read(folder.path().join(threads).join(file)).expect("the file was written");
-        (read("target0.png"), read("depth.exr"))
-    };
-    let one = bytes("1");
-    assert!(one == bytes("2") && one == bytes("3"), "1, 2 and 3 threads agree");
-}
-
-#[test]
-fn both_executors_write_the_same_bytes() {
-    for name in CASES {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        let files = |executor: &str| {
-            let arguments = ["run", &example(name), "--executor", executor, "--out", executor];
-            let ran = crossbar_in(folder.path(), &arguments, "");
-            assert_eq!(ran.code, Some(0), "{name} by {executor}: {}", ran.stderr);
-            let mut files: Vec<(std::ffi::OsString, Vec<u8>)> = fs::read_dir(folder.path().join(executor))
-                .expect("the folder was written")
-                .map(|entry| entry.expect("an entry"))
-                .map(|entry| (entry.file_name(), fs::read(entry.path()).expect("a file")))
-                .collect();
-            files.sort();
-            // The counts are also equal; only the names of the files differ.
-            let counts: Vec<String> =
-                ran.stdout.lines().filter(|line| line.starts_with('|')).map(str::to_owned).collect();
-            (files, counts)
-        };
-        assert!(files("scalar") == files("batch"), "{name}: scalar and batch agree");
-    }
-}
-
-#[test]
-fn the_picture_has_the_pixels_of_the_target() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    crossbar_in(folder.path(), &["run", &example("modulate"), "--out", "m"], "");
-    let picture = image::open(folder.path().join("m/target0.png")).expect("a PNG").into_rgba8();
-    assert_eq!(picture.get_pixel(0, 0).0, [128, 0, 0, 255]);
-    assert_eq!(picture.get_pixel(1, 0).0, [0, 255, 0, 255]);
-    assert_eq!(picture.get_pixel(1, 1).0, [128, 255, 64, 128]);
-}
-
-#[test]
 fn a_report_for_machines() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let ran = crossbar_in(folder.path(), &["run", &example("modulate"), "--json"], "");
@@ -284,35 +237,6 @@ fn warnings() {
         ran.stderr
     });
     insta::assert_snapshot!(said.join("----\n"));
-}
-
-#[test]
-fn files_that_are_no_case() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::write(folder.path().join("binary.toml"), b"device = \"\xff\"").expect("a file");
-    let endless = if cfg!(unix) { "/dev/zero" } else { "nowhere.toml" };
-    for name in ["binary.toml", "nowhere.toml", ".", endless] {
-        let ran = crossbar_in(folder.path(), &["run", name], "");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
-        assert!(!folder.path().join("out").exists(), "{name}: nothing is written");
-    }
-}
-
-#[test]
-fn a_folder_that_cannot_be_written() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    // A file has the folder's name, so that even root cannot create the folder.
-    fs::write(folder.path().join("taken"), "a file").expect("a file");
-    for out in ["taken", "taken/below"] {
-        let ran = crossbar_in(folder.path(), &["run", &example("modulate"), "--out", out], "");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{}", ran.stderr);
-        assert!(ran.stderr.contains("cannot"), "{}", ran.stderr);
-    }
-    assert_eq!(
-        fs::read_to_string(folder.path().join("taken")).ok().as_deref(),
-        Some("a file"),
-        "the file is untouched"
-    );
 }
 
 #[test]

@@ -1,12 +1,11 @@
 //! `crossbar all-frequency factor`: its output, its files, and refusals.
 
 use std::fs;
-use std::path::Path;
 
 use serde_json::Value;
 
 use crate::answers::listed;
-use crate::{crossbar, crossbar_in};
+use crate::crossbar_in;
 
 const TABLE: &str = "docs/examples/reflectance.csv";
 
@@ -37,21 +36,7 @@ fn a_table_is_factored_into_files() {
     assert!(one == three);
 }
 
-#[test]
-fn the_tables_are_these() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    fs::copy(root.join(TABLE), folder.path().join("q.csv")).expect("a copy");
-    let ran = crossbar_in(
-        folder.path(),
-        &["all-frequency", "factor", "--table", "q.csv", "--terms", "3", "--out", "out"],
-        "",
-    );
-    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-    insta::assert_snapshot!("factor_tables", ran.stdout);
-}
-
-/// Bad input: checks the messages word for word; nothing is written.
+/// Bad input: the messages, word for word, and nothing is written.
 #[test]
 fn bad_input_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -81,17 +66,4 @@ fn bad_input_is_refused() {
         (name, ran.stderr)
     }));
     insta::assert_snapshot!(said);
-}
-
-/// Options that do not apply to the subject are refused before its file is read.
-#[test]
-fn options_of_another_subject_are_refused() {
-    let of_model = "--roughness=0.3 --fresnel=0.5 --denominators=product --fresnel-form=constant --shadowing=none";
-    for option in format!("{of_model} --side=8").split_whitespace() {
-        let ran = crossbar(&["all-frequency", "factor", "--table=nowhere.csv", option], "");
-        let name = option.split('=').next().expect("a name");
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{option}");
-        let said = ran.stderr.contains("cannot be used with") && ran.stderr.contains(name);
-        assert!(said, "{option}: {}", ran.stderr);
-    }
 }

@@ -38,17 +38,6 @@ fn the_rows_are_these() {
     insta::assert_snapshot!(file("rows.csv") + &file("tally.csv"));
 }
 
-/// The name of a paper selects all its entries.
-#[test]
-fn a_paper_is_reproduced_by_name() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let ran = crossbar_in(folder.path(), &["reproduce", "radiosity", "--json", "--out", "found"], "");
-    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-    let entries = document["entries"].as_array().expect("entries").iter().map(|entry| entry["id"].clone());
-    assert_eq!(entries.collect::<Vec<_>>(), ["radiosity-figure-3", "radiosity-rates", "radiosity-figure-4"]);
-}
-
 /// The tables and the conclusion of one entry.
 #[test]
 fn the_text_is_this() {

@@ -84,14 +84,7 @@ fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: expected a number, found `{}`", row[column]))
 }
 
-fn refused(more: &[&str], expected: &str) {
-    let (ran, folder) = subsurface(more);
-    let told = ran.refusal(more);
-    assert!(told.contains(expected), "{more:?}: {told}");
-    assert!(!folder.path().join("out/subsurface").exists(), "nothing is left behind");
-}
-
-/// The command on a sphere that the page names.
+/// The page's command on a sphere.
 fn angles() -> &'static str {
     "subsurface docs/examples/sphere.obj --material skin1 --mm-per-unit 10 --atlas 32 --choice fixed --choice adaptive \
      --links 64 --link-format fp32 --map fp32 --light directional:0,0,1:1,1,1 --all-pairs yes"
@@ -221,39 +214,6 @@ fn wrapped(text: &str) -> String {
         }
     }
     lines.join("\n")
-}
-
-/// A tetrahedron with flat sides: separate normals at every corner.
-fn flat_tetrahedron() -> String {
-    let s = 1.0 / 3.0_f64.sqrt();
-    let normals = format!("vn 0 0 -1\nvn 0 -1 0\nvn -1 0 0\nvn {s} {s} {s}\n");
-    let places: String = MODEL.lines().filter(|line| line.starts_with('v')).map(|line| format!("{line}\n")).collect();
-    places + &normals + "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 1//3 4//3 3//3\nf 2//4 3//4 4//4\n"
-}
-
-/// On a convex body, a uniform map equals a sky; a map with a dark half does not. A map together with other lights is
-/// refused.
-#[test]
-fn environment_maps_shine() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    std::fs::write(folder.path().join("m.obj"), flat_tetrahedron()).expect("written");
-    let lit = |light: &str| -> Vec<[f64; 2]> {
-        let more = ["--all-pairs", "no", "--links", "4", "--light", light];
-        let ran = crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "");
-        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{light}");
-        let rows = table(&folder, "faces.csv");
-        rows.iter().map(|row| [number(row, "E_r"), number(row, "fixed_4_rgb_fp16_map_fp16_r")]).collect()
-    };
-    let (sky, map, disk) = (lit("ambient:1,1,1"), lit("constant:1,1,1"), lit("disk:0,0,-1:10"));
-    for ([sky, b], [map, b_map]) in sky.iter().zip(&map) {
-        assert!((map / sky - 1.0).abs() < 5e-3, "E {map}, of a sky {sky}");
-        assert!((b_map / b - 1.0).abs() < 2e-2, "B on the card {b_map}, of a sky {b}");
-    }
-    // The sides see half of the disk at a grazing angle; the slanted face sees none of it.
-    assert!(disk[0][0] > 0.05 && disk[1][0] < 0.1 * disk[0][0] && disk[3][0] == 0.0, "from below: {disk:?}");
-    assert!(disk[3][1] > 0.0, "light comes through from behind");
-    refused(&["--light", "constant", "--light", "ambient:1,1,1"], "expected a single environment map");
-    refused(&["--light", "nowhere.exr"], "nowhere.exr");
 }
 
 /// Help, page and program agree on the largest atlas for which all pairs are gathered by default.

@@ -69,24 +69,6 @@ fn buckets_follow_one_another_on_one_card() {
 }
 
 #[test]
-fn asynchronous_is_never_slower_and_two_copies_are_not() {
-    let totals = |more: &[&str]| {
-        let document = document(&[RAYS, more].concat());
-        check(&document, &["rates", "pipeline"]);
-        [0, 1].map(|model| number(&document["models"][model]["total_ps"]))
-    };
-    let said = totals(&[]);
-    let synchronous = totals(&["--readback", "sync"]);
-    let asynchronous = totals(&["--readback", "async"]);
-    let double = totals(&["--readback", "async", "--double-buffer"]);
-    assert_eq!(said, synchronous, "the crossbar waits for its results");
-    for model in [0, 1] {
-        assert!(asynchronous[model] < synchronous[model], "model {model}");
-        assert!(double[model] < asynchronous[model], "model {model}");
-    }
-}
-
-#[test]
 fn guesses_are_halved_and_doubled() {
     let document = document(&["timeline", "fixtures/cases/modulate.toml", "--timing", "pipeline", "--sensitivity"]);
     let model = &document["models"][0];
@@ -165,14 +147,4 @@ fn bad_requests() {
         insta::assert_snapshot!(format!("bad_{name}"), ran.transcript().replace(&case, "modulate.toml"));
         assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0, "{name} leaves nothing behind");
     }
-}
-
-#[test]
-fn a_trace_that_cannot_be_written() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::write(folder.path().join("no"), "a file").expect("a file");
-    let ran = crossbar_in(folder.path(), &["timeline", &example("modulate"), "--perfetto", "no/folder/trace.json"], "");
-    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
-    assert!(ran.stderr.contains("no/folder"), "{}", ran.stderr);
-    assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 1);
 }

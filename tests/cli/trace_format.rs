@@ -170,34 +170,3 @@ pub(crate) fn read(text: &str) -> Result<Shown, String> {
     let process = processes.into_values().next().unwrap_or_default();
     Ok(Shown { process, threads, flows: starts.len(), about: file.other_data })
 }
-
-#[test]
-fn what_is_no_trace_is_refused() {
-    let trace = |event: &str| {
-        format!(
-            r#"{{"displayTimeUnit":"ns","otherData":{{}},"traceEvents":[
-            {{"ph":"M","name":"process_name","pid":1,"tid":0,"args":{{"name":"p"}}}},
-            {{"ph":"M","name":"thread_name","pid":1,"tid":1,"args":{{"name":"t"}}}},
-            {{"ph":"M","name":"thread_sort_index","pid":1,"tid":1,"args":{{"sort_index":1}}}},
-            {{"ph":"X","name":"a","cat":"c","ts":1.0,"dur":2.0,"pid":1,"tid":1,
-              "args":{{"command":0,"start_ps":1000000,"duration_ps":2000000}}}}{event}]}}"#
-        )
-    };
-    read(&trace("")).expect("a good trace");
-    for bad in [
-        r#",{"ph":"Z","name":"unknown phase"}"#,
-        r#",{"ph":"X","name":"no duration","cat":"c","ts":4.0,"pid":1,"tid":1}"#,
-        r#",{"ph":"X","name":"too early","cat":"c","ts":0.5,"dur":0.1,"pid":1,"tid":1,"args":{"command":1,"start_ps":500000,"duration_ps":100000}}"#,
-        r#",{"ph":"X","name":"overlaps","cat":"c","ts":2.0,"dur":2.0,"pid":1,"tid":1,"args":{"command":1,"start_ps":2000000,"duration_ps":2000000}}"#,
-        r#",{"ph":"X","name":"not in whole nanoseconds","cat":"c","ts":3.0006,"dur":2.0,"pid":1,"tid":1,
-            "args":{"command":1,"start_ps":3000600,"duration_ps":2000000}}"#,
-        r#",{"ph":"X","name":"other process","cat":"c","ts":4.0,"dur":2.0,"pid":2,"tid":1,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,
-        r#",{"ph":"X","name":"unnamed thread","cat":"c","ts":4.0,"dur":2.0,"pid":1,"tid":2,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,
-        r#",{"ph":"X","name":"text for time","cat":"c","ts":"4","dur":2.0,"pid":1,"tid":1,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,
-        r#",{"ph":"s","name":"no end","cat":"c","id":0,"ts":1.5,"pid":1,"tid":1}"#,
-        r#",{"ph":"f","name":"no start","cat":"c","id":0,"ts":1.5,"pid":1,"tid":1,"bp":"e"}"#,
-        r#",{"ph":"M","name":"thread_colour","pid":1,"tid":1,"args":{}}"#,
-    ] {
-        assert!(read(&trace(bad)).is_err(), "{bad}");
-    }
-}

@@ -132,27 +132,6 @@ fn the_wrong_option_is_named() {
 }
 
 #[test]
-fn render_writes_a_picture_and_layers() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mesh = in_project("fixtures/models/teapot_2.obj");
-    for executor in ["exact", "batch"] {
-        let ran = crossbar_in(
-            folder.path(),
-            &["render", &mesh, "--size", "24x16", "--executor", executor, "--out", "picture", "--json"],
-            "",
-        );
-        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-        let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-        assert_eq!(report["pixels"], 24 * 16, "all pixels are counted");
-        assert!(report["hits"].as_u64().is_some_and(|h| h > 30), "the whole teapot is in the picture: {report}");
-        let png = fs::read(folder.path().join("picture/picture.png")).expect("the picture");
-        assert!(png.starts_with(b"\x89PNG"), "a PNG");
-        let exr = fs::read(folder.path().join("picture/layers.exr")).expect("the layers");
-        assert!(exr.starts_with(&[0x76, 0x2f, 0x31, 0x01]), "an EXR");
-    }
-}
-
-#[test]
 fn leaky_teapot_writes_everything_it_promises() {
     let folder = tempfile::tempdir().expect("a folder");
     let arguments =
@@ -195,43 +174,4 @@ fn a_format_keeps_the_rounding_of_device_files() {
     let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
     assert_eq!([0, 1].map(|row| report["rows"][row]["format"].as_str()), [Some("s3.11"), Some("s3.11:rdn")]);
     assert_eq!(report["same_bits"], serde_json::json!({}), "they trace otherwise");
-}
-
-#[test]
-fn bad_input_ends_with_2_and_writes_nothing() {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("a_file"), "").expect("written");
-    let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
-    let bad = |name: &str| in_project(&format!("fixtures/models/bad/{name}"));
-    let before = || fs::read_dir(folder.path()).expect("the folder").count();
-    let mut cases: Vec<Vec<String>> = Vec::new();
-    let mut case = |words: &[&str]| cases.push(words.iter().map(ToString::to_string).collect());
-    case(&["leaky-teapot", "--device", "voodoo2"]);
-    case(&["leaky-teapot", "--format", "s3.99"]);
-    case(&["leaky-teapot", "--size", "0x9"]);
-    case(&["leaky-teapot", "--tessellation", "0"]);
-    case(&["leaky-teapot", "--device", "nv20", "--size", "4x4", "--tessellation", "1"]);
-    case(&["leaky-teapot", "--size", "4x4", "--out", "a_file/out"]);
-    case(&["intersect", "--mesh", "nowhere.obj", "--rays", &rays, "--out", "h.csv"]);
-    case(&["intersect", "--mesh", &mesh, "--rays", "nowhere.csv", "--out", "h.csv"]);
-    case(&["intersect", "--mesh", &mesh, "--rays", &mesh, "--out", "h.csv"]);
-    case(&["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "a_file/h.csv"]);
-    case(&["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "h.csv", "--device", "voodoo2"]);
-    case(&["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "h.csv", "--device", "nv25", "--executor", "batch"]);
-    case(&["render", "nowhere.obj"]);
-    case(&["render", &rays]);
-    case(&["render", &mesh, "--eye", "1,2"]);
-    case(&["render", &mesh, "--eye", "0,0,0", "--target", "0,0,0"]);
-    for file in fs::read_dir(in_project("fixtures/models/bad")).expect("the bad models") {
-        case(&["render", &bad(&file.expect("an entry").file_name().to_string_lossy())]);
-    }
-    let count = before();
-    for words in cases {
-        let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        let ran = crossbar_in(folder.path(), &words, "");
-        assert_eq!(ran.code, Some(2), "{words:?}: {}", ran.transcript());
-        assert!(ran.stdout.is_empty(), "{words:?}: nothing on standard output");
-        assert!(!ran.stderr.is_empty() && !ran.stderr.contains("panicked"), "{words:?}: {}", ran.stderr);
-        assert_eq!(before(), count, "{words:?}: nothing was written");
-    }
 }

@@ -25,4 +25,3 @@ mod sphere;
 mod subsurface;
 mod support;
 mod timing;
-mod tracer;

@@ -20,6 +20,7 @@ pub(crate) fn on_host(name: &'static str, test: fn()) -> Trial {
 
 /// A test on the adapter shared by all tests of the process.
 #[cfg(feature = "wgpu")]
+#[allow(dead_code, reason = "some binaries have none")]
 pub(crate) fn on_adapter(name: &'static str, test: fn(&std::sync::Arc<refsim::exec::gpu::Gpu>)) -> Trial {
     use libtest_mimic::Completion;
     Trial::ignorable_test(name, move || match refsim::exec::gpu::testing::shared()? {

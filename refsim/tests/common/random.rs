@@ -95,17 +95,8 @@ impl Random {
     /// A number that formats treat specially: infinities, NaN, the smallest and the largest numbers.
     pub(crate) fn special(&mut self) -> u32 {
         self.of(&[
-            0x7f80_0000,
-            0xff80_0000,
-            0x7fc0_0000,
-            0xffc0_0001,
-            0x0000_0001,
-            0x0070_0000,
-            0x8000_0001,
-            0x7f7f_ffff,
-            0xff7f_ffff,
-            0x4780_0000,
-            0x3880_0000,
+            0x7f800000, 0xff800000, 0x7fc00000, 0xffc00001, 0x00000001, 0x00700000, 0x80000001, 0x7f7fffff, 0xff7fffff,
+            0x47800000, 0x38800000,
         ])
     }
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use refsim::device::{
-    ColorClamp, ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, ResultRange,
-    SignedTexelMinimum, Storage, SubpixelGrid, SubpixelRounding, TargetRounding, TexkillComponents,
+    ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, SignedTexelMinimum, Storage,
+    SubpixelGrid, TexkillComponents,
 };
 use refsim::isa::Version;
 use refsim::num::{Denormals, DotOrder, Format, Overflow, Rounding, Specials};
@@ -195,56 +195,6 @@ fn what_is_set_stays_when_the_format_is_replaced() {
     assert_eq!(kept.rules.storage.of(Storage::Temporaries), Some(Format::FP16));
     assert_eq!(kept.rules.accumulator, Some("e8m13".parse().unwrap()));
     assert!(matches!(with(stored, "e5m8"), Err(DeviceError::StorageFormat { what: "temporaries", .. })));
-}
-
-/// GL_NV_register_combiners: results are clamped to [-1, 1], sums within an instruction are not. Other formats have
-/// their own range.
-#[test]
-fn nv2x_clamps_results_and_not_sums() {
-    for name in ["nv20", "nv25"] {
-        let mut card = Profile::named(name).unwrap();
-        assert_eq!((card.rules.format, card.rules.result_range), ("n3.8:rna".parse().unwrap(), ResultRange::One));
-        for (registers, format) in [("256ths", "s3.8:rna"), ("255ths", "n3.8:rna")] {
-            card.set_switch("registers", registers).unwrap();
-            assert_eq!((card.rules.format, card.rules.result_range), (format.parse().unwrap(), ResultRange::One));
-        }
-        card.set_format(Format::FP16).unwrap();
-        assert_eq!(card.rules.result_range, ResultRange::Format);
-        let range = card.figures().into_iter().find(|r| r.key == "rules.result-range").unwrap();
-        assert_eq!(range.value, "format");
-        let registers = card.switches().iter().find(|switch| switch.name == "registers").unwrap();
-        assert_eq!((registers.current.as_str(), registers.default.as_str()), ("256ths", "255ths"));
-        assert!(matches!(card.set_switch("registers", "255ths"), Err(DeviceError::FormatRule { .. })), "not in fp16");
-    }
-}
-
-/// Measurements on a sibling apply to NV2x, with their counts. Kin adopt some of them; other cards keep their own
-/// rules.
-#[test]
-fn nv2x_obeys_what_nv2a_drew() {
-    for name in ["nv20", "nv25"] {
-        let card = Profile::named(name).unwrap();
-        assert_eq!(card.rules.subpixel_rounding, SubpixelRounding::Cut);
-        assert_eq!(card.rules.depth_rounding, TargetRounding::Truncate);
-        assert_eq!(card.rules.color_clamp, ColorClamp::Vertex);
-        assert!(card.rules.vertex_zero_times_anything && !card.rules.zero_times_anything);
-        assert_eq!(card.rules.vertex_format, "e8m23:nv2x".parse().unwrap());
-        let counted = card.figures().into_iter().filter(|row| row.counts.is_some());
-        for row in counted {
-            let words = [Confidence::Sibling, Confidence::Measured];
-            assert!(words.contains(&row.confidence) && row.source.contains("NV2A, a sibling"), "{}", row.key);
-        }
-    }
-    for name in ["r200", "r300", "nv30", "r350", "nv35", "gt200", "ideal-fp32"] {
-        let rules = Profile::named(name).unwrap().rules;
-        let drawn = match name {
-            "nv30" | "nv35" => (SubpixelRounding::Cut, ColorClamp::Vertex),
-            _ => (SubpixelRounding::Nearest, ColorClamp::Program),
-        };
-        assert_eq!((rules.subpixel_rounding, rules.color_clamp), drawn, "{name}");
-        assert_eq!(rules.depth_rounding, TargetRounding::Nearest, "{name}");
-        assert!(!rules.vertex_zero_times_anything, "{name}");
-    }
 }
 
 #[test]

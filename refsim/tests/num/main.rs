@@ -23,7 +23,6 @@ mod environment;
 mod fixed;
 mod half;
 mod laws;
-mod normalized;
 #[path = "../common/random.rs"]
 mod random;
 mod rational;

@@ -14,25 +14,8 @@ impl Random {
     pub(crate) fn edge(&mut self) -> u32 {
         let sign = self.bits() & 0x8000_0000;
         sign | self.of(&[
-            0,
-            1,
-            0x007f_ffff,
-            0x0080_0000,
-            0x3f00_0000,
-            0x3eff_ffff,
-            0x3f80_0000,
-            0x3f7f_ffff,
-            0x3f80_0001,
-            0x4000_0000,
-            0x4b7f_ffff,
-            0x4b80_0000,
-            0x4b80_0001,
-            0x5f00_0000,
-            0x7f7f_ffff,
-            0x7f80_0000,
-            0x7f80_0001,
-            0x7fc0_0000,
-            0x7fff_ffff,
+            0, 1, 0x007fffff, 0x00800000, 0x3f000000, 0x3effffff, 0x3f800000, 0x3f7fffff, 0x3f800001, 0x40000000,
+            0x4b7fffff, 0x4b800000, 0x4b800001, 0x5f000000, 0x7f7fffff, 0x7f800000, 0x7f800001, 0x7fc00000, 0x7fffffff,
         ])
     }
 }

@@ -1,29 +1,19 @@
 //! Unit tests of matrix radiosity: patches and their subdivision, closed forms, programs, the model of short
 //! accumulators.
 
-use std::f64::consts::PI;
-
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use crossbar_base::elementary::atan2;
 use crossbar_base::error::input_error;
 use crossbar_base::geom::Mesh;
 use crossbar_base::geom::vector::{narrow, wide};
 use crossbar_ground::linalg::Matrix;
-use crossbar_ground::scene::{Camera, Material, Scene};
+use crossbar_ground::scene::{Material, Scene};
 use crossbar_systems::radiosity::bias::{Accumulator, predicted};
-use crossbar_systems::radiosity::display::Display;
 use crossbar_systems::radiosity::form_factor::point_to_polygon;
-use crossbar_systems::radiosity::form_factor::rectangles::{Interval, parallel, perpendicular};
-use crossbar_systems::radiosity::kernels::{BLOCKS, of};
-use crossbar_systems::radiosity::model::{BLOCK, MAX_INSTRUCTIONS, OVERHEAD, PER_TEXEL, block, passes};
 use crossbar_systems::radiosity::packing::Packing;
 use crossbar_systems::radiosity::solve::Solver;
 use crossbar_systems::radiosity::{FormFactors, Patch, Patches, Subdivision, System};
 use glam::DVec3;
-use refsim::device::Profile;
-use refsim::machine::{ExecutorKind, Machine};
 use refsim::num::Rounding;
-use refsim::texture::TexelFormat;
 
 #[test]
 fn a_trapezoid_has_its_area_and_centre() {
@@ -123,38 +113,9 @@ fn areas_add_up_to_the_face() {
     }
 }
 
-/// A float target holds the number of the patch at each pixel, negative for a patch seen from behind.
-#[test]
-fn a_picture_names_all_patches_from_the_front() {
-    let patches = Patches::new(&scene(&[&SQUARE]), Subdivision::PerSide(128)).expect("patches");
-    let mut machine = Machine::new(Profile::named("nv35").expect("a card"), ExecutorKind::Batch);
-    let mut seen = |patch: usize, side: f32| {
-        let center = narrow(patches.list()[patch].center());
-        let eye = [center[0], center[1], side];
-        let camera = Camera::new(eye, center, [0.0, 1.0, 0.0], 1e-4, 1, 1).expect("a camera");
-        let display = Display::new(&mut machine, &patches, &camera, TexelFormat::Rgba32f).expect("a display");
-        display.ids(&mut machine).expect("a picture")[0]
-    };
-    for patch in [0, 1, 16_383] {
-        assert_eq!([seen(patch, 1.0), seen(patch, -1.0)], [Some(patch as u32), None]);
-    }
-}
-
 /// A lid that faces the point from above: counter-clockwise seen from below.
 const LID: [DVec3; 4] =
     [DVec3::new(-1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(1.0, 1.0, 1.0), DVec3::new(1.0, -1.0, 1.0)];
-
-#[test]
-fn a_square_above_its_middle_has_the_textbook_factor() {
-    // Four corner rectangles of sides 1 and 1 at height 1: each 1 / (pi sqrt 2) atan(1 / sqrt 2).
-    let corner = atan2(1.0, 2.0_f64.sqrt()) / (PI * 2.0_f64.sqrt());
-    let found = point_to_polygon(DVec3::ZERO, DVec3::Z, &LID);
-    assert_abs_diff_eq!(found, 4.0 * corner, epsilon = 1e-15);
-    let mut back = LID;
-    back.reverse();
-    assert_eq!(point_to_polygon(DVec3::ZERO, DVec3::Z, &back), 0.0, "its back is black");
-    assert_eq!(point_to_polygon(DVec3::ZERO, DVec3::NEG_Z, &LID), 0.0, "behind the horizon");
-}
 
 #[test]
 fn the_horizon_cuts_what_straddles_it() {
@@ -162,48 +123,6 @@ fn the_horizon_cuts_what_straddles_it() {
     let front = LID.map(|corner| corner.with_x(corner.x.max(0.0)));
     assert_eq!(half, point_to_polygon(DVec3::ZERO, DVec3::X, &front));
     assert!(half > 0.0);
-}
-
-#[test]
-fn the_unit_cube() {
-    const SIDE: Interval = [0.0, 1.0];
-    let (lid, wall) = (parallel([SIDE; 2], [SIDE; 2], 1.0), perpendicular([SIDE; 2], [SIDE; 2]));
-    assert_abs_diff_eq!(lid.value, 0.199_824_895_698_387, epsilon = 1e-15);
-    assert_abs_diff_eq!(wall.value, 0.200_043_776_075_403, epsilon = 1e-15);
-    assert!((lid.value + 4.0 * wall.value - 1.0).abs() <= lid.error + 4.0 * wall.error, "{lid:?} {wall:?}");
-}
-
-#[test]
-fn a_block_is_254_texels() {
-    assert_eq!((BLOCK, BLOCK * PER_TEXEL + OVERHEAD), (254, MAX_INSTRUCTIONS));
-    assert_eq!([1, 254, 255, 1540].map(|n| passes(n, 1, BLOCK)), [1, 1, 2, 7]);
-    assert_eq!([4, 1016, 1017, 2048].map(|n| passes(n, 4, BLOCK)), [1, 1, 2, 3]);
-    assert_eq!((block(96), block(0)), (22, 1));
-}
-
-#[test]
-fn a_block_of_the_paper_is_the_longest_that_fits() {
-    let most = MAX_INSTRUCTIONS as usize;
-    for kernel in BLOCKS {
-        let [rest, each] = [kernel.overhead(), kernel.per_texel()];
-        let block = kernel.block(most);
-        let expected = if each == 4 { BLOCK as usize } else { 204 };
-        assert!(rest >= 3 && block >= expected, "{}: {rest} and {each}", kernel.name);
-    }
-    for packing in [Packing::Rgb, Packing::Luminance] {
-        let least = of(packing, false).map(|kernel| kernel.block(most)).into_iter().min();
-        assert_eq!(least, Some(BLOCK as usize));
-    }
-}
-
-#[test]
-fn files_are_programs_for_one_texel() {
-    for kernel in BLOCKS {
-        let stripped = |text: &str| -> Vec<String> {
-            text.lines().filter(|line| line.ends_with(';')).map(str::to_owned).collect()
-        };
-        assert_eq!(stripped(&kernel.unrolled(1)), stripped(kernel.text), "{}", kernel.name);
-    }
 }
 
 #[test]

@@ -19,15 +19,6 @@ fn profile(name: &str) -> Profile {
 }
 
 #[test]
-fn the_worked_numbers_of_section_6_1() {
-    assert_eq!(GEFORCE3.results_per_s(4.0), 62.5e6);
-    assert_eq!(GEFORCE3.results_per_s(16.0), 15.625e6);
-    assert_eq!((GEFORCE3.tests_per_s(10.0, 4.0) / 1e6).round(), 240.0);
-    assert_eq!((GEFORCE3.half_rate_triangles(4.0) * 100.0).round(), 624.0);
-    assert_eq!((GEFORCE3.half_rate_triangles(16.0) * 100.0).round(), 2496.0);
-}
-
-#[test]
 fn the_card_pays_from_the_least_number_of_triangles_on_and_not_before() {
     for host in [1e6, 20e6, 40e6, 100e6, 389e6] {
         for gamma in [1.0, 4.0, 16.0] {

@@ -102,22 +102,3 @@ fn bits_of_coded_transfer_do_not_depend_on_threads() {
     let one = coded(1);
     assert!([2, 5].into_iter().all(|threads| coded(threads) == one));
 }
-
-#[test]
-fn fewer_bits_leave_more_error() {
-    let mesh = clutter(8, 40, 1.0);
-    let vertices = vertices(&mesh);
-    let maps = trace(&mesh, &vertices, &all(&vertices));
-    let reflectance = Reflectance::Factored(factors(3));
-    let (transfer, segments) =
-        (compressed(&vertices, &maps, &reflectance, 6), segments(&vertices, &maps, &reflectance));
-    let errors = [4, 8, 12, 16].map(|bits| {
-        let options = CodeOptions { representative_bits: bits, weight_bits: bits, ..CodeOptions::default() };
-        let coded = CodedTransfer::new(&transfer, options).expect("coded");
-        let of = coded.segments.iter().zip(&segments).map(|(coded, part)| coded.squared_errors(&part.signal));
-        of.map(|errors| errors.iter().sum::<f64>()).sum::<f64>()
-    });
-    let exact: f64 =
-        transfer.segments.iter().zip(&segments).map(|(part, s)| part.clustering.squared_error(&s.signal)).sum();
-    assert!(errors.is_sorted_by(|a, b| a > b) && errors[3] < exact * 1.01, "{errors:?}, {exact} before coding");
-}

@@ -12,7 +12,6 @@ mod linear_basis;
 mod orientation;
 mod reflectance;
 mod shadows;
-mod symmetry;
 mod transfer;
 mod visibility;
 

@@ -1,24 +1,12 @@
-//! Cards draw only the front faces of open models, as the host's rays meet them, for each kind of transfer. An ideal
-//! card differs from values interpolated in f64 by no more than the snapping of vertices to subpixels.
+//! Cards draw only the front faces of open models, as the host's rays meet them. An ideal card differs from values
+//! interpolated in f64 by less than the snapping of vertices to subpixels explains.
 
 use super::{exits, interpolated};
 use crate::support::{cluster_options, profile};
-use crossbar::all_frequency::Reflectance;
-use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
-use crossbar::all_frequency::kernels::{MapFilter, ViewNumbers};
-use crossbar::all_frequency::on_card::reference::pixel_of_products;
-use crossbar::all_frequency::on_card::{FactoredCard, ProductOptions, ProductPlace, TransferredMesh};
-use crossbar::all_frequency::shade::TransferredRadiance;
-use crossbar::bi_scale::directions::LocalDirections;
-use crossbar::bi_scale::kernels::BlockEdges;
-use crossbar::bi_scale::on_card::reference::pixel;
-use crossbar::bi_scale::on_card::{BiScaleCard, DisplayOptions, LocalFormat, TexturedMesh};
-use crossbar::bi_scale::texture::BidirectionalTexture;
 use crossbar::card::{MeshView, SeenPixel, Texels, seen_pixels};
 use crossbar::clustering::{Clustering, compress};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
-use crossbar::elementary::sin_cos;
-use crossbar::geom::{Mesh, random::CounterRng};
+use crossbar::geom::Mesh;
 use crossbar::io::load_mesh;
 use crossbar::report::Provenance;
 use crossbar::scene::Camera;
@@ -216,62 +204,7 @@ fn compressed_transfer_shows_front_faces() {
     }
 }
 
-#[test]
-fn all_frequency_transfer_shows_front_faces() {
-    let sampling = FactorSampling { side: 16, supersamples: Supersamples::NONE, ..FactorSampling::default() };
-    let table = sampling.table(&Lobe::cook_torrance(0.4, 0.5), &mut |_, _| ()).expect("a table");
-    let reflectance = Reflectance::Factored(Factorization::new(&table, 6).expect("terms").factors(6));
-    let fine = ProductOptions { map_format: FLOATS, filter: MapFilter::Program, ..ProductOptions::default() };
-    for scene in scenes() {
-        let signal = signal_at(scene.vertices.len(), 18, 5, |at| scene.place(at as u32).to_array());
-        let transferred = TransferredRadiance::new(6, signal.values().as_chunks().0.to_vec());
-        let (vertices, colors) = (&scene.vertices, &[[0.8, 0.7, 0.6]][..]);
-        let mesh = TransferredMesh { vertices, reflectance: &reflectance, colors, transferred: &transferred };
-        let place = ProductPlace::Pixels(fine);
-        let mut card = FactoredCard::new(ideal(), ExecutorKind::Batch, &[mesh], place).expect("a card");
-        let view = MeshView { camera: scene.camera, exposure: 1.5, format: FLOATS };
-        let texels = card.view_texels(&view).expect("a picture");
-        let value = |seen: &SeenPixel| {
-            let eye = scene.camera.eye();
-            let pixel = pixel_of_products(&mesh, ViewNumbers::Coordinates, eye, seen.corners, seen.weights);
-            Some(pixel.map(|value| 1.5 * value))
-        };
-        scene.check("products per pixel", &texels, 1e-5, &value);
-    }
-}
-
-#[test]
-fn bi_scale_transfer_shows_front_faces() {
-    let (random, views, lights) = (CounterRng::new(7), 5, 3);
-    let directions = |side| LocalDirections::new(side).expect("directions");
-    // Each texture block has one color, so that the few weight bits of a sampler have no effect.
-    let sample = |at: u64| [0, 1, 2].map(|channel| random.unit(at / 16, channel, 0) as f32);
-    let samples = (0..16 * (views * lights) as u64 * (views * lights) as u64).map(sample).collect();
-    let textures = [BidirectionalTexture::new(4, directions(views), directions(lights), samples).expect("a texture")];
-    let options = DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LocalFormat::Fp32 };
-    for scene in scenes() {
-        let (vertices, triangles) = (&scene.vertices, scene.vertices.triangles());
-        let coordinates = vec![[[0.3, 0.2], [0.7, 0.3], [0.4, 0.8]]; triangles.len()];
-        let texture_of = vec![0; triangles.len()];
-        let wave = |vertex: usize, number: usize| {
-            1.0 + sin_cos(1.3 * scene.place(vertex as u32).dot(DVec3::new(1.0, 0.7, 0.4)) + number as f64).0
-        };
-        let numbers = (0..vertices.len()).flat_map(|vertex| (0..lights * lights).map(move |light| (vertex, light)));
-        let local: Vec<[f32; 3]> =
-            numbers.map(|(vertex, light)| [0, 1, 2].map(|channel| wave(vertex, 3 * light + channel) as f32)).collect();
-        let mesh = TexturedMesh { vertices, coordinates: &coordinates, textures: &textures, texture_of: &texture_of };
-        let mut card = BiScaleCard::new(ideal(), ExecutorKind::Batch, mesh, options).expect("a card");
-        let view = MeshView { camera: scene.camera, exposure: 0.7, format: FLOATS };
-        let texels = card.view_texels(&local, &view).expect("a picture");
-        let local: Vec<[f64; 3]> = local.iter().map(|rgb| rgb.map(f64::from)).collect();
-        let value = |seen: &SeenPixel| {
-            Some(pixel(&mesh, &local, scene.camera.eye(), BlockEdges::Wrapped, seen).map(|value| 0.7 * value))
-        };
-        scene.check("bi-scale", &texels, 1e-5, &value);
-    }
-}
-
-/// A study's figures for the difference between card and host for the open box.
+/// A study's sentence on the difference between card and host for the open box.
 fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
     let scene = Scene::open_box();
     let basis = ExitBasis::Radiance;

@@ -1,14 +1,13 @@
 //! Compressed transfer drawn on a card, compared with a picture that the host interpolates in f64.
 
-use crate::card::{exits, interpolated};
 use crate::support::{cluster_options, profile};
 use approx::assert_relative_eq;
+use crossbar::card::MeshView;
 use crossbar::card::frame_time::frame_time;
-use crossbar::card::{MeshView, Texels, seen_pixels};
 use crossbar::clustering::{Clustering, compress};
 use crossbar::cpca::on_card::model::TransferSize;
 use crossbar::cpca::on_card::time::{FrameCounts, host_of_section_7};
-use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, WeightFormat};
+use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;
@@ -44,81 +43,11 @@ impl Hills {
         let Self { vertices, clustering, basis, .. } = self;
         CompressedTransfer { vertices, clustering, basis, channels: 1, vectors, superclusters: None }
     }
-
-    fn draw(&self, device: &str, format: TexelFormat, options: &PrtCardOptions) -> Texels {
-        let vectors = self.clustering.subspaces().iter().map(|s| s.len()).max().expect("a cluster");
-        let mut card =
-            PrtCard::new(profile(device), ExecutorKind::Batch, self.transfer(vectors), options).expect("a card");
-        let view = MeshView { camera: camera(), exposure: 0.5, format };
-        card.view_texels(&self.light, &view).expect("a picture")
-    }
-
-    /// The largest difference of a picture from the host's values, relative to the largest value, over pixels of the
-    /// hills whose four neighbors also show the hills.
-    fn error(&self, picture: &Texels) -> f64 {
-        let exits = exits(&self.clustering, &self.light);
-        let seen = seen_pixels(&profile("ideal-fp32"), self.vertices.geometry(), &camera()).expect("pixels");
-        let (width, mut worst, mut largest, mut compared) = (SIZE[0] as usize, 0.0_f64, 0.0_f64, 0);
-        for at in width + 1..seen.len() - width - 1 {
-            let Some(pixel) = seen[at] else { continue };
-            if [at - width, at - 1, at + 1, at + width].iter().any(|&beside| seen[beside].is_none()) {
-                continue;
-            }
-            let value = interpolated(&self.vertices, &self.basis, &exits, camera().eye(), &pixel);
-            let Some(expected) = value else { continue };
-            compared += 1;
-            for (found, expected) in picture.texels[at].iter().zip(expected) {
-                worst = worst.max((f64::from(*found) - expected).abs());
-                largest = largest.max(expected.abs());
-            }
-        }
-        assert!(compared > 500, "{compared} pixels");
-        worst / largest
-    }
 }
 
 /// A camera above the hills, so that no hill hides another.
 fn camera() -> Camera {
     Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
-}
-
-const FLOATS: TexelFormat = TexelFormat::Rgba32f;
-
-/// The remaining error comes from the bilinear filter between the maps' texels: it decreases with the square of their
-/// size.
-#[test]
-fn glossy_pictures_converge_with_the_maps() {
-    for basis in [ExitBasis::of_order(4), ExitBasis::without_1_0(5).expect("order 5"), ExitBasis::of_order(5)] {
-        let hills = Hills::new(basis, 6, 4);
-        let error = |map_side, map_format| {
-            let options = PrtCardOptions { map_side, map_format, ..PrtCardOptions::default() };
-            hills.error(&hills.draw("ideal-fp32", FLOATS, &options))
-        };
-        let [coarse, fine] = [16, 64].map(|side| error(side, FLOATS));
-        assert!(coarse / fine > 8.0, "{coarse} {fine}");
-        assert!(error(256, FLOATS) < 3e-3);
-        let sixteen_bits = error(64, TexelFormat::Rgba16Snorm);
-        assert!((sixteen_bits - fine).abs() < 2e-4, "{sixteen_bits} {fine}");
-    }
-}
-
-#[test]
-fn passes_add_up_to_one_picture() {
-    for basis in [ExitBasis::Radiance, ExitBasis::of_order(4)] {
-        let hills = Hills::new(basis, 12, 3);
-        let draw = |superclusters| {
-            hills.draw("ideal-fp32", FLOATS, &PrtCardOptions { superclusters, ..PrtCardOptions::default() })
-        };
-        let (apart, together) = (draw(false), draw(true));
-        let differences = apart
-            .texels
-            .iter()
-            .zip(&together.texels)
-            .map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max));
-        let largest = together.texels.iter().flatten().fold(0.0, |most: f32, value| most.max(value.abs()));
-        let worst = differences.fold(0.0, f32::max);
-        assert!(worst > 0.0 && worst < 4e-6 * largest, "{worst} of {largest}");
-    }
 }
 
 /// The work of a frame follows from its sizes, and its time from that work.
@@ -176,23 +105,4 @@ fn a_frame_is_counted_and_timed() {
     // Each time is rounded up to picoseconds.
     assert!((3 * few.products.0).abs_diff(many.products.0) <= 3, "3 parts of a cluster, 9: {few:?} {many:?}");
     assert!(many.frame > few.frame, "{few:?} {many:?}");
-}
-
-/// Fewer weight bits cause larger errors, within the expected size.
-#[test]
-fn weights_of_fewer_bits_are_farther_off() {
-    let hills = Hills::new(ExitBasis::of_order(4), 6, 6);
-    let picture = |weights| {
-        let options = PrtCardOptions { map_side: 64, map_format: FLOATS, weights, ..PrtCardOptions::default() };
-        hills.draw("ideal-fp32", FLOATS, &options)
-    };
-    let expected = picture(WeightFormat::Fp32);
-    let off = |weights| {
-        let texels = picture(weights).texels;
-        let pairs = texels.iter().flatten().zip(expected.texels.iter().flatten());
-        pairs.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max)
-    };
-    let [fp16, unorm16, unorm8] = [WeightFormat::Fp16, WeightFormat::Unorm16, WeightFormat::Unorm8].map(off);
-    assert!(0.0 < unorm16 && 4.0 * unorm16 < fp16 && 4.0 * fp16 < unorm8, "{unorm16} {fp16} {unorm8}");
-    assert!(unorm8 < 0.02, "{unorm8}");
 }

@@ -132,41 +132,6 @@ fn one_cluster_leaves_the_tail_of_its_eigenvalues() {
 }
 
 #[test]
-fn one_linear_cluster_leaves_the_tail_of_the_second_moment() {
-    for (points, dimension) in [(200, 12), (20, 30)] {
-        let signal = torus_signal(points, dimension, 5);
-        let rows: Vec<f64> = signal.values().iter().map(|&value| f64::from(value)).collect();
-        let rows = Matrix::new([points, dimension], rows).expect("a matrix");
-        let moment = rows.transposed().product(&rows).expect("a product");
-        let eigenvalues = SymmetricEigen::new(&moment).expect("eigenvalues").values;
-        for vectors in 1..dimension {
-            let options = CpcaOptions { form: CpcaForm::Linear, ..options(1, vectors, CpcaMethod::Static) };
-            let clustering = compressed(&signal, &options).clustering;
-            let (tail, error): (f64, _) = (eigenvalues[vectors..].iter().sum(), clustering.squared_error(&signal));
-            assert!(near(error, tail, squares(&signal)), "{vectors} vectors: {error}, expected {tail}");
-            assert_eq!(clustering.stored_numbers(), vectors.min(points) * (points + dimension));
-        }
-    }
-}
-
-#[test]
-fn as_many_vectors_as_dimensions_are_exact() {
-    let signal = torus_signal(300, 6, 7);
-    for clusters in [1, 7] {
-        for (method, form) in [CpcaMethod::Static, CpcaMethod::Iterative].into_iter().zip(FORMS) {
-            let options = CpcaOptions { form, ..options(clusters, 6, method) };
-            let clustering = compressed(&signal, &options).clustering;
-            let mut point = [0.0; 6];
-            for p in 0..300 {
-                clustering.approximation(p, &mut point);
-                // Rounding to f32 causes an error of 2^-25 of each number.
-                assert!(point.iter().zip(signal.point(p)).all(|(a, &b)| (a - f64::from(b)).abs() < 2e-7), "{p}");
-            }
-        }
-    }
-}
-
-#[test]
 fn each_method_leaves_less_error_than_the_one_before() {
     let signal = torus_signal(4000, 25, 2);
     let errors = METHODS.map(|method| compressed(&signal, &options(24, 4, method)).clustering.squared_error(&signal));

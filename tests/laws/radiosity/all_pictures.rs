@@ -1,12 +1,9 @@
-//! Pictures of a room drawn with every method, for tests of identical bits here and on a GPU (tests/gpu).
+//! Rooms with numbered patches, for tests of pictures here and on a GPU (tests/gpu).
 
 use crossbar::picture::Picture;
-use crossbar::radiosity::display::Display;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::{Patches, Subdivision};
 use crossbar::scene::Camera;
-use refsim::device::Profile;
-use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
 pub(crate) const FLOATS: TexelFormat = TexelFormat::Rgba32f;
@@ -28,19 +25,4 @@ pub(crate) fn colours(patches: &Patches) -> Vec<[f64; 3]> {
 /// Linear red, green and blue per pixel.
 pub(crate) fn pixels(picture: &Picture) -> Vec<[f64; 3]> {
     picture.linear().expect("color").into_iter().map(|pixel| pixel.map(f64::from)).collect()
-}
-
-/// Flat, smooth and ids.
-pub(crate) fn all_pictures(device: &str, executor: &Executor) -> [Vec<u64>; 3] {
-    let (patches, _) = rooms_and_cameras().remove(0);
-    let scene = rooms::cornell(CornellBox { blocks: true, open: true });
-    let camera = scene.views[0].camera(24, 18).expect("a camera");
-    let mut machine = executor.machine(Profile::named(device).expect("a device")).expect("a machine");
-    let display = Display::new(&mut machine, &patches, &camera, FLOATS).expect("a display");
-    let texture = display.upload(&mut machine, &colours(&patches)).expect("a texture");
-    let bits = |picture: Picture| pixels(&picture).iter().flatten().map(|value| value.to_bits()).collect();
-    let flat = bits(display.flat(&mut machine, texture, 1.0).expect("a picture"));
-    let smooth = bits(display.smooth(&mut machine, texture, 1.0).expect("a picture"));
-    let ids = display.ids(&mut machine).expect("ids");
-    [flat, smooth, ids.into_iter().map(|id| id.map_or(u64::MAX, u64::from)).collect()]
 }

@@ -1,18 +1,11 @@
 //! Partly covered patches: form factors and radiosities belong to their open parts.
 
-use std::f64::consts::PI;
-
 use approx::abs_diff_eq;
-use crossbar::geom::random::CounterRng;
-use crossbar::geom::vector::narrow;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{Options, Solver};
-use crossbar::radiosity::{FormFactors, Patch, Patches, Subdivision, System};
-use crossbar::renderer::Settings;
-use crossbar::renderer::path::{self, Direct};
-use crossbar::scene::{Camera, Scene};
-use glam::DVec3;
+use crossbar::radiosity::{FormFactors, Patches, Subdivision, System};
+use crossbar::scene::Scene;
 
 use super::tracer;
 
@@ -34,55 +27,6 @@ fn solved(patches: &Patches, factors: &FormFactors) -> Vec<[f64; 3]> {
     let system = System::new(factors.clone(), patches.reflectances(), patches.emittances()).expect("a system");
     let options = Options { tolerance: 1e-9, most_iterations: 500 };
     system.solve(Solver::GaussSeidel, &options, None).expect("a solution").radiosity()
-}
-
-/// Returns `true` if a point of the floor is under a block: inside one of the base areas.
-fn under_a_block(DVec3 { x, y, .. }: DVec3) -> bool {
-    FEET.iter().any(|foot| {
-        (0..4).all(|i| {
-            let ([ax, ay], [bx, by]) = (foot[i], foot[(i + 1) % 4]);
-            (bx - ax) * (y - ay) - (by - ay) * (x - ax) <= 0.0
-        })
-    })
-}
-
-/// Random points on the open part of a patch, and that part's share of the area.
-fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<DVec3>, f64) {
-    let random = CounterRng::new(seed);
-    let (mut points, mut tried) = (Vec::new(), 0);
-    while (points.len() as u64) < count && tried < 1000 * count {
-        let point = patch.at(random.unit(tried, 0, 0), random.unit(tried, 0, 1)).at;
-        tried += 1;
-        if patch.normal()[2] < 0.5 || point[2] > 0.0 || !under_a_block(point) {
-            points.push(point);
-        }
-    }
-    let share = points.len() as f64 / tried as f64;
-    (points, share)
-}
-
-/// The radiosity at a point by path tracing of one pixel, seen from just above the point.
-fn radiosity_by_paths(
-    scene: &Scene,
-    caster: &mut dyn crossbar::tracer::Caster,
-    at: [DVec3; 2],
-    samples: u32,
-) -> [f64; 3] {
-    let [point, normal] = at;
-    let eye = narrow(point + 0.02 * normal);
-    let up = if normal[2].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
-    let camera = Camera::new(eye, narrow(point), up, 1e-3, 1, 1).expect("a camera");
-    let settings = Settings { samples, depth: 40, seed: (point[0] * 1e6) as u64, ..Settings::default() };
-    let picture = path::render(scene, &camera, &settings, Direct::Both, caster, &mut |_| ()).expect("a pixel");
-    picture.color[0].map(|l| PI * l)
-}
-
-/// Mean and standard error.
-fn estimate(values: &[f64]) -> [f64; 2] {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let square = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0);
-    [mean, (square / n).sqrt()]
 }
 
 #[test]
@@ -138,42 +82,4 @@ fn enforcing_closure_hardly_changes_a_room_with_blocks() {
         "the room changes by {}",
         light[1] / light[0] - 1.0
     );
-}
-
-#[test]
-fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
-    let scene = scene();
-    let patches = Patches::new(&scene, Subdivision::AtMost(500)).expect("patches");
-    let mut factors = factors(&scene, &patches);
-    let found = solved(&patches, &factors);
-    factors.enforce_closure().expect("a closed room");
-    let closed = solved(&patches, &factors);
-    let mut caster = tracer(&scene);
-    let (mut compared, mut bias) = (0, [const { Vec::new() }; 3]);
-    for (i, patch) in patches.list().iter().enumerate().filter(|(_, p)| p.normal()[2] > 0.5 && p.center()[2] == 0.0) {
-        let (points, share) = open_points(patch, 24, 5);
-        if !(0.01..0.35).contains(&share) {
-            continue;
-        }
-        compared += 1;
-        let seen: Vec<[f64; 3]> =
-            points.iter().map(|&p| radiosity_by_paths(&scene, &mut caster, [p, patch.normal()], 64)).collect();
-        for c in 0..3 {
-            let [truth, sigma] = estimate(&seen.iter().map(|b| b[c]).collect::<Vec<_>>());
-            // Four standard errors of the paths and points, plus a tenth, because a patch of this size has a single
-            // radiosity under uneven light.
-            for (what, b) in [("found", found[i][c]), ("closed", closed[i][c])] {
-                let off = (b - truth).abs();
-                let message = format!("{what}: patch {i}, {share} open, channel {c}: {b} against {truth} +- {sigma}");
-                assert!(off <= 4.0 * sigma + 0.1 * truth, "{message}");
-                bias[c].push(b / truth - 1.0);
-            }
-        }
-    }
-    assert!(compared >= 5, "{compared}");
-    // Over all patches the unevenness of the light averages out.
-    for bias in bias {
-        let mean = bias.iter().sum::<f64>() / bias.len() as f64;
-        assert!(mean.abs() < 0.06, "{mean}: {bias:?}");
-    }
 }

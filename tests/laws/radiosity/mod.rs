@@ -2,8 +2,6 @@
 
 mod all_pictures;
 mod bias;
-mod bound;
-mod bounds;
 mod covered;
 mod cycles;
 mod display;

@@ -3,7 +3,6 @@
 mod beams;
 mod culling;
 mod devices;
-mod logs;
 mod ranges;
 mod ray_tree;
 mod schedules;

@@ -41,16 +41,6 @@ fn links_keep_their_tolerance() {
     }
 }
 
-/// For large clusters the errors of parts cancel: a quarter of the tolerance is enough. By default only the smaller
-/// scale.
-#[test]
-fn sixteen_links_are_far_within_it() {
-    for mm_per_unit in [1.5, 5.0].into_iter().take(by_form(1, 2)) {
-        let worst = worst(mm_per_unit, figure_7(), 64, LinkChoice::Fixed { level: 4 });
-        assert!(worst <= 0.01 / 4.0, "{mm_per_unit} mm: {worst}");
-    }
-}
-
 /// Atlases of all sides down to one texel, smaller than the squares of texels that gather together.
 #[test]
 fn small_atlases_have_links() {

@@ -82,42 +82,6 @@ fn uneven(k: usize) -> f64 {
 }
 
 #[test]
-fn gathering_is_linear_in_the_light() {
-    let surface = dented();
-    let one: Vec<[f64; 3]> = (0..256).map(|k| [uneven(k), 1.0, 0.5]).collect();
-    let other: Vec<[f64; 3]> = (0..256).map(|k| [0.25, uneven(k + 99), uneven(3 * k)]).collect();
-    let both: Vec<[f64; 3]> =
-        one.iter().zip(&other).map(|(a, b)| std::array::from_fn(|c| 2.0 * a[c] + 3.0 * b[c])).collect();
-    for choice in [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 16 }] {
-        let links = links(&surface, &[figure_7()], choice);
-        let [a, b, sum] = [&one, &other, &both].map(|values| {
-            links.gather(&IrradianceMeans::new(&surface, values, MeanWeighting::Area).expect("one per texel"))
-        });
-        for ((a, b), sum) in a.iter().zip(&b).zip(&sum) {
-            for c in 0..3 {
-                assert_relative_eq!(sum[c], 2.0 * a[c] + 3.0 * b[c], max_relative = 1e-12);
-            }
-        }
-    }
-}
-
-#[test]
-fn three_channels_have_the_factors_of_each() {
-    let surface = dented();
-    let dipoles = [medium(2.19, 0.0021), medium(2.62, 0.0041), medium(3.0, 0.0071)];
-    let all = links(&surface, &dipoles, LinkChoice::Fixed { level: 2 });
-    assert_eq!((all.channels(), all.per_texel(), all.factors().len()), (3, 16, 256 * 48));
-    for (channel, &dipole) in dipoles.iter().enumerate() {
-        let one = links(&surface, &[dipole], LinkChoice::Fixed { level: 2 });
-        for texel in texels(SIDE) {
-            for ((_, three), (_, single)) in all.of(texel).zip(one.of(texel)) {
-                assert_relative_eq!(three[channel], single[0], max_relative = 0.02);
-            }
-        }
-    }
-}
-
-#[test]
 fn bits_do_not_depend_on_the_number_of_threads() {
     let surface = dented();
     for choice in [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 16 }] {

@@ -3,13 +3,12 @@
 use crate::environment::by_form;
 use approx::assert_relative_eq;
 use crossbar::atlas::Atlas;
-use crossbar::geom::Mesh;
 use crossbar::subsurface::multipole::{ClusterId, Factors, SurfaceMoments};
 use crossbar::subsurface::{Dipole, Reference};
 
 use glam::DVec3;
 
-use super::links_models::{atlas, figure_7, fine_tolerance, level, medium, root, sphere, subdivided, surface, texels};
+use super::links_models::{atlas, figure_7, fine_tolerance, level, medium, root, sphere, surface, texels};
 use super::polygon::point_to_polygon;
 
 #[test]
@@ -162,29 +161,6 @@ fn bisected(value: &mut dyn FnMut(f64) -> f64, [from, to]: [f64; 2], allowed: f6
     sum
 }
 
-/// Two sides of a bar. Texels have the aspects of the faces, and lengths from a hundredth to hundreds of mean free
-/// paths.
-/// By default one medium per length, and one texel in eight.
-#[test]
-fn slivers_keep_the_tolerance() {
-    let media = [figure_7(), medium(0.74, 0.9), medium(0.05, 1e-4)];
-    for (at, length) in [1.0, 16.0, 1000.0].into_iter().enumerate() {
-        let corner = |k: u8| [length * f32::from(k & 1), f32::from(k >> 1 & 1), -f32::from(k >> 2)];
-        let bar = Mesh::new((0..6).map(corner).collect(), vec![[0, 1, 3], [0, 3, 2], [0, 4, 5], [0, 5, 1]]);
-        let atlas = atlas(&bar.expect("a mesh"), 4);
-        let surface = surface(&atlas, 1.0);
-        for dipole in media.into_iter().skip(by_form(at, 0)).step_by(by_form(3, 1)) {
-            let factors = Factors::new(&surface, [dipole], 0.01).expect("a tolerance");
-            for j in (0..16).step_by(by_form(8, 1)) {
-                let [found] = factors.factor([1, 1], ClusterId { level: 0, y: j / 4, x: j % 4 });
-                let exact = mean_of_contours(&atlas, 1.0, &dipole, [5, j], found + 1e-5 * dipole.total());
-                let allowed = 0.01 * (exact + 1e-5 * dipole.total());
-                assert!((found - exact).abs() <= allowed, "{length} x 1, {j}: {found} for {exact}, {dipole:?}");
-            }
-        }
-    }
-}
-
 #[test]
 fn the_reference_and_the_factors_agree_texel_by_texel() {
     let atlas = atlas(&sphere(3, 0.2), 16);
@@ -230,28 +206,6 @@ fn a_sphere_under_uniform_light_has_its_closed_form() {
         assert!(errors[2] < 0.01, "radius {radius}: {errors:?}");
         assert!(errors[2] < 0.5 * errors[0] || errors[0] < 2e-3, "radius {radius}: {errors:?}");
     }
-}
-
-/// Row sums of a model, and of the same surface with four times as many faces, near points that have a texel in both.
-#[test]
-fn the_result_does_not_depend_on_the_tessellation() {
-    let mesh = sphere(3, 0.2);
-    let dipole = figure_7();
-    let means: Vec<f64> = [mesh.clone(), subdivided(&mesh)]
-        .iter()
-        .map(|mesh| {
-            let surface = surface(&atlas(mesh, 32), 4.0);
-            let factors = Factors::new(&surface, [dipole], 1e-3).expect("a tolerance");
-            let mut receiver = factors.receiver();
-            let mut sum = 0.0;
-            for [x, y] in texels(32) {
-                sum += surface.cluster_area(ClusterId { level: 0, y, x }) * receiver.factor([x, y], root(&surface))[0];
-            }
-            sum / surface.area()
-        })
-        .collect();
-    // Both are, within the tolerance, the mean over the surface of the integral of R_d over the surface.
-    assert_relative_eq!(means[0], means[1], max_relative = 2e-3);
 }
 
 /// If texels are far larger than the mean free path, the sum of factors is the plane's total.

@@ -35,18 +35,6 @@ pub(crate) fn sphere(n: u32, dents: f64) -> Mesh {
     Mesh::new(positions, triangles).expect("a mesh").welded()
 }
 
-/// Divides every triangle into four in the same plane.
-pub(crate) fn subdivided(mesh: &Mesh) -> Mesh {
-    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
-    for [a, b, c] in mesh.iter_corners() {
-        let middle = |p: [f32; 3], q: [f32; 3]| [0, 1, 2].map(|k| 0.5 * (p[k] + q[k]));
-        let first = positions.len() as u32;
-        positions.extend([a, b, c, middle(a, b), middle(b, c), middle(c, a)]);
-        triangles.extend([[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]].map(|three| three.map(|k| first + k)));
-    }
-    Mesh::new(positions, triangles).expect("a mesh")
-}
-
 /// The medium of Figure 7.
 pub(crate) fn figure_7() -> Dipole {
     medium(2.21, 0.0012)

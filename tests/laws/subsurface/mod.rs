@@ -2,7 +2,6 @@
 
 mod all_pairs;
 mod links_blocks;
-mod links_bound;
 mod links_choice;
 mod links_factors;
 mod links_long;
@@ -14,4 +13,3 @@ mod physics_bodies;
 mod physics_walk;
 pub(super) mod polygon;
 mod thickness;
-mod walk;

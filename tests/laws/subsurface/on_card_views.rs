@@ -11,11 +11,9 @@ use crossbar::subsurface::fresnel_transmittance;
 use crossbar::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
 use crossbar::subsurface::on_card::{Light, LightStage, SubsurfaceCard, SubsurfaceCardOptions, View};
 use glam::DVec3;
-use refsim::texture::TexelFormat;
-use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use super::on_card::{ETA, SIDE, atlas, card, cube, lights, to_itself};
+use super::on_card::{ETA, atlas, card, cube, lights, to_itself};
 
 fn cameras() -> Vec<Camera> {
     let eyes = [[3.0, -4.0, 2.5], [-2.0, -3.0, -4.0], [1.2, 5.0, 0.3], [0.0, 0.0, 1.05], [-40.0, 30.0, 20.0]];
@@ -31,45 +29,7 @@ fn options() -> SubsurfaceCardOptions {
     SubsurfaceCardOptions { light: LightStage::Texels, ..SubsurfaceCardOptions::default() }
 }
 
-/// Each face has a separate color: in every view, every pixel has exactly one of these colors.
-#[test]
-fn no_face_reads_another() {
-    let colors: Vec<[f64; 3]> = (0..12).map(|face| [1.0 + f64::from(face), 0.7 * f64::from(face), 0.3]).collect();
-    for shape in [cube(2.0), slivers()] {
-        let faces = shape.len();
-        let atlas = Atlas::new(&shape, SIDE).expect("an atlas");
-        let mut card = card(&atlas, &to_itself(), options());
-        let by_texel: Vec<[f64; 3]> = atlas.texels().iter().map(|texel| colors[texel.face as usize]).collect();
-        card.irradiate(&by_texel).expect("irradiances");
-        let scattered = card.read_scattered().expect("a map");
-        let factor = (mean_transmittance(ETA) / PI) as f32;
-        let allowed: BTreeSet<[u32; 3]> =
-            scattered.texels.iter().map(|texel| [0, 1, 2].map(|channel| (texel[channel] * factor).to_bits())).collect();
-        assert!(allowed.len() <= faces);
-        let mut seen = BTreeSet::new();
-        for camera in cameras() {
-            let kernel = ViewKernel { transmittance: EyeTransmittance::Mean, direct: DirectLight::None };
-            let picture = card.view_texels(&View { kernel, ..View::scattered(camera) }).expect("a picture");
-            for &[r, g, b, alpha] in picture.texels.iter().filter(|texel| texel[3] != 0.0) {
-                let color = [r, g, b].map(f32::to_bits);
-                assert!(alpha == 1.0 && allowed.contains(&color), "{:?}", [r, g, b]);
-                seen.insert(color);
-            }
-        }
-        assert!(seen.len() >= allowed.len() - 1, "{} of {} colors", seen.len(), allowed.len());
-    }
-}
-
-/// Thin triangles around an axis, of very different sizes.
-fn slivers() -> Mesh {
-    let mut positions = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
-    let around = [[1.0, 0.0], [0.99, 0.05], [0.0, 1.0], [-0.6, 0.9], [-1.0, -0.2], [0.1, -0.3]];
-    positions.extend(around.map(|[x, y]| [x, y, 0.1 * x]));
-    let faces = (0..6).flat_map(|n| [[0, 2 + n, 2 + (n + 1) % 6], [1, 2 + (n + 1) % 6, 2 + n]]).collect();
-    Mesh::new(positions, faces).expect("a mesh")
-}
-
-/// Computes pass 3 for flat faces on the host, in f64.
+/// Pass 3 for flat faces on the host, in f64.
 struct Host<'a> {
     atlas: &'a Atlas,
     mesh: &'a Mesh,
@@ -208,24 +168,6 @@ fn pixels_are_those_of_the_formulas() {
         }
     }
     assert!(compared > 9 * 5 * 200, "{compared} pixels");
-}
-
-#[test]
-fn a_picture_of_8_bits_is_the_float_one_rounded() {
-    let atlas = atlas(2.0);
-    let mut card = card(&atlas, &to_itself(), options());
-    card.light(&lights()).expect("light");
-    let picture = |card: &mut SubsurfaceCard, format| {
-        let view = View::scattered(MeshView { format, exposure: 2.0, camera: cameras()[0] });
-        card.view(&view).expect("a picture");
-        card.view_texels(&view).expect("a picture")
-    };
-    let [floats, bytes] = [TexelFormat::Rgba32f, TexelFormat::Bgra8].map(|format| picture(&mut card, format));
-    for (float, byte) in floats.texels.iter().zip(&bytes.texels) {
-        for (float, byte) in float.iter().zip(byte) {
-            assert!((float.clamp(0.0, 1.0) - byte).abs() <= 0.5 / 255.0 + 1e-7);
-        }
-    }
 }
 
 /// By fragment, 60 constants hold 15 lights; by vertex, 256 instructions suffice for 11.

@@ -1,42 +1,87 @@
-//! Compares photons traced through a medium with exact results: counts balance, mean paths depend only on volume and
-//! surface, half spaces have the albedo of Chandrasekhar's H function.
+//! The dipole's own error: photons walk one by one through a half space with a smooth boundary, whose albedo is
+//! Chandrasekhar's H function without the boundary.
+
+use std::f64::consts::TAU;
 
 use crate::environment::by_form;
 use approx::assert_relative_eq;
+use crossbar::elementary::{ln, sin_cos};
+use crossbar::geom::random::CounterRng;
 use crossbar::quadrature::SIXTEEN;
-use crossbar::subsurface::fresnel::mean_transmittance;
-use crossbar::subsurface::{Coefficients, Dipole};
+use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance};
+use glam::DVec3;
+use rayon::prelude::*;
 
-use super::walk::{self, PhotonEntry, PhotonWalk, WalkTally};
+/// Standard deviations that a correct result exceeds in one of 10^5 cases.
+const FAR: f64 = 4.5;
 
-/// Maximum distance in half widths, which one of 10^4 correct results exceeds. The seeds are fixed, so the verdicts are
-/// fixed, too.
-const FAR: f64 = 2.3;
-
-fn medium(sigma_s_prime: f64, sigma_a: f64, eta: f64, photons: u64) -> PhotonWalk {
-    let (coefficients, photons) = (Coefficients { sigma_s_prime, sigma_a }, photons * by_form(1, 50));
-    PhotonWalk { coefficients, eta, entry: PhotonEntry::Diffuse, photons, max_steps: 100_000, seed: 1 }
+/// A half space, with lengths in mean free paths.
+#[derive(Clone, Copy)]
+struct HalfSpace {
+    albedo: f64,
+    eta: f64,
+    /// The cosine of the angle of incidence of a beam; none for equal radiance from all directions.
+    beam: Option<f64>,
+    seed: u64,
 }
 
-fn balanced(tally: &WalkTally, walk: &PhotonWalk) {
-    assert_eq!(tally.fates().iter().sum::<u64>(), walk.photons);
+fn around(cosine: f64, turn: f64) -> DVec3 {
+    let ((sin, cos), sine) = (sin_cos(TAU * turn), (1.0 - cosine * cosine).max(0.0).sqrt());
+    DVec3::new(sine * cos, sine * sin, cosine)
 }
 
-/// The mean path of light from all directions in a body without absorption. For any scattering, radiance inside is
-/// eta^2 times the radiance outside, so the path is 4 V / S times eta^2 over the mean transmittance.
-fn mean_path(volume_by_surface: f64, eta: f64) -> f64 {
-    4.0 * volume_by_surface * eta * eta / mean_transmittance(eta)
-}
+impl HalfSpace {
+    /// Follows a photon that has passed the boundary at the origin: exponentially distributed steps, absorbed or
+    /// scattered isotropically at the end of each, reflected by Fresnel's formula at the boundary. The squared distance
+    /// at which it leaves; none if it is absorbed.
+    fn leaves(self, photon: u64) -> Option<f64> {
+        let (stream, mut event) = (CounterRng::new(self.seed), 0);
+        let mut pair = || {
+            let bits = stream.bits(photon, event, 0);
+            event += 1;
+            [bits >> 32, bits & 0xffff_ffff].map(|half| (half as f64 + 0.5) / 4_294_967_296.0)
+        };
+        let outside = self.beam.unwrap_or_else(|| {
+            loop {
+                let [u, v] = pair();
+                if v < fresnel_transmittance(self.eta, u.sqrt()) {
+                    break u.sqrt();
+                }
+            }
+        });
+        let (square, [turn, _]) = ((1.0 - outside * outside) / (self.eta * self.eta), pair());
+        let (mut at, mut direction) = (DVec3::ZERO, around((1.0 - square).sqrt(), turn));
+        loop {
+            let [u, chance] = pair();
+            let (step, length) = (-ln(u), if direction.z < 0.0 { at.z / -direction.z } else { f64::INFINITY });
+            at += step.min(length) * direction;
+            at.z = at.z.max(0.0);
+            if step < length {
+                if chance >= self.albedo {
+                    return None;
+                }
+                let [u, turn] = pair();
+                direction = around(1.0 - 2.0 * u, turn);
+            } else if pair()[0] < fresnel_transmittance(1.0 / self.eta, -direction.z) {
+                return Some(at.length_squared());
+            } else {
+                direction.z = -direction.z;
+            }
+        }
+    }
 
-#[test]
-fn without_absorption_all_photons_leave_a_sphere_after_the_mean_path() {
-    for (sigma, eta, radius) in [(1.0, 1.3, 10.0), (0.1, 1.5, 3.0), (4.0, 1.0, 2.0)] {
-        let walk = medium(sigma, 0.0, eta, 20_000);
-        let tally = walk::sphere(&walk, radius, &[radius, 2.0 * radius]);
-        assert_eq!(tally.fates(), [walk.photons, 0, 0]);
-        let path = tally.mean_path();
-        let exact = mean_path(radius / 3.0, eta);
-        assert!(path.distance(exact) < FAR, "sigma {sigma}, eta {eta}: {path:?}, exactly {exact}");
+    /// Requires that these shares of the photons leave within each of the ascending radii, beyond those before.
+    fn require(self, photons: u64, shares: &[f64], radii: &[f64]) {
+        let photons = photons * by_form(1, 50);
+        let squares: Vec<f64> = (0..photons).into_par_iter().filter_map(|photon| self.leaves(photon)).collect();
+        let mut inner = 0.0;
+        for (&share, radius) in shares.iter().zip(radii) {
+            let left = squares.iter().filter(|&&square| (inner..radius * radius).contains(&square)).count() as f64;
+            let deviation = (photons as f64 * share * (1.0 - share)).sqrt();
+            let off = (left - photons as f64 * share) / deviation;
+            assert!(off.abs() < FAR, "within {radius}: {left} of {photons}, {off} standard deviations from {share}");
+            inner = radius * radius;
+        }
     }
 }
 
@@ -59,43 +104,25 @@ fn half_space_albedo(albedo: f64, mu: f64) -> f64 {
 fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
     assert_relative_eq!(half_space_albedo(1.0, 0.5), 1.0);
     for (albedo, mu) in [(0.5, 1.0), (0.9, 0.3), (0.99, 0.8)] {
-        let walk = PhotonWalk { entry: PhotonEntry::Beam(mu), ..medium(albedo, 1.0 - albedo, 1.0, 50_000) };
-        let tally = walk::half_space(&walk, &[1.0, 10.0]);
-        balanced(&tally, &walk);
-        let (total, exact) = (tally.total(), half_space_albedo(albedo, mu));
-        assert!(total.distance(exact) < FAR, "albedo {albedo}, cosine {mu}: {total:?}, exactly {exact}");
+        let medium = HalfSpace { albedo, eta: 1.0, beam: Some(mu), seed: 1 };
+        medium.require(50_000, &[half_space_albedo(albedo, mu)], &[f64::INFINITY]);
     }
 }
 
-/// Compares the dipole with the walk in a half space, as docs/papers/subsurface.md prints both: bounds of rings in mean
-/// free paths, the light that leaves in each ring after a million photons of another seed, and the dipole's share.
+/// The dipole against the walk in a half space, as docs/papers/subsurface.md says: bounds of rings in mean free paths,
+/// the light that leaves in each ring after a million photons of another seed, and the dipole's share.
 #[test]
 fn the_dipole_is_as_far_off_as_the_page_says() {
-    let walk = PhotonWalk { seed: 7, ..medium(2.21, 0.0012, 1.3, 20_000) };
-    let dipole = Dipole::new(walk.coefficients, walk.eta).unwrap();
-    let printed = [
-        (0.25, 0.0644, 0.0157),
-        (1.0, 0.1373, 0.1424),
-        (4.0, 0.3258, 0.3442),
-        (16.0, 0.3043, 0.3099),
-        (64.0, 0.0740, 0.0819),
-    ];
-    let radii = printed.map(|(paths, _, _)| paths * dipole.mean_free_path());
-    let tally = walk::half_space(&walk, &radii);
-    balanced(&tally, &walk);
-    assert!(tally.total().distance(0.9085) < FAR, "{:?}", tally.total());
-    let mut inner = 0.0;
-    for (bin, (&(_, walked, ring), outer)) in printed.iter().zip(radii).enumerate() {
-        assert!(tally.fraction(bin).distance(walked) < FAR, "ring {bin}: {:?}, printed {walked}", tally.fraction(bin));
-        assert_eq!(format!("{:.4}", dipole.ring(inner, outer)), format!("{ring:.4}"));
-        inner = outer;
-    }
-}
-
-#[test]
-fn a_large_sphere_is_a_half_space() {
-    let walk = medium(1.0, 0.05, 1.3, 20_000);
-    let [flat, round] = [walk::half_space(&walk, &[2.0]), walk::sphere(&walk, 1000.0, &[2.0])];
-    let gap = (flat.total().mean - round.total().mean).abs();
-    assert!(gap < 2.0 * (flat.total().half_width + round.total().half_width), "{gap}");
+    let coefficients = Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 };
+    let dipole = Dipole::new(coefficients, 1.3).unwrap();
+    let walked = [0.0644, 0.1373, 0.3258, 0.3043, 0.0740];
+    let (paths, rings) = ([0.25, 1.0, 4.0, 16.0, 64.0], ["0.0157", "0.1424", "0.3442", "0.3099", "0.0819"]);
+    let medium = HalfSpace { albedo: coefficients.alpha_prime(), eta: 1.3, beam: None, seed: 7 };
+    medium.require(20_000, &walked, &paths);
+    medium.require(20_000, &[0.9085], &[f64::INFINITY]);
+    let radii = paths.map(|paths| paths * dipole.mean_free_path());
+    let inner = [0.0].into_iter().chain(radii);
+    let found: Vec<String> =
+        inner.zip(radii).map(|(inner, outer)| format!("{:.4}", dipole.ring(inner, outer))).collect();
+    assert_eq!(found, rings);
 }

@@ -10,34 +10,9 @@ use refsim::raster::{ComponentMask, Cull, RasterRules, RasterState, TriangleSetu
 /// Single-precision patterns near the boundaries of the definition: zeros, planes, the guard band, the least w,
 /// denormals, the limits of the range, and non-finite values.
 const EDGES: [u32; 28] = [
-    0,
-    0x8000_0000,
-    1,
-    0x8000_0001,
-    0x007f_ffff,
-    0x0080_0000,
-    0x1f7f_ffff, // just below 2^-64
-    0x1f80_0000, // 2^-64
-    0x1f80_0001,
-    0x1fff_ffff,
-    0x2000_0000, // 2^-63
-    0x3f00_0000,
-    0x3f7f_ffff,
-    0x3f80_0000, // 1
-    0x3f80_0001,
-    0xbf80_0000,
-    0xbf80_0001,
-    0x40ff_ffff,
-    0x4100_0000, // 8, the guard band
-    0x4100_0001,
-    0xc100_0000,
-    0xc100_0001,
-    0x7e80_0000,
-    0x7f7f_ffff,
-    0xff7f_ffff,
-    0x7f80_0000,
-    0xff80_0000,
-    0x7fc0_0001,
+    0, 0x80000000, 1, 0x80000001, 0x007fffff, 0x00800000, 0x1f7fffff, 0x1f800000, 0x1f800001, 0x1fffffff, 0x20000000,
+    0x3f000000, 0x3f7fffff, 0x3f800000, 0x3f800001, 0xbf800000, 0xbf800001, 0x40ffffff, 0x41000000, 0x41000001,
+    0xc1000000, 0xc1000001, 0x7e800000, 0x7f7fffff, 0xff7fffff, 0x7f800000, 0xff800000, 0x7fc00001,
 ];
 
 /// The fields of a triangle set-up that are compared.

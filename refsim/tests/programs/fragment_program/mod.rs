@@ -4,7 +4,6 @@ mod arb;
 mod fog;
 mod numbers;
 mod position;
-mod radiosity;
 mod text;
 mod verdicts;
 
@@ -39,7 +38,6 @@ fn one(instruction: &str, value: [f32; 4]) -> [u32; 4] {
 }
 
 const NAN: u32 = 0x7fc0_0000;
-const INF: u32 = 0x7f80_0000;
 
 #[test]
 fn registers_start_at_zero_and_do_not_share_what_they_hold() {

@@ -1,5 +1,4 @@
 #[cfg(feature = "refsim")]
-mod number;
 mod single;
 #[cfg(feature = "refsim")]
 mod surface;

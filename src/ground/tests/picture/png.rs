@@ -11,13 +11,6 @@ fn sixteen_bits_come_back() {
 }
 
 #[test]
-fn colors_come_back() {
-    let pixels = [[1, 2, 3], [250, 251, 252]];
-    let file = png(&rgb8(2, 1, pixels)).expect("two pixels");
-    assert_eq!(image::load_from_memory(&file).expect("our own PNG").into_rgb8().into_raw(), pixels.as_flattened());
-}
-
-#[test]
 fn notes_stand_in_the_file_and_change_no_pixel() {
     let image = rgb8(2, 1, [[1, 2, 3], [250, 251, 252]]);
     let notes =

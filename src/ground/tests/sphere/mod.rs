@@ -1,4 +1,3 @@
-mod cube;
 mod extremes;
 mod harmonics;
 mod hemisphere;

@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{
     DiscSamples, FactorSampling, Factorization, HemisphereSamples, Lobe, ProductErrors, ProductFunction, ProductTable,
     Supersamples, harmonic_errors,
@@ -38,28 +37,6 @@ fn texel_centers_read_their_texels() {
     let expected = dot(factors.view_texel(42), factors.light_texel(28));
     assert!((factors.product(view, light) - expected).abs() < 1e-14);
     assert_eq!(factors.terms(), 4);
-}
-
-#[test]
-fn a_diffuse_surface_has_one_term() {
-    let lambert = Brdf::Lambert { albedo: 0.6 };
-    let table = FactorSampling::default().table(&lambert, &mut |_, _| ()).expect("a table");
-    let found = Factorization::new(&table, 1).expect("a term");
-    assert_eq!(found.rank(), 1);
-    assert!(found.relative_squared_error(1) < 1e-28, "{}", found.relative_squared_error(1));
-    let exact = |light| {
-        let [mut g, mut f] = [[0.0]; 2];
-        Reflectance::Diffuse.view(DVec3::Z, &mut g);
-        Reflectance::Diffuse.light(light, &mut f);
-        0.6 * g[0] * f[0]
-    };
-    // Texels at the horizon are means with 0 below the horizon.
-    for z in [0.4_f64, 0.6, 0.9] {
-        let light = DVec3::new((1.0 - z * z).sqrt(), 0.0, z);
-        let [tabled, expected] = [found.factors(1).product(DVec3::Z, light), exact(light)];
-        assert!((tabled - expected).abs() < 2e-3 * 0.6, "{z}: {tabled} {expected}");
-    }
-    assert_eq!(exact(DVec3::NEG_Z), 0.0);
 }
 
 #[test]

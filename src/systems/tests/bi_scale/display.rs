@@ -113,6 +113,12 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
             assert!(error < bound, "{bits} bits, {edges}: {error} of {bound}");
         }
     }
+    // From below all faces are backs, which are not drawn.
+    let (hills, options) = (Hills::new(flat(1, 1)), floats(BlockEdges::default()));
+    let below = Camera::new([0.6, -2.2, -1.6], [0.0; 3], [0.0, 0.0, 1.0], 0.5, 44, 36).expect("a camera");
+    let view = MeshView { camera: below, exposure: 0.7, format: FLOATS };
+    let mut card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, hills.mesh(), options).expect("a card");
+    assert!(card.view_texels(&hills.local, &view).expect("a picture").texels.iter().all(|texel| *texel == [0.0; 4]));
 }
 
 /// Triangles show their own textures, of any sizes and views; a pixel belongs to one texture. A texture that no

@@ -1,6 +1,6 @@
 //! Numbers that follow from sizes: overdraw, registers, batches, host work.
 
-use crossbar_systems::cpca::coherence::{ConstantRegisters, overdraw};
+use crossbar_systems::cpca::coherence::overdraw;
 use crossbar_systems::cpca::on_card::model::TransferSize;
 
 #[test]
@@ -8,22 +8,6 @@ fn overdraw_counts_clusters_of_triangles() {
     let of_point = [0, 0, 1, 2];
     let triangles = [[0, 1, 1], [0, 1, 2], [2, 1, 0], [1, 2, 3], [3, 3, 3]];
     assert_eq!(overdraw(&triangles, &of_point), 1 + 2 + 2 + 3 + 1);
-}
-
-/// Table 1, with 256 registers minus six constants for transform, eye and scale.
-#[test]
-fn registers_of_the_papers_models() {
-    let fitting = |registers: ConstantRegisters, vectors| {
-        [256, 250].map(|limit| limit / ConstantRegisters { limit, ..registers }.needed(vectors))
-    };
-    for (rows, vectors, needed, clusters) in
-        [(16, 6, 28, [9, 8]), (24, 8, 54, [4, 4]), (25, 8, 63, [4, 3]), (24, 20, 126, [2, 1]), (24, 0, 6, [42, 41])]
-    {
-        let registers = ConstantRegisters::glossy(256, rows);
-        assert_eq!((registers.needed(vectors), fitting(registers, vectors)), (needed, clusters), "{rows} rows");
-    }
-    let diffuse = ConstantRegisters::diffuse(256);
-    assert_eq!((diffuse.needed(8), fitting(diffuse, 8), fitting(diffuse, 4)), (9, [28, 27], [51, 50]));
 }
 
 const fn size(vertices: usize, [rows, columns]: [usize; 2], clusters: usize, vectors: usize) -> TransferSize {
@@ -70,14 +54,4 @@ fn batches_and_host_work_of_the_bird() {
     assert_eq!(bird(256, 8).uploaded_registers(), 41_472);
     assert_eq!(bird(256, 8).host_multiply_adds(), 4_147_200);
     assert_eq!(bird(256, 8).uncompressed_multiply_adds(), 87_638_400);
-}
-
-/// "For N = 25 and n' = 5 we save more than a factor of 4" (section 6): per vertex, products with six vectors of 25
-/// numbers instead of a 25 x 25 matrix.
-#[test]
-fn the_factor_of_four() {
-    let size = size(1, [25, 25], 1, 5);
-    let per_vertex = (size.vectors + 1) * size.rows;
-    let factor = (size.rows * size.columns) as f64 / per_vertex as f64;
-    assert!((factor - 25.0 / 6.0).abs() < 1e-12);
 }

@@ -1,18 +1,15 @@
 //! Properties of the SVD, and of reflectance approximated by few terms.
 
-use std::f64::consts::PI;
-
 use crate::environment::by_form;
 use crate::support::in_threads;
-use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::factor::{
     Denominators, DiscSamples, FactorSampling, Factorization, FresnelForm, Lobe, ProductFunction, ProductSymmetry,
     ProductTable, Shadowing, Supersamples,
 };
 use crossbar::geom::random::CounterRng;
 use crossbar::io::NumberTable;
-use crossbar::linalg::{LeadingSvd, Matrix, dot};
-use crossbar::sphere::{DirectionRule, ParabolicMap};
+use crossbar::linalg::{Matrix, dot};
+use crossbar::sphere::ParabolicMap;
 use crossbar::transfer::brdf::Brdf;
 use glam::DVec3;
 
@@ -91,36 +88,6 @@ fn the_error_is_the_tail_of_the_spectrum() {
     }
 }
 
-/// No matrix of rank m is closer (Eckart and Young); tested with small perturbations of the factors.
-#[test]
-fn no_neighbour_of_the_factors_is_nearer() {
-    let table = sampled(6, &COOK_TORRANCE);
-    let svd = LeadingSvd::new(table.values(), 3).expect("vectors");
-    let error = |left: &Matrix, right: &Matrix| {
-        let mut values = table.values().clone();
-        for view in 0..36 {
-            for (light, value) in values.row_mut(view).iter_mut().enumerate() {
-                *value -= (0..3).map(|k| svd.values[k] * left.row(k)[view] * right.row(k)[light]).sum::<f64>();
-            }
-        }
-        squares(&values)
-    };
-    let best = error(&svd.left, &svd.right);
-    let draw = CounterRng::new(3);
-    for trial in 0..40 {
-        let moved = |matrix: &Matrix, which: u64| {
-            let mut matrix = matrix.clone();
-            for k in 0..3 {
-                for (at, value) in matrix.row_mut(k).iter_mut().enumerate() {
-                    *value += 1e-3 * (draw.unit(trial, at as u64 * 3 + k as u64, which) - 0.5);
-                }
-            }
-            matrix
-        };
-        assert!(error(&moved(&svd.left, 0), &moved(&svd.right, 1)) > best);
-    }
-}
-
 #[test]
 fn a_diffuse_surface_has_rank_1() {
     for side in [4, 9] {
@@ -130,32 +97,6 @@ fn a_diffuse_surface_has_rank_1() {
         let refused = Factorization::new(&table, 2);
         assert_eq!(refused.unwrap_err().to_string(), "expected 1 to 1 terms, the rank of the table, found 2");
         assert_eq!(Factorization::up_to(&table, 10).expect("a term").terms(), 1);
-    }
-}
-
-/// Exchanging view and light exchanges the factors, up to a sign that cancels in products.
-#[test]
-fn exchanging_view_and_light_exchanges_the_factors() {
-    for table in tables() {
-        let exchanged = NumberTable {
-            columns: table.view().texels(),
-            values: table.values().transposed().rows().flatten().copied().collect(),
-        };
-        let exchanged = ProductTable::of_numbers(&exchanged, "exchanged".as_ref()).expect("a table");
-        let [one, other] = [&table, &exchanged].map(|table| Factorization::new(table, 4).expect("terms"));
-        let largest = one.singular_values()[0];
-        for (a, b) in one.singular_values().iter().zip(other.singular_values()) {
-            assert!((a - b).abs() < 1e-13 * largest, "{a} {b}");
-        }
-        if one.split_pair(4).is_some() {
-            continue;
-        }
-        let [a, b] = [one.factors(4), other.factors(4)];
-        for (view, light) in (0..table.view().texels()).flat_map(|v| (0..table.light().texels()).map(move |s| (v, s))) {
-            let [there, back] =
-                [dot(a.view_texel(view), a.light_texel(light)), dot(b.view_texel(light), b.light_texel(view))];
-            assert!((there - back).abs() < 1e-9 * largest, "{there} {back}");
-        }
     }
 }
 
@@ -200,43 +141,7 @@ fn bits_do_not_depend_on_threads() {
     assert!(on(2) == one && on(5) == one);
 }
 
-/// Under uniform radiance 1 the truncated sum reflects as much as the table, up to the first omitted singular value
-/// times the length of the weights.
-#[test]
-fn a_white_furnace_shows_what_terms_lose() {
-    for (table, terms) in [(sampled(12, &COOK_TORRANCE), 9), (sampled(12, &SCHLICK), 9)] {
-        let (found, disc) = (all_terms(&table), DiscSamples::new(&table));
-        let [_, weights] = disc.samples().solid_angles.clone();
-        let texels: Vec<usize> = (0..144).filter(|at| table.light().direction(at % 12, at / 12).z > 0.0).collect();
-        let length = dot(&weights, &weights).sqrt();
-        for (kept, most) in [(terms, found.singular_values()[terms] * length), (found.rank(), 1e-11)] {
-            let factors = found.factors(kept);
-            for view in 0..144 {
-                let albedo = |of: &dyn Fn(usize) -> f64| {
-                    texels.iter().zip(&weights).map(|(&light, weight)| weight * of(light)).sum::<f64>()
-                };
-                let [whole, part] = [
-                    albedo(&|light| table.values().row(view)[light]),
-                    albedo(&|light| dot(factors.view_texel(view), factors.light_texel(light))),
-                ];
-                assert!((whole - part).abs() <= most, "{kept} terms: {whole} {part}");
-            }
-        }
-    }
-    // Exact for a diffuse surface: the albedo.
-    let factor = |write: &dyn Fn(&mut [f64])| {
-        let mut value = [0.0];
-        write(&mut value);
-        value[0]
-    };
-    let view = factor(&|into| Reflectance::Diffuse.view(DVec3::Z, into));
-    let light = |direction| factor(&|into| Reflectance::Diffuse.light(direction, into));
-    let reflected = view * DirectionRule::hemisphere(9).integral(light);
-    assert!((reflected - 1.0).abs() < 1e-14, "{reflected}");
-    assert_eq!((view, light(DVec3::NEG_Z)), (1.0 / PI, 0.0));
-}
-
-/// Singular values of isotropic lobes come in pairs: a number of terms is reported only if it splits a pair.
+/// Singular values of isotropic lobes come in pairs: only a number of terms that splits a pair is reported.
 #[test]
 fn split_pairs_are_found() {
     let bare = Lobe {

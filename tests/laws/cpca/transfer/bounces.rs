@@ -11,26 +11,6 @@ use glam::DVec3;
 use super::{Soup, close, mixed, step, trace, uniform};
 
 #[test]
-fn diffuse_bounces_are_those_of_the_reference() {
-    let mesh = step();
-    let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
-    let rays = trace(&mesh, &vertices, 7);
-    let light = mixed(36);
-    let response = Response::diffuse(0.8, rays.rule()).expect("a response");
-    let brdfs = [Brdf::Lambert { albedo: 0.8 }];
-    let reference = Reference { vertices: &vertices, brdfs: &brdfs, rule: rays.rule(), light: &light };
-    for bounces in 0..=2 {
-        let response = [response.clone()];
-        let transfer = Transfer::new(&vertices, &rays, &response, 6, Bounces::Count(bounces)).expect("t_p");
-        let step = if bounces == 2 { 7 } else { 2 };
-        for vertex in (0..vertices.len()).step_by(step) {
-            let expected = reference.exit_radiance(vertex, DVec3::new(0.6, 0.0, 0.8), bounces);
-            close(transfer.radiance(vertex, DVec3::Z, &light), expected, 2e-5, "exit radiance");
-        }
-    }
-}
-
-#[test]
 fn two_materials_light_each_other() {
     let mesh = step();
     let materials: Vec<u32> = (0..mesh.len() as u32).map(|triangle| triangle / 3 % 2).collect();

@@ -3,11 +3,9 @@
 mod bad_input;
 mod bounces;
 mod brdf;
-mod chance;
 mod closed_forms;
 mod equation_1;
 mod models;
-mod path_tracing;
 mod rotation;
 mod scattering;
 

@@ -2,21 +2,19 @@
 //! planes, from surfaces, with zeros of both signs) through every path: no panic, no hang, no lost hit, and the same
 //! bits.
 //!
-//! **What is tested.** The baseline is the card's f32 test over all pairs. If its answer is correct in exact
-//! arithmetic, every path must return the same bits. If it is wrong, or its t is off by a hundredth or more, a path may
-//! differ, but only by skipping triangles: every reported hit passes the f32 test. docs/papers/ray_engine.md has a
-//! table of fp32's errors by the rounding that causes them.
+//! **What is tested.** The baseline is the card's f32 test over all pairs. Where its answer is right in exact
+//! arithmetic, every path must give its bits. Where it is wrong, or has an error of t of a hundredth or more, a path
+//! may differ, but only by skipping triangles: every reported hit passes the f32 test. docs/papers/ray_engine.md has a
+//! table of fp32's errors.
 
-mod cause;
 mod scene;
+mod single;
 
 use crate::environment::by_form;
 use crate::support::profile;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::sync::LazyLock;
 
-use cause::Cause;
 use crossbar::geom::{Hit, Mesh, Ray};
 use crossbar::oracle::{Disagreement, DisagreementKind, Oracle, Tolerance};
 use crossbar::ray_engine::Crossbar;
@@ -159,63 +157,30 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
     });
 }
 
-/// Counts by kind, then by cause.
-type Counts = BTreeMap<(DisagreementKind, Cause), usize>;
-
-/// The table on the page: how often fp32 is wrong, by kind of error and by the rounding that causes it.
-fn table([rays, hits]: [usize; 2], counts: &Counts) -> String {
-    let mut out = format!("| of {rays} rays, {hits} truly hit |");
-    for cause in Cause::ALL {
-        write!(out, " {} |", format!("{cause:?}").to_lowercase()).expect("text");
-    }
-    out += "\n|---|---|---|---|---|---|---|\n";
-    for kind in DisagreementKind::ALL {
-        let row: Vec<usize> =
-            Cause::ALL.iter().map(|&cause| counts.get(&(kind, cause)).copied().unwrap_or(0)).collect();
-        if row.iter().any(|&count| count > 0) {
-            write!(out, "| {kind} |").expect("text");
-            row.iter().for_each(|count| write!(out, " {count} |").expect("text"));
-            out += "\n";
-        }
-    }
-    out
-}
-
 #[test]
-fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
+fn every_difference_between_fp32_and_the_truth_is_counted() {
     let yardsticks: &[Yardstick] = &YARDSTICKS;
-    let scenes: Vec<(bool, [usize; 2], Counts)> = yardsticks
-        .par_iter()
-        .enumerate()
-        .map(|(number, Yardstick { scene, wrong, hits })| {
-            let mut counts = Counts::new();
-            for wrong in wrong.values() {
-                let cause = cause::of(&scene.mesh, &scene.rays[wrong.ray], scene.sides, wrong);
-                *counts.entry((wrong.kind, cause)).or_default() += 1;
-            }
-            // The equations in `cause` must agree with the tracer.
-            let scale = cause::scale(&scene.mesh);
-            for (ray, hit) in scene.rays.iter().zip(hits) {
-                let any = scene.mesh.iter_corners().any(|corners| cause::meets(ray, corners, scene.sides, scale));
-                assert_eq!(any, hit.is_some(), "scene {number}, {ray:?}");
-            }
-            let oracle = Oracle::new(&scene.mesh, scene.sides, TOLERANCE);
-            let surface = oracle.judge(&scene.rays, hits).expect("one answer a ray").surface();
-            (scene.moderate, [hits.len(), surface], counts)
-        })
-        .collect();
-    let page = include_str!("../../../../docs/papers/ray_engine.md").replace('\r', "");
-    let mut missing = String::new();
-    for moderate in [true, false] {
-        let (mut rays, mut counts) = ([0; 2], Counts::new());
-        for (_, size, found) in scenes.iter().filter(|scene| scene.0 == moderate) {
-            rays = [rays[0] + size[0], rays[1] + size[1]];
-            found.iter().for_each(|(&key, count)| *counts.entry(key).or_default() += count);
+    // Of scenes of one size and of mixed sizes: rays, rays that truly hit, and wrong answers by kind.
+    let ([mut rays, mut surface], mut counts) = ([[0; 2]; 2], BTreeMap::<DisagreementKind, [usize; 2]>::new());
+    let hits_truly = yardsticks.par_iter().enumerate().map(|(number, Yardstick { scene, hits, .. })| {
+        let scale = single::scale(&scene.mesh);
+        for (ray, hit) in scene.rays.iter().zip(hits) {
+            let any = scene.mesh.iter_corners().any(|corners| single::meets(ray, corners, scene.sides, scale));
+            assert_eq!(any, hit.is_some(), "scene {number}, {ray:?}");
         }
-        let table = table(rays, &counts);
-        if !page.contains(&table) {
-            missing += &format!("moderate = {moderate}:\n{table}\n");
-        }
+        Oracle::new(&scene.mesh, scene.sides, TOLERANCE).judge(&scene.rays, hits).expect("one answer a ray").surface()
+    });
+    for (Yardstick { scene, hits, wrong }, truly) in yardsticks.iter().zip(hits_truly.collect::<Vec<_>>()) {
+        let column = usize::from(!scene.moderate);
+        rays[column] += hits.len();
+        surface[column] += truly;
+        wrong.values().for_each(|wrong| counts.entry(wrong.kind).or_default()[column] += 1);
     }
-    assert!(missing.is_empty(), "docs/papers/ray_engine.md has other tables:\n{missing}");
+    let of = |column: usize| format!("of {} rays, {} truly hit", rays[column], surface[column]);
+    let mut table = format!("| | {} | {} |\n|---|---|---|\n", of(0), of(1));
+    for (kind, [one, mixed]) in counts {
+        table += &format!("| {kind} | {one} | {mixed} |\n");
+    }
+    let page = include_str!("../../../../docs/papers/ray_engine.md").replace('\r', "");
+    assert!(page.contains(&table), "docs/papers/ray_engine.md has another table:\n{table}");
 }

@@ -1,3 +1,0 @@
-//! Rays on the host.
-
-mod octree;
