@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
-use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
 use super::args::{Args, Renderer};
@@ -24,7 +23,7 @@ use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
-use crate::tracer::offset::SINGLE;
+use crate::tracer::offset::unit_roundoff;
 
 /// The random seed where none is given.
 const SEED: u64 = 1;
@@ -81,19 +80,6 @@ fn rays(picture: &RenderedPicture) -> Table {
         table.push([kind.into(), count.into()]);
     }
     table
-}
-
-/// Half a step of a format's numbers near 1, a whole one where it cuts off; of single precision at most, since rays are
-/// single precision.
-fn unit_roundoff(format: Format) -> f64 {
-    let step = match format.kind {
-        FormatKind::Fixed { frac_bits: bits, .. } | FormatKind::Float { man_bits: bits, .. } => {
-            1.0 / f64::from(1_u32 << bits.min(31))
-        }
-        FormatKind::Normalized { .. } => 1.0 / f64::from(format.denominator()),
-    };
-    let nearest = matches!(format.rounding, Rounding::NearestEven | Rounding::NearestAway);
-    (if nearest { step / 2.0 } else { step }).max(SINGLE)
 }
 
 /// Refuses a scene without lights that the renderer knows: the picture would be black.

@@ -25,6 +25,28 @@ pub enum CardError {
 }
 
 impl CardError {
+    /// Returns `true` if the device lacks something: a language, slots of programs, formats, sizes, filters, blending.
+    pub fn is_refusal(&self) -> bool {
+        use MachineError as M;
+        match self {
+            Self::Input(_) => false,
+            Self::Program(_) => true,
+            Self::Draw(error) => matches!(
+                error,
+                M::TextureFormat { .. }
+                    | M::TargetFormat { .. }
+                    | M::DepthFormat { .. }
+                    | M::TooLarge { .. }
+                    | M::VolumeTooLarge { .. }
+                    | M::TooManyTargets { .. }
+                    | M::FloatFilter { .. }
+                    | M::FloatLevels { .. }
+                    | M::FloatMipmaps { .. }
+                    | M::FloatBlend { .. }
+            ),
+        }
+    }
+
     /// The error of an input.
     pub fn input(sentence: impl Display) -> Self {
         Self::Input(sentence.to_string())

@@ -9,12 +9,28 @@
 //!   [`scene_clearance`], a fixed fraction of the scene.
 
 use glam::DVec3;
+use refsim::num::{Format, FormatKind, Rounding};
 
 use crate::geom::vector::{area_vector, narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 
 /// Unit roundoff of single precision.
 pub const SINGLE: f64 = 1.0 / 16_777_216.0;
+
+/// Unit roundoff of a format: half a step of its numbers near 1, a whole step if it does not round to nearest. At least
+/// that of single precision, since rays are single precision.
+#[must_use]
+pub fn unit_roundoff(format: Format) -> f64 {
+    let step = match format.kind {
+        FormatKind::Fixed { frac_bits: bits, .. } | FormatKind::Float { man_bits: bits, .. } => {
+            1.0 / f64::from(1_u32 << bits.min(31))
+        }
+        FormatKind::Normalized { .. } => 1.0 / f64::from(format.denominator()),
+    };
+    let nearest = matches!(format.rounding, Rounding::NearestEven | Rounding::NearestAway);
+    (if nearest { step / 2.0 } else { step }).max(SINGLE)
+}
+
 /// Sine of the thinnest triangle in the bound on the plane test; thinner triangles count as this thin.
 const MIN_SINE: f64 = 1.0 / 256.0;
 /// Clearance as a fraction of a scene's diagonal.

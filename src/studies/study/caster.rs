@@ -3,9 +3,10 @@
 use std::str::FromStr;
 
 use refsim::device::Profile;
+use refsim::event::Event;
 use refsim::machine::Executor;
 use refsim::num::Format;
-use refsim::timing::replay::{Options, replay};
+use refsim::timing::replay::{Options, ReplayError, replay};
 use refsim::timing::{Level, Model, Picoseconds};
 use serde_json::json;
 
@@ -284,6 +285,11 @@ impl OpenCaster<'_> {
     }
 }
 
+/// Modelled time of a log.
+pub(super) fn makespan(log: &[Event], rates: &Model) -> Result<Picoseconds, ReplayError> {
+    Ok(replay(log, rates, &Options::of(Level::Pipeline))?.timeline.makespan())
+}
+
 impl OpenEngine<'_> {
     fn cast(
         &mut self,
@@ -294,8 +300,7 @@ impl OpenEngine<'_> {
         let hits = self.engine.trace(rays).map_err(|error| failed(error.into()))?;
         let log = self.engine.take_log();
         if let (Some(rates), Some(card)) = (&self.rates, &mut self.record.card) {
-            let replayed = replay(&log, rates, &Options::of(Level::Pipeline)).map_err(|error| failed(error.into()))?;
-            *card += replayed.timeline.makespan();
+            *card += makespan(&log, rates).map_err(|error| failed(error.into()))?;
         }
         if let (Some(exact), Some(differing)) = (&self.exact, &mut self.record.differing) {
             for (rays, hits) in rays.chunks(JUDGED_AT_ONCE).zip(hits.chunks(JUDGED_AT_ONCE)) {

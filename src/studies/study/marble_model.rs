@@ -9,7 +9,7 @@ use super::glossy_model::Drawn;
 use crate::atlas::Atlas;
 use crate::card::{CardError, MeshView};
 use crate::study::StudyError;
-use crate::study::subsurface::{no_atlas, no_card};
+use crate::study::subsurface::no_card;
 use crate::subsurface::links::{LinkChoice, Links, MeanWeighting, SCALAR_CHANNEL};
 use crate::subsurface::multipole::SurfaceMoments;
 use crate::subsurface::on_card::{
@@ -46,11 +46,6 @@ impl MarbleModel {
         let links = Links::new(&surface, of_links, choice, TOLERANCE, &|_, _| {})?;
         let textures = LinkTextures::new(&links, &surface, MeanWeighting::Area);
         Ok(Self { model: CardModel::new(atlas), textures, eta: material.eta })
-    }
-
-    /// The atlas of a mesh.
-    pub(super) fn atlas(mesh: &crate::geom::Mesh, side: u32) -> Result<Atlas, StudyError> {
-        Atlas::new(mesh, side).map_err(no_atlas)
     }
 
     /// Colors of pixels under light, with textures of these floats.

@@ -1,9 +1,7 @@
 //! One clock for all cards: the modelled time of each step, one after the other.
 
 use refsim::device::Profile;
-use refsim::event::Event;
-use refsim::timing::replay::{Options, replay};
-use refsim::timing::{Level, Model, Picoseconds};
+use refsim::timing::Picoseconds;
 use serde_json::Map;
 
 use crate::report::digits::{Quantity, count, shown};
@@ -25,12 +23,6 @@ struct Step {
 /// The steps so far.
 #[derive(Default)]
 pub(super) struct Clock(Vec<Step>);
-
-/// Modelled time of a log by the pipeline model; `None` for cards without rates.
-pub(super) fn modelled(profile: &Profile, log: &[Event]) -> Result<Option<Picoseconds>, StudyError> {
-    let Ok(model) = Model::new(Level::Pipeline, profile) else { return Ok(None) };
-    Ok(Some(replay(log, &model, &Options::of(Level::Pipeline))?.timeline.makespan()))
-}
 
 impl Clock {
     /// Adds a step.

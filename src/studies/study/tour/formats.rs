@@ -4,7 +4,7 @@ use refsim::machine::Executor;
 
 use super::light;
 use super::scene::{BUNNY, TourScene};
-use crate::card::{MeshView, SeenPixel, seen_pixels};
+use crate::card::{CardError, MeshView, SeenPixel, seen_pixels};
 use crate::cpca::on_card::PrtCardOptions;
 use crate::geom::Mesh;
 use crate::picture::metrics::{ErrorSums, value_error};
@@ -83,19 +83,28 @@ impl FormatSubject<'_> {
             progress(&format!("pictures in {format}"), 0, 1);
             let on = (&card.profile, executor);
             let marble = statue.0.draw(|card| card.irradiate(statue.1), on, view, FloatTexels::Fp32);
-            let drawn = [bunny.0.draw(bunny.1, on, &view, &maps).ok(), marble.ok().map(|drawn| drawn.0)];
+            let drawn = [ran(bunny.0.draw(bunny.1, on, &view, &maps))?, ran(marble)?.map(|drawn| drawn.0)];
+            let by_sums = ran(light::radiosity(&host, on.0, executor))?;
             let first = &*first.get_or_insert_with(|| drawn.clone());
             let off = |at: usize| Some(error_255ths(&masks[at], drawn[at].as_ref()?, first[at].as_ref()?));
             rows.push(FormatRow {
                 format,
                 differing,
                 by_rays: error(&direct(&system(factors)?)?),
-                by_sums: light::radiosity(&host, on.0, executor).ok().map(|(found, ..)| error(&found)),
+                by_sums: by_sums.map(|(found, ..)| error(&found)),
                 transfer: computed.off(&by_host).1,
                 pictures: [0, 1].map(off),
             });
         }
         Ok(rows)
+    }
+}
+
+/// `None` if the device refuses to compute it.
+fn ran<T>(result: Result<T, StudyError>) -> Result<Option<T>, StudyError> {
+    match result {
+        Err(error) if error.downcast_ref().is_some_and(CardError::is_refusal) => Ok(None),
+        result => result.map(Some),
     }
 }
 

@@ -6,24 +6,23 @@ use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
-use refsim::timing::Picoseconds;
+use refsim::timing::{Level, Model, Picoseconds};
 
-use super::clock::modelled;
 use crate::geom::exact::Sides;
-use crate::geom::vector::{narrow, wide};
-use crate::geom::{Mesh, Ray};
+use crate::geom::vector::wide;
+use crate::geom::{Hit, Mesh, Ray};
 use crate::radiosity::display::Display;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::{CardOptions, CardSolver, Storage, to_f64};
 use crate::radiosity::packing::Packing;
-use crate::radiosity::{FormFactors, Patches, System};
+use crate::radiosity::{FormFactors, Patch, Patches, System};
+use crate::renderer::environment::seen_around;
 use crate::scene::Camera;
-use crate::sphere::{HarmonicLight, harmonics};
-use crate::study::caster::{CastRecord, CasterChoice};
+use crate::study::caster::{CastRecord, CasterChoice, makespan};
 use crate::study::radiosity::no_card;
 use crate::study::{ProgressFn, StudyError};
 use crate::tracer::Caster;
-use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
+use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::CubeLight;
 
 /// Rays of a pair of patches: the square of this.
@@ -54,7 +53,9 @@ pub(super) fn radiosity(system: &System, profile: &Profile, executor: &Executor)
     solver.record(true);
     let options = CardOptions { tolerance: 1e-6, most_iterations: ITERATIONS, check_every: 1 };
     let solution = solver.solve(system, &options, &mut |_| ()).map_err(no_card)?;
-    Ok((to_f64(&solution.radiosity), solution.iterations(), modelled(profile, &solver.take_log())?))
+    let rates = Model::new(Level::Pipeline, profile).ok();
+    let time = rates.map(|rates| makespan(&solver.take_log(), &rates)).transpose()?;
+    Ok((to_f64(&solution.radiosity), solution.iterations(), time))
 }
 
 /// The room by a card, interpolated between corners of patches: exposed linear colors.
@@ -82,33 +83,19 @@ pub(super) fn probe(
     at: DVec3,
     caster: &CasterChoice,
 ) -> Result<(CubeLight, Option<CastRecord>), StudyError> {
-    let ray = |texel| Ray::new(narrow(at), narrow(texel_center(texel)));
-    let rays: Vec<Ray> = (0..LIGHT_TEXELS).map(ray).collect::<Result<_, _>>()?;
     let mut open = caster.open_judged(walls, Sides::Front)?;
-    let hits = open.cast(&rays).map_err(crate::error::InputError::from)?;
-    let radiance = |(ray, hit): (&Ray, &Option<crate::geom::Hit>)| {
+    let radiance = |(ray, hit): (&Ray, &Option<Hit>)| {
         let Some(hit) = hit else { return [0.0; 3] };
         let point = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
         let face = patches.face_of(hit.triangle);
         let on_face = patches.list().iter().zip(radiosity).filter(|(patch, _)| patch.face == face);
-        let distance = |patch: &crate::radiosity::Patch| patch.center().distance_squared(point);
+        let distance = |patch: &Patch| patch.center().distance_squared(point);
         let nearest = on_face.min_by(|(a, _), (b, _)| distance(a).total_cmp(&distance(b)));
         nearest.map_or([0.0; 3], |(_, radiosity)| radiosity.map(|b| b / PI))
     };
-    Ok((CubeLight::new(rays.iter().zip(&hits).map(radiance).collect())?, open.record()))
-}
-
-/// The light in harmonics.
-pub(super) fn harmonic(light: &CubeLight, order: usize) -> Result<HarmonicLight, StudyError> {
-    let mut y = vec![0.0; order * order];
-    let mut channels = [const { Vec::new() }; 3].map(|_: Vec<f64>| vec![0.0; order * order]);
-    for (texel, radiance) in light.texels().iter().enumerate() {
-        let [_, row, column] = face_row_column(texel, LIGHT_SIDE);
-        harmonics(order, texel_center(texel), &mut y);
-        let solid_angle = LIGHT_MAP.solid_angle(column, row);
-        for (channel, radiance) in channels.iter_mut().zip(radiance) {
-            channel.iter_mut().zip(&y).for_each(|(sum, y)| *sum += solid_angle * radiance * y);
-        }
-    }
-    Ok(HarmonicLight::new(channels)?)
+    let texels = seen_around(at, LIGHT_SIDE as u32, |camera| {
+        let rays = camera.rays();
+        Ok(rays.iter().zip(&open.cast(&rays)?).map(radiance).collect())
+    })?;
+    Ok((CubeLight::new(texels)?, open.record()))
 }

@@ -10,6 +10,7 @@ use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind};
 use refsim::texture::TexelFormat;
 
+use crate::atlas::Atlas;
 use crate::card::{MeshView, seen_pixels};
 use crate::cpca::on_card::PrtCardOptions;
 use crate::error::InputError;
@@ -21,7 +22,7 @@ use crate::study::caster::CasterChoice;
 use crate::study::configuration::Configuration;
 use crate::study::marble_model::MarbleModel;
 use crate::study::prt::{light_picture, linear_picture, of_texels};
-use crate::study::subsurface::environment;
+use crate::study::subsurface::{environment, no_atlas};
 use crate::study::{ProgressFn, Study, StudyError, radiosity};
 use crate::subsurface::distant_irradiance;
 use crate::subsurface::links::LinkChoice;
@@ -82,9 +83,9 @@ impl Study for Parameters {
         let (computed, cast) = BUNNY.precompute((&scene.bunny, &vertices), &engine, progress)?;
         clock.rays("rays of the bunny's transfer", &geforce, cast);
         progress("clusters of the bunny", 0, 1);
-        let (bunny, bunny_light) = (BUNNY.model(vertices, computed), light::harmonic(&by_bunny, BUNNY.order)?);
+        let (bunny, bunny_light) = (BUNNY.model(vertices, computed), by_bunny.harmonics(BUNNY.order)?);
         progress("links of the statue", 0, 1);
-        let atlas = MarbleModel::atlas(&scene.statue, SIDE)?;
+        let atlas = Atlas::new(&scene.statue, SIDE).map_err(no_atlas)?;
         let links = LinkChoice::Fixed { level: SIDE.ilog2() - 2 };
         let statue = MarbleModel::new(&atlas, MM_PER_UNIT, links, true)?;
         progress("shadows of the statue", 0, 1);

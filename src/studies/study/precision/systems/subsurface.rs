@@ -5,10 +5,12 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
 use super::run::{SystemInput, SystemRun, bunny, cameras};
+use crate::atlas::Atlas;
 use crate::card::MeshView;
 use crate::scene::Camera;
 use crate::study::StudyError;
 use crate::study::marble_model::MarbleModel;
+use crate::study::subsurface::no_atlas;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::{FloatTexels, Light};
 
@@ -29,7 +31,7 @@ pub(super) struct Marble {
 impl Marble {
     pub(super) fn new() -> Result<Self, StudyError> {
         let (mesh, choice) = (bunny(), LinkChoice::Adaptive { count: LINKS });
-        let model = MarbleModel::new(&MarbleModel::atlas(&mesh, SIDE)?, SCALE, choice, false)?;
+        let model = MarbleModel::new(&Atlas::new(&mesh, SIDE).map_err(no_atlas)?, SCALE, choice, false)?;
         Ok(Self { model, cameras: cameras(&mesh) })
     }
 }

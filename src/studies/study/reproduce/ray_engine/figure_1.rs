@@ -12,12 +12,12 @@ use crate::renderer::{RenderedPicture, Settings, whitted};
 use crate::report::{Cell, Table};
 use crate::scene::built;
 use crate::tracer::HostTracer;
-use crate::tracer::offset::SINGLE;
+use crate::tracer::offset::unit_roundoff;
 
 /// Card of the map and of eye rays.
 const DRAWS: &str = "r200";
-/// Cards of the engine, with the unit roundoff of their formats. The fixed point of the first card leaks.
-const ENGINES: [(&str, f64); 2] = [("r300", 1.0 / 131_072.0), ("ideal-fp32", SINGLE)];
+/// Cards of the engine. The fixed point of the card that draws leaks.
+const ENGINES: [&str; 2] = ["r300", "ideal-fp32"];
 /// Size of the pictures.
 const SIZE: [u32; 2] = [160, 120];
 /// Difference that an 8-bit display shows.
@@ -58,9 +58,11 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     };
     push("rays, host".to_owned(), &traced, [Cell::from(0_u64), Cell::from("")]);
     push(format!("environment map, {DRAWS}"), &mapped, [Cell::from(0_u64), Cell::from("")]);
-    for (device, rounding) in ENGINES {
+    for device in ENGINES {
         let parameters = EngineParameters { sides: Sides::Both, ..EngineParameters::default() };
-        let engine = RayEngine::new(scene.mesh(), Profile::named(device)?, ExecutorKind::Batch, parameters);
+        let card = Profile::named(device)?;
+        let rounding = unit_roundoff(card.rules.format);
+        let engine = RayEngine::new(scene.mesh(), card, ExecutorKind::Batch, parameters);
         let mut engine = engine.on(device)?;
         let mut eyes = RasterizedEyes::new(&profile, scene.mesh(), camera, &mut engine).on(DRAWS)?;
         let settings = Settings { rounding, ..settings.clone() };
