@@ -18,6 +18,8 @@ Examples:
       on the Radeon 9800, colors of vertices interpolated as its authors did
   crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --sweep --size 64x48
       the error of fewer bits in representatives, weights, maps and arithmetic, and of compression
+  crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --ground docs/examples/step_all_small.ground.npz --size 64x48
+      with the ground below the model, and its shadow
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/all_frequency.md explains all of it.";
