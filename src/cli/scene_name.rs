@@ -23,16 +23,9 @@ pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
     Ok(None)
 }
 
-/// Refuses a word that is neither a file nor the name of a scene: a word without a dot or a folder is a name, not a file.
+/// Refuses a word that is neither a file nor the name of a scene.
 fn require_file(path: &Path) -> Result<(), Problem> {
-    let name = path.to_str().unwrap_or_default();
-    if path.exists() || path.components().count() != 1 || name.contains('.') {
-        return Ok(());
-    }
-    let names: Vec<&str> = built::names().collect();
-    let meant = did_you_mean(name, names.iter().copied());
-    let help = format!("{meant}the scenes are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
-    Err(Problem::usage(format!("there is no scene `{name}`"), help))
+    given::require_file(path, "scene", &built::names().collect::<Vec<_>>(), "obj")
 }
 
 /// The scene around a model, which has lights for it. The options of models say how the model is read, not this.

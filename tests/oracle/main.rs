@@ -9,3 +9,4 @@ mod linalg;
 mod pages;
 mod probes;
 mod teapot_study;
+mod timing;

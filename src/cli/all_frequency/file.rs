@@ -29,10 +29,7 @@ impl FileOfModel {
     }
 
     fn of(file: AllFrequencyFile, path: &Path, model: &Path) -> miette::Result<Self> {
-        let model = load(model, file.mesh.tangents)?;
-        let vertices = vertices(&model, file.mesh.tangents)?;
-        let digest = MeshDigest::new(&vertices);
-        require_mesh(path, &digest, Some(file.mesh))?;
+        let (model, vertices, digest) = model_of(path, Some(file.mesh), model)?;
         Ok(Self { file, model, vertices, digest })
     }
 }

@@ -86,11 +86,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         ground: ground.as_ref().map(|ground| &ground.vertices),
     };
     let mut caster = caster.open_judged(sight.scene, Sides::Both)?;
-    let found = match sight.run(&mut caster, &split, &mut |what, done, of| bar.show(what.to_owned(), done, of))? {
-        Computed::Whole(found) => found,
-        Computed::Part(written) => return Ok(part::findings(&written)),
-    };
-    let (found, mut below) = found;
+    let (found, mut below) = sight.run(&mut caster, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     save_all_frequency(&found.file, path).map_err(Problem::from)?;
     let [ground_path, ground_mesh] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
     if let (Some(ground), Some(below)) = (&ground, &mut below) {

@@ -34,7 +34,7 @@ impl StudyArgs for Args {
     const QUICKER: &'static str = "a smaller `--size`";
 
     fn files(&self) -> StudyFiles<'_> {
-        StudyFiles::new(Some(&self.out), None, self.lit.inputs())
+        StudyFiles::new(Some(&self.out), self.lit.inputs())
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
