@@ -123,7 +123,8 @@ fn products_per_pixel_are_step_4_of_what_is_interpolated() {
     // From below all faces are backs, which are not drawn.
     let below = Camera::new([0.6, -2.2, -1.6], [0.0; 3], [0.0, 0.0, 1.0], 0.5, 44, 36).expect("a camera");
     let (view, place) = (MeshView { camera: below, exposure: 0.7, format: FLOATS }, ProductPlace::Pixels(exact()));
-    let mut card = FactoredCard::new(device("ideal-fp32"), ExecutorKind::Batch, hills.mesh(), place).expect("a card");
+    let mut card =
+        FactoredCard::new(device("ideal-fp32"), ExecutorKind::Batch, &[hills.mesh()], place).expect("a card");
     assert!(card.view_texels(&view).expect("a picture").texels.iter().all(|texel| *texel == [0.0; 4]));
 }
 
