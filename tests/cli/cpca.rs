@@ -152,6 +152,7 @@ fn light_comes_from_a_place_in_a_scene() {
         ("scene:docs/examples/step.obj@0,0,0", "expected a scene with lights"),
         ("scene:cornell", "expected constant"),
         ("scene:cornell@0,0", "X,Y,Z"),
+        ("scene:cornell-box@9,9,9", "expected a place"),
     ] {
         let said = refused(&["cpca", "render", transfer, "--model", model, "--light", light]);
         assert!(said.contains(words), "{light}: {said}");
