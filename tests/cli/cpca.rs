@@ -80,6 +80,83 @@ fn a_card_draws_what_the_host_draws() {
     assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
 }
 
+/// Files and formats that a card does not support are refused with advice, and nothing is written.
+#[test]
+fn cards_refuse_what_they_have_no_programs_for() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, whole, small] = STEP;
+    let refused = |arguments: &[&str]| {
+        let out = place(folder.path(), "out");
+        let said = refused(&[&["cpca", "card"], arguments, &["--size", "8x8", "--out", &out]].concat());
+        assert!(!folder.path().join("out").exists(), "{arguments:?}");
+        said
+    };
+    assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer only"));
+    assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
+}
+
+#[test]
+fn pictures_that_are_no_lights_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, _] = STEP.map(|path| place(Path::new(env!("CARGO_MANIFEST_DIR")), path));
+    let mut pixels = [[1.0; 3]; 32];
+    pixels[19] = [1.0, f32::NAN, 1.0];
+    // White scanlines of 8 pixels, one run per channel; the second scanline ends within its second run.
+    let row = [2, 2, 0, 8, 136, 128, 136, 128, 136, 128, 136, 129];
+    let broken = [&b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n"[..], &row, &row[..7], b"\0"].concat();
+    for (name, bytes, words) in [
+        (
+            "nan.exr",
+            exr(&Picture::rgb(8, 4, &pixels)).expect("a file"),
+            "expected finite radiance, found NaN in channel green of the pixel in column 3, row 2",
+        ),
+        ("tall.exr", exr(&Picture::rgb(4, 8, &pixels)).expect("a file"), "found 4x8"),
+        ("cut.hdr", broken, "the Radiance HDR data cannot be read"),
+        ("words.hdr", b"no picture".to_vec(), "6e 6f 20 70"),
+        ("empty.hdr", Vec::new(), "begins with nothing"),
+    ] {
+        let light = place(folder.path(), name);
+        fs::write(&light, bytes).expect("written");
+        let arguments = ["cpca", "render", &transfer, "--model", &model, "--light", &light, "--size", "8x8"];
+        let said = refused_in(folder.path(), &arguments);
+        assert!(said.contains(words) && said.contains(name), "{name}: {said}");
+    }
+}
+
+/// Light at a place in a scene: a lamp has the flux of its solid angle in closed form, and the model's picture depends on
+/// the place.
+#[test]
+fn light_comes_from_a_place_in_a_scene() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [lamp, page] = ["lamp.obj", "page"].map(|name| place(folder.path(), name));
+    fs::write(folder.path().join("lamp.mtl"), "newmtl lamp\nKd 0 0 0\nKe 5 2 1\n").expect("written");
+    let square = "v -1 -1 2\nv -1 1 2\nv 1 1 2\nv 1 -1 2";
+    fs::write(&lamp, format!("mtllib lamp.mtl\nusemtl lamp\n{square}\nf 1 2 3 4\n")).expect("written");
+    let light = |at: &str| format!("scene:{lamp}@{at}");
+    let sampled = document(&["all-frequency", "lighting", "--light", &light("0,0,0")]);
+    // Of a square of half width a at distance d: 4 asin(a^2 / (a^2 + d^2)).
+    let solid_angle = 4.0 * 0.2_f64.asin();
+    for (channel, radiance) in [5.0, 2.0, 1.0].into_iter().enumerate() {
+        assert_relative_eq!(number(&sampled["flux"][channel]), radiance * solid_angle, max_relative = 1e-9);
+    }
+    let [model, transfer, _] = STEP;
+    let exposures = ["0,0,0", "0,0,-8"].map(|at| {
+        let options = ["--light", &light(at), "--size", "16x12", "--out", &page];
+        number(&document(&[&["cpca", "render", transfer, "--model", model][..], &options].concat())["exposure"])
+    });
+    assert!(exposures[1] > 10.0 * exposures[0], "a lamp at a fifth of the distance: {exposures:?}");
+    for (light, words) in [
+        ("scene:cornel@0,0,0", "cornell"),
+        ("scene:docs/examples/step.obj@0,0,0", "expected a scene with lights"),
+        ("scene:cornell", "expected constant"),
+        ("scene:cornell@0,0", "X,Y,Z"),
+        ("scene:cornell-box@9,9,9", "expected a place"),
+    ] {
+        let said = refused(&["cpca", "render", transfer, "--model", model, "--light", light]);
+        assert!(said.contains(words), "{light}: {said}");
+    }
+}
+
 /// A square whose first texture coordinate grows with y: the anisotropic material follows it, the file stores the
 /// tangents, and commands that read the file need no option for them.
 #[test]

@@ -18,7 +18,7 @@ Examples:
       beside the uncompressed transfer: differences, and the error of every vertex
   crossbar cpca render docs/examples/step.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
       uncompressed
-  crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --light scene:cornell-box@2.8,2.8,3 --size 64x48
+  crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --light scene:cornell-box@0.28,0.28,0.4 --size 64x48
       under the light at a place in a room, path-traced
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";

@@ -110,7 +110,7 @@ impl DistantLightArg {
             Self::RedAndBlue => "a red and a blue disk".to_owned(),
             Self::Picture(path) => path.display().to_string(),
             Self::Scene { scene, at } => {
-                let at = at.to_array().map(|at| shown(at, Quantity::Exact)).join(", ");
+                let at = at.as_vec3().to_array().map(|at| at.to_string()).join(", ");
                 format!("the light at {at} in {}", scene.display())
             }
         }
@@ -176,7 +176,12 @@ fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
         bar.show("light in the scene".to_owned(), faces.next().unwrap_or(6), 6);
         Ok(path::render(&scene, camera, &settings, path::Direct::Both, &mut tracer, &mut |_| ())?.color)
     });
-    Ok(texels.and_then(CubeLight::new).map_err(|error| no_light(path, &error))?)
+    let texels = texels.map_err(|error| no_light(path, &error))?;
+    if texels.iter().flatten().all(|&radiance| radiance == 0.0) {
+        let what = format!("{}: expected a place that light reaches, found {}", path.display(), at.as_vec3());
+        return Err(Problem::usage(what, "name a place inside of the scene, in its units").into());
+    }
+    Ok(CubeLight::new(texels).map_err(|error| no_light(path, &error))?)
 }
 
 const fn clear_sky(sun: DVec3) -> ClearSky {
