@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
+use crossbar::picture::{Picture, exr};
 use crossbar::transfer::file::load_prt;
 use serde_json::Value;
 
