@@ -11,6 +11,9 @@ use super::values::{Component, Value, is_half, part, scalar};
 use super::with_arguments;
 use crate::isa::{Opcode, RegisterFile, Span};
 
+/// Maximum length of an operation that is rewritten, in bytes: each is read for itself, however it is nested.
+const LONGEST: u32 = 4096;
+
 /// The largest number of f16.
 const LARGEST_HALF: f32 = 65504.0;
 
@@ -176,7 +179,8 @@ impl<'a> Translator<'a> {
             Expression::ImageSample { .. } => (OperationForm::CallOfF32, Vec::new()),
             _ => return,
         };
-        let Some(span) = span.map(|span| with_arguments(self.text, span)) else { return };
+        let span = span.map(|span| with_arguments(self.text, span));
+        let Some(span) = span.filter(|span| span.end - span.start <= LONGEST) else { return };
         let key = [span.start, span.end];
         if self.operations.contains_key(&key) {
             return;
