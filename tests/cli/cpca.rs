@@ -136,7 +136,7 @@ fn light_comes_from_a_place_in_a_scene() {
     let light = |at: &str| format!("scene:{lamp}@{at}");
     let sampled = document(&["all-frequency", "lighting", "--light", &light("0,0,0")]);
     // Of a square of half width a at distance d: 4 asin(a^2 / (a^2 + d^2)).
-    let solid_angle = 4.0 * 0.2_f64.asin();
+    let solid_angle = 4.0 * libm::asin(0.2);
     for (channel, radiance) in [5.0, 2.0, 1.0].into_iter().enumerate() {
         assert_relative_eq!(number(&sampled["flux"][channel]), radiance * solid_angle, max_relative = 1e-9);
     }

@@ -44,7 +44,7 @@ pub struct ShaderRequest {
     pub text: String,
     /// Format of all numbers, such as `fp16`.
     pub format: String,
-    /// Values of uniforms by their names; [`UNSET`] for those that are missing.
+    /// Values of uniforms by their names; 0.5 for those that are missing.
     #[serde(default)]
     pub uniforms: BTreeMap<String, Vec<f32>>,
 }
