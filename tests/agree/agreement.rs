@@ -36,7 +36,7 @@ pub(crate) fn compare(case: &Case, turn: u64) -> Result<(Outcome, Vec<Difference
     let expected = draw(case, &programs, &REFERENCE)?;
     let mut differences = Vec::new();
     for (executor, other) in EXECUTORS.iter().enumerate() {
-        if other.draws(&case.scene.profile, turn)
+        if other.draws(turn)
             && let Some(what) = differs(&expected, draw(case, &programs, other), other)
         {
             differences.push(Difference { executor, what });

@@ -41,7 +41,7 @@ impl Executor {
 
     /// Returns `true` if the executor draws a case with this `turn` ([`crate::suite::Suite::turn`]); all executors draw
     /// a case with turn 0.
-    pub(crate) fn draws(&self, _profile: &Profile, turn: u64) -> bool {
+    pub(crate) fn draws(&self, turn: u64) -> bool {
         turn.is_multiple_of(self.every)
     }
 }

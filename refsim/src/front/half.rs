@@ -80,18 +80,19 @@ pub(super) fn comment(text: &str) -> usize {
         const LINE_ENDS: [char; 7] = ['\n', '\u{b}', '\u{c}', '\r', '\u{85}', '\u{2028}', '\u{2029}'];
         return text.find(LINE_ENDS).unwrap_or(text.len());
     }
-    let (mut at, mut open) = (0, 0_usize);
-    while let Some(pair) = text.as_bytes().get(at..at + 2) {
-        match pair {
-            b"/*" => (at, open) = (at + 2, open + 1),
-            b"*/" => (at, open) = (at + 2, open.saturating_sub(1)),
-            _ => at += 1,
-        }
-        if open == 0 {
-            return if text.starts_with("/*") { at } else { 0 };
+    if !text.starts_with("/*") {
+        return 0;
+    }
+    let (mut at, mut open) = (2, 1);
+    while open > 0 {
+        match text.as_bytes().get(at..at + 2) {
+            Some(b"/*") => (at, open) = (at + 2, open + 1),
+            Some(b"*/") => (at, open) = (at + 2, open - 1),
+            Some(_) => at += 1,
+            None => return text.len(),
         }
     }
-    if open > 0 { text.len() } else { 0 }
+    at
 }
 
 /// Words and marks of a text without its comments.

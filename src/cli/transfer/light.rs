@@ -176,12 +176,14 @@ fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
         bar.show("light in the scene".to_owned(), faces.next().unwrap_or(6), 6);
         Ok(path::render(&scene, camera, &settings, path::Direct::Both, &mut tracer, &mut |_| ())?.color)
     });
-    let texels = texels.map_err(|error| no_light(path, &error))?;
+    let no_place = |what: String| {
+        Problem::usage(format!("{}: {what}", path.display()), "name a place inside of the scene, in its units")
+    };
+    let texels = texels.map_err(|error| no_place(error.to_string()))?;
     if texels.iter().flatten().all(|&radiance| radiance == 0.0) {
-        let what = format!("{}: expected a place that light reaches, found {}", path.display(), at.as_vec3());
-        return Err(Problem::usage(what, "name a place inside of the scene, in its units").into());
+        return Err(no_place(format!("expected a place that light reaches, found {}", at.as_vec3())).into());
     }
-    Ok(CubeLight::new(texels).map_err(|error| no_light(path, &error))?)
+    Ok(CubeLight::new(texels).map_err(|error| no_place(error.to_string()))?)
 }
 
 const fn clear_sky(sun: DVec3) -> ClearSky {

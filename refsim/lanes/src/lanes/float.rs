@@ -292,19 +292,18 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
 
     #[inline(always)]
     fn rsq(&self, a: f32) -> f32 {
-        let mag = f64::from(a.abs());
-        let regular = (mag > 0.0) & (mag < f64::INFINITY);
-        let root = self.round_f64(odd::rsq_odd(if regular { mag } else { 1.0 }));
-        let zero = self.pole(a.to_bits() & SIGN_BIT);
-        let special = if mag == 0.0 {
-            zero
-        } else if mag > 0.0 {
+        let regular = (a > 0.0) & (a < f32::INFINITY);
+        let root = self.round_f64(odd::rsq_odd(if regular { f64::from(a) } else { 1.0 }));
+        let special = if a == 0.0 {
+            self.pole(a.to_bits() & SIGN_BIT)
+        } else if a > 0.0 {
             0.0
+        } else if a < 0.0 {
+            self.nan
         } else {
             f32::NAN
         };
-        let value = if regular { root } else { special };
-        if a < 0.0 { self.nan } else { value }
+        if regular { root } else { special }
     }
 
     fn exp2(&self, a: f32) -> f32 {
@@ -312,13 +311,12 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     fn log2(&self, a: f32) -> f32 {
-        let mag = f64::from(a.abs());
         if a < 0.0 {
             self.nan
-        } else if mag == 0.0 {
+        } else if a == 0.0 {
             self.pole(SIGN_BIT)
         } else {
-            self.round_f64(power::log2(mag))
+            self.round_f64(power::log2(f64::from(a)))
         }
     }
 

@@ -89,14 +89,14 @@ pub enum Denormals {
     Flush,
 }
 
-/// Conventions for NaN, infinity and domain errors.
+/// Conventions for NaN and zeros in operations that choose a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Specials {
     /// Direct3D 9 on IEEE 754 values (`:ieee`): `min` is `a < b ? a : b` and `max` is `a >= b ? a : b`, so a NaN as
-    /// either operand gives `b`; `rsq`, `log2` and `pow` take the magnitude of their operand.
+    /// either operand gives `b`; saturation turns NaN into 0.
     Ieee,
-    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN, and take -0 for less than +0; `rsq(-0)` is -inf;
-    /// `rsq` and `log2` of a negative number are NaN.
+    /// `NV_fragment_program` (`:nv`): `min`/`max` with a NaN give NaN, and take -0 for less than +0;
+    /// saturation keeps NaN.
     Nv,
 }
 
