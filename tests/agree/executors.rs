@@ -104,5 +104,5 @@ fn on_gpu() -> Option<Executor> {
 /// The GPU draws one case in this many: software drivers take milliseconds, the batch executor microseconds.
 #[cfg(feature = "wgpu")]
 fn every_gpu() -> u64 {
-    crate::environment::by_form(24, 4)
+    crate::environment::by_form(8, 4)
 }
