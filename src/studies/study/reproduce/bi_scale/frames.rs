@@ -1,23 +1,19 @@
 //! Frame rates of both tables: if only the view changes, and if the light changes too.
 
-use super::display::{CARD, DisplayRun, display, display_textured, of_bunny, picture};
-use super::models::{BUNNY, ClusteredModel, ModelVisibility, filled};
+use super::display::{CARD, DisplayRun, display, of_bunny, picture};
+use super::models::{BUNNY, ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{
     Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperRow, RunResult, Shared, StudyError, TimedWork,
     number, paper_row, paragraph, printed_value, solved,
 };
-use crate::geom::Mesh;
 use crate::report::{Cell, Table};
-use crate::scene::built::flat_models::{FlatModel, MaterialMesh};
-use crate::scene::built::transfer_models::TransferModel;
 use crate::transfer::{Tangents, Vertices};
 
 const HOW: &str = "What light costs is the difference of a scene's two rates. One constant, {} billion operations a second and channel, is what the \
     transfers of table I take together; with it and the printed rates for views alone all rates for light are computed. The display is that of the emulated card: \
     our bunny in {} x {} pixels, {} passes of {} directions, {} texture reads and {} other instructions in each pixel of a pass. Its time is modelled by clocks and takes \
-    texture reads to be as fast as the units can be; the paper names cache misses as what decides. Stand-ins for the other scenes of table I have the printed \
-    vertices and textures and fill pictures of the printed sizes.";
+    texture reads to be as fast as the units can be; the paper names cache misses as what decides.";
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large models stand in the pictures; how many reads of textures missed the caches.";
 const PICTURE: [u32; 2] = picture(ModelSize::Printed);
 
@@ -78,14 +74,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let constant = constant(&printed);
     let bunny = shared.get::<ModelVisibility>(BUNNY)?;
     let run = display((&bunny.mesh, &bunny.vertices), SCENES[0].side, of_bunny(PICTURE)?)?;
-    let stand_ins = stand_ins()?;
     let light = printed.iter().enumerate().map(|(at, frames)| light_row(frames, at < IN_TABLE_1, constant));
     let mut rows: Vec<PaperRow> = light.collect::<Result<_, _>>()?;
     rows.extend(view_rows(&printed, &run)?);
-    for (scene, run) in &stand_ins {
-        let ours = (run.time.per_second(), Dependence::Predicted { from: "" });
-        rows.push(paper_row(&scene.figure("view"), (CARD, Method::Pipeline), ours)?);
-    }
     rows.extend(sentences(shared, &run, printed[0].operations / constant)?);
     let [reads, others] = run.counts.pixel_slots;
     let numbers = [f64::from(PICTURE[0]), f64::from(PICTURE[1]), run.counts.passes as f64].into_iter().chain([
@@ -94,27 +85,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         f64::from(others),
     ]);
     let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers.map(|value| number(value, 0)));
-    Ok(EntryFindings::new(
-        [paragraph(HOW, values)],
-        rows,
-        [QUESTION],
-        [table(&printed, constant), of_display(&run), of_stand_ins(&stand_ins)],
-    ))
-}
-
-/// Views of the other scenes of Table I: stand-ins of the printed numbers of vertices and textures that fill pictures of
-/// the printed sizes.
-fn stand_ins() -> Result<Vec<(&'static PrintedScene, DisplayRun)>, StudyError> {
-    let armor = TransferModel::BiScaleArmor.mesh(1);
-    let models = [(vec![0; armor.len()], armor)].into_iter();
-    let flat = [FlatModel::Chair, FlatModel::Temple].map(|model| model.model(1));
-    let models = models.chain(flat.map(|MaterialMesh { mesh, material_of, .. }| (material_of, mesh)));
-    let drawn = |(scene, (texture_of, mesh)): (&'static PrintedScene, (Vec<u32>, Mesh))| {
-        let vertices = Vertices::with_materials(&mesh, &texture_of, Tangents::Texture).on(CARD)?;
-        let camera = filled(&mesh, scene.picture)?;
-        Ok((scene, display_textured((&mesh, &vertices), &texture_of, scene.side, camera)?))
-    };
-    SCENES[1..IN_TABLE_1].iter().zip(models).map(drawn).collect()
+    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table(&printed, constant), of_display(&run)]))
 }
 
 /// Time of a new view of the small bunny.
@@ -173,26 +144,6 @@ fn table(printed: &[PrintedFrames], constant: f64) -> Table {
             Cell::decimals(1e3 * frames.operations / constant, 1),
             Cell::decimals(1e3 * view, 1),
             Cell::measured(transfer / view),
-        ]);
-    }
-    table
-}
-
-fn of_stand_ins(runs: &[(&PrintedScene, DisplayRun)]) -> Table {
-    let columns = "scene width height pixels_covered vertices passes frame_ms draws_wait_for";
-    let mut table = Table::of("Views of the other scenes of table I", columns);
-    for (scene, run) in runs {
-        let [width, height] = scene.picture;
-        let waits = run.time.bottleneck.map_or_else(String::new, |bottleneck| bottleneck.to_string());
-        table.push([
-            scene.name.into(),
-            width.into(),
-            height.into(),
-            run.pixels.into(),
-            run.counts.vertices.into(),
-            run.counts.passes.into(),
-            Cell::measured(1e3 * run.time.frame.seconds()),
-            waits.into(),
         ]);
     }
     table
