@@ -28,7 +28,7 @@ pub(super) trait StudyArgs {
     fn study(&self) -> miette::Result<Self::Study>;
 }
 
-/// Files of a study's command.
+/// Output folder and input files of a study.
 pub(super) struct StudyFiles<'a> {
     /// Output folder; `None` for no files.
     folder: Option<&'a Path>,

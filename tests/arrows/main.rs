@@ -194,7 +194,7 @@ fn the_emulator_depends_on_nothing_heavy() {
     assert!(!dependencies.contains("default = ["), "refsim has default features");
 }
 
-/// nalgebra's product chooses its kernel by the CPU if another crate enables its `std`: docs/decisions/0016.
+/// nalgebra's product chooses its kernel by the CPU if another crate enables its `std`.
 #[test]
 fn only_linalg_names_nalgebra() {
     let source = Crate::read("src");

@@ -85,7 +85,7 @@ fn write(browser: &mut Browser, text: &str) {
     browser.wait(&format!("JSON.parse({SECTION}.dataset.drawn).text === {}", json!(text)));
 }
 
-/// The first remark: its words, and the line with carets.
+/// Text of the first remark on the page, and its source line with carets.
 fn remark(browser: &mut Browser) -> [String; 2] {
     ["li", "li pre"].map(|of| {
         let text = format!("document.querySelector('#shader-remarks {of}')?.textContent ?? ''");
@@ -123,7 +123,8 @@ pub(crate) fn a_shader_stands_beside_that_of_the_gpu(name: &str, file: &Path) {
     assert!(browser.errors().is_empty(), "{:?}", browser.errors());
 }
 
-/// The emulator itself, if it is there: single precision is near SwiftShader, and half precision is not.
+/// If the module includes WGSL, its pictures in single precision are close to SwiftShader's; those in half precision are
+/// not.
 pub(crate) fn shaders_of_the_module_are_near_the_gpu(name: &str, file: &Path) {
     if !std::fs::read(emulator()).is_ok_and(|bytes| bytes.windows(13).any(|name| name == b"refsim_shader")) {
         return;

@@ -5,7 +5,7 @@
 //! incomplete, so a stopped fragment or vertex is an error ([`Overrun`]); a stopped helper lane is not.
 //!
 //! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which terminate a program after a number of instructions
-//! "to prevent hangs"; docs/decisions/0011.
+//! "to prevent hangs".
 
 use super::{FlowMap, ResolvedConstants};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program};

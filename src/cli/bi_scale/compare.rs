@@ -54,7 +54,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=6144))]
     vectors: u32,
 
-    /// Number of rows from which the first clusters are found
+    /// Number of sampled rows for the initial clusters
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
     sample: u32,
 }

@@ -55,7 +55,7 @@ impl CoherenceArgs {
         Ok(Some(model_of(signal, mesh, model)?.1))
     }
 
-    /// Returns `true` for reclassification, and for superclusters, if requested.
+    /// Whether reclassification is requested, and whether superclusters are.
     pub(super) const fn given(&self) -> [bool; 2] {
         [self.reclassify.is_some(), self.supercluster_size.is_some()]
     }

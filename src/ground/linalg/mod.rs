@@ -5,7 +5,7 @@
 //! - [`LeadingEigen`], [`LeadingSvd`]: all eigenvalues or singular values, but only the vectors of the largest.
 //!
 //! Products do not use nalgebra, because with its `std` feature it chooses its kernel, and so the order of sums, by the
-//! processor (docs/decisions/0016).
+//! processor.
 
 mod bidiagonal;
 mod dot;

@@ -2,7 +2,7 @@
 //!
 //! The floor under a block receives no light and is never visible. If it were included, the mean radiosity of a partly
 //! covered patch would be too low, or, after its row of form factors is scaled to 1, its area and so its power would be
-//! too large. A patch is therefore represented by its open parts (docs/decisions/0014).
+//! too large. A patch is therefore represented by its open parts.
 //!
 //! The rule, applied to each face's plane raised by [`scene_clearance`] towards its front, where visibility rays start:
 //!

@@ -69,7 +69,7 @@ impl RayTextures {
         Ok(())
     }
 
-    /// Clears the target to no ids and the depth of a miss.
+    /// Clears the target: no id, and the depth of a miss.
     pub(super) fn clear(&self, machine: &mut Machine) -> Result<(), EngineError> {
         Ok(self.target.clear(machine)?)
     }

@@ -50,7 +50,7 @@ fn transmitted(texel: &Texel, towards: DVec3, eta: f64) -> f64 {
 pub struct DistantSource {
     /// Unit direction towards the source.
     pub towards: DVec3,
-    /// Irradiance of a surface that faces it: radiance times solid angle.
+    /// Irradiance of a surface that faces the source: radiance times solid angle.
     pub irradiance: [f64; 3],
 }
 

@@ -75,7 +75,7 @@ fn dot_products() {
     assert_eq!(rows, 8700);
 }
 
-/// SLT SGE SEQ SGT SLE SNE of a row.
+/// Results of SLT, SGE, SEQ, SGT, SLE and SNE for the operands of a row, as digits 0 and 1.
 fn sets(row: &Row<'_>, format: Format) -> String {
     let (a, b) = (row.word("a"), row.word("b"));
     let all = [(Op::SetLess, a, b), (Op::SetLessEqual, b, a), (Op::SetEqual, a, b), (Op::SetLess, b, a)];

@@ -53,9 +53,9 @@ pub struct Kernel {
     pub bindings: &'static [Access],
 }
 
-/// Compilation policy of a kernel: the first `MAX_EXACT` texts have exactly the parts of the draw, texts up to
-/// `MAX_GROWING` have all parts used so far, and the next text has all parts. Without this policy, every random program
-/// would need its own text.
+/// Compilation policy of a kernel's texts: the first `MAX_EXACT` contain only what their draw needs, those up to
+/// `MAX_GROWING` everything used so far, and the next one everything. Otherwise every random program would need its own
+/// text.
 const MAX_EXACT: usize = 6;
 const MAX_GROWING: usize = 9;
 

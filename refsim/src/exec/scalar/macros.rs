@@ -25,10 +25,9 @@ pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
     alu.exp2(product)
 }
 
-/// `expp` of vs_1_1: `(exp2(floor w), w - floor w, exp2(w), 1)`, each rounded once. On cards the third component has
-/// ten bits of precision; here it is rounded once. Source: Direct3D, "expp - vs".
-///
-/// Vertex units of cards have their own instruction, with about 11 bits of precision in the third component.
+/// `expp` of vs_1_1: `(exp2(floor w), w - floor w, exp2(w), 1)`, each rounded once. Source: Direct3D, "expp - vs",
+/// whose third component has ten bits of precision. Vertex units of cards have an instruction of their own, with about
+/// 11 bits.
 pub(super) fn expp(alu: &mut Alu<'_>, w: u32) -> Components {
     let card = [Op::ExpFloor, Op::ExpFraction, Op::ExpPower].map(|operation| alu.card(operation, [w, 0, 0]));
     if let [Some(floor), Some(fraction), Some(power)] = card {

@@ -23,17 +23,17 @@ use crate::geom::vector::{narrow, unit};
 pub enum TransferModel {
     /// A bird with 48,688 vertices, as in the paper on clustered principal components.
     Bird,
-    /// A Buddha in many folds with 49,990 vertices, as in that paper.
+    /// A Buddha in many folds with 49,990 vertices, as in the paper on clustered principal components.
     FoldedBuddha,
-    /// A head with 50,060 vertices, as in that paper.
+    /// A head with 50,060 vertices, as in the paper on clustered principal components.
     Head,
     /// A ground 4 units wide, and above it a blocker 1 unit wide, both facing up (Figure 6).
     Polygons,
     /// The Stanford bunny with 11,556 vertices, as in the paper on all-frequency transfer.
     Bunny,
-    /// The bird with 32,768 vertices, as in that paper.
+    /// The bird with 32,768 vertices, as in the paper on all-frequency transfer.
     Tweety,
-    /// The Buddha with 54,100 vertices, as in that paper.
+    /// The Buddha with 54,100 vertices, as in the paper on all-frequency transfer.
     Buddha,
     /// The Stanford bunny with 3,286 vertices, as in the paper on bi-scale transfer (its Tables I and II).
     BiScaleBunny,
@@ -41,7 +41,7 @@ pub enum TransferModel {
     BiScaleBunnyMiddle,
     /// The Stanford bunny with 47,960 vertices (Table II).
     BiScaleBunnyFine,
-    /// An armor with 10,652 vertices, as in that paper (Table I).
+    /// An armor with 10,652 vertices, as in the paper on bi-scale transfer (Table I).
     BiScaleArmor,
 }
 

@@ -10,8 +10,7 @@ pub trait StoredTransfer {
     /// Size in bytes of each layout. [`Self::multiply`] computes with the numbers of the first layout.
     fn sizes(&self) -> Vec<StoredSize>;
 
-    /// Local light L~ in f64: one number per row of T, from `light` with one number per column. Panics if the light
-    /// does not have one number per column of T.
+    /// Local light L~ in f64, one number per row of T. Panics if `light` does not have one number per column of T.
     fn multiply(&self, light: &[f64]) -> Vec<f64>;
 }
 

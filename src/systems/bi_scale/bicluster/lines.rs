@@ -1,4 +1,4 @@
-//! Rows or columns as lists of entries, and counts of the values of a column.
+//! Lists of the entries of each row or column, and how often each value occurs in a column.
 
 use std::cmp::Ordering;
 

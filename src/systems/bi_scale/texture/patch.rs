@@ -53,8 +53,8 @@ impl MesoMaterial {
     }
 }
 
-/// The drawn detail of the heights (section VII: normal maps and spatially invariant BRDFs instead of a bidirectional
-/// texture).
+/// How much of the height field is drawn (section VII: normal maps and spatially invariant BRDFs instead of a
+/// bidirectional texture).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum MesoDetail {

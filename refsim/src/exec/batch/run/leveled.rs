@@ -137,7 +137,7 @@ fn key(picked: &PickedLevels, lane: usize) -> (usize, bool) {
 /// Sets of the keys that occur, as bits `2 level + filter`. A texture has at most 32 levels.
 struct LevelSets {
     first: u64,
-    /// Keys of lanes that also read the next level.
+    /// Keys of the lanes that also read the next level.
     second: u64,
 }
 

@@ -64,7 +64,7 @@ pub enum MissClass {
     PaperContradicts,
 }
 
-/// Value of a paper.
+/// A number that a paper prints or implies, and how ours is judged by it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
     /// Paper.
