@@ -18,13 +18,12 @@ const VECTORS: [usize; 4] = [2, 4, 8, 12];
 const MODELS: [(usize, &str, &str, &str); 2] =
     [(BUDDHA, "Buddha", "buddha", "cpca/rate-buddha-gloss-anis"), (BIRD, "bird", "bird", "cpca/rate-cpca")];
 
-const HOW: &str = "Iterative compression of glossy anisotropic transfer to {} clusters, {} of them on a model of our size. The paper's bird loses error quickly, \
-    its Buddha slowly.";
+const HOW: &str = "Glossy anisotropic transfer is compressed iteratively to {} clusters, scaled to {} on a model of \
+    our size. In the paper, the bird's error falls quickly, the Buddha's slowly.";
 const QUESTION: &str = "the models, the BRDF and the scale of the squared error.";
 
 /// Reason why the error falls with more vectors.
-const FALLS: &str =
-    "more vectors are added to the clusters of fewer, and neither a vector nor a reassignment adds error";
+const FALLS: &str = "vectors are added to existing clusters, and neither a vector nor a reassignment adds error";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of("Squared errors", "model vectors printed ours share_of_squares_% Hz_printed Hz");
