@@ -54,7 +54,7 @@ impl RecordStatus {
         let made = self.made();
         let seconds = |time: f64, what: &str| format!("{} s {what}", number(time, 0));
         let processor = made.processor_s.map(|time| seconds(time, "of processor time"));
-        let times = processor.into_iter().chain([seconds(made.wall_s, "on the clock")]).collect::<Vec<_>>();
+        let times = processor.into_iter().chain([seconds(made.wall_s, "of wall-clock time")]).collect::<Vec<_>>();
         let made = [made.command.clone(), made.version.clone(), made.commit.clone(), times.join(" and ")];
         match self {
             Self::Recorded(_) => paragraph(RECORDED, made),

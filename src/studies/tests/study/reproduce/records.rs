@@ -105,7 +105,7 @@ fn a_record_says_how_it_was_made() {
     let made: &RecordMade = Box::leak(Box::new(made));
     assert_eq!(
         RecordStatus::Recorded(made).sentence(),
-        "Rows and tables are recorded: `crossbar reproduce`, version 1.0 (abc), 1,540 s of processor time and 0 s on \
-         the clock."
+        "Rows and tables are recorded: `crossbar reproduce`, version 1.0 (abc), 1,540 s of processor time and 0 s of \
+         wall-clock time."
     );
 }
