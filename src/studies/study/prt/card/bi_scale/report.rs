@@ -19,9 +19,9 @@ use crate::study::prt::of_texels;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::light::Decimation;
 
-const SWEEP: &str = "Each row has one number format of fewer bits, and single precision elsewhere. Errors are in \
-    255ths of white, against equation 3 and light multiplied in double precision. Fractions of 8 bits are relative to \
-    the largest number.";
+const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in \
+    255ths of white, against equation 3 and light multiplied in double precision. 8-bit fractions are relative to the \
+    largest number.";
 const TIME: &str = "Modelled, not measured, by the pipeline model of the card, in which texture reads run at the full \
     rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is reused.";
 
@@ -56,7 +56,7 @@ impl Study for BiScaleOnCard {
         if let Some(times) = self.times(&local, &drawn)? {
             let [view, both] = [&times.0, &times.1].map(|time| shown(time.per_second(), Quantity::Measured));
             found.conclusion(format!(
-                "{}: modelled {view} frames per second when the view changes alone, {both} when light changes too.",
+                "{}: modelled {view} frames per second when only the view changes, {both} when light changes too.",
                 card.profile.title
             ));
             let log: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
