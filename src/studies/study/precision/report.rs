@@ -70,9 +70,7 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
     found.conclusion(format!("Goal: {goal}; {measure} is {} in the exact run{given}.", number(outcome.exact)));
     let rules = &runs.subject.profile().rules;
     if rules.accumulator.is_some() || rules.storage.iter().next().is_some() {
-        found.conclusion(
-            "Only the formats of instructions are searched; the device's formats of storages and sums are ignored.",
-        );
+        found.conclusion("Only instruction formats are searched, not the device's formats of storages and sums.");
     }
     for family in &outcome.families {
         let name = family.curve.family.name();

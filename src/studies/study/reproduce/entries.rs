@@ -139,8 +139,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         .recorded(include_str!("../../records/cpca-coherence.toml")),
     AllFrequency.entry(
         "all-frequency-counts",
-        "Sizes, segments, equation 12 and Table 1 as far as sizes imply it (all-frequency transfer, sections 1 and 4 \
-         to 7)",
+        "Sizes, segments, equation 12 and Table 1 from sizes alone (all-frequency transfer, sections 1 and 4 to 7)",
         all_frequency::counts::findings,
     ),
     AllFrequency.entry(

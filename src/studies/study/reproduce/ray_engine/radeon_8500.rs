@@ -52,7 +52,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         rows,
         [
             "the length of the authors' program, and whether its rays shared an origin.",
-            "the rate at which the card issues pairs: no document that we found states it.",
+            "the rate at which the card issues pairs: we found no document that states it.",
         ],
         tables,
     ))

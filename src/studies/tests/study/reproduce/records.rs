@@ -54,7 +54,7 @@ fn records_round_trip() {
 fn files_of_other_entries_and_without_cells_are_refused() {
     let text = EntryRecord::new(ENTRY, &found(10.0), RecordMade::default()).text().expect("a file");
     let refused = |entry, text: &str| EntryRecord::parse(entry, text).expect_err("refused");
-    assert!(refused("cpca-figure-2", &text).contains("found that of `cpca-coherence`"));
+    assert!(refused("cpca-figure-2", &text).contains("found the record of `cpca-coherence`"));
     assert!(refused(ENTRY, &text.replace("measured", "guessed")).contains("expected a cell"));
     assert!(refused(ENTRY, "").contains("missing field"));
 }

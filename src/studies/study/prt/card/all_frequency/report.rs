@@ -140,7 +140,7 @@ impl AllFrequencyOnCard {
             ("host multiplications for clusters", Some(steps.multiplies.per_cluster)),
             ("host multiplications for vertices", Some(steps.multiplies.per_vertex)),
             ("bytes sent per vertex", Some(streamed_bytes(&self.place, terms) as u64)),
-            ("numbers interpolated in a pass", Some(numbers as u64)),
+            ("numbers interpolated per pass", Some(numbers as u64)),
             ("passes", Some(passes)),
             ("texture reads of the pixel program", Some(u64::from(reads))),
             ("arithmetic slots of the pixel program", Some(u64::from(arithmetic))),

@@ -99,9 +99,9 @@ impl BiScaleOnCard {
             ("bytes of volumes", display.volume_bytes),
             ("passes of the display for a texture", display.passes as u64),
             ("draws of the display", display.draws as u64),
-            ("directions of a pass", display.directions_per_pass as u64),
-            ("texture reads of a pass's pixel", u64::from(display.pixel_slots[0])),
-            ("arithmetic slots of a pass's pixel", u64::from(display.pixel_slots[1])),
+            ("directions per pass", display.directions_per_pass as u64),
+            ("texture reads per pixel of a pass", u64::from(display.pixel_slots[0])),
+            ("arithmetic slots per pixel of a pass", u64::from(display.pixel_slots[1])),
         ]
         .map(|(what, number)| (what, number.into()))
     }
@@ -110,8 +110,8 @@ impl BiScaleOnCard {
 fn table_of((view, both): &(FrameTime, FrameTime)) -> Table {
     let mut table = Table::new("A frame", &["part", "ms"]);
     for (part, time) in [
-        ("frame to frame, the view changed alone", view.frame),
-        ("frame to frame, light changed too", both.frame),
+        ("frame to frame, only the view changed", view.frame),
+        ("frame to frame, view and light changed", both.frame),
         ("draws of the display", view.draws),
         ("upload of light", both.uploads),
         ("state and constants", both.state),
