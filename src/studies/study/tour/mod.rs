@@ -125,7 +125,7 @@ impl Study for Parameters {
         let room = linear_picture(&camera, &colors).display(1.0)?;
         found.pictures(vec![NamedPicture::new("room", room, ROOM)]);
         found.paragraph(ABOUT);
-        found.heading("The light that the models see");
+        found.heading("Light at the models");
         let probe = |name: &str, what: &str, light: &CubeLight| light_picture(name, what, of_texels(light.texels()));
         found.pictures(vec![
             probe("bunny-light", "at the bunny", &by_bunny)?,

@@ -86,7 +86,8 @@ fn by_compression(ours: &[f64]) -> Result<PaperRow, StudyError> {
         ["cpca/rate-buddha-gloss-anis", "cpca/rate-buddha-uncompressed"].map(|id| printed(id).map(|rate| rate.value));
     let factor = with? / without?;
     let least = number(factor, 1);
-    let how = format!("{least} times for the Buddha: its rates with 8 vectors and without compression in figure 11");
+    let how =
+        format!("{least} times for the Buddha: from its rates with 8 vectors and without compression in figure 11");
     Ok(row.contradicted(Contradiction::if_holds(factor < printed("cpca/faster-by-compression")?.value, how)))
 }
 
