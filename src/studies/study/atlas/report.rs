@@ -10,14 +10,12 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 
-const COMPACTNESS: &str = "Compactness is a cluster's area over the area of a disc with the radius of its ball: 1 for \
-    a flat disc, 0.64 for a flat square, 0.41 for an equilateral triangle, and more for folded surfaces, such as a \
-    whole closed surface. One cluster in twenty is below low_compactness. The last columns count the tree's nodes that \
-    have the size of a texel of the level and more than one face.";
+const COMPACTNESS: &str = "Compactness is a cluster's area over the area of a disc with the radius of its ball: 1 for a flat disc, 0.64 for a flat \
+    square, 0.41 for an equilateral triangle, and more for folded surfaces, such as a whole closed surface. One cluster in twenty is below \
+    low_compactness. The last columns count the tree's nodes that have the size of a texel of the level and more than one face.";
 
-const EVENNESS: &str = "Areas are relative to the mean over all texels. Each face owns a rectangle whose sides are \
-    powers of two, and can only get twice or half as many texels: areas vary by about a factor of 2 even if all faces \
-    are alike.";
+const EVENNESS: &str = "Areas are relative to the mean over all texels. Each face owns a rectangle whose sides are powers of two, and can only get \
+    twice or half as many texels: areas vary by about a factor of 2 even if all faces are alike.";
 
 pub(super) fn findings(asked: &AtlasStudy, atlas: &Atlas, quality: &AtlasQuality) -> Findings {
     let mut found = Findings::new("A meshed atlas");

@@ -83,8 +83,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     ),
     Subsurface.entry(
         "subsurface-frames",
-        "Passes 1 and 3, displayed frames, 40 frames per second, 9 s for links (subsurface scattering, sections 4.3 \
-         and 5, table 1, figure 7)",
+        "Passes 1 and 3, displayed frames, 40 frames per second, 9 s for links (subsurface scattering, sections 4.3 and 5, table 1, figure 7)",
         subsurface::frames::findings,
     ),
     Cpca.entry("cpca-appendix", "Errors of projections onto the hemisphere (CPCA, appendix)", cpca::appendix::findings),

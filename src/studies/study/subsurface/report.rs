@@ -53,19 +53,16 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
 const MEDIUM: &str = "The diffusion length is 1 over the effective transport coefficient sigma_tr; total_R_d is the \
     share of light that a flat half space reflects.";
 
-const ERRORS: &str = "links: the host's double-precision sum over the links, against the sum over all pairs of texels; \
-    plain means: the same with level means that weight texels equally, like mipmaps of plain irradiance; card: the \
-    card against the host's sum over the same links; all: the card against all pairs. Without all pairs (`--all-pairs \
-    no`, and the default of atlases above ";
+const ERRORS: &str = "links: the host's double-precision sum over the links, against the sum over all pairs of texels; plain means: the same with \
+    level means that weight texels equally, like mipmaps of plain irradiance; card: the card against the host's sum over the same links; all: the \
+    card against all pairs. Without all pairs (`--all-pairs no`, and the default of atlases above ";
 
-const ANGLES: &str = "The lit side of a model dominates a root mean square over the whole model. Here every bin of \
-    angles is relative to its own light: at 0 degrees the surface faces the light; at 180 degrees it faces away, and \
-    all light arrives from afar.";
+const ANGLES: &str = "The lit side of a model dominates a root mean square over the whole model. Here every bin of angles is relative to its own \
+    light: at 0 degrees the surface faces the light; at 180 degrees it faces away, and all light arrives from afar.";
 
-const STORAGE: &str = "Fixed links store places in constants and four factors per texel, adaptive links one texel each \
-    with place, factor and level. Factors lost to 0 are below the format's smallest number. Rounded places are \
-    coordinates of adaptive links that the format cannot represent; they read a neighbour's light. Instructions count \
-    all programs of pass 2, samplers the largest program.";
+const STORAGE: &str = "Fixed links store places in constants and four factors per texel, adaptive links one texel each with place, factor and level. \
+    Factors lost to 0 are below the format's smallest number. Rounded places are coordinates of adaptive links that the format cannot represent; \
+    they read a neighbour's light. Instructions count all programs of pass 2, samplers the largest program.";
 
 const TIMES: &str = "Times are modelled, not measured; the model has no constant from this paper.";
 

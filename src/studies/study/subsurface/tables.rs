@@ -52,8 +52,7 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
 /// Table of errors, a row per way.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "Ways of gathering; errors of B: root mean square by area and maximum, relative to B; seams: roughness of \
-         errors among neighbouring texels",
+        "Ways of gathering; errors of B: root mean square by area and maximum, relative to B; seams: roughness of errors among neighbouring texels",
         "way links_rms_% links_largest_% links_seams_% plain_means_rms_% card_rms_% card_largest_% all_rms_% all_largest_%",
     );
     let rms = |error: GatherError| Cell::percent(100.0 * error.rms);

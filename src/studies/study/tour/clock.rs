@@ -79,6 +79,5 @@ impl Clock {
     }
 }
 
-const EXPLAINED: &str = "Modelled by the pipeline model of each card, one step after the other. Host work is counted \
-    only for the bunny's frames: tests of rays on the host, clusters and links take no time here. timeline.json is the \
-    same for https://ui.perfetto.dev or chrome://tracing.";
+const EXPLAINED: &str = "Modelled by the pipeline model of each card, one step after the other. Host work is counted only for the bunny's frames: \
+    tests of rays on the host, clusters and links take no time here. timeline.json is the same for https://ui.perfetto.dev or chrome://tracing.";

@@ -148,8 +148,7 @@ pub(super) fn report(rows: &[FormatRow], found: &mut Findings) {
     found.explained_table(FoundTable::from(table).csv("formats").field("formats"), EXPLAINED);
 }
 
-const EXPLAINED: &str = "Each system runs on an unlimited card that computes in the format. rays_differing: \
-    form-factor rays that hit another triangle than in exact arithmetic, or none. room_by_rays: mean error of \
-    non-emitting patches, with the form factors of these rays; room_by_sums: the same with the host's form factors and \
-    iterations in the format. transfer: relative root mean square error of the bunny's coefficients by these rays. The \
-    last two columns are root mean square errors of the models' pixels in 255ths of white, against fp32.";
+const EXPLAINED: &str = "Each system runs on an unlimited card that computes in the format. rays_differing: form-factor rays that hit another \
+    triangle than in exact arithmetic, or none. room_by_rays: mean error of non-emitting patches, with the form factors of these rays; room_by_sums: \
+    the same with the host's form factors and iterations in the format. transfer: relative root mean square error of the bunny's coefficients by \
+    these rays. The last two columns are root mean square errors of the models' pixels in 255ths of white, against fp32.";

@@ -12,10 +12,9 @@ use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
 
-const BITS: &str = "Bits of error are log2(1 + n), where n counts the format's numbers from the computed result to the \
-    correctly rounded one; for NaN, all bits of the format. The mean is over sampled inputs. Accuracy is the mean \
-    share of correct bits in the format. Inputs are numbers of the format itself. Discarded inputs meet the \
-    precondition but have no finite result in the format.";
+const BITS: &str = "Bits of error are log2(1 + n), where n counts the format's numbers from the computed result to the correctly rounded one; for \
+    NaN, all bits of the format. The mean is over sampled inputs. Accuracy is the mean share of correct bits in the format. Inputs are numbers of \
+    the format itself. Discarded inputs meet the precondition but have no finite result in the format.";
 
 const OPERATIONS: &str = "Local: bits of error of the operation on its exact operands, each rounded once. Alone: bits \
     of error of the whole expression if only this operation rounds its result and all others are exact. Both are means \

@@ -93,10 +93,9 @@ fn ratio(members: f64, numbers: f64) -> f64 {
     members * numbers / (N as f64 * (members + numbers))
 }
 
-const HOW: &str = "Nothing is run: sizes follow from printed ones by equation 12. Segments below the horizon are \
-    counted for {} normals spread over the sphere, by fine directions within the segment only. Frame rates come from \
-    one constant, {} G multiplications per second, fitted to all six rates without drawing; representatives count as \
-    dense, though the paper's are sparse.";
+const HOW: &str = "Nothing is run: sizes follow from printed ones by equation 12. Segments below the horizon are counted for {} normals spread over \
+    the sphere, by fine directions within the segment only. Frame rates come from one constant, {} G multiplications per second, fitted to all six \
+    rates without drawing; representatives count as dense, though the paper's are sparse.";
 const QUESTION: &str = "why fewer multiplications per second fit diffuse models and Buddha: sparse representatives, memory, or the host's share of the loop.";
 const RATE: &str = "Table 1: frames without drawing, which together determined the constant";
 

@@ -33,20 +33,17 @@ const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 /// Figure to which the shape of a stand-in was fitted.
 const SHAPED: &str = "omega-buddha";
 
-const HOW: &str = "The teapot, the coarsened Stanford bunny, and stand-ins of {} to {} vertices for the other models, \
-    with the paper's two reflectances in the textbook form, are compressed with clusters of {} vertices and {} \
-    representatives, which are added one by one, and coded in {} bits. Only {} of the segments are compressed, a \
-    quarter of a face at the side, above and below; they represent the others, weighted by the vertices that hold each \
-    segment. Omega and the ground use all segments. Sizes count representatives and weights; squared errors are of \
-    decoded transfer, relative to its sum of squares.";
-const GROUND: &str = "By one paragraph of section 7, a ground plane is \"in all examples\", and Table 1's performance \
-    is without it. So rows use models by themselves; their ranges include the same models on a ground of {} x {} \
-    vertices, which blocks the light from below. The ground's own transfer is from the bunny's scene, scaled to the \
-    printed vertices.";
-const RANGE: &str = "The text does not state the range of its {} bits either. The ranges of rows include the range of \
-    each representative and of each segment, absolute steps if weights are about one, and sizes with headers. No \
-    reading was chosen: a row holds if all of them do. Of the {} sizes after coding, the best absolute step meets {} \
-    on models by themselves, {} on a ground.";
+const HOW: &str = "The teapot, the coarsened Stanford bunny, and stand-ins of {} to {} vertices for the other models, with the paper's two \
+    reflectances in the textbook form, are compressed with clusters of {} vertices and {} representatives, which are added one by one, and coded in \
+    {} bits. Only {} of the segments are compressed, a quarter of a face at the side, above and below; they represent the others, weighted by the \
+    vertices that hold each segment. Omega and the ground use all segments. Sizes count representatives and weights; squared errors are of decoded \
+    transfer, relative to its sum of squares.";
+const GROUND: &str = "By one paragraph of section 7, a ground plane is \"in all examples\", and Table 1's performance is without it. So rows use \
+    models by themselves; their ranges include the same models on a ground of {} x {} vertices, which blocks the light from below. The ground's own \
+    transfer is from the bunny's scene, scaled to the printed vertices.";
+const RANGE: &str = "The text does not state the range of its {} bits either. The ranges of rows include the range of each representative and of \
+    each segment, absolute steps if weights are about one, and sizes with headers. No reading was chosen: a row holds if all of them do. Of the {} \
+    sizes after coding, the best absolute step meets {} on models by themselves, {} on a ground.";
 const QUESTION: &str = "the models; the range of the quantised numbers, which decides how many of them vanish; whether \
     the printed squared error is from before coding or after it; whether the ground shadows the models of Table 1.";
 /// Columns with or without a ground.

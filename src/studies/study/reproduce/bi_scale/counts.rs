@@ -5,10 +5,9 @@ use super::{EntryFindings, Shared, StudyError, number, paragraph};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
-const HOW: &str = "Nothing is run. Each nonzero value costs two operations. A dense matrix takes {} byte per value, \
-    biclusters {} bytes per operation: {} per row, which costs one operation, and {} for a column's place and value, \
-    which cost two. A texel has {} bytes. These byte counts were read off the printed sizes, so rows in megabytes are \
-    calibrated.";
+const HOW: &str = "Nothing is run. Each nonzero value costs two operations. A dense matrix takes {} byte per value, biclusters {} bytes per \
+    operation: {} per row, which costs one operation, and {} for a column's place and value, which cost two. A texel has {} bytes. These byte counts \
+    were read off the printed sizes, so rows in megabytes are calibrated.";
 const QUESTION: &str =
     "why the small bunny's dense matrix is printed larger than its vertices imply, while the other five fit.";
 /// Bytes per value of a dense matrix, per row of a bicluster, and per column.

@@ -13,11 +13,10 @@ use crate::scene::built::flat_models::{FlatModel, MaterialMesh};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::transfer::{Tangents, Vertices};
 
-const HOW: &str = "The cost of new light is the difference between a scene's two frame times. One constant, {} billion \
-    operations per second and channel, is fitted to all transfers of table I; all rates with new light follow from it \
-    and the printed rates with only a new view. The emulated card displays our bunny in {} x {} pixels, with {} passes \
-    of {} directions, {} texture reads and {} other instructions per pixel of a pass. Its time is modelled by clocks, \
-    with texture reads at the units' full speed; the paper names cache misses as decisive. Stand-ins for the other \
+const HOW: &str = "The cost of new light is the difference between a scene's two frame times. One constant, {} billion operations per second and \
+    channel, is fitted to all transfers of table I; all rates with new light follow from it and the printed rates with only a new view. The emulated \
+    card displays our bunny in {} x {} pixels, with {} passes of {} directions, {} texture reads and {} other instructions per pixel of a pass. Its \
+    time is modelled by clocks, with texture reads at the units' full speed; the paper names cache misses as decisive. Stand-ins for the other \
     scenes of table I have the printed vertices and textures and fill pictures of the printed sizes.";
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large the models appear in the pictures; how many texture reads missed the caches.";
 const PICTURE: [u32; 2] = picture(ModelSize::Printed);

@@ -24,9 +24,8 @@ const ROWS: [usize; 2] = [25, 16];
 /// "A Radeon 9800 runs 20% faster with CPCA".
 const NEWER: &str = "r350";
 const HOW: &str = "The Phong models have {} rows and {} clusters of {} vectors. Frame times on the {} are modelled from printed sizes and the overdraw of our own clusters with both optimisations of section 5.";
-const NEWER_CARD: &str = "\"Runs {} % faster\" is in the paragraph on these models, so it is judged on them. The paper \
-    does not say which cards are meant; the profiles are of the Pro cards. The host is the same: if it is slower than \
-    the card, a faster card gains nothing.";
+const NEWER_CARD: &str = "\"Runs {} % faster\" is in the paragraph on these models, so it is judged on them. The paper does not say which cards are \
+    meant; the profiles are of the Pro cards. The host is the same: if it is slower than the card, a faster card gains nothing.";
 const QUESTION: &str = "which models of the two Radeons were compared, and with what processor: from Pro to Pro, the core clock rises by less than the printed speed-up.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {

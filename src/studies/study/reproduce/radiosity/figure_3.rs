@@ -21,11 +21,10 @@ const CONVERGED: f64 = 1e-4;
 /// Residuals at which iterations are counted, for the sweep.
 const RESIDUALS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 
-const HOW: &str = "The scene is a closed Cornell box without blocks. Form factors are computed in closed form and by \
-    contour integrals; the solution is in f64, from zero. No card is emulated: equation 4 converges as Jacobi's \
-    iteration does. The paper's \"about twice as many iterations to converge\" has two readings: the iterations until \
-    the residual falls to {} of its first value, and the slopes of the plot's lines over its last half. The row has \
-    both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
+const HOW: &str = "The scene is a closed Cornell box without blocks. Form factors are computed in closed form and by contour integrals; the solution \
+    is in f64, from zero. No card is emulated: equation 4 converges as Jacobi's iteration does. The paper's \"about twice as many iterations to \
+    converge\" has two readings: the iterations until the residual falls to {} of its first value, and the slopes of the plot's lines over its last \
+    half. The row has both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let system = closed_box()?;

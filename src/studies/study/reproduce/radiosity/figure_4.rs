@@ -71,9 +71,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         charts: vec![NamedChart {
             name: "radiosity-figure-4".into(),
             chart,
-            caption: "Figure 4 of the radiosity paper. Only the printed rates are known; they are shown at the \
-                      inferred number of patches. The card's time is linear in the number of matrix elements; the \
-                      host's curve bends upward where the matrix exceeds its cache."
+            caption: "Figure 4 of the radiosity paper. Only the printed rates are known; they are shown at the inferred number of patches. The \
+                      card's time is linear in the number of matrix elements; the host's curve bends upward where the matrix exceeds its cache."
                 .into(),
         }],
         ..EntryFindings::default()
@@ -120,10 +119,9 @@ const HOW: &str = "The paper prints no points of the figure, only the rates in t
     the pipeline model. The host's times follow from its clock, its cache and the one printed rate: each element costs \
     an addition that waits for the previous one, and a share of a cache line if the matrix exceeds the cache.";
 
-const BELIEF: &str = "In this model the card overtakes the host {} with one texel per element, and {} with four \
-    elements per texel. The authors expect this above {} patches, if at all. By their printed rates, the host's time \
-    would have to grow with the power {} of the number of patches from {} patches to that size, faster than the bytes \
-    that it reads.";
+const BELIEF: &str = "In this model the card overtakes the host {} with one texel per element, and {} with four elements per texel. The authors \
+    expect this above {} patches, if at all. By their printed rates, the host's time would have to grow with the power {} of the number of patches \
+    from {} patches to that size, faster than the bytes that it reads.";
 
 fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<String>, StudyError> {
     let believed = printed_value("radiosity/crossing")?;

@@ -18,16 +18,14 @@ const CHOSE_N: &str = "141 and 190 MFLOP/s, which determined the number of patch
 /// Inputs of the rate on the card: the host's rates alone allow the same numbers of patches.
 const HOST_CHOSE_N: &str = "190 MFLOP/s and 40 iterations/s of the host, which determined the number of patches";
 
-const HOW: &str = "The paper prints neither the number of patches nor the number of passes. Both printed pairs of \
-    rates imply {} million operations per iteration; at two per element, this leaves {} to {} patches, and we use the \
-    first. So the rows of operations are calibrated; the number of passes would be {}. An iteration of this size is \
-    drawn on the emulated {} and timed by the pipeline model, which has no constant from this paper; the table lists \
-    other sizes.";
+const HOW: &str = "The paper prints neither the number of patches nor the number of passes. Both printed pairs of rates imply {} million operations \
+    per iteration; at two per element, this leaves {} to {} patches, and we use the first. So the rows of operations are calibrated; the number of \
+    passes would be {}. An iteration of this size is drawn on the emulated {} and timed by the pipeline model, which has no constant from this \
+    paper; the table lists other sizes.";
 
-const WHERE: &str = "Texture reads and partly filled quads take the time: each of a texel's two reads fetches {} bytes \
-    at a computed coordinate, for which a texture unit of {} bytes per clock takes {} clocks; of each quad of \
-    fragments, only {} % lie in the single target row. The unit's width and the slowdown by registers are guesses or \
-    others' measurements; `crossbar devices` lists them.";
+const WHERE: &str = "Texture reads and partly filled quads take the time: each of a texel's two reads fetches {} bytes at a computed coordinate, for \
+    which a texture unit of {} bytes per clock takes {} clocks; of each quad of fragments, only {} % lie in the single target row. The unit's width \
+    and the slowdown by registers are guesses or others' measurements; `crossbar devices` lists them.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;

@@ -56,10 +56,9 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         model("nv20")?.clocks(&pixel.record).traffic.total() as f64 / pixel.record.counts.fragments.generated as f64;
     Ok(EntryFindings::new(
         [
-            "Equation 11 is seconds = T R / fill + R gamma / readback. The paper prints the GeForce3's fill and \
-             read-back rates. The GeForce4's fill rate follows from its tests per second at ten triangles, if it reads \
-             back as fast as the GeForce3. Each printed figure has one row: from the pipeline if it is drawn, from the \
-             equation if it is a quotient of printed values. The table has both."
+            "Equation 11 is seconds = T R / fill + R gamma / readback. The paper prints the GeForce3's fill and read-back rates. The GeForce4's fill \
+             rate follows from its tests per second at ten triangles, if it reads back as fast as the GeForce3. Each printed figure has one row: \
+             from the pipeline if it is drawn, from the equation if it is a quotient of printed values. The table has both."
                 .into(),
             paragraph(
                 "The pipeline model has neither fill rate as an input, but reads back at the printed rate. It draws \

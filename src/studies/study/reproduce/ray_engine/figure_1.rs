@@ -23,11 +23,10 @@ const SIZE: [u32; 2] = [160, 120];
 /// Smallest difference that an 8-bit display shows.
 const STEP: f64 = 1.0 / 255.0;
 
-const HOW: &str = "The scene is our own, in {} x {} pixels with one ray per pixel: a boat, posts and houses in \
-    mirroring water with three waves. The reference is ray-cast on the host. A {} draws the environment map: the view \
-    is reflected at vertices, and looked up in a cube map of bytes. In the hybrid pictures that card draws the visible \
-    surfaces, and the engine casts reflection and shadow rays: the engine augments a rasterizer. Differences are in \
-    linear color, over the water pixels. The paper prints no figure.";
+const HOW: &str = "The scene is our own, in {} x {} pixels with one ray per pixel: a boat, posts and houses in mirroring water with three waves. The \
+    reference is ray-cast on the host. A {} draws the environment map: the view is reflected at vertices, and looked up in a cube map of bytes. In \
+    the hybrid pictures that card draws the visible surfaces, and the engine casts reflection and shadow rays: the engine augments a rasterizer. \
+    Differences are in linear color, over the water pixels. The paper prints no figure.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let scene = built::build("harbour").ok_or("no scene `harbour`").on(DRAWS)?;

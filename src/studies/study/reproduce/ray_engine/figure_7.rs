@@ -43,10 +43,9 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     }
     Ok(EntryFindings {
         text: vec![
-            "The paper's figure is for rays that return only an id; our charts also show barycentric coordinates. Only \
-             two points of the curves are printed, at ten triangles; their rows are in the entry of section 6.1. T_min \
-             is the least number of triangles at which equation 11 is not slower than a host with the given tests per \
-             second; at half_rate_T, drawing and read-back take equally long."
+            "The paper's figure is for rays that return only an id; our charts also show barycentric coordinates. Only two points of the curves are \
+             printed, at ten triangles; their rows are in the entry of section 6.1. T_min is the least number of triangles at which equation 11 is \
+             not slower than a host with the given tests per second; at half_rate_T, drawing and read-back take equally long."
                 .into(),
         ],
         tables: vec![tests, limits],

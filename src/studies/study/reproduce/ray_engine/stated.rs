@@ -18,11 +18,10 @@ pub(super) const HOST_ALONE: f64 = CPU_ONLY_RAYS_PER_SECOND as f64;
 pub(super) const QUESTION: &str = "the authors' scene, picture and octree, the cost of their driver's commands, and \
     how often their rays met the card.";
 
-const HOW: &str = "The teapot room is rendered by Whitted ray tracing at {} x {} pixels, and the renderer's requests \
-    are replayed to the engine: every ray goes through ray tree, octree and caches, and the emulated card draws every \
-    pass in fp32. The host's work is counted operation by operation with the guessed weights of the host model, scaled \
-    so that the host alone casts the {} rays/s of Table 3's first row: the only calibrated figure. Draws run at the \
-    GeForce4's fill rate, read-backs at its bus rate, commands at the guessed costs of every timeline.";
+const HOW: &str = "The teapot room is rendered by Whitted ray tracing at {} x {} pixels, and the renderer's requests are replayed to the engine: \
+    every ray goes through ray tree, octree and caches, and the emulated card draws every pass in fp32. The host's work is counted operation by \
+    operation with the guessed weights of the host model, scaled so that the host alone casts the {} rays/s of Table 3's first row: the only \
+    calibrated figure. Draws run at the GeForce4's fill rate, read-backs at its bus rate, commands at the guessed costs of every timeline.";
 
 /// Description of the computation of Tables 3 to 5.
 pub(super) fn how(room: &TeapotRoom) -> String {

@@ -9,11 +9,10 @@ use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 3";
 
-const OCTREE: &str = "The octree of the host alone matters most: its time per ray is the unit of all our times. The \
-    sweep gives the speed-ups by the triangles in its leaves; the engine keeps its own octree, and the host is \
-    recalibrated each time. From {} to {} triangles the infinitely fast card's speed-up goes from {} to {} %, the \
-    largest step of the sweep: the rays of our room fall on either side of a knife-edge of our mesh. Rows use {}, \
-    which was chosen before any of them was computed, for host and engine alike.";
+const OCTREE: &str = "The octree of the host alone matters most: its time per ray is the unit of all our times. The sweep gives the speed-ups by the \
+    triangles in its leaves; the engine keeps its own octree, and the host is recalibrated each time. From {} to {} triangles the infinitely fast \
+    card's speed-up goes from {} to {} %, the largest step of the sweep: the rays of our room fall on either side of a knife-edge of our mesh. Rows \
+    use {}, which was chosen before any of them was computed, for host and engine alike.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;

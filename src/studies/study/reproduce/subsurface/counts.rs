@@ -16,11 +16,10 @@ pub(super) const MODELS: [(&str, u32, &str); 3] =
 /// Bytes per texel of links: four half floats.
 const LINK_BYTES: f64 = 8.0;
 
-const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} fixed links take {}, adaptive links \
-    {}. Adaptive links need one sampler more than the card has, so a second pass reads the sum of the first; with link \
-    textures as tiles of a larger texture they take {} in a single pass. The paper does not say how its card stored \
-    the links. The clustering is our own, since the paper's is described in another paper; its required result, a \
-    binary tree with a leaf per face, is counted on stand-ins with as many faces.";
+const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} fixed links take {}, adaptive links {}. Adaptive links need one \
+    sampler more than the card has, so a second pass reads the sum of the first; with link textures as tiles of a larger texture they take {} in a \
+    single pass. The paper does not say how its card stored the links. The clustering is our own, since the paper's is described in another paper; \
+    its required result, a binary tree with a leaf per face, is counted on stand-ins with as many faces.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;

@@ -61,9 +61,8 @@ const ALL_BUT_ROUNDING: f64 = 98.5;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
 
-const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions of the rate of a display of about {} \
-    Hz. So frames wait for the display, and only the second pass at {} x {} shows the card's speed: it is the longest \
-    part, and equal on all models within {} %.";
+const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions of the rate of a display of about {} Hz. So frames wait for the \
+    display, and only the second pass at {} x {} shows the card's speed: it is the longest part, and equal on all models within {} %.";
 const OPEN: &str = "The paper states neither the format of the radiosity map nor which links were timed. The rows use \
     fixed links and an 8-bit map, which automatic mipmaps (section 4.2.2) need on this card; the table has every \
     variant, for every card of the time. The variants differ by a factor of {}.";

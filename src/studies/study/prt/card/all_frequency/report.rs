@@ -20,10 +20,9 @@ use crate::study::prt::card::{PictureVariant, PixelErrors, frame};
 use crate::study::prt::{no_all_frequency_card, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 
-const SWEEP: &str = "Each row changes one property of a picture with negligible rounding; errors are in 255ths of \
-    white. Representatives and weights are recoded from the file's bits, with double-precision sums, and compared with \
-    the file's own code; all other rows are drawn into floats and compared with double-precision products of the same \
-    numbers.";
+const SWEEP: &str = "Each row changes one property of a picture with negligible rounding; errors are in 255ths of white. Representatives and weights \
+    are recoded from the file's bits, with double-precision sums, and compared with the file's own code; all other rows are drawn into floats and \
+    compared with double-precision products of the same numbers.";
 const TIME: &str = "Modelled, not measured: the pipeline model of the card, and a host whose speed follows from the \
     frame rates of the paper's Table 1. Host and card work in parallel, frame after frame.";
 

@@ -19,9 +19,8 @@ use crate::study::prt::of_texels;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::light::Decimation;
 
-const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in \
-    255ths of white, against equation 3 and light multiplied in double precision. 8-bit fractions are relative to the \
-    largest number.";
+const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in 255ths of white, against equation \
+    3 and light multiplied in double precision. 8-bit fractions are relative to the largest number.";
 const TIME: &str = "Modelled, not measured, by the pipeline model of the card, in which texture reads run at the full \
     rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is reused.";
 

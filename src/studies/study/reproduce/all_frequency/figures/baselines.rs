@@ -25,11 +25,10 @@ const VECTORS: usize = 16;
 /// Colors of the model and of the ground.
 const COLORS: [[f64; 3]; 2] = [[0.9, 0.75, 0.5], [0.7; 3]];
 
-const HOW: &str = "Figure 1 shows a bird with {} vertices on a ground with {} under a clear sky with a sun. Exact: the \
-    unfactored reflectance for every direction at every vertex. Ours: {} terms, {} representatives per cluster of {} \
-    vertices, whose number doubles from one, and all light coefficients. Harmonics: order {} for the light and for the \
-    incident light, and the reflectance's own coefficients towards the eye. The bird has Schlick's model in the \
-    textbook form, and in the form nearest to the errors of section 3, which has visible highlights.";
+const HOW: &str = "Figure 1 shows a bird with {} vertices on a ground with {} under a clear sky with a sun. Exact: the unfactored reflectance for \
+    every direction at every vertex. Ours: {} terms, {} representatives per cluster of {} vertices, whose number doubles from one, and all light \
+    coefficients. Harmonics: order {} for the light and for the incident light, and the reflectance's own coefficients towards the eye. The bird has \
+    Schlick's model in the textbook form, and in the form nearest to the errors of section 3, which has visible highlights.";
 
 /// Colors of vertices by method: exact, ours, harmonics.
 type MethodColors = Vec<Vec<[f64; 3]>>;

@@ -40,10 +40,9 @@ const PER_CLUSTER: u64 = 200;
 const CHANNELS: u64 = 3;
 const CALIBRATED: &str = "Table 1: frames without drawing, vertices, clusters and omega";
 
-const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} vertices; {} % of the ground's segments \
-    hold transfer here. Host and card work in parallel, vertex colors are sent as bytes, pixels take no time, and {} \
-    vertices are run per triangle. Table 1's rates with drawing use the same model without a ground. Low-frequency \
-    light has as many Haar coefficients as any other, so the model has one rate for both lights.";
+const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} vertices; {} % of the ground's segments hold transfer here. Host and \
+    card work in parallel, vertex colors are sent as bytes, pixels take no time, and {} vertices are run per triangle. Table 1's rates with drawing \
+    use the same model without a ground. Low-frequency light has as many Haar coefficients as any other, so the model has one rate for both lights.";
 
 /// Number of vertices processed per triangle, for meshes that are not ordered for the card's vertex cache.
 const RUN_PER_TRIANGLE: f64 = 1.1;

@@ -13,12 +13,11 @@ use crate::transfer::visibility::Horizon;
 use drawn::{DrawnFigure, ORDER};
 use scene::{FigureSize, TexturedModel};
 
-const HOW: &str = "The paper's models, materials, light and cameras are not available. Stand-ins are drawn in {} x {} \
-    pixels under a clear sky with a small sun: by biclusters of transfer, with textures of {} x {} texels and {} x {} \
-    views; and by ray casting every pixel, with patches of heights. Intermediate pictures replace ray casting by \
-    transfer one step at a time; the error of a step is its difference from the picture before, in percent of the \
-    ray-cast picture's RMS. Low frequency is transfer of harmonics of order {} on both sides, as in low-frequency \
-    bi-scale rendering, with the same textures.";
+const HOW: &str = "The paper's models, materials, light and cameras are not available. Stand-ins are drawn in {} x {} pixels under a clear sky with \
+    a small sun: by biclusters of transfer, with textures of {} x {} texels and {} x {} views; and by ray casting every pixel, with patches of \
+    heights. Intermediate pictures replace ray casting by transfer one step at a time; the error of a step is its difference from the picture \
+    before, in percent of the ray-cast picture's RMS. Low frequency is transfer of harmonics of order {} on both sides, as in low-frequency bi-scale \
+    rendering, with the same textures.";
 const QUESTION: &str = "the models, their textures, the light and the cameras; whether the references are ray-cast per pixel or drawn by uncompressed transfer.";
 /// Number of local directions per side for the bunny, and for the armor.
 const SIDE: usize = 8;
