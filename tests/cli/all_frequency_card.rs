@@ -50,7 +50,7 @@ fn cards_draw_what_the_host_draws() {
         let rows = found["sizes"].as_array().expect("sizes");
         rows.iter().find(|row| row["what"] == what).unwrap_or_else(|| panic!("{what}"))["number"].clone()
     };
-    assert_eq!((size(&r350, "numbers interpolated in a pass"), size(&r350, "passes")), (32.into(), 1.into()));
+    assert_eq!((size(&r350, "numbers interpolated per pass"), size(&r350, "passes")), (32.into(), 1.into()));
     assert_eq!(
         (size(&r350, "texture reads of the pixel program"), size(&r350, "bytes sent per vertex")),
         (3.into(), 120.into())

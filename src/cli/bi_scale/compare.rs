@@ -98,8 +98,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let mut show = |what: &str, done: u64, of: u64| bar.show(what.to_owned(), done, of);
     let ways = comparison.ways(&[channels.to_vec()], &mut show, &mut |_, _| ()).map_err(|error| refused(&error))?;
     drop(bar);
-    let mut found = Findings::new("Ways to store transfer");
-    found.table(stored_ways_table("Ways to store transfer", &ways, &["light"]));
+    let mut found = Findings::new("Storage methods for transfer");
+    found.table(stored_ways_table("Storage methods for transfer", &ways, &["light"]));
     found.fields(json!({
         "rows": matrix.rows(), "columns": matrix.columns(), "nonzeros": matrix.nonzeros(), "flux": cube.flux(),
         "ways": ways.iter().map(document).collect::<Vec<Value>>(),

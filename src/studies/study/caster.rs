@@ -360,7 +360,7 @@ impl CastRecord {
             found.print(format!("engine: {differing} of {rays} rays differ from exact arithmetic"));
         }
         if let Some(card) = card {
-            found.print(format!("engine: the passes take {} s, modelled", shown(card, Quantity::Measured)));
+            found.print(format!("engine: the passes take {} s (modelled)", shown(card, Quantity::Measured)));
         }
     }
 }

@@ -231,7 +231,7 @@ fn papers_rows_are_tallied() {
     }
     let judged = rows.iter().filter(|row| row["dependence"] != "calibrated");
     let predicted = judged.clone().filter(|row| row["verdict"] == "predicted").count();
-    let sentence = format!("Of {} figures to which no constant was fitted, {predicted} are predicted", judged.count());
+    let sentence = format!("Of {} figures not used for calibration, {predicted} are predicted", judged.count());
     assert!(found.conclusions()[0].starts_with(&sentence), "{:?}", found.conclusions());
     let page = text(&files, "index.html");
     let tags = balanced(&page);

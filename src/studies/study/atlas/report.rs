@@ -10,13 +10,12 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
 
-const COMPACTNESS: &str = "Compactness is the area of a cluster over that of a disc with the radius of its ball: 1 for \
-    a flat disc, 0.64 for a flat square, 0.41 for an equilateral triangle; more where the surface is folded, as all of \
-    a closed surface is. One cluster in twenty is below the low compactness. The last columns count the nodes of the \
-    tree that have the size of a texel of the level and more than one face.";
+const COMPACTNESS: &str = "Compactness is a cluster's area over the area of a disc with the radius of its ball: 1 for a flat disc, 0.64 for a flat \
+    square, 0.41 for an equilateral triangle, and more for folded surfaces, such as a whole closed surface. One cluster in twenty is below \
+    low_compactness. The last columns count the tree's nodes that have the size of a texel of the level and more than one face.";
 
-const EVENNESS: &str = "Areas are relative to the mean over all texels. A face owns a whole rectangle whose sides are powers of \
-    two, and can only get twice or half as many texels: areas vary by about a factor of 2 even where all faces are alike.";
+const EVENNESS: &str = "Areas are relative to the mean over all texels. Each face owns a rectangle whose sides are powers of two, and can only get \
+    twice or half as many texels: areas vary by about a factor of 2 even if all faces are alike.";
 
 pub(super) fn findings(asked: &AtlasStudy, atlas: &Atlas, quality: &AtlasQuality) -> Findings {
     let mut found = Findings::new("A meshed atlas");
@@ -30,10 +29,10 @@ pub(super) fn findings(asked: &AtlasStudy, atlas: &Atlas, quality: &AtlasQuality
                 NamedPicture::new(format!("model_{name}"), model.picture(coloring), format!("The mesh: {what}")),
             ]
         };
-        found.pictures(pair("faces", Coloring::Face, "a color per face"));
+        found.pictures(pair("faces", Coloring::Face, "one color per face"));
         for across in [2_u32, 4, 16].into_iter().filter(|across| *across < atlas.side()) {
             let level = atlas.levels() - 1 - across.ilog2();
-            let what = format!("a color per cluster of level {level}, {across} x {across} of them");
+            let what = format!("one color per cluster of level {level}, {across} x {across} clusters");
             found.pictures(pair(&format!("level_{level}"), Coloring::Level(level), &what));
         }
         found.keep_file("atlas.obj", export::obj(&asked.mesh, atlas).into_bytes());
@@ -55,7 +54,7 @@ fn conclude(found: &mut Findings, atlas: &Atlas, quality: &AtlasQuality) {
     found.conclusion(format!("{faces}, {per_face} texels each; {nodes}."));
     let share = |part: usize| percent(part as f64 / quality.nodes as f64);
     found.conclusion(format!(
-        "{} of the texels lie on faces with an area; the standard deviation of their areas is {} of the mean.",
+        "{} of the texels lie on faces of nonzero area; the standard deviation of their areas is {} of the mean.",
         percent(quality.used),
         percent(quality.deviation)
     ));
@@ -65,7 +64,7 @@ fn conclude(found: &mut Findings, atlas: &Atlas, quality: &AtlasQuality) {
         share(quality.simply_connected)
     ));
     if !atlas.has_given_normals() {
-        found.conclusion("The mesh has no normals: they are the means of the faces around each vertex.");
+        found.conclusion("The mesh has no normals: each vertex takes the mean normal of its faces.");
     }
 }
 
@@ -109,7 +108,7 @@ fn census(atlas: &Atlas) -> Table {
         ("parts that share no edge", census.parts),
         ("edges of one face", census.boundary_edges),
         ("edges of more than two faces", census.crowded_edges),
-        ("edges run through the same way twice", census.orientation_conflicts),
+        ("edges traversed twice in one direction", census.orientation_conflicts),
         ("faces without area", census.faces_without_area),
         ("faces that lie on another", census.duplicate_faces),
     ] {

@@ -13,9 +13,9 @@ use crate::study::StudyError;
 const MOST_ADDENDS: usize = 10;
 const MOST_LINES: usize = 12;
 
-const ERRORS: &str = "Errors are shares of the reference's magnitude, element by element: worst is the largest, mean has the sign \
-    of larger results, bits is -log2 of the worst; of_addends is the largest error as a share of the sum of the magnitudes \
-    of an element's addends, which cancellation does not enlarge.";
+const ERRORS: &str = "Errors are relative to the reference's magnitude, per element: worst is the largest, mean is \
+    positive if results are too large, bits is -log2 of the worst; of_addends is the largest error relative to the sum \
+    of the magnitudes of an element's addends, which cancellation does not enlarge.";
 
 impl ProductRow {
     fn name(&self) -> String {
@@ -55,14 +55,14 @@ pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result
         let bits = match (outcome.fewest_bits, study.units.first().and_then(|unit| unit.bits)) {
             (Some(bits), _) => format!("{name} with one accumulator must keep {bits} bits below the largest exponent"),
             (None, Some(_)) => {
-                format!("no number of bits that {name} keeps of its addends is enough with one accumulator")
+                format!("{name} misses it with one accumulator for any number of kept bits")
             }
-            (None, None) => format!("{name} has no number of bits to choose"),
+            (None, None) => format!("{name} has a fixed number of bits"),
         };
         let promotion = match outcome.rarest_promotion {
             None => "no promotion meets the goal".to_owned(),
             Some(step) if step == depth => "it meets the goal with one accumulator".to_owned(),
-            Some(step) => format!("promotion every {step} products is the rarest that meets the goal"),
+            Some(step) => format!("promotion every {step} products is the least frequent that meets the goal"),
         };
         found.conclusion(format!("{goal}: {bits}; as it is, {promotion}."));
         found.field("fewest_bits", json!(outcome.fewest_bits));
@@ -101,7 +101,7 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
         errors.differing,
     );
     if best.last().worst < errors.worst {
-        sentence += &format!(" The smallest error is that of {}: up to {}.", best.name(), error(best.last().worst));
+        sentence += &format!(" {} has the smallest error: up to {}.", best.name(), error(best.last().worst));
     }
     found.conclusion(sentence);
 }
@@ -140,7 +140,7 @@ fn chart(outcome: &ProductOutcome) -> Option<NamedChart> {
         lines,
         ..Chart::default()
     };
-    let caption = "The error of the sum of the first K products, the largest of all elements.".to_owned();
+    let caption = "Error of the sum of the first K products, maximum over all elements.".to_owned();
     (!chart.lines.is_empty()).then(|| NamedChart { name: "curve".to_owned(), chart, caption })
 }
 
@@ -156,7 +156,7 @@ fn add_blame(found: &mut Findings, study: &MatrixProduct, blame: &Blame) {
     let sentence = match study.against {
         _ if before.k == behind.k => format!("Element ({row}, {column}): {unit} and {other} do not differ."),
         Some(_) => format!("{ends}. The sums first differ in the {products}, by {to}."),
-        None => format!("{ends}. The {products} add most to it: after them it is {to}, before them {from}."),
+        None => format!("{ends}. The {products} contribute most: the difference is {to} after them, {from} before."),
     };
     found.heading("One element");
     found.paragraph(sentence.clone());
@@ -173,6 +173,7 @@ fn add_blame(found: &mut Findings, study: &MatrixProduct, blame: &Blame) {
     found.keep_table(FoundTable::from(table("All addends of the block", &fates)).csv("addends").field("addends"));
     fates.sort_by(|x, y| (y.exact - y.kept).abs().total_cmp(&(x.exact - x.kept).abs()));
     fates.truncate(MOST_ADDENDS);
-    let title = "Addends that lose most: products by their k, c (the sum before the block), result (its rounding)";
+    let title =
+        "Addends with the largest losses: products by their k, c (the sum before the block), result (its rounding)";
     found.table(FoundTable::from(table(title, &fates)));
 }

@@ -57,8 +57,7 @@ fn undecided(survey: &Survey) -> Vec<&str> {
 
 /// A row for each value of each switch that matters.
 fn values(survey: &Survey, fitting: &[&Setting]) -> Table {
-    let mut table =
-        Table::of("Values of the switches that the codes depend on", "switch value default most_right of verdict");
+    let mut table = Table::of("Switch values on which the codes depend", "switch value default most_right of verdict");
     for &at in &survey.relevant {
         let question = &survey.questions[at];
         let fits = |value: usize| fitting.iter().any(|setting| setting.get(&at) == Some(&value));

@@ -10,8 +10,8 @@ use crate::report::words::counted;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, Verdict, false_color};
 use crate::study::StudyError;
 
-const FLIP: &str = "FLIP is the difference that an observer notices who flips between the two pictures: 0 none, 1 the \
-    largest. SSIM compares the structure of the luma in windows of 11 x 11 pixels: 1 where the pictures are equal.";
+const FLIP: &str = "FLIP is the difference seen when flipping between the two pictures: 0 none, 1 the largest. SSIM \
+    compares the structure of the luma in windows of 11 x 11 pixels: 1 means equal.";
 
 pub(super) fn findings(study: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, StudyError> {
     let [first, second] = &study.pictures;
@@ -52,7 +52,7 @@ fn conclusion(channels: &[ChannelDifference]) -> String {
 
 fn table(channels: &[ChannelDifference]) -> Table {
     let columns = "channel differing not_finite nan_first nan_second rmse mean maximum x y first second";
-    let mut table = Table::of("Samples, channel by channel", columns);
+    let mut table = Table::of("Samples by channel", columns);
     for channel in channels {
         let number = |value: f64| if channel.whole { Cell::Empty } else { Cell::error(value) };
         let worst = channel.worst;

@@ -58,8 +58,8 @@ fn open_switches(found: &mut Findings, outcome: &PrecisionOutcome) {
     let table = FoundTable::from(table).folded(&first, |row| names[row].clone(), (["value", "values"], "the same"));
     found.explained_table(
         table.csv("switches").field("switches"),
-        "Each value of each switch with several, one at a time. The minimum has the exponent or integer bits of the \
-         curve; the reference is the exact run of the device as given.",
+        "Each value of each switch that has several, one at a time. The minimum has the exponent or integer bits of \
+         the curve; the reference is the exact run of the device as given.",
     );
 }
 
@@ -70,9 +70,7 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
     found.conclusion(format!("Goal: {goal}; {measure} is {} in the exact run{given}.", number(outcome.exact)));
     let rules = &runs.subject.profile().rules;
     if rules.accumulator.is_some() || rules.storage.iter().next().is_some() {
-        found.conclusion(
-            "The device's formats of storages and sums are left out: only those of instructions are searched.",
-        );
+        found.conclusion("Only instruction formats are searched, not the device's formats of storages and sums.");
     }
     for family in &outcome.families {
         let name = family.curve.family.name();
@@ -120,7 +118,7 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
     }
     if outcome.budget_spent {
         let made = counted(runs.made, "run", "runs");
-        found.conclusion(format!("The budget ended the study after {made}: what is found is the best so far."));
+        found.conclusion(format!("The budget ended the study after {made}: the results are the best so far."));
     }
 }
 
@@ -151,7 +149,7 @@ fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
     }
     let positive = values.iter().copied().filter(|value| *value > 0.0);
     let y_scale = if positive.clone().count() < 2 { Scale::Linear } else { Scale::fitting(positive) };
-    let zero = if y_scale == Scale::Logarithmic { " Values of 0 have no place on the axis." } else { "" };
+    let zero = if y_scale == Scale::Logarithmic { " The axis cannot show values of 0." } else { "" };
     let chart = Chart {
         title: format!("{} by bits of precision", runs.goal.measure),
         x: "mantissa or fraction bits of all instructions".to_owned(),

@@ -40,8 +40,7 @@ fn accuracy(rows: &[MethodRow]) -> Option<String> {
     let error = worst.error?;
     Some(match error.not_finite {
         0 => format!(
-            "{} is the least accurate: non-emitting patches are {} on average, whatever their area; their \
-             largest relative error is {}.",
+            "{} is the least accurate: non-emitting patches are {} on average, unweighted by area; their largest relative error is {}.",
             worst.label,
             shade(error.bias),
             percent(error.relative_unlit),

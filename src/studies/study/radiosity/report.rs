@@ -23,8 +23,8 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     }
     conclude(&mut found, &outcome);
     let about = format!(
-        "{}, solved as the fragment programs of Carr, Hall and Hart (2003, section 3) would solve them, and by \
-         solvers of the host. Pictures are drawn by the emulated {} from its radiosity texture, times {}, with the sRGB curve.",
+        "{}, solved as by the fragment programs of Carr, Hall and Hart (2003, section 3), and by solvers of the host. \
+         The emulated {} draws pictures from its radiosity texture, times {}, with the sRGB curve.",
         counted(outcome.patches.list().len() as u64, "patch", "patches"),
         parameters.profile.title,
         Cell::ratio(outcome.exposure).text(),
@@ -63,10 +63,10 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         found.paragraph(ERRORS);
     }
     if !frames.is_empty() {
-        found.heading("Iteration by iteration");
+        found.heading("Residual by iteration");
         found.pictures(frames);
     }
-    found.heading("How it was solved");
+    found.heading("Solution methods");
     found.table(FoundTable::from(methods).csv("rows").field("ways"));
     residuals.into_iter().for_each(|chart| found.chart(chart));
     let has_rows = |table: &Table| !table.rows().is_empty();
@@ -81,7 +81,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     }
     found.table(FoundTable::from(relit).field("relit"));
     if has_rows(&sweep) {
-        found.heading("Other numbers of patches and other settings of open switches");
+        found.heading("Sweep over numbers of patches and open switches");
         darkness.into_iter().for_each(|chart| found.chart(chart));
     }
     let first: Vec<usize> = outcome.sweep.iter().map(|row| row.same_as).collect();
@@ -92,7 +92,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
 }
 
 const ERRORS: &str = "Colors are relative differences of each patch's luminance, on one scale for all pictures; the \
-    bar below each picture shows it. docs/studies/radiosity.md says why half precision darkens a room.";
+    bar below each picture shows it. docs/studies/radiosity.md explains why half precision darkens a room.";
 
 const ENDS: &str = "An iteration in finite precision that never meets its tolerance repeats an earlier state, and \
     cycles from there on. States are compared bit for bit; the period is the smallest.";
@@ -101,8 +101,7 @@ const ON_THE_CARD: &str = "Operations are counted as in the paper: two per eleme
     bandwidth_used is the memory traffic of an iteration as a share of what the memory can transfer in that time.";
 
 const SWEEP: &str = "A switch is an open question about the card; each is changed alone. Settings with the same bits \
-    share a row. predicted_mean is the first-order prediction if every term of a sum is rounded to the step of the \
-    sum.";
+    share a row. predicted_mean is the first-order prediction if every term of a sum is rounded to the sum's step.";
 
 /// False-color pictures of the error of each solution on the card, all with the same scale.
 fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPicture> {
@@ -235,7 +234,7 @@ fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
             None => lines.push(Series { label, points: vec![point] }),
         }
     }
-    let caption = "The mean relative error of non-emitting patches, in per cent, without its sign.";
+    let caption = "Absolute value of the mean relative error of non-emitting patches, in per cent.";
     let names = ["Mean error of non-emitting patches", "patches", "error, %"];
     let scale = Scale::fitting(lines.iter().flat_map(|line| &line.points).map(|point| point.0));
     (!lines.is_empty()).then(|| logarithmic("sweep", names, (scale, lines), caption))

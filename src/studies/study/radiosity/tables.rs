@@ -34,7 +34,7 @@ pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tab
 fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns =
         "patches form_factors least_row_sum largest_row_sum light_escaping partly_covered blind_patches enforced";
-    let mut table = Table::of("The room; sums as found, before closure was enforced", columns);
+    let mut table = Table::of("The room; sums before closure was enforced", columns);
     let sums = &outcome.found_sums;
     table.push([
         outcome.patches.list().len().into(),
@@ -103,8 +103,10 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
 /// Table of the sweep over numbers of patches and switches.
 fn sweep(outcome: &RadiosityOutcome) -> Table {
     let columns = "patches way setting iterations stopped_by largest_error mean_relative predicted_mean";
-    let mut table =
-        Table::of("Other numbers of patches, and each open switch of the card changed alone; errors as above", columns);
+    let mut table = Table::of(
+        "Other numbers of patches, and each open switch of the card changed separately; errors as above",
+        columns,
+    );
     for row in &outcome.sweep {
         table.push([
             row.patches.into(),
@@ -123,7 +125,7 @@ fn sweep(outcome: &RadiosityOutcome) -> Table {
 fn card(outcome: &RadiosityOutcome) -> Table {
     let columns = "way passes texels_a_pass instructions matrix_MB iteration_us iterations_per_s MFLOP_per_s bound_by \
          bandwidth_used_%";
-    let mut table = Table::of("An iteration of all three channels on the card, as the pipeline model has it", columns);
+    let mut table = Table::of("An iteration of all three channels on the card, by the pipeline model", columns);
     for (row, facts) in outcome.rows.iter().filter_map(|row| Some((row, row.card.as_ref()?))) {
         let head: [Cell; 5] = [
             row.label.as_str().into(),

@@ -8,52 +8,52 @@ use super::{ReproduceEntry, StudyError, all_frequency, bi_scale, cpca, radiosity
 pub const ENTRIES: &[ReproduceEntry] = &[
     RayEngine.entry(
         "ray-engine-radeon-8500",
-        "114 M tests a second on a Radeon 8500 (Ray Engine, section 4.4)",
+        "114 M tests per second on a Radeon 8500 (Ray Engine, section 4.4)",
         ray_engine::radeon_8500::findings,
     ),
     RayEngine.entry(
         "ray-engine-vertex-variant",
-        "4.1 M tests a second in a vertex program (Ray Engine, section 3.4)",
+        "4.1 M tests per second in a vertex program (Ray Engine, section 3.4)",
         ray_engine::vertex_variant::findings,
     ),
     RayEngine.entry(
         "ray-engine-block-shapes",
-        "Misses of the texture cache by the shape of a block of rays (Ray Engine, section 5.3)",
+        "Texture-cache misses by shape of a block of rays (Ray Engine, section 5.3)",
         ray_engine::block_shapes::findings,
     ),
     RayEngine.entry(
         "ray-engine-equation-11",
-        "Fill rate, read-back and their worked numbers (Ray Engine, section 6.1)",
+        "Fill and read-back rates, with worked examples (Ray Engine, section 6.1)",
         ray_engine::equation_11::findings,
     ),
     RayEngine.entry(
         "ray-engine-figure-1",
-        "Reflections by an environment map and by rays (Ray Engine, figure 1)",
+        "Reflections by environment map and by ray casting (Ray Engine, figure 1)",
         ray_engine::figure_1::findings,
     ),
     RayEngine.entry(
         "ray-engine-figure-7",
-        "Tests a second by the number of triangles (Ray Engine, figure 7)",
+        "Tests per second by number of triangles (Ray Engine, figure 7)",
         ray_engine::figure_7::findings,
     ),
     RayEngine.entry(
         "ray-engine-tables-1-2",
-        "Rays a second of five scenes, and the share of them on the card (Ray Engine, tables 1 and 2)",
+        "Rays per second in five scenes, and the card's share (Ray Engine, tables 1 and 2)",
         ray_engine::table_1::findings,
     ),
     RayEngine.entry(
         "ray-engine-table-3",
-        "What the card, asynchronous read-back and an infinitely fast card bring (Ray Engine, table 3)",
+        "Speed-ups by card, asynchronous read-back, infinitely fast card (Ray Engine, table 3)",
         ray_engine::table_3::findings,
     ),
     RayEngine.entry(
         "ray-engine-table-4",
-        "The number of triangles that go to the card (Ray Engine, table 4)",
+        "Speed-up by triangles per GPU cell (Ray Engine, table 4)",
         ray_engine::table_4::findings,
     ),
     RayEngine.entry(
         "ray-engine-table-5",
-        "The number of rays that go to the card (Ray Engine, table 5)",
+        "Speed-up by rays per pass (Ray Engine, table 5)",
         ray_engine::table_5::findings,
     ),
     Radiosity.entry(
@@ -63,12 +63,12 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     ),
     Radiosity.entry(
         "radiosity-rates",
-        "29.7 iterations and 141 MFLOP a second on a GeForce FX 5900 Ultra (radiosity, section 3.1)",
+        "29.7 iterations/s and 141 MFLOP/s on a GeForce FX 5900 Ultra (radiosity, section 3.1)",
         radiosity::rates::findings,
     ),
     Radiosity.entry(
         "radiosity-figure-4",
-        "The time of an iteration by the size of the matrix, on card and host (radiosity, figure 4)",
+        "Iteration time by matrix size, on card and host (radiosity, figure 4)",
         radiosity::figure_4::findings,
     ),
     Subsurface.entry(
@@ -78,23 +78,18 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     ),
     Subsurface.entry(
         "subsurface-table-1",
-        "The time of pass 2, and frames locked to a display (subsurface scattering, table 1)",
+        "Time of pass 2, and frame rates locked to a display (subsurface scattering, table 1)",
         subsurface::table_1::findings,
     ),
     Subsurface.entry(
         "subsurface-frames",
-        "Passes 1 and 3, frames on a display, 40 frames a second, nine seconds of links \
-         (subsurface scattering, sections 4.3 and 5, table 1, figure 7)",
+        "Passes 1 and 3, displayed frames, 40 frames per second, 9 s for links (subsurface scattering, sections 4.3 and 5, table 1, figure 7)",
         subsurface::frames::findings,
     ),
-    Cpca.entry(
-        "cpca-appendix",
-        "How wrong projections onto the hemisphere are (CPCA, appendix)",
-        cpca::appendix::findings,
-    ),
+    Cpca.entry("cpca-appendix", "Errors of projections onto the hemisphere (CPCA, appendix)", cpca::appendix::findings),
     Cpca.entry(
         "cpca-section-6",
-        "Numbers, registers and host work of compressed transfer (CPCA, section 6)",
+        "Storage, registers and host work of compressed transfer (CPCA, section 6)",
         cpca::section_6::findings,
     ),
     Cpca.entry("cpca-figure-2", "Squared error by storage (CPCA, figure 2)", cpca::figure_2::findings)
@@ -115,33 +110,40 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     .recorded(include_str!("../../records/cpca-figure-7.toml")),
     Cpca.entry(
         "cpca-figure-8",
-        "Glossy Phong models, their speed and that of a newer card (CPCA, figure 8)",
+        "Frame rates of glossy Phong models on two cards (CPCA, figure 8)",
         cpca::figure_8::findings,
     )
     .recorded(include_str!("../../records/cpca-figure-8.toml")),
-    Cpca.entry("cpca-figure-9", "A sum of transfer in two environments (CPCA, figure 9)", cpca::figure_9::findings)
-        .recorded(include_str!("../../records/cpca-figure-9.toml")),
+    Cpca.entry(
+        "cpca-figure-9",
+        "Glossy plus subsurface transfer in two environments (CPCA, figure 9)",
+        cpca::figure_9::findings,
+    )
+    .recorded(include_str!("../../records/cpca-figure-9.toml")),
     Cpca.entry(
         "cpca-figure-10",
         "Principal components, vector quantization, and both (CPCA, figure 10)",
         cpca::figure_10::findings,
     )
     .recorded(include_str!("../../records/cpca-figure-10.toml")),
-    Cpca.entry("cpca-figure-11", "The number of vectors per cluster (CPCA, figure 11)", cpca::figure_11::findings)
-        .recorded(include_str!("../../records/cpca-figure-11.toml")),
+    Cpca.entry(
+        "cpca-figure-11",
+        "Error and frame rate by vectors per cluster (CPCA, figure 11)",
+        cpca::figure_11::findings,
+    )
+    .recorded(include_str!("../../records/cpca-figure-11.toml")),
     Cpca.entry("cpca-table-1", "Errors and frame rates of seven signals (CPCA, table 1)", cpca::table_1::findings)
         .recorded(include_str!("../../records/cpca-table-1.toml")),
     Cpca.entry("cpca-coherence", "Overdraw of clusters (CPCA, table of section 7)", cpca::coherence::findings)
         .recorded(include_str!("../../records/cpca-coherence.toml")),
     AllFrequency.entry(
         "all-frequency-counts",
-        "Sizes, segments, equation 12 and what of Table 1 follows from sizes \
-         (all-frequency transfer, sections 1 and 4 to 7)",
+        "Sizes, segments, equation 12 and Table 1 from sizes alone (all-frequency transfer, sections 1 and 4 to 7)",
         all_frequency::counts::findings,
     ),
     AllFrequency.entry(
         "all-frequency-factors",
-        "Errors of reflectance factors beside spherical harmonics (all-frequency transfer, section 3)",
+        "Errors of reflectance factors and of spherical harmonics (all-frequency transfer, section 3)",
         all_frequency::factors::findings,
     ),
     AllFrequency
@@ -155,28 +157,32 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     AllFrequency
         .entry(
             "all-frequency-table-1",
-            "What clusters and codes leave of transfer (all-frequency transfer, table 1)",
+            "Size and error after clustering and coding (all-frequency transfer, table 1)",
             all_frequency::table_1::findings,
         )
         .recorded(include_str!("../../records/all-frequency-table-1.toml")),
     BiScale.entry(
         "bi-scale-counts",
-        "Sizes of matrices and of biclusters (bi-scale transfer, sections III and IV, tables I and II)",
+        "Sizes of matrices and biclusters (bi-scale transfer, sections III and IV, tables I and II)",
         bi_scale::counts::findings,
     ),
     BiScale
-        .entry("bi-scale-figure-8", "More local directions (bi-scale transfer, figure 8)", bi_scale::figure_8::findings)
+        .entry(
+            "bi-scale-figure-8",
+            "Cost of more local directions (bi-scale transfer, figure 8)",
+            bi_scale::figure_8::findings,
+        )
         .recorded(include_str!("../../records/bi-scale-figure-8.toml")),
     BiScale
         .entry(
             "bi-scale-figures",
-            "Pictures by transfer and by rays, errors by cause (bi-scale transfer, figures 1 and 5)",
+            "Transfer compared with ray casting, errors by cause (bi-scale transfer, figures 1 and 5)",
             bi_scale::figures::findings,
         )
         .recorded(include_str!("../../records/bi-scale-figures.toml")),
     BiScale.entry(
         "bi-scale-frames",
-        "Frame rates, views alone and light too (bi-scale transfer, tables I and II)",
+        "Frame rates for new views and new light (bi-scale transfer, tables I and II)",
         bi_scale::frames::findings,
     ),
     BiScale
@@ -192,8 +198,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     BiScale
         .entry(
             "bi-scale-figure-6",
-            "Biclusters beside clusters of rows, wavelets, harmonics and what is rejected \
-         (bi-scale transfer, sections II and IV-A, figure 6)",
+            "Biclusters compared with other storage methods (bi-scale transfer, sections II and IV-A, figure 6)",
             bi_scale::figure_6::findings,
         )
         .recorded(include_str!("../../records/bi-scale-figure-6.toml")),

@@ -17,7 +17,7 @@ const BUG: &str = "this is a bug: please report it with the command line";
 pub(super) fn unknown(found: &str, entries: &[&str]) -> StudyError {
     let papers: Vec<&str> = Paper::VARIANTS.iter().map(|paper| paper.id()).collect();
     let known = papers.iter().chain(entries).copied();
-    let help = format!("{}`crossbar reproduce --list` says what each entry is", did_you_mean(found, known));
+    let help = format!("{}`crossbar reproduce --list` describes the entries", did_you_mean(found, known));
     let what = format!("expected the name of a paper ({}) or of an entry, found `{found}`", papers.join(", "));
     StudyError::new("reproduce::unknown", what).with_help(help)
 }

@@ -17,12 +17,12 @@ pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
         classes(&evidence),
         counts(&[
             ("Recorded at full size", of(&is_recorded)),
-            ("computed anew with the same bits", of(&|row| row.source == RowSource::Confirmed)),
+            ("recomputed with the same bits", of(&|row| row.source == RowSource::Confirmed)),
         ]),
-        counts(&[("Met only by the rounding of the print", of(&needs_rounding))]),
+        counts(&[("Met only because the printed value is rounded", of(&needs_rounding))]),
         counts(&[
-            ("A constant was fitted to these, which are no evidence", rows.len() - evidence.len()),
-            ("missed all the same", count(&rows, |row| row.is_calibrated() && row.verdict() == RowVerdict::Missed)),
+            ("Used for calibration, so not evidence", rows.len() - evidence.len()),
+            ("missed even so", count(&rows, |row| row.is_calibrated() && row.verdict() == RowVerdict::Missed)),
         ]),
     ];
     sentences.into_iter().flatten().for_each(|sentence| all.conclusion(sentence));
@@ -94,7 +94,7 @@ fn judged(rows: &[&PaperRow]) -> Option<String> {
     });
     let parts = listed(&parts.collect::<Vec<_>>());
     let all = counted(rows.len() as u64, "figure", "figures");
-    (!rows.is_empty()).then(|| format!("Of {all} to which no constant was fitted, {parts}"))
+    (!rows.is_empty()).then(|| format!("Of {all} not used for calibration, {parts}"))
 }
 
 /// Formats the tally of the rows whose printed value did not determine a constant, and how many of them are recorded.
@@ -108,7 +108,7 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
     let of = |class: MissClass| (count(rows, |row| row.missed() == Some(class)), class);
     let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, class)| format!("{class} {count}")).collect();
-    (!counts.is_empty()).then(|| format!("Why figures are missed: {}.", counts.join(", ")))
+    (!counts.is_empty()).then(|| format!("Causes of misses: {}.", counts.join(", ")))
 }
 
 /// Names of the rows that differ from their record.
@@ -147,13 +147,13 @@ pub(super) fn overview_chart(found: &Reproduced) -> Option<NamedChart> {
     (drawn > 1).then(|| NamedChart {
         name: "overview".to_owned(),
         chart: Chart {
-            title: "Ours over the paper's, row by row".to_owned(),
-            x: "row of rows.csv".to_owned(),
+            title: "Our value over the paper's, by row".to_owned(),
+            x: "row in rows.csv".to_owned(),
             y: "ours / paper's".to_owned(),
             y_scale: Scale::Logarithmic,
             dots: ORDER.map(of).into(),
             ..Chart::default()
         },
-        caption: "Each row's value over the paper's. Bounds differ from row to row: the tables have them.".to_owned(),
+        caption: "Ratio of our value to the paper's, per row. Bounds differ by row; the tables list them.".to_owned(),
     })
 }

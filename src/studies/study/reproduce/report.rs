@@ -63,7 +63,7 @@ const SHOWN: &str = "what place unit paper ours readings difference_% verdict mi
 fn shown(row: &PaperRow) -> [Cell; 13] {
     let target = &row.target;
     let readings = row.range().map(|range| range.map(|end| target.beside(end).text()).join(" to "));
-    let rounded = if row.holds_by_rounding() { ", by the rounding of the print" } else { "" };
+    let rounded = if row.holds_by_rounding() { ", only because of rounding in print" } else { "" };
     [
         target.what.as_str().into(),
         target.place.as_str().into(),
@@ -118,7 +118,7 @@ pub fn notes(found: &Reproduced) -> Table {
         }
         if let Some(explanation) = row.explanation() {
             let value = row.target.beside(explanation.value()).text();
-            note("explained", explanation.reason(), format!("{name}: {value} there"));
+            note("explained", explanation.reason(), format!("{name}: {value}"));
         }
         if let Some((_, why)) = row.confinement() {
             note("by construction", why.to_owned(), name.clone());
@@ -171,18 +171,17 @@ fn as_recorded(found: &Reproduced) -> bool {
     !all_rows(found).any(PaperRow::differs)
 }
 
-const HOW: &str = "Each row sets a figure of a paper beside ours. The figure is printed, implied by printed figures, or inferred by us. \
-    The bound of a figure is data with a date: all bounds were restated on 2026-11-26, before the recorded runs; rows had been worked out \
-    since 2026-11-21, and the data list later changes. Within its bound, a row is predicted if ours is drawn, solved, counted or timed and the \
-    bound is in numbers: {} % of the paper's value, or of the gain over the host alone where the host was calibrated; every digit of \
-    counts and solutions. It is order only if the bound says which of two values is larger; by construction if the bound admits every value \
-    that the computation can give; consistent if nothing is measured, and the paper's values are compared with each other or with its own \
-    equations. Calibrated rows fitted a constant of the model: they stand apart and are no evidence. Where the text allows several \
-    readings, all of them must lie within the bound. Outside its bound, a row is missed. It is explained if this run varies something \
-    that the papers leave open and reaches the value without losing another row; one setting explains all rows of a sweep. \
-    Missed rows name the cause as far as it is known. Where a paper contradicts itself and ours agrees with one of its values, the row is \
-    contradictory; where ours agrees with none, it is missed. Differences are shares of the paper's value. The source of a row is this run \
-    (computed), a recorded run at full size (recorded), or both, with the same bits.";
+const HOW: &str = "Each row compares a figure of a paper with our value. The figure is printed, implied by printed figures, or inferred by us. \
+    Bounds are dated data: all were restated on 2026-11-26, before the recorded runs; rows had been computed since 2026-11-21, and the data list \
+    later changes. A row within its bound is predicted if our value is drawn, solved, counted or timed, and the bound is numerical: {} % of the \
+    paper's value, or of the gain over the host alone where the host was calibrated; every digit of counts and solutions. It is order only if the \
+    bound says only which of two values is larger; by construction if the bound admits every value that the computation can give; consistent if \
+    nothing is measured, and the paper's values are compared with each other or with its own equations. Calibrated rows determined a constant of the \
+    model: they are listed separately and are not evidence. If the text allows several readings, all of them must lie within the bound. A row \
+    outside its bound is missed. It is explained if this run varies something that the papers leave open and reaches the value without losing \
+    another row; one setting explains all rows of a sweep. Missed rows name the cause, if known. If a paper contradicts itself and our value agrees \
+    with one of its values, the row is contradictory; if it agrees with none, the row is missed. Differences are relative to the paper's value. The \
+    source of a row is this run (computed), a recorded run at full size (recorded), or both, with the same bits.";
 
 /// Maximum number of entries with printed tables; for more, the program prints a line per paper.
 const PRINTED: usize = 3;
@@ -226,7 +225,8 @@ pub fn findings(found: &Reproduced) -> Findings {
     } else {
         lines.iter().for_each(|line| all.print(line.to_string()));
         all.print(
-            "The page has every row, with its bound and what is open; rows.csv has them for programs.".to_owned(),
+            "The page lists every row with its bound, and the open questions; rows.csv lists the rows for programs."
+                .to_owned(),
         );
     }
     all.conclude(Verdict::held(as_recorded(found)));

@@ -40,7 +40,7 @@ fn text(parts: &[&Part]) -> String {
     let mut text = match (whole, judged().count()) {
         (_, 0) => return String::new(),
         (all, count) if all == count => "No row is missed.".to_owned(),
-        (0, _) => "Every entry misses rows".to_owned(),
+        (0, _) => "Every entry has missed rows".to_owned(),
         (whole, count) => format!("No row is missed in {whole} of {count} entries"),
     };
     let mut worst: Vec<(usize, usize, &str)> = judged()

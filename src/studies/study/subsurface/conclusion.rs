@@ -32,13 +32,13 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
     let (least, most) = (percent(error(best)?), percent(error(worst)?));
     Some(if best.label == worst.label {
         format!(
-            "{} is off by {least} of all pairs (root mean square); its links alone account for {}.",
+            "{} differs from all pairs by {least} (root mean square); its links alone account for {}.",
             best.label,
             percent(best.links_error.map_or(0.0, |error| error.rms))
         )
     } else {
         format!(
-            "{} is nearest to all pairs, off by {least} (root mean square); {} is farthest, off by {most}.",
+            "{} is nearest to all pairs, with an error of {least} (root mean square); {} is farthest, with {most}.",
             best.label, worst.label
         )
     })
@@ -73,8 +73,8 @@ fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let signed = |error: BinError| format!("{}{}", if error.mean > 0.0 { "+" } else { "" }, percent(error.mean));
     let [from, to] = last.degrees;
     Some(format!(
-        "Of {} links per texel, by the angle between normals and the light, {} are nearer to all pairs; at {from} to \
-         {to} degrees the mean of B is off by {} with adaptive links and by {} with fixed ones.",
+        "With {} links per texel, by the angle between normals and the light, {} are nearer to all pairs; at {from} to \
+         {to} degrees the mean of B is off by {} with adaptive links and by {} with fixed links.",
         count(fixed),
         places.join(", "),
         signed(of_adaptive.links),
@@ -103,7 +103,7 @@ fn smallest(rows: &[WayRow]) -> Option<String> {
     Some(match within.min_by_key(|row| row.memory[0]) {
         Some(row) => {
             let size = shown(row.memory[0] as f64 / 1e6, Quantity::Measured);
-            format!("The smallest storage within 1 % is that of {}, {size} MB.", row.label)
+            format!("{} has the smallest storage within 1 %, {size} MB.", row.label)
         }
         None => "No way is within 1 % of all pairs.".to_owned(),
     })
@@ -127,7 +127,7 @@ fn repeated(outcome: &SubsurfaceOutcome) -> Option<String> {
     let count = outcome.atlas.census().duplicate_faces as u64;
     (count > 0).then(|| {
         let faces = counted(count, "face of the model lies", "faces of the model lie");
-        format!("{faces} on another face: such a place counts twice, and gives back too much light.")
+        format!("{faces} on another face: such places count twice, and reflect too much light.")
     })
 }
 
@@ -136,8 +136,8 @@ fn coarse(outcome: &SubsurfaceOutcome) -> Option<String> {
     let lengths = &outcome.lengths;
     (lengths.coarse > 0.0).then(|| {
         format!(
-            "On {} of the surface texels are longer than the shortest mean free path ({} mm): what is finer than a \
-             texel is not seen there; a larger atlas would show it.",
+            "On {} of the surface, texels are longer than the shortest mean free path ({} mm), so finer detail is lost \
+             there; a larger atlas would show it.",
             percent(lengths.coarse),
             shown(lengths.mean_free_path, Quantity::Measured),
         )
@@ -149,14 +149,14 @@ fn thin(outcome: &SubsurfaceOutcome) -> Option<String> {
     let lengths = &outcome.lengths;
     let (thickness, reach) = (lengths.thickness?, 2.0 * lengths.diffusion_length);
     let because = if reach.is_infinite() {
-        "A channel of the medium does not absorb, so that its light reaches through the model".to_owned()
+        "A channel of the medium does not absorb, so its light passes through the model".to_owned()
     } else if thickness < reach {
         format!("Two diffusion lengths, {} mm, reach through the model", shown(reach, Quantity::Measured))
     } else {
         return None;
     };
     Some(format!(
-        "{because}, whose median thickness is {} mm: the dipole, which is made for a half space, is wrong there.",
+        "{because}, whose median thickness is {} mm: the dipole, which assumes a half space, is wrong there.",
         shown(thickness, Quantity::Measured)
     ))
 }

@@ -38,7 +38,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
     found.heading("The maps of passes 1 and 2");
     found.pictures(pictures::maps(outcome));
     found.heading("Ways of gathering");
-    let without = format!("{ERRORS}{ALL_PAIRS_SIDE} x {ALL_PAIRS_SIDE}) there is nothing to compare links with.");
+    let without = format!("{ERRORS}{ALL_PAIRS_SIDE} x {ALL_PAIRS_SIDE}) links have no reference.");
     found.explained_table(FoundTable::from(tables::errors(outcome)).csv("rows").field("ways"), &without);
     found.explained_table(FoundTable::from(tables::angles(outcome)).csv("angles").field("angles"), ANGLES);
     error_chart(parameters, outcome).into_iter().for_each(|chart| found.chart(chart));
@@ -50,21 +50,21 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
     Ok(found)
 }
 
-const MEDIUM: &str = "The diffusion length is 1 over the effective transport coefficient sigma_tr; total_R_d is the share of light that a flat half \
-    space gives back.";
+const MEDIUM: &str = "The diffusion length is 1 over the effective transport coefficient sigma_tr; total_R_d is the \
+    share of light that a flat half space reflects.";
 
-const ERRORS: &str = "links: the host's sum over the links, in double precision, against that over all pairs of texels; plain means: the same with means \
-    of levels that count texels alike, as mipmaps of plain irradiance would; card: the card against the host's sum over the same links; all: the card \
-    against all pairs. Without all pairs (`--all-pairs no`, and the default of atlases above ";
+const ERRORS: &str = "links: the host's double-precision sum over the links, against the sum over all pairs of texels; plain means: the same with \
+    level means that weight texels equally, like mipmaps of plain irradiance; card: the card against the host's sum over the same links; all: the \
+    card against all pairs. Without all pairs (`--all-pairs no`, and the default of atlases above ";
 
-const ANGLES: &str = "The lit side of a model dominates a root mean square over all of it. Here every bin of angles is compared with its own light: 0 degrees is \
-    the surface that faces the light, 180 degrees the one that is turned away from it, which all light reaches from afar.";
+const ANGLES: &str = "The lit side of a model dominates a root mean square over the whole model. Here every bin of angles is relative to its own \
+    light: at 0 degrees the surface faces the light; at 180 degrees it faces away, and all light arrives from afar.";
 
-const STORAGE: &str = "Fixed links have their places in constants and four factors a texel, adaptive ones a texel each with place, factor and level. Factors \
-    lost to 0 are smaller than the format's least number; places rounded are coordinates of adaptive links that the format does not hold, which read a \
-    neighbour's light. Instructions are of all programs of pass 2 together, samplers of the largest.";
+const STORAGE: &str = "Fixed links store places in constants and four factors per texel, adaptive links one texel each with place, factor and level. \
+    Factors lost to 0 are below the format's smallest number. Rounded places are coordinates of adaptive links that the format cannot represent; \
+    they read a neighbour's light. Instructions count all programs of pass 2, samplers the largest program.";
 
-const TIMES: &str = "Times are modelled, not measured: nothing in the model was set by this paper.";
+const TIMES: &str = "Times are modelled, not measured; the model has no constant from this paper.";
 
 /// Chart of the error against the number of links, one line per choice; `None` for fewer than two numbers.
 fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<NamedChart> {

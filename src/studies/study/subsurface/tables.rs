@@ -52,8 +52,7 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
 /// Table of errors, a row per way.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "Ways of gathering; errors of B: root mean square by area and the largest, relative to those of B; seams, how far \
-         errors are from smooth among neighbouring texels",
+        "Ways of gathering; errors of B: root mean square by area and maximum, relative to B; seams: roughness of errors among neighbouring texels",
         "way links_rms_% links_largest_% links_seams_% plain_means_rms_% card_rms_% card_largest_% all_rms_% all_largest_%",
     );
     let rms = |error: GatherError| Cell::percent(100.0 * error.rms);
@@ -78,7 +77,7 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
 /// Table of errors by angle from the light, a row per way and bin.
 pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "Errors by the angle between normals and the light: of the mean of B, and root mean square; relative to all pairs",
+        "Errors by the angle between normals and the light: of the mean of B, and root mean square, relative to all pairs",
         "way from_degrees to_degrees area_% B_all_pairs links_% links_rms_% all_% all_rms_%",
     );
     for (row, bin) in outcome.rows.iter().flat_map(|row| row.angles.iter().map(move |bin| (row, bin))) {
@@ -94,7 +93,7 @@ pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
 /// Table of the card's resources that each way of gathering uses, a row per way.
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "What ways take of the card; reads and instructions per texel of pass 2",
+        "Card resources; reads and instructions per texel of pass 2",
         "way link_MB memory_MB passes link_reads map_reads instructions samplers factors lost_to_0 denormal places_rounded map_saturated",
     );
     for row in &outcome.rows {
@@ -121,7 +120,7 @@ pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
 /// Table of modelled times, a row per way that has them.
 pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "A frame with a new light, as the pipeline model has it; a new view is pass 3 alone",
+        "A frame with a new light, by the pipeline model; a new view takes only pass 3",
         "way pass_1_ms levels_ms pass_2_ms pass_3_ms frame_ms frames_per_s pass_2_bound_by",
     );
     for (row, times) in outcome.rows.iter().filter_map(|row| Some((row, row.times?))) {

@@ -121,7 +121,7 @@ fn error_255ths(shown: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f6
 pub(super) fn conclude(rows: &[FormatRow], found: &mut Findings) {
     for FormatRow { format, differing, by_rays, .. } in rows.iter().filter(|row| row.format == "s3.12") {
         found.conclusion(format!(
-            "In {format} {} of the rays differ from exact arithmetic, and the room is {} brighter than by the host's rays.",
+            "In {format}, {} of the rays differ from exact arithmetic, and the room is {} brighter than with the host's rays.",
             percent(*differing),
             percent(by_rays.bias),
         ));
@@ -144,12 +144,11 @@ pub(super) fn report(rows: &[FormatRow], found: &mut Findings) {
             ran(row.pictures[1].map(Cell::measured)),
         ]);
     }
-    found.heading("What each number format costs");
+    found.heading("Errors of each number format");
     found.explained_table(FoundTable::from(table).csv("formats").field("formats"), EXPLAINED);
 }
 
-const EXPLAINED: &str = "Each system on a card without limits that computes in the format. rays_differing: rays of the \
-    form factors that hit another triangle than in exact arithmetic, or none. room_by_rays: the mean error of patches \
-    that do not emit, from the form factors of these rays; room_by_sums: the same from the host's form factors and \
-    iterations in the format. transfer: coefficients of the bunny by these rays, root mean square, relative. The last two \
-    columns are root mean squares of the models' pixels in 255ths of white, against fp32.";
+const EXPLAINED: &str = "Each system runs on an unlimited card that computes in the format. rays_differing: form-factor rays that hit another \
+    triangle than in exact arithmetic, or none. room_by_rays: mean error of non-emitting patches, with the form factors of these rays; room_by_sums: \
+    the same with the host's form factors and iterations in the format. transfer: relative root mean square error of the bunny's coefficients by \
+    these rays. The last two columns are root mean square errors of the models' pixels in 255ths of white, against fp32.";

@@ -130,7 +130,10 @@ impl StoredTransfer for RowClusters {
         let numbers = self.weights.len() + vectors + means;
         let names = name_bytes(self.vectors.len()) * self.of_row.len();
         vec![
-            StoredSize { layout: "4 bytes a number, the cluster a row", bytes: (NUMBER * numbers + names) as u64 },
+            StoredSize {
+                layout: "4 bytes per number, a cluster index per row",
+                bytes: (NUMBER * numbers + names) as u64,
+            },
             StoredSize { layout: "numbers alone", bytes: (NUMBER * numbers) as u64 },
         ]
     }

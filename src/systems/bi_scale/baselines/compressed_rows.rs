@@ -91,7 +91,7 @@ impl CompressedRows {
 
 impl StoredTransfer for CompressedRows {
     fn sizes(&self) -> Vec<StoredSize> {
-        let layout = if self.entry == 3 { "3 bytes an entry, 4 a row" } else { "8 bytes an entry, 4 a row" };
+        let layout = if self.entry == 3 { "3 bytes per entry, 4 per row" } else { "8 bytes per entry, 4 per row" };
         vec![StoredSize { layout, bytes: (self.entry * self.nonzeros() + 4 * self.begins.len()) as u64 }]
     }
 

@@ -140,12 +140,12 @@ impl StoredTransfer for HaarRows {
         let each = self.options.storage.bytes();
         let rows = self.begins.len() - 1;
         let filled = match self.options.storage {
-            CoefficientStorage::Byte => "3 bytes a coefficient, as many in each row",
-            CoefficientStorage::Single => "6 bytes a coefficient, as many in each row",
+            CoefficientStorage::Byte => "3 bytes per coefficient, as many in each row",
+            CoefficientStorage::Single => "6 bytes per coefficient, as many in each row",
         };
         let whole = StoredSize { layout: filled, bytes: (each * self.options.keep * rows) as u64 };
         let bytes = (each * self.stored() + 4 * self.begins.len()) as u64;
-        vec![whole, StoredSize { layout: "those other than 0, 4 bytes a row", bytes }]
+        vec![whole, StoredSize { layout: "only nonzeros, 4 bytes per row", bytes }]
     }
 
     fn multiply(&self, light: &[f64]) -> Vec<f64> {

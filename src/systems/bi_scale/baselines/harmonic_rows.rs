@@ -88,8 +88,8 @@ impl HarmonicRows {
 impl StoredTransfer for HarmonicRows {
     fn sizes(&self) -> Vec<StoredSize> {
         let layout = match self.sides {
-            HarmonicSides::Light => "4 bytes a number, n^2 a row",
-            HarmonicSides::Both => "4 bytes a number, n^4 a vertex",
+            HarmonicSides::Light => "4 bytes per number, n^2 per row",
+            HarmonicSides::Both => "4 bytes per number, n^4 per vertex",
         };
         vec![StoredSize { layout, bytes: 4 * self.values.len() as u64 }]
     }

@@ -63,7 +63,7 @@ impl StoredTransfer for ReshuffledVisibility {
         let shuffle = texel * self.shuffle.len() as u64;
         let bytes = |each: u64| each * numbers + shuffle;
         vec![
-            StoredSize { layout: "4 bytes a coarse texel, its number a direction", bytes: bytes(4) },
+            StoredSize { layout: "4 bytes per coarse texel, its number per direction", bytes: bytes(4) },
             StoredSize { layout: "a byte a coarse texel, its number a direction", bytes: bytes(1) },
         ]
     }

@@ -57,7 +57,7 @@ const PER_COLUMN: usize = 8;
 impl StoredTransfer for Biclustering {
     fn sizes(&self) -> Vec<StoredSize> {
         let bytes = (PER_ROW * self.row_entries() + PER_COLUMN * self.column_entries()) as u64;
-        vec![StoredSize { layout: "4 bytes a row, 8 a column", bytes }]
+        vec![StoredSize { layout: "4 bytes per row, 8 per column", bytes }]
     }
 
     fn multiply(&self, light: &[f64]) -> Vec<f64> {

@@ -12,16 +12,16 @@ use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
 use crate::study::StudyError;
 
-const BITS: &str = "Bits of error are log2(1 + n), with n the numbers of the format from the computed result to the \
-    correctly rounded one; all bits of the format if the result is NaN. The mean is over sampled inputs. Accuracy is the share of the format's bits that are right in the mean. Inputs are numbers of the \
-    format itself. Discarded inputs meet the precondition but have no finite result in the format.";
+const BITS: &str = "Bits of error are log2(1 + n), where n counts the format's numbers from the computed result to the correctly rounded one; for \
+    NaN, all bits of the format. The mean is over sampled inputs. Accuracy is the mean share of correct bits in the format. Inputs are numbers of \
+    the format itself. Discarded inputs meet the precondition but have no finite result in the format.";
 
 const OPERATIONS: &str = "Local: bits of error of the operation on its exact operands, each rounded once. Alone: bits \
     of error of the whole expression if only this operation rounds its result and all others are exact. Both are means \
     over up to 256 inputs; operations that never err are left out.";
 
-const RELATIVE: &str = "Measures of relative error are over inputs in single precision, which each format rounds \
-    first, against the exact result of the inputs as they were.";
+const RELATIVE: &str = "Relative errors are over single-precision inputs, which each format rounds first; the \
+    reference is the exact result for the unrounded inputs.";
 
 /// Builds the findings. Among several expressions, failing ones are listed; the failure of a single one is an error.
 pub(super) fn findings(

@@ -64,7 +64,7 @@ impl BrdfFactors {
         ));
         if let Some(row) = harmonic.iter().find(|row| row.errors.rms <= errors.rms) {
             found.conclusion(format!(
-                "Spherical harmonics by integrals on both sides need {} functions (order {}) to come as near: RMS {}.",
+                "Spherical harmonics by integrals on both sides need {} functions (order {}) for the same accuracy: RMS {}.",
                 function_count(row.order),
                 row.order,
                 error(row.errors.rms)
@@ -121,7 +121,7 @@ impl BrdfFactors {
         let largest = difference.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         if largest > 0.0 {
             let scale = shown(largest, Quantity::Measured);
-            let caption = format!("terms less table: blue -{scale}, white 0, red +{scale}");
+            let caption = format!("terms minus table: blue -{scale}, white 0, red +{scale}");
             pictures.push(NamedPicture::new(
                 "difference",
                 false_color::signed(sphere::SIZE, &difference, largest),
@@ -140,7 +140,7 @@ impl BrdfFactors {
             return;
         };
         let mut table = Table::of(
-            "Against f itself, at 1,024 x 1,024 directions between texels",
+            "Errors against f itself, at 1,024 x 1,024 directions between texels",
             "terms relative_squared_error rms max least below_0_%",
         );
         table.push([

@@ -93,11 +93,11 @@ fn ratio(members: f64, numbers: f64) -> f64 {
     members * numbers / (N as f64 * (members + numbers))
 }
 
-const HOW: &str = "Nothing is run: sizes as printed, by equation 12. Segments below the horizon are counted for {} normals spread over the sphere, by fine \
-    directions of the segment alone. Frame rates come from one constant, {} G multiplications a second, which all six rates without drawing chose together; \
-    representatives count as dense, though the paper's are sparse.";
-const QUESTION: &str = "why fewer multiplications a second fit diffuse models and Buddha: sparse representatives, memory, or the host's share of the loop.";
-const RATE: &str = "Table 1: frames without drawing, which chose the constant together";
+const HOW: &str = "Nothing is run: sizes follow from printed ones by equation 12. Segments below the horizon are counted for {} normals spread over \
+    the sphere, by fine directions within the segment only. Frame rates come from one constant, {} G multiplications per second, fitted to all six \
+    rates without drawing; representatives count as dense, though the paper's are sparse.";
+const QUESTION: &str = "why fewer multiplications per second fit diffuse models and Buddha: sparse representatives, memory, or the host's share of the loop.";
+const RATE: &str = "Table 1: frames without drawing, which together determined the constant";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (least, mean) = below_horizon();
@@ -118,7 +118,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     let host = host_of_table_1().on(HOST)?;
     let rate = 1e9 / host.time_of(HostOperation::MultiplyAdd, 1_000_000_000).seconds();
     let mut table = Table::of(
-        "Table 1, by sizes alone",
+        "Table 1, from sizes alone",
         "model vertices_thousands raw_printed raw_GB raw_GiB clusters_printed clusters clustered_printed_% clustered_% \
          cluster_M vertex_M fps_printed fps G_per_second",
     );

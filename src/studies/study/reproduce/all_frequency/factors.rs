@@ -22,12 +22,12 @@ const REFLECTANCES: [PrintedReflectance; 2] = [
     PrintedReflectance { id: "schlick", name: "Schlick", forms: schlick, sweep: "forms of Schlick's model" },
 ];
 
-const HOW: &str = "Reflectance times cosine on parabolic maps of {} x {} texels, {} samples per pair of texels, means cut off at {}; {} terms of the \
-    singular value decomposition, and spherical harmonics by integrals over the hemisphere for view and light. Errors are over the {} x {} pairs \
-    of texels whose directions lie above the horizon. The paper names the models and their parameters, and none of their factors: the rows have \
-    the form of the textbooks, in which no energy is made; the tables beside them have the other printed denominators, and forms that a search beforehand had found nearer. \
-    Forms at centers have one sample per pair; those at equal angles are sampled at {} directions with equal solid angles instead of on maps, their \
-    singular values are those of these samples, and harmonics are integrated over them.";
+const HOW: &str = "Reflectance times cosine is tabulated on parabolic maps of {} x {} texels, with {} samples per pair of texels and means cut off \
+    at {}. It is approximated by {} terms of the singular value decomposition, and by spherical harmonics from integrals over the hemisphere for \
+    view and light. Errors are over the {} x {} pairs of texels whose directions lie above the horizon. The paper names the models and their \
+    parameters, but none of their factors. Rows use the textbook form, which creates no energy; the tables also have the other printed denominators, \
+    and forms that an earlier search had found nearer. Forms at centers have one sample per pair. Forms at equal angles are sampled at {} directions \
+    with equal solid angles instead of on maps; singular values and harmonics use the same samples.";
 const QUESTION: &str = "which denominators, Fresnel and shadowing terms the paper's two reflectances have, where on the hemisphere its errors are \
     taken, and whether the harmonics expand view, light or both.";
 
@@ -47,7 +47,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let mut found = reflectance.rows(stated)?;
         functions.extend(stated.last());
         sweep.explain(&mut found);
-        let title = format!("{}: errors by the form of its factors", reflectance.name);
+        let title = format!("{}: errors by form of the factors", reflectance.name);
         tables.push(sweep.table(&title, &found, (None, |value| value)));
         rows.extend(found);
     }

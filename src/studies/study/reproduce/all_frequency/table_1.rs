@@ -33,17 +33,19 @@ const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 /// Figure to which the shape of a stand-in was fitted.
 const SHAPED: &str = "omega-buddha";
 
-const HOW: &str = "The teapot, the Stanford bunny coarsened, and stand-ins of {} to {} vertices for the other models, with the paper's two reflectances in the textbooks' form, are \
-    compressed by clusters of {} vertices and {} representatives, which are added one by one, and coded in {} bits: {} of the segments, a quarter of a face at the side, \
-    above and below, which stand for the others by the vertices that hold them. Omega and the ground are of all segments. Sizes are those of representatives and weights; squared errors are those of decoded transfer, as a share of its squares.";
-const GROUND: &str = "A ground plane is \"in all examples\", and the performance of Table 1 is without it, by one paragraph of section 7: rows are of models by \
-    themselves, and their ranges have the same models on a ground of {} x {} vertices, which takes the light from below. The ground's own transfer is that of the bunny's scene, \
-    scaled to the printed vertices.";
-const RANGE: &str = "Nor does the text say of what range its {} bits are. Ranges of rows have each representative's and each segment's own, and absolute steps where \
-    weights are about one; and sizes with headers. No reading was chosen: a row holds if all of them do. The absolute step that meets most of the {} sizes after coding \
-    meets {} of them on models by themselves, {} on a ground.";
-const QUESTION: &str = "the models; of what range the quantised numbers are a share, which decides how many of them vanish; whether the printed squared error is that before coding or after it; \
-    whether the ground shadows the models of Table 1.";
+const HOW: &str = "The teapot, the coarsened Stanford bunny, and stand-ins of {} to {} vertices for the other models, with the paper's two \
+    reflectances in the textbook form, are compressed with clusters of {} vertices and {} representatives, which are added one by one, and coded in \
+    {} bits. Only {} of the segments are compressed, a quarter of a face at the side, above and below; they represent the others, weighted by the \
+    vertices that hold each segment. Omega and the ground use all segments. Sizes count representatives and weights; squared errors are of decoded \
+    transfer, relative to its sum of squares.";
+const GROUND: &str = "By one paragraph of section 7, a ground plane is \"in all examples\", and Table 1's performance is without it. So rows use \
+    models by themselves; their ranges include the same models on a ground of {} x {} vertices, which blocks the light from below. The ground's own \
+    transfer is from the bunny's scene, scaled to the printed vertices.";
+const RANGE: &str = "The text does not state the range of its {} bits either. The ranges of rows include the range of each representative and of \
+    each segment, absolute steps if weights are about one, and sizes with headers. No reading was chosen: a row holds if all of them do. Of the {} \
+    sizes after coding, the best absolute step meets {} on models by themselves, {} on a ground.";
+const QUESTION: &str = "the models; the range of the quantised numbers, which decides how many of them vanish; whether \
+    the printed squared error is from before coding or after it; whether the ground shadows the models of Table 1.";
 /// Columns with or without a ground.
 struct TableRun {
     name: &'static str,
@@ -59,7 +61,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let others = runs.iter().flat_map(|run| readings(&run.columns)).map(|values| values[*at]);
         let mut row = solved(name, stated[*at])?.with_readings(others);
         if name == SHAPED {
-            row.dependence = Dependence::Calibrated { on: "this figure, which gave the Buddha his coat" };
+            row.dependence = Dependence::Calibrated { on: "this figure, which determined the Buddha's coat" };
         }
         rows.push(row);
     }
@@ -236,7 +238,7 @@ fn by_representatives(found: &[CompressedModel]) -> Table {
     let counts: Vec<usize> = found[0].error_of.iter().map(|(vectors, _)| *vectors).collect();
     let headings: Vec<String> =
         ["model".to_owned()].into_iter().chain(counts.iter().map(|n| format!("n={n}"))).collect();
-    let mut table = Table::new("Squared error before coding, %, by the number of representatives", &headings);
+    let mut table = Table::new("Squared error before coding, %, by number of representatives", &headings);
     for ((column, ..), model) in TABLE_1.iter().zip(found) {
         let errors = model.error_of.iter().map(|(_, error)| Cell::measured(100.0 * error));
         table.push([(*column).into()].into_iter().chain(errors));
@@ -249,7 +251,7 @@ fn by_segment(found: &[CompressedModel]) -> Table {
     let headings = SAMPLED_SEGMENTS.iter().flat_map(|segment| [format!("coded_{segment}"), format!("error_{segment}")]);
     let headings: Vec<String> = ["model".to_owned()].into_iter().chain(headings).collect();
     let mut table =
-        Table::new("Size after coding, of that after clustering, and squared error, %, by segment", &headings);
+        Table::new("Size after coding over size after clustering, and squared error, %, by segment", &headings);
     for ((column, ..), model) in TABLE_1.iter().zip(found) {
         let of_segment = |segment: &usize| {
             let shares = model.by_segment.iter().find(|shares| shares.segment == *segment);

@@ -5,11 +5,11 @@ use super::{EntryFindings, Shared, StudyError, number, paragraph};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
-const HOW: &str = "Nothing is run. Operations are two per value other than zero; a dense matrix takes {} byte per value, biclusters {} bytes per operation: \
-    {} per row, and {} for place and value of a column, which cost one operation and two; a texel has {} bytes. These bytes were read off the \
-    printed sizes, so that rows on megabytes are calibrated.";
+const HOW: &str = "Nothing is run. Each nonzero value costs two operations. A dense matrix takes {} byte per value, biclusters {} bytes per \
+    operation: {} per row, which costs one operation, and {} for a column's place and value, which cost two. A texel has {} bytes. These byte counts \
+    were read off the printed sizes, so rows in megabytes are calibrated.";
 const QUESTION: &str =
-    "why the small bunny's dense matrix is printed larger than its vertices make it, where the other five fit.";
+    "why the small bunny's dense matrix is printed larger than its vertices imply, while the other five fit.";
 /// Bytes per value of a dense matrix, per row of a bicluster, and per column.
 const DENSE: f64 = 1.0;
 const PER_ROW: f64 = 4.0;
@@ -22,7 +22,7 @@ const TEXEL_BYTES: f64 = 3.0;
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of(
-        "Tables I and II, by sizes alone",
+        "Tables I and II, from sizes alone",
         "scene vertices local_directions nonzeros_M dense_MB_printed dense_MB bytes_per_operation \
          bytes_per_nonzero_printed rows_of_3_bytes_MB biclusters_of_them_% rows_of_8_bytes_MB biclusters_of_these_%",
     );

@@ -9,9 +9,9 @@ use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::transfer::visibility::Horizon;
 
-const HOW: &str = "The Stanford bunny with {} vertices, and sizes as if it had the {} of the paper's: bytes of biclusters grow as vertices do (table II). \
-    The display is that of the emulated card in {} x {} pixels.";
-const QUESTION: &str = "how the paper's bunny was made of the scan.";
+const HOW: &str = "The Stanford bunny has {} vertices; sizes are scaled to the paper's {}, since bytes of biclusters \
+    grow in proportion to vertices (table II). The emulated card displays it in {} x {} pixels.";
+const QUESTION: &str = "how the paper's bunny was made from the scan.";
 /// Numbers of local directions per side.
 const SIDES: [usize; 4] = [8, 12, 16, 32];
 /// Size of the picture: large enough to show differences in cost.

@@ -10,11 +10,11 @@ use super::{
 use crate::report::{Cell, Table};
 use crate::transfer::{Tangents, Vertices};
 
-const HOW: &str = "What light costs is the difference of a scene's two rates. One constant, {} billion operations a second and channel, is what the \
-    transfers of table I take together; with it and the printed rates for views alone all rates for light are computed. The display is that of the emulated card: \
-    our bunny in {} x {} pixels, {} passes of {} directions, {} texture reads and {} other instructions in each pixel of a pass. Its time is modelled by clocks and takes \
-    texture reads to be as fast as the units can be; the paper names cache misses as what decides.";
-const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large models stand in the pictures; how many reads of textures missed the caches.";
+const HOW: &str = "The cost of new light is the difference between a scene's two frame times. One constant, {} billion operations per second and \
+    channel, is fitted to all transfers of table I; all rates with new light follow from it and the printed rates with only a new view. The emulated \
+    card displays our bunny in {} x {} pixels, with {} passes of {} directions, {} texture reads and {} other instructions per pixel of a pass. Its \
+    time is modelled by clocks, with texture reads at the units' full speed; the paper names cache misses as decisive.";
+const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large the models appear in the pictures; how many texture reads missed the caches.";
 const PICTURE: [u32; 2] = picture(ModelSize::Printed);
 
 /// A scene's printed rates in one table.
@@ -131,7 +131,7 @@ fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperR
 
 fn table(printed: &[PrintedFrames], constant: f64) -> Table {
     let mut table = Table::of(
-        "What light costs, from printed rates",
+        "Cost of new light, from printed rates",
         "scene operations_M transfer_ms_printed billion_operations_per_second transfer_ms view_ms transfer_over_view",
     );
     for frames in printed {
@@ -154,7 +154,7 @@ fn of_display(run: &DisplayRun) -> Table {
     let rows = [
         ("pixels covered", run.pixels),
         ("passes", run.counts.passes as u64),
-        ("texture reads of a pixel", run.counts.passes as u64 * u64::from(run.counts.pixel_slots[0])),
+        ("texture reads per pixel", run.counts.passes as u64 * u64::from(run.counts.pixel_slots[0])),
         ("vertices", run.counts.vertices as u64),
     ];
     rows.into_iter().for_each(|(what, count)| table.push([what.into(), count.into()]));

@@ -11,11 +11,11 @@ use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel::{self, BiScaleBunny, BiScaleBunnyFine, BiScaleBunnyMiddle};
 use crate::transfer::visibility::Horizon;
 
-const HOW: &str = "The scan of the Stanford bunny with its holes filled, coarsened or refined to the printed numbers, with {} x {} local directions of {} x {} visibility \
-    samples per light texel. A vertex sees what triangles leave free; without what lies below the plane of its normal the smallest has fewer values by {} %. \
-    Views are drawn on the emulated card in {} x {} pixels.";
-const QUESTION: &str = "how the paper's bunnies were made of the scan; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties; \
-    how large models stand in the pictures.";
+const HOW: &str = "The bunnies are the Stanford bunny's scan with its holes filled, coarsened or refined to the printed numbers, with {} x {} local \
+    directions of {} x {} visibility samples per light texel. A vertex sees whatever no triangle blocks; without the directions below the plane of \
+    its normal, the smallest bunny has {} % fewer values. The emulated card draws views in {} x {} pixels.";
+const QUESTION: &str = "how the paper's bunnies were made from the scan; whether a vertex sees below the plane of its \
+    normal; how the paper draws start points and breaks ties; how large the models appear in the pictures.";
 /// Scenes by size: index in [`SCENES`], and model.
 const BUNNIES: [(usize, TransferModel); 3] = [(0, BiScaleBunny), (4, BiScaleBunnyMiddle), (5, BiScaleBunnyFine)];
 /// Edge length of reduced models, as a multiple of the full model's.

@@ -22,9 +22,9 @@ const PROJECTIONS: [Projected; 4] = [
     Projected { id: "even-5", projection: EvenReflection, order: 5 },
 ];
 
-const HOW: &str = "The Gram matrix of the harmonics over the hemisphere, its spectrum and the errors of projections in f64. Odd and even reflection are \
-    taken by their formulas: the words in the paper's parentheses are exchanged. Errors are squared, over the hemisphere, of functions whose square \
-    integrates to one over the sphere; section 3.2 prints the roots of two of them.";
+const HOW: &str = "The Gram matrix of the harmonics over the hemisphere, its spectrum and the errors of projections are computed in f64. Odd and \
+    even reflection follow the formulas: the paper's words in parentheses are swapped. Errors are squared errors over the hemisphere, of functions \
+    whose square integrates to one over the sphere; section 3.2 prints the square roots of two of them.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let hemisphere = Hemisphere::new(ORDER);

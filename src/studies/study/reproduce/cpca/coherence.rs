@@ -13,16 +13,16 @@ use crate::report::{Cell, Table};
 /// Index of the signal, its name, and its name in figure names.
 const MODELS: [(usize, &str, &str); 2] = [(BUDDHA, "Buddha", "buddha"), (BIRD, "bird", "bird")];
 
-const HOW: &str = "Overdraw is the mean number of clusters, or superclusters, of a triangle's vertices. Reclassification may add {} % of the error; superclusters \
-    fill {} registers, {} clusters each. \"sc+rec\" is reclassification, then superclusters. Our models have as many points per cluster as the paper's, so that \
-    clusters have as much of a border for their area.";
-const TIMES: &str = "Frames are timed on the {} from sizes, the printed overdraw, and the order of triangles in our models: products on the host, \
-    constants, vertices, which a cache of finished ones spares; pixels take no time. Host and card work side by side.";
-const ORDER: &str = "the order of the authors' triangles: a good one runs half as many vertices as ours does.";
+const HOW: &str = "Overdraw is the mean number of clusters, or superclusters, among a triangle's vertices. Reclassification may add {} % to the \
+    error; superclusters fill {} registers, {} clusters each. \"sc+rec\" is reclassification, then superclusters. Our models have as many points per \
+    cluster as the paper's, so that clusters have the same border relative to their area.";
+const TIMES: &str = "Frame times on the {} are modelled from sizes, the printed overdraw, and the order of triangles in our models: products on the \
+    host, constants, and vertices that miss the cache of finished vertices; pixels take no time. Host and card work in parallel.";
+const ORDER: &str = "the order of the authors' triangles: a good order runs half as many vertices as ours.";
 const QUESTION: &str = "the models and their clusters: a smoother signal has smoother borders.";
 
 /// Reason why no optimisation increases overdraw.
-const NEVER_MORE: &str = "a vertex moves only where fewer triangles are drawn, and merged clusters add no border";
+const NEVER_MORE: &str = "a vertex moves only if fewer triangles are drawn, and merged clusters add no border";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of(

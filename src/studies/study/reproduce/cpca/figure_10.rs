@@ -21,8 +21,9 @@ const ENCODINGS: [(&str, usize, usize, [&str; 2]); 3] = [
     ("CPCA", 256, 8, ["cpca/error-bird-8", "cpca/rate-cpca"]),
 ];
 
-const HOW: &str = "The figure matches frame rates, not storage: by section 4.1's metric its three encodings hold {} M, {} M and {} M numbers. \
-    The rows of section 8 give vector quantization and principal components as much storage as both together. All on {} points of {} numbers.";
+const HOW: &str = "The figure matches frame rates, not storage: by section 4.1's metric its three encodings store {} \
+    M, {} M and {} M numbers. In the rows of section 8, vector quantization and principal components each have as much \
+    storage as CPCA. All encodings use {} points of {} numbers.";
 const QUESTION: &str = "the model, its BRDF and the scale of the squared error.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
@@ -55,7 +56,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     {
         let clustering = computed.compressed_to(clusters, vectors, still)?;
         let error = computed.error(&clustering);
-        let line = line(&format!("{name}, storage of CPCA"), &clustering, (None, None), error);
+        let line = line(&format!("{name}, with CPCA's storage"), &clustering, (None, None), error);
         table.push(line.into_iter().chain([Cell::Empty, Cell::Empty]));
         rows.push(solved(id, error / of_both)?);
     }

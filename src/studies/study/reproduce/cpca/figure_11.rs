@@ -18,13 +18,12 @@ const VECTORS: [usize; 4] = [2, 4, 8, 12];
 const MODELS: [(usize, &str, &str, &str); 2] =
     [(BUDDHA, "Buddha", "buddha", "cpca/rate-buddha-gloss-anis"), (BIRD, "bird", "bird", "cpca/rate-cpca")];
 
-const HOW: &str = "Iterative compression of glossy anisotropic transfer to {} clusters, {} of them on a model of our size. The paper's bird loses error quickly, \
-    its Buddha slowly.";
+const HOW: &str = "Glossy anisotropic transfer is compressed iteratively to {} clusters, scaled to {} on a model of \
+    our size. In the paper, the bird's error falls quickly, the Buddha's slowly.";
 const QUESTION: &str = "the models, the BRDF and the scale of the squared error.";
 
 /// Reason why the error falls with more vectors.
-const FALLS: &str =
-    "more vectors are added to the clusters of fewer, and neither a vector nor a reassignment adds error";
+const FALLS: &str = "vectors are added to existing clusters, and neither a vector nor a reassignment adds error";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of("Squared errors", "model vectors printed ours share_of_squares_% Hz_printed Hz");
@@ -87,7 +86,8 @@ fn by_compression(ours: &[f64]) -> Result<PaperRow, StudyError> {
         ["cpca/rate-buddha-gloss-anis", "cpca/rate-buddha-uncompressed"].map(|id| printed(id).map(|rate| rate.value));
     let factor = with? / without?;
     let least = number(factor, 1);
-    let how = format!("{least} times for the Buddha: its rates with 8 vectors and without compression in figure 11");
+    let how =
+        format!("{least} times for the Buddha: from its rates with 8 vectors and without compression in figure 11");
     Ok(row.contradicted(Contradiction::if_holds(factor < printed("cpca/faster-by-compression")?.value, how)))
 }
 

@@ -11,9 +11,10 @@ const VECTORS: [usize; 6] = [0, 1, 2, 4, 8, 16];
 /// Minimum number of points per cluster: 48,668 points allow up to 16 k clusters.
 const LEAST_POINTS: usize = 2;
 
-const HOW: &str = "{} points of diffuse transfer of order {} on our bird, with shadows; {} to {} clusters. Static principal components, whose \
-    clusters do not depend on the number of vectors. The figure's axes are lost; its text says that each number of vectors is worse than the one before with few clusters and \
-    becomes better with many. Curves are compared at equal storage, the one before interpolated between its points.";
+const HOW: &str = "The signal is {} points of shadowed diffuse transfer of order {} on our bird, in {} to {} clusters. \
+    Static principal components are used: their clusters do not depend on the number of vectors. The figure's axes are \
+    lost. By its text, each number of vectors is worse than the previous one with few clusters, and better with many. \
+    Curves are compared at equal storage; the previous curve is interpolated between its points.";
 
 /// Storage and squared error for increasing numbers of clusters.
 type Curve = Vec<(f64, f64)>;
@@ -25,8 +26,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         .take_while(|count| count * LEAST_POINTS <= points)
         .collect();
     let mut curves: Vec<Curve> = vec![Vec::new(); VECTORS.len()];
-    let mut table =
-        Table::of("Squared error, as a share of that of one cluster without vectors (%)", "clusters 0 1 2 4 8 16");
+    let mut table = Table::of("Squared error, relative to one cluster without vectors (%)", "clusters 0 1 2 4 8 16");
     let mut whole = None;
     for &clusters in &counts {
         let errors = computed.static_errors(clusters, VECTORS[VECTORS.len() - 1])?;

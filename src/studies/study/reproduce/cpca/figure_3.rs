@@ -17,8 +17,8 @@ const MORE: usize = 6;
 /// Maximum number of rounds of redistribution.
 const ROUNDS: usize = 20;
 
-const HOW: &str = "{} points of diffuse transfer of order {} in {} clusters. Vectors gained: how many more the simpler method needs for the same error, \
-    interpolated by the logarithm of the error. Redistribution ends when nothing changes, or after {} rounds.";
+const HOW: &str = "The signal is {} points of diffuse transfer of order {} in {} clusters. Vectors gained: how many more vectors the simpler method \
+    needs for the same error, interpolated in the logarithm of the error. Redistribution ends when nothing changes, or after {} rounds.";
 const QUESTION: &str =
     "the paper's model: iteration and redistribution gain more where clusters differ more, and on more clusters.";
 

@@ -11,8 +11,8 @@ const CLUSTERS: [usize; 2] = [64, 32];
 const VECTORS: [usize; 3] = [1, 2, 4];
 const ORDER: usize = 10;
 
-const HOW: &str = "A ground and a blocker of {} vertices together, light of order {}. The caption has {} clusters, Table 1's row for the figure {}: \
-    both are compressed, each by its share for a model of our size, and the row has all of them.";
+const HOW: &str = "The scene is a ground and a blocker with {} vertices in all, under light of order {}. The caption has {} clusters, Table 1's row \
+    for the figure {}: both are computed, scaled to a model of our size, and the row has all of them.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let computed = shared.get::<ComputedSignal>(POLYGONS)?;

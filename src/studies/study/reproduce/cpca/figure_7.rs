@@ -27,10 +27,10 @@ const PROJECTIONS: [(&str, &str, usize, bool); 4] = [
     ("", "least squares", 5, true),
 ];
 
-const HOW: &str = "{} vertices of our bird, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows by zero \
-    hemisphere (a), {} rows by least squares (b) and {} by zero hemisphere (c). Errors are those of pictures, root mean square over that of exit radiance \
-    without any projection: the integral of BRDF and light over {} directions per vertex, shadows and all. Pixels count as silhouette below a cosine of {} \
-    between view and normal.";
+const HOW: &str = "The scene is our bird with {} vertices, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows \
+    by zero hemisphere (a), {} rows by least squares (b) and {} by zero hemisphere (c). Errors are RMS errors of pictures, relative to the RMS of \
+    exit radiance without projection: the shadowed integral of BRDF and light over {} directions per vertex. A pixel counts as silhouette if the \
+    cosine between view and normal is below {}.";
 const QUESTION: &str = "the model, its BRDF and the lights of Figure 7.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {

@@ -23,14 +23,16 @@ const MODELS: [(usize, &str, &str, &str); 2] = [
 const ROWS: [usize; 2] = [25, 16];
 /// "A Radeon 9800 runs 20% faster with CPCA".
 const NEWER: &str = "r350";
-const HOW: &str = "Phong models, {} rows, {} clusters of {} vectors. Frames are timed on the {} from printed sizes and the overdraw of our own clusters with both optimisations of section 5.";
-const NEWER_CARD: &str = "\"Runs {} % faster\" stands in the paragraph on these models, so it is judged on them. Which cards are meant is unsaid; the profiles are of the Pro \
-    cards. The host is the same: where it is the slower of the two, a faster card gains nothing.";
-const QUESTION: &str = "which models of the two Radeons were compared, and with what processor: from Pro to Pro the core's clock rises by less than is printed.";
+const HOW: &str = "The Phong models have {} rows and {} clusters of {} vectors. Frame times on the {} are modelled from printed sizes and the overdraw of our own clusters with both optimisations of section 5.";
+const NEWER_CARD: &str = "\"Runs {} % faster\" is in the paragraph on these models, so it is judged on them. The paper does not say which cards are \
+    meant; the profiles are of the Pro cards. The host is the same: if it is slower than the card, a faster card gains nothing.";
+const QUESTION: &str = "which models of the two Radeons were compared, and with what processor: from Pro to Pro, the core clock rises by less than the printed speed-up.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
-    let mut table =
-        Table::of("Compressed and uncompressed", "model overdraw Hz_printed Hz host_ms constants_ms draws_ms");
+    let mut table = Table::of(
+        "Frame rates, compressed and uncompressed",
+        "model overdraw Hz_printed Hz host_ms constants_ms draws_ms",
+    );
     let (mut rows, mut gains, mut plain_gains) = (Vec::new(), Vec::new(), Vec::new());
     for (at, name, id, rate) in MODELS {
         let drawn = shared.get::<DrawnClusters>(at)?;

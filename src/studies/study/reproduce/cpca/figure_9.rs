@@ -17,9 +17,9 @@ const SKY: ClearSky = ClearSky {
     ground: [0.2; 3],
 };
 
-const HOW: &str = "A Buddha of {} vertices: isotropic gloss over a scattering medium, whose light goes into the first function of exit radiance alone. \
-    The share below the surface is what the sum has beyond the glossy part. The error is of the picture from {} clusters of {} vectors, \
-    root mean square over that of the picture without compression.";
+const HOW: &str = "The model is a Buddha of {} vertices with isotropic gloss over a scattering medium, whose light enters only the first function of \
+    exit radiance. The share below the surface is the part of the sum that is not glossy. The error is the RMS error of the picture from {} clusters \
+    of {} vectors, relative to the RMS of the uncompressed picture.";
 const QUESTION: &str = "the model, its scale and its medium, and both environments.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {

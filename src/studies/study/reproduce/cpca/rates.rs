@@ -20,9 +20,10 @@ use crate::scene::built::transfer_models::TransferModel;
 /// Index in [`COLUMNS`] of the column with both optimisations.
 const BOTH: usize = 3;
 /// Inputs of the modelled rates: calibration of the host's rate, and overdraw.
-pub(super) const INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate; the printed overdraw";
+pub(super) const INPUTS: &str =
+    "2.9 Hz of the uncompressed head, which determined the host's rate; the printed overdraw";
 /// Inputs of the modelled rates that use our clusters' overdraw.
-pub(super) const OWN_INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate";
+pub(super) const OWN_INPUTS: &str = "2.9 Hz of the uncompressed head, which determined the host's rate";
 
 /// Time of a frame with a printed size and `groups` groups, which are drawn one after the other.
 pub(super) fn modelled(

@@ -5,9 +5,9 @@ use super::{EntryFindings, REGISTERS, Shared, StudyError, number, paragraph};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
-const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 4.1 and section 6.2. A register holds {} numbers, and each vector takes whole \
-    ones, where the paper divides. The host multiplies every mean and vector by the light of three channels in each frame; \
-    without compression, every vertex's matrix.";
+const HOW: &str = "Nothing is run: sizes follow from printed ones by the formulas of sections 4.1 and 6.2. A register \
+    holds {} numbers, and each vector takes whole registers, while the paper divides. Per frame, the host multiplies \
+    every mean and vector by the light of three channels; without compression, every vertex's matrix.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     Ok(EntryFindings::new([paragraph(HOW, [number(4.0, 0)])], [], [], [sizes()]))
@@ -16,7 +16,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
 /// Table of the sizes of Table 1's signals, and of the encodings of Figures 10 and 11 that Table 1 lacks.
 fn sizes() -> Table {
     let mut table = Table::of(
-        "Sizes as printed, and what follows from them",
+        "Printed sizes, and derived quantities",
         "signal clusters vectors raw_M stored_M ratio registers_per_cluster clusters_per_batch batches \
          uploaded_registers host_M uncompressed_M less_host_work",
     );

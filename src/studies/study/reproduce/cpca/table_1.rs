@@ -34,10 +34,11 @@ fn errors(id: &str) -> Result<[&'static PaperFigure; 2], StudyError> {
     Ok([printed(&format!("cpca/static-{id}"))?, printed(&iterative)?])
 }
 
-const HOW: &str = "The paper's models and BRDFs are lost; ours are of {} to {} vertices, with as many points per cluster as the paper's. Its squared errors \
-    are in units that depend on the BRDF: what can be compared is which of two is larger, and by how much.";
-const TIMES: &str = "Frames are timed on the {} from printed sizes, the order of triangles in our models, and the overdraw of our own clusters with both \
-    optimisations of section 5. Models of reduced size have few superclusters and so less of a border than the paper's: they flatter.";
+const HOW: &str = "The paper's models and BRDFs are lost; ours have {} to {} vertices, with as many points per cluster \
+    as the paper's. Its squared errors are in units that depend on the BRDF, so only ratios of errors can be compared.";
+const TIMES: &str = "Frame times on the {} are modelled from printed sizes, the order of triangles in our models, and \
+    the overdraw of our own clusters with both optimisations of section 5. Models of reduced size have few \
+    superclusters, and thus less border than the paper's: their rates are flattering.";
 const QUESTION: &str = "the models, the BRDFs and the scale of the squared error.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {

@@ -16,9 +16,8 @@ pub(super) fn verify(text: &str) -> Result<(), String> {
         let found = digest(&file, first, &stated.date);
         if found != stated.digest {
             return Err(format!(
-                "what was stated on {} has digest {}, and what stands there now {found}: a figure's value, bound or \
-                 reading was changed. List the old one in the figure's `changed`, with date and reason; give a new \
-                 figure a date of its own",
+                "the statements of {} have digest {}, and the file now has {found}: a figure's value, bound or reading was changed. List the old one \
+                 in the figure's `changed`, with date and reason; give a new figure a date of its own",
                 stated.date, stated.digest,
             ));
         }

@@ -21,15 +21,15 @@ const CONVERGED: f64 = 1e-4;
 /// Residuals at which iterations are counted, for the sweep.
 const RESIDUALS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 
-const HOW: &str = "A closed Cornell box without blocks, its form factors in closed form and by contour integrals, solved in f64 from zero. No card \
-    takes part: equation 4 converges as Jacobi's iteration does. The paper's \"about twice as many iterations to converge\" is read twice: \
-    by the iterations down to {} of what the residual was, and late, by the slopes of the plot's lines over its last half. The row has \
-    both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
+const HOW: &str = "The scene is a closed Cornell box without blocks. Form factors are computed in closed form and by contour integrals; the solution \
+    is in f64, from zero. No card is emulated: equation 4 converges as Jacobi's iteration does. The paper's \"about twice as many iterations to \
+    converge\" has two readings: the iterations until the residual falls to {} of its first value, and the slopes of the plot's lines over its last \
+    half. The row has both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let system = closed_box()?;
     let mut table = Table::of(
-        "Iterations until the residual is so small a share of what it was",
+        "Iterations until the residual falls to a share of its first value",
         "channel residual jacobi gauss_seidel ratio",
     );
     let (mut lines, mut late, mut both) = (Vec::new(), Vec::new(), Vec::new());
@@ -50,9 +50,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     Ok(EntryFindings {
         text: vec![paragraph(HOW, [CONVERGED.to_string()])],
         rows: vec![row(&both, late)?],
-        questions: vec![
-            "down to which residual the authors counted, and where their figure's axes begin and end: the text does not say.",
-        ],
+        questions: vec!["the residual at which the authors stopped counting, and the ranges of their figure's axes."],
         tables: vec![table],
         charts: vec![NamedChart {
             name: "radiosity-figure-3".into(),
@@ -64,7 +62,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
                 lines,
                 ..Chart::default()
             },
-            caption: "Figure 3 of the radiosity paper, whose points are not printed: both are straight lines.".into(),
+            caption: "Figure 3 of the radiosity paper. It prints no points; both of its curves are straight lines."
+                .into(),
         }],
         ..EntryFindings::default()
     })
@@ -83,7 +82,11 @@ fn row(channels: &[(Solution, Solution)], late: Vec<f64>) -> Result<PaperRow, St
         at: share.to_string(),
         values: vec![ratios(share).max_by(farthest).unwrap_or(f64::NAN)],
     };
-    let sweep = Sweep { name: "where iterations end", parameter: "residual", settings: RESIDUALS.map(setting).into() };
+    let sweep = Sweep {
+        name: "residual at which iterations end",
+        parameter: "residual",
+        settings: RESIDUALS.map(setting).into(),
+    };
     sweep.explain(&mut rows);
     let [row] = rows;
     Ok(row)

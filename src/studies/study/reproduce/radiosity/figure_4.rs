@@ -47,15 +47,15 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     let size = f64::from(PATCHES) * f64::from(PATCHES) / 1e6;
     let printed = [PrintedRates::card()?, PrintedRates::host()?];
     let chart = Chart {
-        title: "An iteration by the size of the matrix".to_owned(),
+        title: "Iteration time by matrix size".to_owned(),
         x: "M elements, N x N".to_owned(),
         y: "ms".to_owned(),
         // On linear axes, all but the largest sizes would be in one corner.
         x_scale: Scale::Logarithmic,
         y_scale: Scale::Logarithmic,
         lines: vec![
-            line("nv35, one texel an element", |p| p.rgb),
-            line("nv35, four elements a texel", |p| p.luminance),
+            line("nv35, one texel per element", |p| p.rgb),
+            line("nv35, four elements per texel", |p| p.luminance),
             line("Athlon 2800+, Gauss-Seidel", |p| p.host),
         ],
         printed: printed.iter().map(|rates| (size, 1e3 / rates.per_s)).collect(),
@@ -64,13 +64,15 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     Ok(EntryFindings {
         text: text(&points, &printed)?,
         rows: overtakes(&points)?.into_iter().collect(),
-        questions: vec!["what would make the host's time grow faster than the bytes that it reads, as the authors' belief needs."],
+        questions: vec![
+            "why the host's time would grow faster than the bytes that it reads, as the authors' estimate requires.",
+        ],
         tables: vec![table(&points)],
         charts: vec![NamedChart {
             name: "radiosity-figure-4".into(),
             chart,
-            caption: "Figure 4 of the radiosity paper. Of its points only the printed rates are known, here at the inferred number of patches; the \
-                      card's time is a straight line over the elements of the matrix, the host's bends upward where the matrix leaves its cache."
+            caption: "Figure 4 of the radiosity paper. Only the printed rates are known; they are shown at the inferred number of patches. The \
+                      card's time is linear in the number of matrix elements; the host's curve bends upward where the matrix exceeds its cache."
                 .into(),
         }],
         ..EntryFindings::default()
@@ -86,7 +88,7 @@ fn overtakes(points: &[Point]) -> Result<Option<PaperRow>, StudyError> {
 
 fn table(points: &[Point]) -> Table {
     let mut table = Table::of(
-        "Milliseconds of an iteration, and nanoseconds an element",
+        "Milliseconds per iteration, and nanoseconds per element",
         "patches rgb_ms rgb_ns luminance_ms luminance_ns host_ms host_ns host_over_rgb",
     );
     for p in points {
@@ -113,13 +115,13 @@ fn crossing(points: &[Point], card: fn(&Point) -> f64) -> Option<f64> {
     })
 }
 
-const HOW: &str = "The figure's points are not printed, but for the rates of the text. The card's times are the pipeline model's. The host's follow from its \
-    clock, its cache and the one printed rate: an element costs an addition that waits for the last, and a share of a cache line \
-    where the matrix does not fit.";
+const HOW: &str = "The paper prints no points of the figure, only the rates in the text. The card's times come from \
+    the pipeline model. The host's times follow from its clock, its cache and the one printed rate: each element costs \
+    an addition that waits for the previous one, and a share of a cache line if the matrix exceeds the cache.";
 
-const BELIEF: &str = "In this model the card overtakes the host {} with one texel an element, and {} with four elements a texel. The authors believe that it happens \
-    above {} patches, if it does; from their printed rates the host's time would have to grow with the power {} of the number of patches between {} and \
-    there, faster than the bytes that it reads.";
+const BELIEF: &str = "In this model the card overtakes the host {} with one texel per element, and {} with four elements per texel. The authors \
+    expect this above {} patches, if at all. By their printed rates, the host's time would have to grow with the power {} of the number of patches \
+    from {} patches to that size, faster than the bytes that it reads.";
 
 fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<String>, StudyError> {
     let believed = printed_value("radiosity/crossing")?;

@@ -14,18 +14,18 @@ use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, p
 /// pairs of rates, with their neighbors; a round number.
 const SIZES: [u32; 9] = [1524, 1536, 1539, 1540, 1541, 1542, 1543, 1544, 1600];
 /// Inputs of the inferred number of patches.
-const CHOSE_N: &str = "141 and 190 MFLOP/s, which chose the number of patches";
+const CHOSE_N: &str = "141 and 190 MFLOP/s, which determined the number of patches";
 /// Inputs of the rate on the card: the host's rates alone allow the same numbers of patches.
-const HOST_CHOSE_N: &str = "190 MFLOP/s and 40 iterations/s of the host, which chose the number of patches";
+const HOST_CHOSE_N: &str = "190 MFLOP/s and 40 iterations/s of the host, which determined the number of patches";
 
-const HOW: &str = "Neither the number of patches nor that of passes is printed. Both printed pairs of rates mean {} million operations an iteration; \
-    at two an element that leaves {} to {} patches, and we take the first. So the rows of operations are calibrated; passes would be {}. \
-    An iteration of that size is drawn on the emulated {} and timed by the pipeline model, in which nothing was set by this paper; \
-    the table gives it for other sizes.";
+const HOW: &str = "The paper prints neither the number of patches nor the number of passes. Both printed pairs of rates imply {} million operations \
+    per iteration; at two per element, this leaves {} to {} patches, and we use the first. So the rows of operations are calibrated; the number of \
+    passes would be {}. An iteration of this size is drawn on the emulated {} and timed by the pipeline model, which has no constant from this \
+    paper; the table lists other sizes.";
 
-const WHERE: &str = "Where the time goes: each of a texel's two reads is of {} bytes at a computed coordinate, which a texture unit of {} bytes a clock \
-    takes {} clocks for; and of each quad of fragments only {} % lie in the one row of the target. The unit's width and how registers slow the card \
-    are guesses or measurements of others, as `crossbar devices` says.";
+const WHERE: &str = "Texture reads and partly filled quads take the time: each of a texel's two reads fetches {} bytes at a computed coordinate, for \
+    which a texture unit of {} bytes per clock takes {} clocks; of each quad of fragments, only {} % lie in the single target row. The unit's width \
+    and the slowdown by registers are guesses or others' measurements; `crossbar devices` lists them.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;
@@ -54,8 +54,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         ],
         rows(&paper, &printed)?,
         [
-            "how many patches the authors' scene had.",
-            "what share of its bandwidth the card used: the text guesses, and of the card's texture cache nothing is documented.",
+            "the number of patches in the authors' scene.",
+            "the share of its bandwidth that the card used: the text guesses it, and the card's texture cache is undocumented.",
         ],
         [sizes, costs()?],
     ))
@@ -70,8 +70,10 @@ fn profile_width() -> Result<f64, StudyError> {
 fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<PaperRow>, StudyError> {
     let calibrated = Dependence::Calibrated { on: CHOSE_N };
     let predicted = Dependence::Predicted { from: HOST_CHOSE_N };
-    let of_host =
-        (1.0 / host::iteration(PATCHES)?, Dependence::Calibrated { on: "this figure, which sets what memory costs" });
+    let of_host = (
+        1.0 / host::iteration(PATCHES)?,
+        Dependence::Calibrated { on: "this figure, which determined the cost of memory" },
+    );
     // The paper's own arithmetic: operations per iteration multiplied by the iteration rate.
     let (jacobi, gauss_seidel) = (model::mflops(PATCHES, card.per_s), model::mflops(PATCHES, host.per_s));
     let block = |kernel: KernelText| {
@@ -81,14 +83,14 @@ fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<
     let [[texels, rgb], [_, luminance]] = [kernels::RGB_FIRST, kernels::LUMINANCE_FIRST].map(block);
     let limit = f64::from(model::MAX_INSTRUCTIONS);
     let long = |id, ours| {
-        let from = Dependence::Predicted { from: "1024 instructions of a program" };
+        let from = Dependence::Predicted { from: "1024 instructions per program" };
         paper_row(id, (CARD, Method::Pipeline), (ours, from))
     };
     Ok(vec![
         long("radiosity/block-elements", texels)?,
         long("radiosity/block-instructions", rgb)?
             .with_readings([luminance])
-            .confined([limit - 3.0, limit], "a block has as many texels of four instructions as fit"),
+            .confined([limit - 3.0, limit], "a block has as many four-instruction texels as fit"),
         paper_row("radiosity/jacobi-rate", (CARD, Method::Pipeline), (paper.per_s, predicted))?,
         paper_row("radiosity/jacobi-operations", (CARD, Method::Equation), (jacobi, calibrated))?,
         paper_row("radiosity/gauss-seidel-operations", (HOST, Method::Equation), (gauss_seidel, calibrated))?,
@@ -108,7 +110,7 @@ fn fits(patches: u32, printed: &[PrintedRates; 2]) -> bool {
 /// Table of the dependence on the number of patches.
 fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
     let mut table = Table::of(
-        "What the number of patches decides",
+        "Rates by number of patches",
         "patches passes iterations_per_s difference_% MFLOP/s_of_Jacobi reads_141 MFLOP/s_of_Gauss-Seidel \
          reads_190",
     );
@@ -132,7 +134,7 @@ fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
 /// Table of the cost of an iteration for each packing and precision.
 fn costs() -> Result<Table, StudyError> {
     let mut table = Table::of(
-        format!("An iteration of {PATCHES} patches; four elements a texel are one channel, the others three"),
+        format!("An iteration of {PATCHES} patches; four elements per texel: one channel, otherwise three"),
         "packing storage passes draws texture_clocks arithmetic_clocks memory_clocks filled_% bandwidth_% \
          iterations_per_s bound_by",
     );

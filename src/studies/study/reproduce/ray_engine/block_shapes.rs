@@ -18,14 +18,15 @@ const SHAPES: [[u32; 2]; 6] = [[256, 1], [128, 2], [64, 4], [32, 8], [16, 16], [
 /// Triangles per pass, as in section 6.3.
 const TRIANGLES: usize = 10;
 
-const HOW: &str = "One pass of {} triangles over the same 256 rays, in blocks of each shape. Each texel is read by the scalar executor through the card's \
-    texture cache, whose size and lines are guesses; misses are given for half the cache, the cache and twice its size. Lines are those that differ: the misses of a cache \
-    without limits. The cards fill by quads of 2 x 2 pixels. The paper prints no figure, so nothing is judged.";
+const HOW: &str = "One pass tests {} triangles against the same 256 rays, in blocks of each shape. The scalar executor \
+    reads each texel through the card's texture cache, whose size and lines are guesses; misses are listed for half \
+    that cache, for that cache and for twice its size. The column lines counts distinct lines: the misses of an \
+    unlimited cache. The cards fill by quads of 2 x 2 pixels. The paper prints no figure, so nothing is judged.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (mesh, rays) = (mesh(TRIANGLES)?, moved_rays(16)?);
     let mut table = Table::of(
-        "A block of 256 rays by its shape",
+        "Blocks of 256 rays by shape",
         "device width height texels_read lines misses_half misses misses_double clocks_per_test bound_by",
     );
     for device in DEVICES {

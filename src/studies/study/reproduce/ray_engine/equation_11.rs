@@ -33,7 +33,7 @@ pub(super) fn rates(device: &str) -> Result<CostRates, StudyError> {
 const READ_BACK: &str = "250 MB/s (read-back)";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let mut worked = Table::of("Worked numbers, M/s", "figure device printed equation pipeline");
+    let mut worked = Table::of("Worked examples, M/s", "figure device printed equation pipeline");
     let mut rows = Vec::new();
     for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {
         let equation = rates("nv20")?.results_per_s(gamma) / MEGA;
@@ -54,19 +54,23 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     let pixel = pipeline::dual_textured("nv20")?;
     let bytes =
         model("nv20")?.clocks(&pixel.record).traffic.total() as f64 / pixel.record.counts.fragments.generated as f64;
-    Ok(EntryFindings::new([
-            "Equation 11 is seconds = T R / fill + R gamma / readback. The GeForce3's fill and read-back rates are printed; the \
-             GeForce4's fill rate follows from its tests a second at ten triangles, if it reads back as fast as the GeForce3. \
-             A printed figure has one row: that of the pipeline where it is drawn, and of the equation where it is a quotient of \
-             printed values; the table has both."
+    Ok(EntryFindings::new(
+        [
+            "Equation 11 is seconds = T R / fill + R gamma / readback. The paper prints the GeForce3's fill and read-back rates. The GeForce4's fill \
+             rate follows from its tests per second at ten triangles, if it reads back as fast as the GeForce3. Each printed figure has one row: \
+             from the pipeline if it is drawn, from the equation if it is a quotient of printed values. The table has both."
                 .into(),
             paragraph(
-                "The pipeline model knows neither fill rate, but reads back at the printed rate. It draws screen-filling quads with two textures of \
-                 the screen's size (each texel read once a quad), a depth test and depth and colour writes, and finds {} the \
-                 narrowest place: {} bytes a pixel.",
+                "The pipeline model has neither fill rate as an input, but reads back at the printed rate. It draws \
+                 screen-filling quads with two textures of the screen's size (each texel read once per quad), a depth \
+                 test, and depth and colour writes. Its bottleneck is {}: {} bytes per pixel.",
                 [pixel.cost.bottleneck.to_string(), number(bytes, 0)],
             ),
-        ], rows, [], [worked, pipeline::cost_table(&CARDS)?]))
+        ],
+        rows,
+        [],
+        [worked, pipeline::cost_table(&CARDS)?],
+    ))
 }
 
 /// Row for a printed figure, with the values from the equation and from the pipeline model.

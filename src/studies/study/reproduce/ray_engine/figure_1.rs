@@ -23,9 +23,10 @@ const SIZE: [u32; 2] = [160, 120];
 /// Smallest difference that an 8-bit display shows.
 const STEP: f64 = 1.0 / 255.0;
 
-const HOW: &str = "Our own scene in {} x {} pixels, one ray per pixel: a boat, posts and houses in water of three waves, a mirror. The picture by rays of the host is the reference. \
-    The environment map is drawn by a {}: the view is reflected at vertices, and looked up in a cube of bytes. In the hybrid pictures that card draws what the eye sees, and the engine \
-    casts reflected rays and shadow rays: a renderer that rasterizes, augmented by the engine. Differences are of linear color, over the pixels of water. The paper prints no figure.";
+const HOW: &str = "The scene is our own, in {} x {} pixels with one ray per pixel: a boat, posts and houses in mirroring water with three waves. The \
+    reference is ray-cast on the host. A {} draws the environment map: the view is reflected at vertices, and looked up in a cube map of bytes. In \
+    the hybrid pictures that card draws the visible surfaces, and the engine casts reflection and shadow rays: the engine augments a rasterizer. \
+    Differences are in linear color, over the water pixels. The paper prints no figure.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let scene = built::build("harbour").ok_or("no scene `harbour`").on(DRAWS)?;
@@ -39,7 +40,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     let is_water = |pixel: &usize| traced.first[*pixel].is_some_and(|hit| scene.material(hit.triangle).name == "water");
     let water: Vec<usize> = (0..traced.color.len()).filter(is_water).collect();
     let mut table = Table::of(
-        "Reflections in water by rays, by an environment map, and by both ways of drawing together",
+        "Reflections in water by ray casting, by environment map, and by hybrid rendering",
         "picture rays drawn_eye_rays rays_on_card_% rms_255ths largest_255ths pixels_that_differ_%",
     );
     let mut push = |name: String, picture: &RenderedPicture, engine: [Cell; 2]| {

@@ -14,9 +14,9 @@ const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
 const PLOTTED: u32 = 50;
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let mut tests = Table::of("Millions of ray-triangle tests a second", "device gamma_B triangles rates pipeline");
+    let mut tests = Table::of("Millions of ray-triangle tests per second", "device gamma_B triangles rates pipeline");
     let mut limits = Table::of(
-        "Where a card pays: T_min by the host's tests a second",
+        "Break-even number of triangles T_min, by the host's tests per second",
         "device gamma_B half_rate_T T_min_20M T_min_40M T_min_80M T_min_200M",
     );
     // "Doubling the CPU numbers", and a faster host of later years.
@@ -43,10 +43,9 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     }
     Ok(EntryFindings {
         text: vec![
-            "The paper's figure is for the id alone that a ray brings back; the same is shown with barycentric coordinates. Of the curves only \
-             two points are printed, at ten triangles; their rows are in section 6.1's entry. T_min is the least number of triangles at which \
-             equation 11 is not slower than a host of so many tests a second; half_rate_T is where drawing and reading back \
-             take equally long."
+            "The paper's figure is for rays that return only an id; our charts also show barycentric coordinates. Only two points of the curves are \
+             printed, at ten triangles; their rows are in the entry of section 6.1. T_min is the least number of triangles at which equation 11 is \
+             not slower than a host with the given tests per second; at half_rate_T, drawing and read-back take equally long."
                 .into(),
         ],
         tables: vec![tests, limits],
@@ -75,7 +74,7 @@ fn chart(gamma: f64, lines: Vec<Series>) -> Result<NamedChart, StudyError> {
     Ok(NamedChart {
         name: format!("ray-engine-figure-7-gamma-{gamma}"),
         chart: Chart {
-            title: format!("Ray-triangle tests, {gamma} bytes read back a ray"),
+            title: format!("Ray-triangle tests, {gamma} bytes read back per ray"),
             x: "triangles T".to_owned(),
             y: "M tests/s".to_owned(),
             lines,

@@ -26,13 +26,13 @@ const TRIANGLES: usize = 2048;
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/radeon-8500";
 
-const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and vertices do not show, so the figure is the pixel \
-    program's. R200 is taken to issue one pair of a colour and an alpha instruction a clock in each of its {} pipelines, and two texture \
-    instructions beside it. No source gives the first rate; it was chosen because with it, and not with two a clock, our program comes near the printed \
-    figure. So this row is a calibration, by a whole number; it has our program for rays of any origin in the two textures of section 4.1, and the one \
-    for rays of one origin as another reading. The printed figure is {} clocks of a pipeline a test. Engine and studies hold rays in 16 bits, of which a \
-    texel has two: three textures, and two pairs more to join them. Bytes make rays coarser, not the holes between triangles larger: of the same {} rays, \
-    rounded to bytes, both programs lose about as many.";
+const PAIRS: &str = "Thousands of triangles are tested against {} x {} rays, so the pixel program determines the rate; read-back and vertices are \
+    negligible. R200 is assumed to issue one pair of a colour and an alpha instruction per clock in each of its {} pipelines, with two texture \
+    instructions beside it. No source states the first rate. It was chosen because with it, and not with two pairs per clock, our program comes near \
+    the printed figure. So this row is a calibration, by a whole number. It uses our program for rays of any origin in the two textures of section \
+    4.1; the program for rays of one origin is another reading. The printed figure is {} pipeline clocks per test. Our engine and studies store rays \
+    in 16 bits, two values per texel: that takes three textures, and two more pairs to join the values. Bytes make rays coarser, but not the holes \
+    between triangles larger: both programs lose about equally many of the same {} rays, rounded to bytes.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (rows, tables) = kernels()?;
@@ -49,8 +49,8 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         )],
         rows,
         [
-            "how long the authors' program was, and whether its rays shared an origin: it is not printed.",
-            "at which rate the card issues pairs: no document that we found states it.",
+            "the length of the authors' program, and whether its rays shared an origin.",
+            "the rate at which the card issues pairs: we found no document that states it.",
         ],
         tables,
     ))
@@ -63,7 +63,7 @@ fn kernels() -> Result<([PaperRow; 2], [Table; 2]), StudyError> {
     let in_bytes = card.clone().byte_rays();
     let mut rates = Vec::new();
     let mut slots = Table::of(
-        "Slots and clocks of a test in one pipeline of four",
+        "Slots and clocks per test in one of four pipelines",
         "program phase pairs texture_slots M_tests_per_s bound_by",
     );
     for (card, rays) in [(&in_bytes, &moved), (&card, &eye), (&card, &moved)] {
@@ -86,7 +86,8 @@ fn kernels() -> Result<([PaperRow; 2], [Table; 2]), StudyError> {
         ]);
         rates.push(rate);
     }
-    let dependence = Dependence::Calibrated { on: "this figure, which chose one pair a clock for r200, not two" };
+    let dependence =
+        Dependence::Calibrated { on: "this figure, which determined one pair per clock for r200, not two" };
     let [in_bytes, one_origin, _] = rates[..] else { unreachable!("a rate per run") };
     let row = |id, over| {
         let ours = (in_bytes / over, dependence);

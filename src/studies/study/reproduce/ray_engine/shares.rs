@@ -29,13 +29,11 @@ pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, 
         at: at.to_owned(),
         values: shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect(),
     };
-    let sweep = Sweep {
-        name: "what is called a ray on the card",
-        parameter: "counted",
-        settings: READINGS.map(setting).into(),
-    };
+    let sweep =
+        Sweep { name: "definition of a ray on the card", parameter: "counted", settings: READINGS.map(setting).into() };
     sweep.explain(&mut rows);
-    let table = sweep.table(&format!("Two readings of the rays on the card, {place}"), &rows, (None, |share| share));
+    let table =
+        sweep.table(&format!("Share of rays on the card by two readings, {place}"), &rows, (None, |share| share));
     Ok((rows, table))
 }
 
@@ -50,7 +48,7 @@ pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result
         ticks: ticks.iter().map(ToString::to_string).collect(),
         dots: vec![
             Series { label: "rays that met the card".to_owned(), points: rays },
-            Series { label: "visits of caches that ended on the card".to_owned(), points: visits },
+            Series { label: "cache visits that ended on the card".to_owned(), points: visits },
         ],
         printed: points(values),
         ..Chart::default()

@@ -15,13 +15,13 @@ pub(super) const RATE: Dependence = Dependence::Predicted {
 pub(super) const HOST_ALONE: f64 = CPU_ONLY_RAYS_PER_SECOND as f64;
 
 /// Open question about rows of all tables.
-pub(super) const QUESTION: &str = "which scene, picture and octree the authors had, what their driver's commands cost, and how often their rays met the card: \
-    none of it is printed.";
+pub(super) const QUESTION: &str = "the authors' scene, picture and octree, the cost of their driver's commands, and \
+    how often their rays met the card.";
 
-const HOW: &str = "The teapot room is rendered after Whitted at {} x {} pixels, and what the renderer asks is played to the engine: every ray \
-    goes through ray tree, octree and caches, every pass is drawn by the emulated card in fp32. The work of the host is counted, operation by \
-    operation, and costs the guessed weights of the host model, scaled so that the host alone casts the {} rays/s of Table 3's first row: \
-    the one figure that is calibrated. Draws take the GeForce4's fill rate, read-backs its bus, commands the guesses of every timeline.";
+const HOW: &str = "The teapot room is rendered by Whitted ray tracing at {} x {} pixels, and the renderer's requests are replayed to the engine: \
+    every ray goes through ray tree, octree and caches, and the emulated card draws every pass in fp32. The host's work is counted operation by \
+    operation with the guessed weights of the host model, scaled so that the host alone casts the {} rays/s of Table 3's first row: the only \
+    calibrated figure. Draws run at the GeForce4's fill rate, read-backs at its bus rate, commands at the guessed costs of every timeline.";
 
 /// Description of the computation of Tables 3 to 5.
 pub(super) fn how(room: &TeapotRoom) -> String {

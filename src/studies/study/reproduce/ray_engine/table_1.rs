@@ -68,12 +68,12 @@ const SCENES: [PrintedScene; 5] = [
     },
 ];
 
-const HOW: &str = "Five renderings as in Table 1, of scenes with as many polygons, on the host that Table 3 calibrates. Nothing of the scenes, pictures and \
-    octrees is printed; the paper's first row has an octree tuned by hand, ours has the one of all runs.";
+const HOW: &str = "Five renderings as in Table 1 use scenes with as many polygons, on the host that Table 3 calibrates. The paper does not describe \
+    the scenes, pictures and octrees. Its first row has a hand-tuned octree; ours uses the octree of all runs.";
 
-const READINGS: &str = "A printed share of rays on the card is read in two ways: rays that met the card at least once, among all rays; and visits of \
-    the caches of GPU cells that ended on the card, among all visits, of which the rest was forced to the host. The text decides neither. Rows take the \
-    first, which was chosen before any of them was worked out.";
+const READINGS: &str = "A printed share of rays on the card has two readings: rays that met the card at least once, among all rays; and visits to \
+    the caches of GPU cells that ended on the card, among all visits, of which the rest was forced to the host. The text does not decide between \
+    them. Rows use the first, which was chosen before any of them was computed.";
 
 /// Run of a scene.
 struct SceneRun {

@@ -9,10 +9,10 @@ use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 3";
 
-const OCTREE: &str = "The octree of the host alone decides more than anything else: what it needs for a ray is the unit of all our times. The sweep gives the \
-    speed-ups by the triangles of its leaves, with the engine's own octree as it is and the host calibrated anew each time. From {} to {} \
-    triangles the infinitely fast card's speed-up goes from {} to {} %, the largest step of the sweep: the rays of our room fall either side of \
-    a knife-edge of our mesh. Rows take {}, which was chosen before any of them was worked out, for host and engine alike.";
+const OCTREE: &str = "The octree of the host alone matters most: its time per ray is the unit of all our times. The sweep gives the speed-ups by the \
+    triangles in its leaves; the engine keeps its own octree, and the host is recalibrated each time. From {} to {} triangles the infinitely fast \
+    card's speed-up goes from {} to {} %, the largest step of the sweep: the rays of our room fall on either side of a knife-edge of our mesh. Rows \
+    use {}, which was chosen before any of them was computed, for host and engine alike.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
@@ -23,17 +23,17 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows: std::iter::once(host_alone(room)?).chain(found.rows(PLACE)).chain([readback(&lines)?]).collect(),
         questions: vec![
             QUESTION,
-            "how full the leaves of the host's octree were when it was timed alone, and whether the engine had the same octree.",
+            "how full the leaves of the host's octree were when the host was timed alone, and whether the engine used the same octree.",
         ],
         tables: vec![
             table(room, &lines, PLACE)?,
-            found.table(&found.host_leaf, "Speed-ups by the leaves of the octree of the host alone"),
+            found.table(&found.host_leaf, "Speed-ups by leaf size of the host-alone octree"),
         ],
         charts: vec![NamedChart {
             name: "ray-engine-host-octree".into(),
             chart: chart(found, &lines),
             caption: format!(
-                "Speed-ups of Table 3 by the leaves of the octree of the host alone; what is printed stands at the {} of our rows.",
+                "Speed-ups of Table 3 by leaf size of the host-alone octree; printed values are drawn at the {} triangles of our rows.",
                 OCTREE_OF_ALL.most_triangles,
             ),
         }],
@@ -58,8 +58,8 @@ fn passes(lines: &[&SpeedUpRun]) -> String {
     let ([printed_all, printed_wait], [our_all, our_wait]) =
         (of(|line| line.row.target.value), of(|line| line.row.ours));
     paragraph(
-        "A pass takes {} of our rays, each of which meets the card {} times. By this count the printed figures leave {} us for a pass, {} us of \
-         which asynchronous read-back saves; ours are {} us and {} us.",
+        "A pass holds {} of our rays, and each ray meets the card {} times. By this count the printed figures leave {} \
+         us per pass, of which asynchronous read-back saves {} us; ours are {} us and {} us.",
         [
             number(counts.pass_rays as f64 / counts.passes as f64, 1),
             number(counts.pass_rays as f64 / counts.rays as f64, 1),
@@ -91,7 +91,7 @@ fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
     let stated = OCTREE_OF_ALL.most_triangles as f64;
     Chart {
         title: "Speed-up over the host alone".to_owned(),
-        x: "triangles in a leaf of the octree of the host alone".to_owned(),
+        x: "triangles per leaf of the host-alone octree".to_owned(),
         y: "%".to_owned(),
         lines: lines.iter().enumerate().map(line).collect(),
         printed: lines.iter().map(|line| (stated, line.printed())).collect(),

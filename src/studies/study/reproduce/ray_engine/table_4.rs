@@ -9,9 +9,9 @@ const PLACE: &str = "Table 4";
 /// Printed fractions of rays on the card.
 const SHARES: [&str; 3] = ["ray-engine/share-4-16", "ray-engine/share-5-12", "ray-engine/share-5-15"];
 
-const ORDER: &str = "Printed, the widest range brings the fewest rays to the card. Ours can't: a GPU cell is the largest \
-    cell whose triangles lie in the range, so a wider range has more of them, and more rays meet one. Our speed-ups are {}, {} and {} % \
-    for the printed {}, {} and {} %.";
+const ORDER: &str = "In the paper, the widest range sends the fewest rays to the card. Ours cannot: a GPU cell is the \
+    largest cell whose number of triangles lies in the range, so a wider range gives more GPU cells, and more rays \
+    meet one. Our speed-ups are {}, {} and {} % for the printed {}, {} and {} %.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
@@ -26,7 +26,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new(
         [how(room), order],
         rows,
-        [QUESTION, "by which rule the authors mark GPU cells: with ours the widest range can't have the fewest rays."],
+        [QUESTION, "the authors' rule for marking GPU cells: with ours, the widest range cannot have the fewest rays."],
         [table(room, &lines, PLACE)?, readings],
     ))
 }

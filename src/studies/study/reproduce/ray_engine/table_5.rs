@@ -10,10 +10,12 @@ use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 5";
 
-const SIZE: &str = "Larger passes cost less a ray, but more caches never fill, and their rays are forced to the host: {} in a ray at {}, {} at {}. \
-    What a pass costs is mostly commands, whose costs are guesses; the sweep multiplies all of them by one factor, for the rows of all three tables.";
-const FILL: &str = "Section 5.3 says how full the buckets of the ray tree typically are: the rows have the mean of those with rays after each bundle of the room's rays, \
-    while none leaves for want of others. Figure 4 and figure 6 of the paper are pictures: `crossbar leaky-teapot` and `crossbar render` draw them.";
+const SIZE: &str = "Larger passes cost less per ray, but more caches never fill, and their rays are forced to the \
+    host: {} per ray at {}, {} at {}. Commands make up most of a pass's cost, and their costs are guesses; the sweep \
+    multiplies all of them by one factor, for the rows of all three tables.";
+const FILL: &str = "Section 5.3 states how full the buckets of the ray tree typically are. The rows have the mean fill \
+    of buckets with rays, after each bundle of the room's rays, before any leaves for lack of others. Figures 4 and 6 \
+    of the paper are pictures: `crossbar leaky-teapot` and `crossbar render` draw them.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
@@ -24,16 +26,16 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows: found.rows(PLACE).into_iter().chain(fill(room)?).collect(),
         questions: vec![
             QUESTION,
-            "what draws, uploads and read-backs cost the authors' driver: a factor on our guesses moves all rows.",
+            "the cost of draws, uploads and read-backs in the authors' driver: a factor on our guesses moves all rows.",
         ],
         tables: vec![
             table(room, &lines, PLACE)?,
-            found.table(&found.commands, "Speed-ups by a factor on the costs of all commands"),
+            found.table(&found.commands, "Speed-ups by a factor on all command costs"),
         ],
         charts: vec![NamedChart {
             name: "ray-engine-table-5".into(),
             chart: chart(found, &lines),
-            caption: "Table 5, with the costs of commands as stated and more.".into(),
+            caption: "Table 5, with command costs as stated and higher.".into(),
         }],
         ..EntryFindings::default()
     })
@@ -56,11 +58,13 @@ fn size(lines: &[&SpeedUpRun]) -> String {
 fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
     let rays: Vec<f64> = lines.iter().filter_map(|line| line.name.split(' ').next()?.parse().ok()).collect();
     let points = |values: Vec<f64>| rays.iter().copied().zip(values).collect();
-    let line =
-        |(at, values): (String, Vec<f64>)| Series { label: format!("ours, commands x {at}"), points: points(values) };
+    let line = |(at, values): (String, Vec<f64>)| Series {
+        label: format!("ours, command costs x {at}"),
+        points: points(values),
+    };
     Chart {
         title: "Speed-up over the host alone".to_owned(),
-        x: "rays in a pass".to_owned(),
+        x: "rays per pass".to_owned(),
         y: "%".to_owned(),
         lines: found.under(&found.commands, PLACE).into_iter().map(line).collect(),
         printed: points(lines.iter().map(|line| line.printed()).collect()),

@@ -20,14 +20,14 @@ const DEVICES: [&str; 3] = ["nv20", "nv25", "r200"];
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/vertex-tests";
 
-const HOW: &str = "The road not taken: a ray as constants, a triangle as three vertices that cover the ray's pixel where it is hit. Our \
-    program for it (vertex_test.vsa) runs, finds what the pixel pipelines find, and has {} instructions; a test is {} vertices. The printed \
-    figure has no card: on {} it would be {} clocks a test.";
+const HOW: &str = "The paper's rejected alternative: constants hold a ray, and a triangle is three vertices that cover the ray's pixel if it is hit. \
+    Our program (vertex_test.vsa) gives the results of the pixel pipelines with {} instructions and {} vertices per test. The paper names no card: \
+    on {}, the printed figure would be {} clocks per test.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (mut rates, mut seen) = (Vec::new(), None);
     let mut table = Table::of(
-        "A test in the vertex units",
+        "Tests in the vertex units",
         "device M_tests_per_s instructions_per_vertex vertices_per_test clocks_per_vertex_and_unit vertex_units bound_by",
     );
     for device in DEVICES {
@@ -70,9 +70,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     Ok(EntryFindings::new(
         [paragraph(HOW, seen.into_iter().flatten())],
         [row],
-        [
-            "which card it was, how long the program was, and whether a test was one vertex (a point) or three (a triangle).",
-        ],
+        ["the card, the length of the program, and whether a test was one vertex (a point) or three (a triangle)."],
         [table],
     ))
 }

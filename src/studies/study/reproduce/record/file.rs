@@ -97,7 +97,7 @@ impl EntryRecord {
         let malformed = |reason: String| format!("the record of `{entry}`: {reason}");
         let record: Self = toml::from_str(text).map_err(|error| malformed(error.to_string()))?;
         if record.entry != entry {
-            return Err(format!("expected the record of `{entry}`, found that of `{}`", record.entry));
+            return Err(format!("expected the record of `{entry}`, found the record of `{}`", record.entry));
         }
         let mut cells = record.table.iter().flat_map(|table| table.rows.iter().flatten());
         match cells.find(|cell| decoded(cell).is_none()) {

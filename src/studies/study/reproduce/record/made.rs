@@ -6,9 +6,10 @@ use crate::report::words::counted;
 use crate::study::reproduce::prose::{number, paragraph};
 
 const RECORDED: &str = "Rows and tables are recorded: `{}`, version {} ({}), {}.";
-const CONFIRMED: &str = "All is computed anew at full size, and has the bits of the record: `{}`, version {} ({}), {}.";
-const DIFFERS: &str = "All is computed anew at full size; {} not as recorded: `{}`, version {} ({}), {}. Either the record is of another program, or this \
-    program does not compute the same everywhere.";
+const CONFIRMED: &str =
+    "All rows are recomputed at full size, with the same bits as the record: `{}`, version {} ({}), {}.";
+const DIFFERS: &str = "All rows are recomputed at full size; {} different from the record: `{}`, version {} ({}), {}. \
+    Either another program made the record, or this program does not compute the same everywhere.";
 
 /// Provenance of a record.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,7 +54,7 @@ impl RecordStatus {
         let made = self.made();
         let seconds = |time: f64, what: &str| format!("{} s {what}", number(time, 0));
         let processor = made.processor_s.map(|time| seconds(time, "of processor time"));
-        let times = processor.into_iter().chain([seconds(made.wall_s, "on the clock")]).collect::<Vec<_>>();
+        let times = processor.into_iter().chain([seconds(made.wall_s, "of wall-clock time")]).collect::<Vec<_>>();
         let made = [made.command.clone(), made.version.clone(), made.commit.clone(), times.join(" and ")];
         match self {
             Self::Recorded(_) => paragraph(RECORDED, made),

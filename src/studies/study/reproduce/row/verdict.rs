@@ -32,7 +32,7 @@ impl RowVerdict {
     /// Words that follow a number of rows, as in "3 predicted within bounds in numbers".
     pub const fn of_rows(self) -> &'static str {
         match self {
-            Self::Predicted => "predicted within bounds in numbers",
+            Self::Predicted => "predicted within numerical bounds",
             Self::OrderOnly => "met in order only",
             Self::Consistent => "consistent with the paper's own equations and values",
             Self::ByConstruction => "met by construction",

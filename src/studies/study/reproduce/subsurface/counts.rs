@@ -16,10 +16,10 @@ pub(super) const MODELS: [(&str, u32, &str); 3] =
 /// Bytes per texel of links: four half floats.
 const LINK_BYTES: f64 = 8.0;
 
-const HOW: &str = "Lookups are counted as our programs are drawn, per texel: {} links take {} where they are fixed, {} where they are adaptive: \
-    these need one sampler more than the card has, so a second pass reads the sum of the first; with the textures of links as tiles of a larger one they take {} in a \
-    single pass. The paper does not say how its card held the links. The clustering is our own, for the paper's is in \
-    another one; what it must give, a binary tree with a leaf per face, is counted on stand-ins of as many faces.";
+const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} fixed links take {}, adaptive links {}. Adaptive links need one \
+    sampler more than the card has, so a second pass reads the sum of the first; with link textures as tiles of a larger texture they take {} in a \
+    single pass. The paper does not say how its card stored the links. The clustering is our own, since the paper's is described in another paper; \
+    its required result, a binary tree with a leaf per face, is counted on stand-ins with as many faces.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
@@ -30,26 +30,26 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     // A texel of fixed links holds the factors of four links.
     let layout = [LINKS as f64 * 1.25; 2];
     let of_fixed =
-        lookups("subsurface/lookups-fixed", fixed)?.confined(layout, "the program has the paper's layout of links");
+        lookups("subsurface/lookups-fixed", fixed)?.confined(layout, "the program uses the paper's layout of links");
     let mut rows = vec![of_fixed, lookups("subsurface/lookups-adaptive", adaptive)?];
     // The same links on the same map, in their own textures and as tiles.
     let same = VARIANTS.iter().zip(costs).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
     let setting = |(variant, cost): (&Variant, &GatherCost)| {
-        let at = if variant.tiles.is_some() { "tiles" } else { "of their own" };
+        let at = if variant.tiles.is_some() { "tiles" } else { "separate" };
         Setting { at: at.to_owned(), values: vec![cost.lookups] }
     };
     let held =
-        Sweep { name: "how 16 adaptive links are held", parameter: "textures", settings: same.map(setting).collect() };
+        Sweep { name: "storage of 16 adaptive links", parameter: "textures", settings: same.map(setting).collect() };
     held.explain(&mut rows[1..]);
     let tiled = held.settings.last().map_or(f64::NAN, |setting| setting.values[0]);
-    let held = held.table("Lookups by how adaptive links are held", &rows[1..], (None, |value| value));
+    let held = held.table("Lookups by storage of adaptive links", &rows[1..], (None, |value| value));
     for (model, _, stand_in) in MODELS {
         rows.push(nodes(model, stand_in)?);
     }
     Ok(EntryFindings::new(
         [paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
-        ["how the authors cluster faces, and which of the two choices of links was timed."],
+        ["the authors' clustering of faces, and which of the two choices of links was timed."],
         [storage(), programs(costs), held],
     ))
 }

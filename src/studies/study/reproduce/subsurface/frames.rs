@@ -28,12 +28,12 @@ const HOST_HZ: f64 = 2.083e9;
 const HOW: &str = "Passes 1 and 3 are drawn with stand-in models that have the paper's face counts, per vertex as in the paper; the transmittance towards \
     the eye is read from a texture. The window has {} x {} pixels; the paper does not give its size. Links are fixed, and the map has 8-bit texels, whose \
     mip levels the card generates.";
-const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so that a frame takes a whole number of periods of {} ms: the modelled \
-    rates are {} over the periods that the three passes and the map's levels need. The waits are in the printed shares, so the printed times of passes are \
-    upper bounds of what they took, most of all for the shorter passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at \
-    the larger one.";
-const HOST: &str = "The time of links is that of one evaluation of R_d per link on the host of section three of the paper; which host computed them is not \
-    printed. What an evaluation costs is a guess of ours.";
+const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so a frame takes a whole number of \
+    periods of {} ms: the modelled rates are {} over the periods that the three passes and the map's levels need. The \
+    printed shares include the waits, so the printed times of passes are upper bounds, most of all for the shorter \
+    passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at the larger one.";
+const HOST: &str = "Link time is one evaluation of R_d per link on the host of section three of the paper; the paper \
+    does not name the host that computed links. The cost of an evaluation is our guess.";
 
 /// Index in [`VARIANTS`] of the rows' variant: fixed links and an 8-bit map.
 const OURS: usize = 0;
@@ -76,7 +76,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         ],
         rows,
         [
-            "the size of the window, the model of Figure 7, and the host that computed links with what it evaluated for each.",
+            "the size of the window, the model of Figure 7, the host that computed links, and what it evaluated per link.",
         ],
         [table(&frames, &costs[OURS])],
     ))
@@ -96,7 +96,7 @@ fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<V
 }
 
 /// Printed values that determined the refresh rate.
-const DISPLAYED: &str = "the six frame rates, of which the display's was read off";
+const DISPLAYED: &str = "the six frame rates, from which the display's rate was read off";
 
 fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Result<PaperRow, StudyError> {
     let ours = (locked(cost.frame(gather.seconds(printed.side))), Dependence::Calibrated { on: DISPLAYED });
@@ -135,7 +135,7 @@ fn figure_7() -> Result<PaperRow, StudyError> {
 /// Table of modelled and printed passes.
 fn table(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
     let mut table = Table::of(
-        "A frame on the emulated card in ms, and its periods on the display; printed periods beside",
+        "Frame times on the emulated card in ms, with display periods, ours and printed",
         "model atlas pass_1_ms levels_ms pass_2_ms pass_3_ms frame_ms frames_per_s periods printed_periods",
     );
     for (printed, cost) in frames {

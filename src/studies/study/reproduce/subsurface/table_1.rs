@@ -61,10 +61,11 @@ const ALL_BUT_ROUNDING: f64 = 98.5;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
 
-const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions of the rate of a display of about {} Hz. So a frame waits for the \
-    display, and only the second pass at {} x {}, the longest part and alike on all models within {} %, says how fast the card is.";
-const OPEN: &str = "Neither the format of the radiosity map nor which links were timed is printed. The rows are those of fixed links and an 8-bit map, \
-    which automatic mipmaps (section 4.2.2) need on this card; the table has every variant, for every card of the time. They spread by a factor of {}.";
+const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions of the rate of a display of about {} Hz. So frames wait for the \
+    display, and only the second pass at {} x {} shows the card's speed: it is the longest part, and equal on all models within {} %.";
+const OPEN: &str = "The paper states neither the format of the radiosity map nor which links were timed. The rows use \
+    fixed links and an 8-bit map, which automatic mipmaps (section 4.2.2) need on this card; the table has every \
+    variant, for every card of the time. The variants differ by a factor of {}.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
@@ -117,8 +118,8 @@ pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
     });
     let [factors, low, high] = locked(printed);
     let computation = format!(
-        "the six frame rates times {factors} are {low} to {high}, whole periods of one display, and the shares of the passes sum \
-         to {} % of the frame or more, so that waits are inside{}",
+        "the six frame rates times {factors} are {low} to {high}, whole periods of one display, and the shares of the \
+         passes sum to {} % of the frame or more, so they include waits{}",
         number(least, 0),
         shorter.map_or_else(String::new, |frame| format!(
             "; pass 1 of the {} takes more than twice as long at the smaller size",
@@ -141,7 +142,7 @@ fn locked(printed: &[PrintedFrame]) -> [String; 3] {
 /// Table of pass 2 at 1024 x 1024 for each variant on each card.
 fn variants(costs: &[GatherCost]) -> Result<Table, StudyError> {
     let mut table = Table::of(
-        "Pass 2 of 16 links at 1024 x 1024 in ms, by the pipeline model; the paper's are 55.2 to 56.4",
+        "Pass 2 with 16 links at 1024 x 1024 in ms, by the pipeline model; the paper has 55.2 to 56.4",
         "variant fx5900 nv35 fx5800 nv30 ns_per_link",
     );
     let others = OTHER_CARDS.map(all_costs).into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -158,7 +159,7 @@ fn variants(costs: &[GatherCost]) -> Result<Table, StudyError> {
 /// Table 1 as printed, with derived values.
 fn frames(printed: &[PrintedFrame]) -> Table {
     let mut table = Table::of(
-        "Table 1 as printed: frames, and pass 2 as far as shares of whole per cents tell",
+        "Table 1 as printed: frames, and pass 2 from shares in whole per cent",
         "model faces atlas frames_per_s display_periods pass_2_% pass_2_ms",
     );
     for frame in printed {

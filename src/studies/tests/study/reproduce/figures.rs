@@ -54,7 +54,7 @@ fn file(figures: &str, stated: &str) -> String {
     };
     // Without a digest, the error states the correct one.
     let error = parse_figures(Paper::Cpca, &text(stated, "")).expect_err("another digest");
-    let digest = error.split_once("stands there now ").map_or("", |(_, digest)| &digest[..16]);
+    let digest = error.split_once("the file now has ").map_or("", |(_, digest)| &digest[..16]);
     text(figures, digest)
 }
 

@@ -34,12 +34,12 @@ fn sentences_agree_with_their_numbers() {
     let of = |values: &[(f64, RowSource)]| findings(&found(values)).conclusions().join(" ");
     assert_eq!(
         of(&[(20.0, RowSource::Computed)]),
-        "Of 1 figure to which no constant was fitted, 1 is missed. Why figures are missed: model lost 1."
+        "Of 1 figure not used for calibration, 1 is missed. Causes of misses: model lost 1."
     );
     assert_eq!(
         of(&[(15.6, RowSource::Confirmed), (15.7, RowSource::Recorded)]),
-        "Of 2 figures to which no constant was fitted, 2 are predicted within bounds in numbers. Recorded at full size: 2; \
-         computed anew with the same bits: 1."
+        "Of 2 figures not used for calibration, 2 are predicted within numerical bounds. Recorded at full size: 2; \
+         recomputed with the same bits: 1."
     );
 }
 

@@ -54,7 +54,7 @@ fn records_round_trip() {
 fn files_of_other_entries_and_without_cells_are_refused() {
     let text = EntryRecord::new(ENTRY, &found(10.0), RecordMade::default()).text().expect("a file");
     let refused = |entry, text: &str| EntryRecord::parse(entry, text).expect_err("refused");
-    assert!(refused("cpca-figure-2", &text).contains("found that of `cpca-coherence`"));
+    assert!(refused("cpca-figure-2", &text).contains("found the record of `cpca-coherence`"));
     assert!(refused(ENTRY, &text.replace("measured", "guessed")).contains("expected a cell"));
     assert!(refused(ENTRY, "").contains("missing field"));
 }
@@ -105,7 +105,7 @@ fn a_record_says_how_it_was_made() {
     let made: &RecordMade = Box::leak(Box::new(made));
     assert_eq!(
         RecordStatus::Recorded(made).sentence(),
-        "Rows and tables are recorded: `crossbar reproduce`, version 1.0 (abc), 1,540 s of processor time and 0 s on \
-         the clock."
+        "Rows and tables are recorded: `crossbar reproduce`, version 1.0 (abc), 1,540 s of processor time and 0 s of \
+         wall-clock time."
     );
 }

@@ -20,10 +20,9 @@ use crate::study::prt::card::{PictureVariant, PixelErrors, frame};
 use crate::study::prt::{no_all_frequency_card, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 
-const SWEEP: &str = "Each row changes one thing in a picture with negligible rounding, in 255ths of white. \
-    Representatives and weights are coded again from the file's bits, with sums in double precision, and compared with \
-    the file's own code; all others are drawn into floats and compared with products of the same numbers in double \
-    precision.";
+const SWEEP: &str = "Each row changes one property of a picture with negligible rounding; errors are in 255ths of white. Representatives and weights \
+    are recoded from the file's bits, with double-precision sums, and compared with the file's own code; all other rows are drawn into floats and \
+    compared with double-precision products of the same numbers.";
 const TIME: &str = "Modelled, not measured: the pipeline model of the card, and a host whose speed follows from the \
     frame rates of the paper's Table 1. Host and card work in parallel, frame after frame.";
 
@@ -73,7 +72,7 @@ fn conclude(drawing: &FactoredDrawing, found: &mut Findings) {
     for (count, what) in [
         (counts.below_zero, "pixels are below 0 in a channel before the target clamps"),
         (counts.vertices_below_zero, "vertices are below 0 in a channel before their colors clamp"),
-        (counts.vertices_above_one, "vertices are above 1 in a channel, which bytes do not hold"),
+        (counts.vertices_above_one, "vertices are above 1 in a channel, which bytes cannot store"),
     ] {
         if let Some(count) = count.filter(|&count| count > 0) {
             found.conclusion(format!("{count} {what}."));
@@ -140,7 +139,7 @@ impl AllFrequencyOnCard {
             ("host multiplications for clusters", Some(steps.multiplies.per_cluster)),
             ("host multiplications for vertices", Some(steps.multiplies.per_vertex)),
             ("bytes sent per vertex", Some(streamed_bytes(&self.place, terms) as u64)),
-            ("numbers interpolated in a pass", Some(numbers as u64)),
+            ("numbers interpolated per pass", Some(numbers as u64)),
             ("passes", Some(passes)),
             ("texture reads of the pixel program", Some(u64::from(reads))),
             ("arithmetic slots of the pixel program", Some(u64::from(arithmetic))),

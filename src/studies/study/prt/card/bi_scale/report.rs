@@ -19,9 +19,8 @@ use crate::study::prt::of_texels;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::light::Decimation;
 
-const SWEEP: &str = "Each row has one number format of fewer bits, and single precision elsewhere. Errors are in \
-    255ths of white, against equation 3 and light multiplied in double precision. Fractions of 8 bits are relative to \
-    the largest number.";
+const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in 255ths of white, against equation \
+    3 and light multiplied in double precision. 8-bit fractions are relative to the largest number.";
 const TIME: &str = "Modelled, not measured, by the pipeline model of the card, in which texture reads run at the full \
     rate of the units. Local light stays on the card, as in the paper; if only the view changes, it is reused.";
 
@@ -56,7 +55,7 @@ impl Study for BiScaleOnCard {
         if let Some(times) = self.times(&local, &drawn)? {
             let [view, both] = [&times.0, &times.1].map(|time| shown(time.per_second(), Quantity::Measured));
             found.conclusion(format!(
-                "{}: modelled {view} frames per second when the view changes alone, {both} when light changes too.",
+                "{}: modelled {view} frames per second when only the view changes, {both} when light changes too.",
                 card.profile.title
             ));
             let log: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
@@ -99,9 +98,9 @@ impl BiScaleOnCard {
             ("bytes of volumes", display.volume_bytes),
             ("passes of the display for a texture", display.passes as u64),
             ("draws of the display", display.draws as u64),
-            ("directions of a pass", display.directions_per_pass as u64),
-            ("texture reads of a pass's pixel", u64::from(display.pixel_slots[0])),
-            ("arithmetic slots of a pass's pixel", u64::from(display.pixel_slots[1])),
+            ("directions per pass", display.directions_per_pass as u64),
+            ("texture reads per pixel of a pass", u64::from(display.pixel_slots[0])),
+            ("arithmetic slots per pixel of a pass", u64::from(display.pixel_slots[1])),
         ]
         .map(|(what, number)| (what, number.into()))
     }
@@ -110,8 +109,8 @@ impl BiScaleOnCard {
 fn table_of((view, both): &(FrameTime, FrameTime)) -> Table {
     let mut table = Table::new("A frame", &["part", "ms"]);
     for (part, time) in [
-        ("frame to frame, the view changed alone", view.frame),
-        ("frame to frame, light changed too", both.frame),
+        ("frame to frame, only the view changed", view.frame),
+        ("frame to frame, view and light changed", both.frame),
         ("draws of the display", view.draws),
         ("upload of light", both.uploads),
         ("state and constants", both.state),

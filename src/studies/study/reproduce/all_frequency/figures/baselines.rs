@@ -25,10 +25,10 @@ const VECTORS: usize = 16;
 /// Colors of the model and of the ground.
 const COLORS: [[f64; 3]; 2] = [[0.9, 0.75, 0.5], [0.7; 3]];
 
-const HOW: &str = "Figure 1 has a bird with {} vertices on a ground with {} under a clear sky with a sun. Exact: every direction of every vertex, the reflectance \
-    itself. Ours: {} terms, {} representatives per cluster of {} vertices, whose number is doubled from one on, all light coefficients. Harmonics: order {} for light and for the light that \
-    arrives, and the reflectance's own coefficients towards the eye. The bird has Schlick's model in the textbooks' form, and in the form \
-    that is nearest to the errors of section 3, whose highlights can be seen.";
+const HOW: &str = "Figure 1 shows a bird with {} vertices on a ground with {} under a clear sky with a sun. Exact: the unfactored reflectance for \
+    every direction at every vertex. Ours: {} terms, {} representatives per cluster of {} vertices, whose number doubles from one, and all light \
+    coefficients. Harmonics: order {} for the light and for the incident light, and the reflectance's own coefficients towards the eye. The bird has \
+    Schlick's model in the textbook form, and in the form nearest to the errors of section 3, which has visible highlights.";
 
 /// Colors of vertices by method: exact, ours, harmonics.
 type MethodColors = Vec<Vec<[f64; 3]>>;
@@ -45,7 +45,7 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let methods = Methods { scene: &scene, light: stand_in()?, options: options(size), shared };
     let lambert = Brdf::Lambert { albedo: 1.0 };
     let ground = methods.colors((&scene.of_ground, &lambert, &Reflectance::Diffuse), COLORS[1], "figure-1-ground")?;
-    let mut table = Table::of("Figure 1: off the exact picture", "form method rms_%");
+    let mut table = Table::of("Figure 1: errors against the exact picture", "form method rms_%");
     let mut ratios = Vec::new();
     for (form, lobe) in models::schlick() {
         let glossy = Reflectance::Factored(models::factorization(&lobe, TERMS)?.factors(TERMS));

@@ -11,11 +11,11 @@ use crate::report::{Cell, Table};
 /// Numbers of representatives; the last is the paper's.
 const VECTORS: [usize; 4] = [1, 4, 8, 16];
 
-const HOW: &str = "Figure 5 has a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty, {} vertices each on average.";
+const HOW: &str = "Figure 5 shows a diffuse Buddha of {} vertices, with {} clusters in all {} nonempty segments, {} vertices each on average.";
 
 /// Reason why the error falls with more representatives.
 const FEWER: &str =
-    "representatives are added to the clusters of fewer; their code of 16 bits adds far less error than they take away";
+    "representatives are added to existing clusters; their 16-bit code adds far less error than they remove";
 
 pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let size = shared.models;

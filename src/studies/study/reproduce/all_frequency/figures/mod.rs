@@ -16,8 +16,8 @@ pub(in crate::study::reproduce) use rates::timed;
 
 use crate::study::reproduce::{ModelSize, TimedWork};
 
-const QUESTION: &str = "the models, the light of St. Peter's, the cameras and the sources of Figure 6 with their sizes, and the frame rates printed under \
-    it, which the scan has lost.";
+const QUESTION: &str = "the models, the light of St. Peter's, the cameras, the sources of Figure 6 with their sizes, \
+    and the frame rates printed under it, which the scan has lost.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut found = EntryFindings { questions: vec![QUESTION], ..EntryFindings::default() };

@@ -38,11 +38,11 @@ const COEFFICIENTS: u64 = 256;
 const SEGMENTS: u64 = 24;
 const PER_CLUSTER: u64 = 200;
 const CHANNELS: u64 = 3;
-const CALIBRATED: &str = "Table 1: frames without drawing, its vertices, clusters and omega";
+const CALIBRATED: &str = "Table 1: frames without drawing, vertices, clusters and omega";
 
-const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} vertices, of whose segments {} % hold transfer here: host and card work side by \
-    side, colors of vertices are sent as bytes, no pixel takes time, {} vertices are run per triangle. Rates of Table 1 with drawing are the same without a ground. Light of low frequency has as many \
-    Haar coefficients as any, so the model has one rate for both lights.";
+const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} vertices; {} % of the ground's segments hold transfer here. Host and \
+    card work in parallel, vertex colors are sent as bytes, pixels take no time, and {} vertices are run per triangle. Table 1's rates with drawing \
+    use the same model without a ground. Low-frequency light has as many Haar coefficients as any other, so the model has one rate for both lights.";
 
 /// Number of vertices processed per triangle, for meshes that are not ordered for the card's vertex cache.
 const RUN_PER_TRIANGLE: f64 = 1.1;
@@ -110,7 +110,7 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     let scene = FigureScene::new(&teapot, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
     let census = SegmentCensus::new(&scene.vertices, &scene.of_ground, &scene.hats);
     let omega = census.omega();
-    let mut table = Table::of("Figure 7: frames a second", "model printed modelled on_an_open_ground without_ground");
+    let mut table = Table::of("Figure 7: frames per second", "model printed modelled on_an_open_ground without_ground");
     let mut rows = Vec::new();
     for (id, at) in PRINTED {
         let time = time_of(&TABLE_1[at], Some(omega))?;

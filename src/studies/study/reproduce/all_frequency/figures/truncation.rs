@@ -25,9 +25,9 @@ const FRAMES: u32 = 6;
 /// Threshold of visible flicker, one percent of the picture: our choice, before any was computed.
 const SEEN: f64 = 0.01;
 
-const HOW: &str = "Figure 6 has a diffuse Buddha of {} vertices under {} disks with radii of {} degrees, spread evenly, of random colors; the light turns by half \
-    degrees, {} times. Flicker is the root mean square change from frame to frame of what truncation takes from vertices, over the root mean \
-    square of their radiance. Frame rates are modelled for the printed Buddha with its ground, without drawing.";
+const HOW: &str = "Figure 6 shows a diffuse Buddha of {} vertices under {} evenly spread disks with radii of {} degrees and random colors; the light \
+    turns by half a degree, {} times. Flicker is the RMS frame-to-frame change of the radiance that truncation removes at vertices, over the RMS of \
+    their radiance. Frame rates are modelled for the printed Buddha with its ground, without drawing.";
 
 /// Returns disks on a spiral over the sphere.
 fn sources() -> Vec<DiskSource> {

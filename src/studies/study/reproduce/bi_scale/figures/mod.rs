@@ -13,11 +13,12 @@ use crate::transfer::visibility::Horizon;
 use drawn::{DrawnFigure, ORDER};
 use scene::{FigureSize, TexturedModel};
 
-const HOW: &str = "Models, materials, light and cameras are not at hand. Stand-ins are drawn in {} x {} pixels under a clear sky with a small sun: by biclusters of \
-    transfer, with textures of {} x {} texels and {} x {} views, and by rays, every pixel for itself, with patches of heights. Between them stand \
-    pictures that do one thing after the other as transfer does it; a step is how far one lies from the one before, in percent of the root mean square of the \
-    picture by rays. Low frequency is transfer of harmonics of order {} on both sides, as low-frequency bi-scale rendering has it, with the same textures.";
-const QUESTION: &str = "the models, their textures, the light and the cameras; whether the references are by rays at every pixel or by transfer that was not compressed.";
+const HOW: &str = "The paper's models, materials, light and cameras are not available. Stand-ins are drawn in {} x {} pixels under a clear sky with \
+    a small sun: by biclusters of transfer, with textures of {} x {} texels and {} x {} views; and by ray casting every pixel, with patches of \
+    heights. Intermediate pictures replace ray casting by transfer one step at a time; the error of a step is its difference from the picture \
+    before, in percent of the ray-cast picture's RMS. Low frequency is transfer of harmonics of order {} on both sides, as in low-frequency bi-scale \
+    rendering, with the same textures.";
+const QUESTION: &str = "the models, their textures, the light and the cameras; whether the references are ray-cast per pixel or drawn by uncompressed transfer.";
 /// Number of local directions per side for the bunny, and for the armor.
 const SIDE: usize = 8;
 const ARMOR_SIDE: usize = 12;
@@ -33,7 +34,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         [],
     );
     let mut smooth = Table::of(
-        "Low frequency beside biclusters: off the picture by rays, and off that with the same textures",
+        "Low frequency and biclusters: errors against ray casting, and against ray casting with the same textures",
         "figure biclusters_% low_frequency_% biclusters_with_textures_% low_frequency_with_textures_%",
     );
     for (place, name, model, patch, side) in [
