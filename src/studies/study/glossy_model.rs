@@ -94,8 +94,8 @@ impl GlossyModel {
         options: &PrtCardOptions,
     ) -> Result<PrtCard<'a>, StudyError> {
         let Self { vertices, clustering, basis, vectors } = self;
-        let (channels, vectors, superclusters) = (1, *vectors, None);
-        let transfer = CompressedTransfer { vertices, clustering, basis, channels, vectors, superclusters };
+        let (channels, vectors) = (1, *vectors);
+        let transfer = CompressedTransfer { vertices, clustering, basis, channels, vectors };
         PrtCard::new(profile.clone(), executor.clone(), transfer, options).map_err(no_cpca_card)
     }
 

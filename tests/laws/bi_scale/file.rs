@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crossbar::bi_scale::bicluster::BiclusterOptions;
+use crossbar::bi_scale::bicluster::SEED;
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::file::{
     BiScaleFile, BiScaleMeaning, load_bi_scale, parse_bi_scale, save_bi_scale, write_bi_scale,
@@ -31,7 +31,7 @@ fn parsed(bytes: &[u8]) -> Result<BiScaleFile, String> {
 /// Any matrix with its biclusters.
 fn small(values: &[Vec<i32>]) -> BiScaleFile {
     let matrix = matrix(values, 2);
-    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    let biclusters = Some(quietly(&matrix, SEED));
     BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
 }
 
@@ -44,7 +44,7 @@ fn all_widths() -> [BiScaleFile; 3] {
 /// Any matrix of real numbers with its biclusters.
 fn small_of_numbers(values: &[Vec<f64>]) -> BiScaleFile {
     let matrix = real_matrix(values);
-    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    let biclusters = Some(quietly(&matrix, SEED));
     BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
 }
 
@@ -63,7 +63,7 @@ fn transfer() -> BiScaleFile {
     let (vertices, maps) = sight(1, Horizon::Geometry);
     let matrix = transfer_matrix(&vertices, &maps, &LocalDirections::new(2).expect("a side")).expect("a matrix");
     let meaning = BiScaleMeaning { mesh: MeshDigest::new(&vertices), side: 2, horizon: Horizon::Geometry };
-    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    let biclusters = Some(quietly(&matrix, SEED));
     BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters }
 }
 

@@ -135,7 +135,7 @@ impl Precomputation<'_> {
         let bounces = channels.iter().map(|transfer| transfer.bounces.clone()).collect();
         let transfer = Some(together(channels)?);
         let mesh = Some(MeshDigest::new(self.vertices));
-        let file = PrtFile { meaning, mesh, transfer, clustering: None, superclusters: None, provenance: None };
+        let file = PrtFile { meaning, mesh, transfer, clustering: None, provenance: None };
         Ok(Precomputed { file, directions, counts, bounces })
     }
 

@@ -55,7 +55,7 @@ fn weights_are_barycentric_and_stay_inside() {
     let meaning = PrtMeaning::Transfer { channels: 3, exit_functions: vec![0], light_order: 1, includes_albedo: true };
     let unit = vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     let transfer = Some(Signal::new(3, unit).expect("a signal"));
-    let file = PrtFile { meaning, mesh: None, transfer, clustering: None, superclusters: None, provenance: None };
+    let file = PrtFile { meaning, mesh: None, transfer, clustering: None, provenance: None };
     let light = HarmonicLight::constant(1, [1.0; 3]).expect("a light");
     let scale = light.channels()[0][0];
     let (rays, width) = (view.camera.rays(), view.camera.width() as usize);
