@@ -12,7 +12,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
-use crossbar::bi_scale::bicluster::{SEED, Biclustering, bicluster};
+use crossbar::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::matrix::SparseMatrix;
 use crossbar::bi_scale::product::Gather;

@@ -7,7 +7,7 @@ use std::time::Instant;
 use serde_json::json;
 
 use super::file::{histogram, load, value_counts, values_document};
-use crate::bi_scale::bicluster::{SEED, BiclusterResidual, Biclustering, bicluster};
+use crate::bi_scale::bicluster::{BiclusterResidual, Biclustering, SEED, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;

@@ -10,7 +10,7 @@ use crate::cli::study::written;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
 use crate::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, StartPoints, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, compress,
 };
 use crate::options::one_of::{name, variants};
 use crate::report::Findings;
@@ -77,13 +77,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let coherence = vertices.map(|vertices| args.coherence.apply(&signal, &clustering, &vertices)).transpose()?;
     let clustering = coherence.as_ref().map_or(clustering, |coherence| coherence.found.clustering.clone());
     let error = CompressionError::new(&signal, &clustering);
-    let file = PrtFile {
-        meaning,
-        mesh,
-        transfer: None,
-        clustering: Some(clustering.clone()),
-        provenance: Some(provenance),
-    };
+    let file =
+        PrtFile { meaning, mesh, transfer: None, clustering: Some(clustering.clone()), provenance: Some(provenance) };
     save_prt(&file, &args.out).map_err(Problem::from)?;
     Ok(findings(args, (&signal, &clustering), &steps, &error, coherence.as_ref()))
 }
@@ -125,7 +120,7 @@ impl Args {
             iterations: ITERATIONS,
             method: self.method().with_rounds(ITERATIONS),
             form: CpcaForm::Affine,
-            start: StartPoints::Seed(SEED),
+            seed: SEED,
         })
     }
 

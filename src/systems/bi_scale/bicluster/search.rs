@@ -20,11 +20,7 @@ use crate::error::{InputError, ensure, input_error};
 /// Besides the biclusters, the search takes 16 bytes per non-zero and about 80 per row and column. If no unit exists in
 /// which 32 bits hold the values and all residuals, it takes about 100 bytes more per distinct number. If only a
 /// residual exceeds 32 bits, the search restarts, and `found` counts down from all non-zeros again.
-pub fn bicluster(
-    matrix: &SparseMatrix,
-    seed: u64,
-    found: &mut dyn FnMut(u64),
-) -> Result<Biclustering, InputError> {
+pub fn bicluster(matrix: &SparseMatrix, seed: u64, found: &mut dyn FnMut(u64)) -> Result<Biclustering, InputError> {
     let nonzeros = matrix.nonzeros() as u64;
     ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
     let values = matrix.values();

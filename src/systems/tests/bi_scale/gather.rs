@@ -1,6 +1,6 @@
 //! Products on the card compared with the host bit by bit.
 
-use crossbar_systems::bi_scale::bicluster::{SEED, Biclustering, bicluster};
+use crossbar_systems::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crossbar_systems::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crossbar_systems::bi_scale::on_card::{GatherCard, LightFormat};
 use crossbar_systems::bi_scale::product::Gather;

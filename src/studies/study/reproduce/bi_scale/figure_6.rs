@@ -16,7 +16,8 @@ const HOW: &str = "Figure 6 has a chair with {} vertices that is not at hand; ou
     and the sum is held against the rows of its transfer. The bytes of other ways to store transfer follow from printed numbers.";
 const CAPTIONS: &str = "The text calls (c) the picture of biclusters and (d) the reference. By the captions these are clusters of rows and wavelets, biclusters \
     and the reference are (a) and (b), and only so what the text says of them makes sense.";
-const QUESTION: &str = "the chair, its light and camera; whether clusters had means, and their size, which the scan has lost.";
+const QUESTION: &str =
+    "the chair, its light and camera; whether clusters had means, and their size, which the scan has lost.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let coarser = match shared.models {
@@ -39,7 +40,7 @@ fn lossless(matrix: &SparseMatrix) -> Result<PaperRow, StudyError> {
     let sum = biclusters.sum().on(HOST)?;
     let given_back = (0..matrix.rows()).filter(|&row| matrix.row(row) == sum.row(row)).count();
     let share = 100.0 * given_back as f64 / matrix.rows() as f64;
-    solved("lossless", share)?.confined([100.0; 2], "Algorithm 1 moves values, and rounds none")
+    Ok(solved("lossless", share)?.confined([100.0; 2], "Algorithm 1 moves values, and rounds none"))
 }
 
 /// Printed values: clusters of rows, vectors per cluster, wavelets per row.

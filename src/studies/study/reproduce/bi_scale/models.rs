@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::scenes::SCENES;
 use super::{HOST, RunResult, Shared, StudyError};
-use crate::bi_scale::bicluster::{SEED, Biclustering, bicluster};
+use crate::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::transfer_matrix;
