@@ -76,6 +76,7 @@ fn what_is_written_is_read_in_all_its_parts() {
     }
 }
 
+/// The checksums of the archive, which all kinds of transfer share.
 #[test]
 fn every_flipped_bit_and_every_cut_is_seen() {
     let file = small();

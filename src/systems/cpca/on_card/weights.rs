@@ -7,7 +7,7 @@ use crate::card::{CardError, through_half};
 use crate::clustering::Clustering;
 
 /// The format of a weight in a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
 pub enum WeightFormat {
     /// Single precision.
