@@ -12,8 +12,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
-use crossbar::bi_scale::baselines::CompressedRows;
-use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crossbar::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::matrix::SparseMatrix;
 use crossbar::bi_scale::product::Gather;
@@ -36,22 +35,54 @@ fn matrix(coarser: u32) -> SparseMatrix {
 }
 
 fn biclusters(matrix: &SparseMatrix) -> Biclustering {
-    bicluster(matrix, BiclusterOptions::default(), &mut |_| ()).expect("quarters")
+    bicluster(matrix, SEED, &mut |_| ()).expect("quarters")
+}
+
+/// Rows of columns and values in f32, with the start of each row.
+struct SingleRows {
+    begins: Vec<u32>,
+    columns: Vec<u32>,
+    values: Vec<f32>,
+}
+
+impl SingleRows {
+    fn new(matrix: &SparseMatrix) -> Self {
+        let mut rows = Self { begins: vec![0], columns: Vec::new(), values: Vec::new() };
+        for row in 0..matrix.rows() {
+            rows.columns.extend(matrix.row(row).iter().map(|entry| entry.index));
+            rows.values.extend(matrix.row(row).iter().map(|entry| matrix.value(entry.value) as f32));
+            rows.begins.push(rows.columns.len() as u32);
+        }
+        rows
+    }
+
+    /// The products of a row are added to 0 in the order of columns.
+    fn multiply<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
+        let row = |ends: &[u32]| {
+            let of = ends[0] as usize..ends[1] as usize;
+            let entries = self.columns[of.clone()].iter().zip(&self.values[of]);
+            entries.fold([0.0; C], |sum, (&column, &value)| {
+                let light = light[column as usize];
+                std::array::from_fn(|channel| sum[channel] + value * light[channel])
+            })
+        };
+        self.begins.windows(2).map(row).collect()
+    }
 }
 
 /// Product with a light of C channels, by biclusters and by rows.
-fn products<const C: usize>(criterion: &mut Criterion, rows: &CompressedRows, gather: &Gather) {
+fn products<const C: usize>(criterion: &mut Criterion, rows: &SingleRows, gather: &Gather) {
     let light: Vec<[f32; C]> = (0..6144).map(|texel| [0; C].map(|_: u8| (texel % 97) as f32 / 97.0)).collect();
     let mut group = criterion.benchmark_group(format!("light of {C} channels"));
     group.sample_size(20).measurement_time(Duration::from_secs(3));
-    group.throughput(Throughput::Elements(rows.nonzeros() as u64));
-    group.bench_function("times rows", |b| b.iter(|| black_box(rows.multiply_singles(black_box(&light)))));
+    group.throughput(Throughput::Elements(rows.columns.len() as u64));
+    group.bench_function("times rows", |b| b.iter(|| black_box(rows.multiply(black_box(&light)))));
     group.bench_function("times biclusters", |b| b.iter(|| black_box(gather.multiply(black_box(&light)))));
     group.finish();
 }
 
 fn benches(criterion: &mut Criterion, matrix: &SparseMatrix, found: &Biclustering) {
-    let (rows, gather) = (CompressedRows::wide(matrix).expect("columns of 32 bits"), Gather::new(found));
+    let (rows, gather) = (SingleRows::new(matrix), Gather::new(found));
     products::<1>(criterion, &rows, &gather);
     products::<3>(criterion, &rows, &gather);
     products::<4>(criterion, &rows, &gather);

@@ -9,7 +9,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress, paper};
+use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, Signal, compress, paper};
 use crossbar::transfer::synthetic::torus_signal;
 
 /// Points of both signals.
@@ -23,7 +23,7 @@ fn options(clusters: usize, vectors: usize) -> CpcaOptions {
         iterations: 3,
         method: CpcaMethod::Iterative,
         form: CpcaForm::Affine,
-        start: StartPoints::Seed(1),
+        seed: 1,
     }
 }
 

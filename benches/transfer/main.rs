@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use crossbar::cpca::transfer::{Bounces, Response, TracedRays, Transfer};
+use crossbar::cpca::transfer::{Response, TracedRays, Transfer};
 use crossbar::geom::{Mesh, Sides};
 use crossbar::scene::built::transfer_models::TransferModel;
 use crossbar::sphere::DirectionRule;
@@ -38,7 +38,7 @@ fn main() {
         });
         let response = [Response::diffuse(0.5, rays.rule()).expect("a response")];
         group.bench_function(BenchmarkId::new("diffuse, order 5", name), |bench| {
-            bench.iter(|| black_box(Transfer::new(&vertices, &rays, &response, 5, Bounces::Count(0)).expect("t_p")));
+            bench.iter(|| black_box(Transfer::new(&vertices, &rays, &response, 5, 0).expect("t_p")));
         });
     }
     group.finish();

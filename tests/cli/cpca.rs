@@ -191,8 +191,7 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
     refused(&square);
 }
 
-/// Reclassification draws fewer triangles within its budget; superclusters add no error; the file records both, and the
-/// card draws accordingly.
+/// Reclassification draws fewer triangles within its budget; the file records it.
 #[test]
 fn clusters_are_made_coherent_on_their_mesh() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -211,22 +210,8 @@ fn clusters_are_made_coherent_on_their_mesh() {
     assert!(after <= 1.1 * before);
     let added = number(&moved["coherence"]["added_squared_error"]);
     assert_relative_eq!(after, before + added, max_relative = 1e-9);
-    let grouped = compress(&["--model", model, "--reclassify", "0.1", "--supercluster-size", "3"]);
-    assert_eq!(grouped["squared_error"], moved["squared_error"]);
-    assert!(drawn(&grouped, "superclusters") < drawn(&moved, "reclassified"), "{}", grouped["coherence"]);
     let shown = document(&["cpca", "show", &out]);
-    let of: Vec<u64> = shown["superclusters"].as_array().expect("numbers").iter().filter_map(Value::as_u64).collect();
-    assert_eq!(of.len(), 12);
-    assert!((0..12).all(|group| of.iter().filter(|&&of| of == group).count() <= 3), "{of:?}");
-    assert_eq!((&shown["made"]["reclassify"], &shown["made"]["supercluster-size"]), (&"0.1".into(), &"3".into()));
-    let page = place(folder.path(), "page");
-    let card = |options: &[&str]| {
-        let fixed = ["cpca", "card", &out, "--model", model, "--size", "16x12", "--out", &page];
-        let sizes = document(&[&fixed[..], options].concat())["sizes"].clone();
-        sizes.as_array().expect("sizes").iter().find(|row| row["what"] == "superclusters").expect("a row")["number"]
-            .clone()
-    };
-    assert_eq!(card(&[]).to_string().trim_matches('"'), grouped["coherence"]["superclusters"].to_string());
+    assert_eq!(shown["made"]["reclassify"], "0.1");
 }
 
 /// Options that other options make useless are refused by name.
@@ -237,7 +222,7 @@ fn idle_options_of_compression_are_refused() {
     let signal = "docs/examples/signal.csv";
     for (from, options, words) in [
         (transfer, "--vectors 0 --method static", "`--method` is for clusters with vectors"),
-        (transfer, "--model M", "`--model` is for `--reclassify` and `--supercluster-size`"),
+        (transfer, "--model M", "`--model` is for `--reclassify`"),
         (transfer, "--clusters 1 --model M --reclassify 0.1", "`--reclassify` is for several clusters"),
         (transfer, "--reclassify 0.1", "--model"),
         (transfer, "--model M --reclassify -1", "not below 0"),

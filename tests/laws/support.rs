@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
-use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
+use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions};
 use crossbar::geom::vector::wide;
 use crossbar::geom::{Hit, Mesh};
 use proptest::sample::Index;
@@ -74,7 +74,7 @@ pub(crate) fn cluster_options(clusters: usize, vectors: usize, iterations: usize
         iterations,
         method: CpcaMethod::Iterative,
         form: CpcaForm::Affine,
-        start: StartPoints::Seed(seed),
+        seed,
     }
 }
 

@@ -13,7 +13,6 @@ use crate::scene::{Material, Surface};
 use crate::study::prt::{LitGround, LitModel};
 use crate::transfer::Vertices;
 use crate::transfer::file::MeshDigest;
-use crate::transfer::light::Decimation;
 
 /// A file with the model from which it was made.
 pub(super) struct FileOfModel {
@@ -119,7 +118,6 @@ impl LitArgs {
             original,
             ground: self.ground.as_deref().map(ground).transpose()?,
             light: self.light.distant()?,
-            decimation: Decimation::SolidAngle,
             keep: self.keep.map(|keep| keep as usize),
         })
     }

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use glam::DMat3;
 use serde_json::json;
 
 use crate::cli::Problem;
@@ -14,7 +13,7 @@ use crate::io::{write_cube_table, write_file};
 use crate::options::one_of::variants;
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
-use crate::transfer::light::{Decimation, HaarLight, TruncationPriority};
+use crate::transfer::light::{HaarLight, TruncationPriority};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -59,7 +58,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let cube = args.light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle).map_err(refused)?;
+    let cube = args.light.distant()?.cube().map_err(refused)?;
     let keep = args.keep.map_or(usize::MAX, |keep| keep as usize);
     let priority = match args.by {
         ByArg::Area => TruncationPriority::Area,

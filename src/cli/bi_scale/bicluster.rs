@@ -7,7 +7,7 @@ use std::time::Instant;
 use serde_json::json;
 
 use super::file::{histogram, load, value_counts, values_document};
-use crate::bi_scale::bicluster::{BiclusterOptions, BiclusterResidual, Biclustering, bicluster};
+use crate::bi_scale::bicluster::{BiclusterResidual, Biclustering, SEED, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
@@ -20,7 +20,7 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx
       any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
   crossbar bi-scale bicluster docs/examples/quarters.mtx --out biclusters.npz
-      writes them to a file that `crossbar bi-scale compare` reads
+      writes them to a file that `crossbar bi-scale show` reads
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
       the figures as JSON
 
@@ -72,7 +72,7 @@ fn made(matrix: &SparseMatrix) -> Result<Biclustering, InputError> {
             bar.show("non-zeros".to_owned(), total.saturating_sub(left), total);
         }
     };
-    bicluster(matrix, BiclusterOptions::default(), &mut found)
+    bicluster(matrix, SEED, &mut found)
 }
 
 fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {

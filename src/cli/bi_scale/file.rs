@@ -3,23 +3,20 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use glam::DMat3;
 use serde_json::{Value, json};
 
 use crate::bi_scale::bicluster::Biclustering;
-use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, load_bi_scale};
+use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
-use crate::cli::transfer::light::DistantLightArg;
-use crate::cli::transfer::model::{load as load_model, model_of};
+use crate::cli::transfer::model::load as load_model;
 use crate::cli::words::counted;
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::options::number;
 use crate::report::{Cell, Table};
 use crate::study::prt::creased;
-use crate::transfer::light::{CubeLight, Decimation};
-use crate::transfer::{Tangents, Vertices};
+use crate::transfer::Tangents;
 
 /// An angle from 0 to 180 degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {
@@ -35,15 +32,6 @@ pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>)
     let model = load_model(path, tangents)?;
     let Some(degrees) = crease else { return Ok(model) };
     Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
-}
-
-/// The vertices of the model from which a file was made.
-pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMeaning>) -> miette::Result<Vertices> {
-    let mesh = meaning.map(|meaning| meaning.mesh).ok_or_else(|| {
-        let what = format!("{}: expected transfer of a model, found a matrix without a model", file.display());
-        Problem::usage(what, "leave `--model` out, or name what `crossbar bi-scale precompute` wrote")
-    })?;
-    Ok(model_of(file, Some(mesh), model)?.1)
 }
 
 /// Returns `true` if a file name is that of a matrix in text form.
@@ -64,6 +52,7 @@ pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
         .map_err(|reason| Problem::usage(format!("{}: {reason}", path.display()), "name another matrix"))?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
 }
+
 /// Rejects a matrix with more rows and columns than any model has, even if few of them have entries.
 fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem> {
     /// A row or a column needs some 32 bytes.
@@ -73,11 +62,6 @@ fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem>
     }
     let what = format!("{}: expected at most {MOST} rows and columns, found {rows} x {columns}", path.display());
     Err(Problem::usage(what, "name a smaller matrix"))
-}
-
-pub(super) fn cube_of(light: &DistantLightArg, verb: &str) -> miette::Result<CubeLight> {
-    let cube = light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle);
-    Ok(cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar bi-scale {verb} --help`")))?)
 }
 
 /// Writes a matrix in text form.

@@ -2,7 +2,6 @@
 
 mod bicluster;
 mod card;
-mod compare;
 mod file;
 mod patch;
 mod precompute;
@@ -41,7 +40,6 @@ pub(super) struct Args {
 enum Verb {
     Precompute(precompute::Args),
     Bicluster(bicluster::Args),
-    Compare(compare::Args),
     Texture(texture::Args),
     Show(show::Args),
     Render(render::Args),
@@ -52,7 +50,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     let found = match &args.verb {
         Verb::Precompute(args) => precompute::run(args)?,
         Verb::Bicluster(args) => bicluster::run(args)?,
-        Verb::Compare(args) => compare::run(args)?,
         Verb::Texture(args) => texture::run(args)?,
         Verb::Show(args) => show::run(args)?,
         Verb::Render(args) => return study::run(args, command_line, out),

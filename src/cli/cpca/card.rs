@@ -9,7 +9,6 @@ use crate::cli::study::{StudyArgs, StudyFiles};
 use crate::cli::transfer::light::{DEFAULT_LIGHT, DistantLightArg, HARMONIC_LIGHT};
 use crate::cli::transfer::on_card::OnCardArgs;
 use crate::cli::transfer::picture::PictureArgs;
-use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::PrtCardOptions;
 use crate::study::prt::OnCard;
 
@@ -62,7 +61,6 @@ impl StudyArgs for Args {
         let FileOfModel { mut file, model, vertices, .. } = FileOfModel::load(&self.file, &self.picture.model)?;
         let clustering = clusters_of(&mut file, &self.file)?;
         let light_order = light_order(&file)?;
-        let superclusters = file.superclusters.as_deref().and_then(Superclusters::of_numbers);
         Ok(OnCard {
             view: self.picture.view(&model.mesh, self.light.name())?,
             light: self.light.of_order(light_order)?,
@@ -71,7 +69,6 @@ impl StudyArgs for Args {
             meaning: file.meaning,
             vertices,
             clustering,
-            superclusters,
         })
     }
 }

@@ -10,7 +10,7 @@ use crate::cli::study::written;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
 use crate::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, StartPoints, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, compress,
 };
 use crate::options::one_of::{name, variants};
 use crate::report::Findings;
@@ -26,8 +26,8 @@ Examples:
       vectors redistributed among the clusters; every step's error as JSON
   crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --out small.npz
       a signal of your own, a line of numbers per point
-  crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.npz
-      fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
+  crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --out small.npz
+      fewer triangles drawn in two clusters, for 5 % more error
 
 CSV and NumPy arrays hold a row per point. The output file holds the clusters and their provenance.";
 
@@ -74,19 +74,11 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let Compression { clustering, steps } = compress(&signal, &options, observe).map_err(|error| refused(&error))?;
     drop(bar);
     let provenance = args.provenance(&options, &clustering, &steps);
-    let coherence =
-        vertices.map(|vertices| args.coherence.apply(&signal, clustering.clone(), &vertices)).transpose()?;
-    let clustering = coherence.as_ref().map_or(clustering, |coherence| coherence.clustering.clone());
+    let coherence = vertices.map(|vertices| args.coherence.apply(&signal, &clustering, &vertices)).transpose()?;
+    let clustering = coherence.as_ref().map_or(clustering, |coherence| coherence.found.clustering.clone());
     let error = CompressionError::new(&signal, &clustering);
-    let superclusters = coherence.as_ref().and_then(|coherence| coherence.superclusters.clone());
-    let file = PrtFile {
-        meaning,
-        mesh,
-        transfer: None,
-        clustering: Some(clustering.clone()),
-        superclusters,
-        provenance: Some(provenance),
-    };
+    let file =
+        PrtFile { meaning, mesh, transfer: None, clustering: Some(clustering.clone()), provenance: Some(provenance) };
     save_prt(&file, &args.out).map_err(Problem::from)?;
     Ok(findings(args, (&signal, &clustering), &steps, &error, coherence.as_ref()))
 }
@@ -100,10 +92,8 @@ impl Args {
             "clusters with vectors, and `--vectors` is 0",
             "choose more `--vectors`, or leave it out",
         )?;
-        let has_one = self.clusters == Some(1);
-        let [reclassify, size] = self.coherence.given();
         given::refuse(
-            [("--reclassify", has_one && reclassify), ("--supercluster-size", has_one && size)],
+            [("--reclassify", self.clusters == Some(1) && self.coherence.reclassify.is_some())],
             "several clusters, and `--clusters` is 1",
             "choose more `--clusters`, or leave it out",
         )
@@ -130,7 +120,7 @@ impl Args {
             iterations: ITERATIONS,
             method: self.method().with_rounds(ITERATIONS),
             form: CpcaForm::Affine,
-            start: StartPoints::Seed(SEED),
+            seed: SEED,
         })
     }
 
@@ -146,7 +136,7 @@ impl Args {
             format!("iterations={}", options.iterations),
             format!("seed={SEED}"),
         ];
-        parts.extend(self.coherence.provenance());
+        parts.extend(self.coherence.reclassify.map(|share| format!("reclassify={share}")));
         parts.join(" ")
     }
 }

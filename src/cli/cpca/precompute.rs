@@ -13,7 +13,7 @@ use crate::cli::transfer::model::{load, note_vertices, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
-use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
+use crate::cpca::transfer::{Incident, ScatteringOptions, TransferCounts};
 use crate::error::InputError;
 use crate::geom::Sides;
 use crate::options::number;
@@ -125,7 +125,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         exit,
         order: usize::from(args.order),
         degree: usize::from(args.degree),
-        bounces: Bounces::Count(args.bounces),
+        bounces: args.bounces,
         scatterer,
     };
     let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::coherence::count;
 use crate::cli::words::counted;
 use crate::clustering::Clustering;
 use crate::report::{Cell, Findings, Table};
@@ -38,7 +37,6 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     found.fields(header_document(&file));
     found.fields(json!({
         "clusters": file.clustering.as_ref().map(clusters_document),
-        "superclusters": file.superclusters,
         "made": file.provenance.as_deref().map(made_document),
     }));
     all(&file, &mut found);
@@ -70,24 +68,19 @@ fn all(file: &PrtFile, found: &mut Findings) {
     if let Some(line) = &file.provenance {
         found.introduce(format!("made      {line}"));
     }
-    if let Some(superclusters) = &file.superclusters {
-        found.introduce(format!("together  {} superclusters", counted(count(superclusters))));
-    }
     let [stored, numbers] = [clustering.stored_numbers(), clustering.points() * clustering.dimension()].map(counted);
     found.introduce(format!("stored    {stored} numbers in place of {numbers}"));
-    found.table(spectra(clustering, file.superclusters.as_deref()));
+    found.table(spectra(clustering));
 }
 
 /// Table of clusters with their sizes and largest eigenvalues.
-fn spectra(clustering: &Clustering, superclusters: Option<&[u32]>) -> Table {
+fn spectra(clustering: &Clustering) -> Table {
     let mut headings = vec!["cluster".to_owned(), "points".to_owned(), "vectors".to_owned()];
-    headings.extend(superclusters.map(|_| "supercluster".to_owned()));
     headings.extend((1..=EIGENVALUES).map(|number| format!("eigenvalue {number}")));
     let mut table = Table::new("Clusters", &headings);
     for ((cluster, subspace), points) in clustering.subspaces().iter().enumerate().zip(sizes(clustering)) {
         let eigenvalue = |at: usize| subspace.eigenvalues.get(at).map_or(Cell::Empty, |&value| Cell::measured(value));
         let mut row: Vec<Cell> = vec![cluster.into(), points.into(), subspace.len().into()];
-        row.extend(superclusters.map(|of| (of[cluster] as usize).into()));
         row.extend((0..EIGENVALUES).map(eigenvalue));
         table.push(row);
     }

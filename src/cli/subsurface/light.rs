@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use crate::cli::Problem;
 use crate::cli::transfer::light::DistantLightArg;
@@ -10,7 +10,7 @@ use crate::options::number::three_finite;
 use crate::scene::Camera;
 use crate::study::subsurface::Lighting;
 use crate::subsurface::on_card::Light;
-use crate::transfer::light::{CubeLight, Decimation};
+use crate::transfer::light::CubeLight;
 
 /// A light of pass 1, or distant light as in the commands about transfer.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,7 +91,7 @@ pub(super) fn lighting(asked: &[LightArg], camera: &Camera) -> miette::Result<Li
 /// Distant light, sampled at the texels of a cube.
 fn environment(light: &DistantLightArg) -> miette::Result<CubeLight> {
     let refused = |found: String| Problem::usage(found, "docs/papers/cpca.md says which pictures are lights");
-    let cube = light.distant()?.cube(&DMat3::IDENTITY, Decimation::SolidAngle);
+    let cube = light.distant()?.cube();
     let cube = cube.map_err(|error| refused(error.to_string()))?;
     match cube.texels().iter().flatten().find(|&&radiance| radiance < 0.0) {
         Some(found) => Err(refused(format!("expected radiances of at least 0, found {found}")).into()),

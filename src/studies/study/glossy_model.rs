@@ -6,10 +6,10 @@ use refsim::timing::Picoseconds;
 
 use crate::card::MeshView;
 use crate::card::frame_time::{FrameTimeError, frame_time};
-use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, compress};
 use crate::cpca::on_card::time::host_of_section_7;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
-use crate::cpca::transfer::{Bounces, Incident};
+use crate::cpca::transfer::Incident;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::sphere::HarmonicLight;
@@ -52,7 +52,7 @@ impl GlossyTransfer {
             exit: ExitRadiance::Glossy { basis, least_squares: true, incident },
             order: self.order,
             degree: 24,
-            bounces: Bounces::Count(0),
+            bounces: 0,
             scatterer: None,
         };
         let mut open = caster.open_judged(mesh, Sides::Both)?;
@@ -70,7 +70,7 @@ impl GlossyTransfer {
             iterations: self.iterations,
             method: CpcaMethod::Iterative,
             form: CpcaForm::Affine,
-            start: StartPoints::Seed(1),
+            seed: 1,
         };
         let clustering = compress(&signal, &options, |_| ()).expect("fewer clusters than vertices").clustering;
         GlossyModel { vertices, clustering, basis: ExitBasis::of_order(self.exit_order), vectors: self.vectors }
@@ -94,8 +94,8 @@ impl GlossyModel {
         options: &PrtCardOptions,
     ) -> Result<PrtCard<'a>, StudyError> {
         let Self { vertices, clustering, basis, vectors } = self;
-        let (channels, vectors, superclusters) = (1, *vectors, None);
-        let transfer = CompressedTransfer { vertices, clustering, basis, channels, vectors, superclusters };
+        let (channels, vectors) = (1, *vectors);
+        let transfer = CompressedTransfer { vertices, clustering, basis, channels, vectors };
         PrtCard::new(profile.clone(), executor.clone(), transfer, options).map_err(no_cpca_card)
     }
 

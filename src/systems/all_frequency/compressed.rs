@@ -1,7 +1,7 @@
 //! Each lighting segment's transfer as clusters of linear combinations (section 5 of the paper, equation 11).
 
 use crate::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, StartPoints, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, compress,
 };
 use crate::error::{InputError, ensure, input_error};
 
@@ -58,7 +58,7 @@ impl CompressedSegment {
             iterations: options.iterations,
             method: options.method,
             form: CpcaForm::Linear,
-            start: StartPoints::Seed(options.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(segment as u64)),
+            seed: options.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(segment as u64),
         };
         let Compression { clustering, .. } = compress(signal, &options, observe)?;
         Ok(Self { segment, vertices, clustering })

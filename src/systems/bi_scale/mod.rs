@@ -6,16 +6,16 @@
 //! - [`mod@file`]: files of transfer and biclusters (`.npz`);
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times the sum of biclusters (section V, Algorithm 2);
-//! - [`baselines`]: other ways to store transfer (section VI-B);
+//! - [`low_frequency`]: light in harmonics instead of texels (Figures 1 and 5);
 //! - [`on_card`]: products and pictures on an emulated card; [`kernels`]: its programs (section V, Rendering);
 //! - [`texture`]: the bidirectional textures that local light illuminates (section III);
 //! - [`shade`]: pixels, the product of texture and local light (section III, equation 3).
 
-pub mod baselines;
 pub mod bicluster;
 pub mod directions;
 pub mod file;
 pub mod kernels;
+pub mod low_frequency;
 pub mod matrix;
 pub mod on_card;
 pub mod paper;

@@ -1,8 +1,6 @@
 //! The paper by plain loops in f64: Algorithm 1 on a dense matrix, Algorithm 2, and equation 3.
 
-use std::collections::BTreeSet;
-
-use super::bicluster::{Bicluster, BiclusterOptions, Biclustering, start};
+use super::bicluster::{Bicluster, Biclustering, start};
 use super::matrix::{MatrixEntry, SparseMatrix};
 use super::shade::{ShadedPixel, TexelSamples};
 use super::texture::{BidirectionalTexture, ViewSamples};
@@ -77,27 +75,22 @@ impl Submatrix {
 }
 
 /// Algorithm 1 with every operation tried, each by equation 9. Each operation scans the whole matrix, so the function
-/// is for small matrices. Panics if the largest residual to drop is negative or not finite.
-pub fn biclusters(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
-    let mut left = dense(matrix);
-    assert!(options.drop >= 0.0, "a size");
-    let (mut dropped, mut numbers) = (BTreeSet::new(), Vec::new());
+/// is for small matrices.
+pub fn biclusters(matrix: &SparseMatrix, seed: u64) -> Biclustering {
+    let (mut left, mut numbers) = (dense(matrix), Vec::new());
     let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
     // Line 2: until no element is left.
-    while let Some((row, column)) = choose(&left, options.seed, found.len()) {
+    while let Some((row, column)) = choose(&left, seed, found.len()) {
         // Lines 5 and 6.
         let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column])] };
         // Lines 7 to 20.
-        while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
+        while let Some(better) = best_operation(&submatrix, &left) {
             submatrix = better;
         }
         // Lines 15 and 16: the bicluster is subtracted, which leaves the residual.
         for &row in &submatrix.rows {
             for (column, t) in &submatrix.columns {
-                let value = left[row][*column] - t;
-                let is_small = value != 0.0 && value.abs() <= options.drop;
-                let goes = is_small && dropped.insert((row, *column));
-                left[row][*column] = if goes { 0.0 } else { value };
+                left[row][*column] -= t;
             }
         }
         found.push(&submatrix.bicluster(&mut numbers));
@@ -126,12 +119,9 @@ fn choose(left: &[Vec<f64>], seed: u64, number: usize) -> Option<(usize, usize)>
 }
 
 /// The submatrix after the operation that reduces the cost most; `None` if no operation reduces it.
-fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>], deletion: bool) -> Option<Submatrix> {
-    let rows = (0..left.len()).filter(|row| deletion || !submatrix.rows.contains(row));
-    let is_inside = |column: usize| submatrix.columns.iter().any(|(inside, _)| *inside == column);
-    let columns = (0..left[0].len()).filter(|&column| deletion || !is_inside(column));
-    let after_rows = rows.filter_map(|row| submatrix.with_row_changed(row));
-    let after_columns = columns.filter_map(|column| submatrix.with_column_changed(column, left));
+fn best_operation(submatrix: &Submatrix, left: &[Vec<f64>]) -> Option<Submatrix> {
+    let after_rows = (0..left.len()).filter_map(|row| submatrix.with_row_changed(row));
+    let after_columns = (0..left[0].len()).filter_map(|column| submatrix.with_column_changed(column, left));
     let mut best = None;
     let mut most = submatrix.reduction(left);
     for after in after_rows.chain(after_columns) {

@@ -21,8 +21,8 @@ pub struct CpcaOptions {
     pub method: CpcaMethod,
     /// The kind of approximation within a cluster.
     pub form: CpcaForm,
-    /// The first representatives.
-    pub start: StartPoints,
+    /// Random seed of the first representatives, which are drawn from the points without replacement.
+    pub seed: u64,
 }
 
 /// The kind of approximation within a cluster.
@@ -62,15 +62,6 @@ pub enum CpcaMethod {
     },
 }
 
-/// The points that are the clusters' initial representatives.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum StartPoints {
-    /// Drawn at random without replacement.
-    Seed(u64),
-    /// Given, one per cluster, counted from 0.
-    Given(Vec<u32>),
-}
-
 /// Reasons for which a signal cannot be compressed. Points count from 0.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -88,15 +79,6 @@ pub enum CpcaError {
     /// No iterations.
     #[error("expected at least 1 iteration for each number of vectors, found 0")]
     NoIterations,
-    /// The number of start points differs from the number of clusters.
-    #[error("expected {clusters} start points, one per cluster, found {found}")]
-    StartCount { clusters: usize, found: usize },
-    /// A start point outside the signal.
-    #[error("expected start points below {points} (counted from 0), found {found}")]
-    StartRange { points: usize, found: u32 },
-    /// A repeated start point.
-    #[error("expected different start points, found {found} twice")]
-    StartTwice { found: u32 },
     /// The principal components of a cluster cannot be computed.
     #[error("the principal components of cluster {cluster} cannot be found: {reason}")]
     Factor { cluster: usize, reason: InputError },
@@ -150,25 +132,7 @@ impl CpcaOptions {
         if vq_iterations.min(iterations) == 0 {
             return Err(CpcaError::NoIterations);
         }
-        match &self.start {
-            StartPoints::Seed(seed) => Ok(draw(*seed, points as u32, clusters)),
-            StartPoints::Given(given) => check(given, points, clusters).map(|()| given.clone()),
-        }
-    }
-}
-
-fn check(given: &[u32], points: usize, clusters: usize) -> Result<(), CpcaError> {
-    if given.len() != clusters {
-        return Err(CpcaError::StartCount { clusters, found: given.len() });
-    }
-    if let Some(&found) = given.iter().find(|&&point| point as usize >= points) {
-        return Err(CpcaError::StartRange { points, found });
-    }
-    let mut sorted = given.to_vec();
-    sorted.sort_unstable();
-    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(CpcaError::StartTwice { found: pair[0] }),
-        None => Ok(()),
+        Ok(draw(self.seed, points as u32, clusters))
     }
 }
 

@@ -1,8 +1,7 @@
 //! Compression of signals: fixed bits, independence of threads and vector instructions, and errors.
 
 use crossbar_systems::clustering::{
-    AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, StartPoints, compress,
-    compress_at, paper,
+    AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, compress, compress_at, paper,
 };
 use crossbar_systems::transfer::synthetic::torus_signal;
 use refsim::exec::batch::SimdLevel;
@@ -21,7 +20,7 @@ fn bits_do_not_depend_on_threads_or_vector_instructions() {
             iterations: 4,
             method,
             form: CpcaForm::Affine,
-            start: StartPoints::Seed(2),
+            seed: 2,
         };
         let widest = compress(&signal, &options, |_| ()).expect("compressed");
         for level in SimdLevel::available() {
@@ -44,7 +43,7 @@ fn every_step_is_observed() {
         iterations: 3,
         method: CpcaMethod::Static,
         form: CpcaForm::Affine,
-        start: StartPoints::Seed(0),
+        seed: 0,
     };
     let compression = compress(&signal, &options, |step| seen.push(*step)).expect("compressed");
     assert_eq!(compression.steps, seen);
@@ -94,7 +93,7 @@ fn bounds_along_axes_exclude_no_best_cluster() {
             iterations: 3,
             method: methods[draw(11, 3) as usize],
             form,
-            start: StartPoints::Seed(seed),
+            seed,
         };
         let plain = compress(&signal, &options, |_| ()).expect("compressed");
         for more in [8, 280] {
@@ -113,8 +112,8 @@ fn the_way_to_a_partition_leaves_no_trace() {
     let mut found: Vec<(Vec<u32>, Vec<AffineSubspace>, Vec<usize>)> = Vec::new();
     let mut repeated = 0;
     for seed in 0..60 {
-        let (method, form, start) = (CpcaMethod::Doubling, CpcaForm::Linear, StartPoints::Seed(seed));
-        let options = CpcaOptions { clusters: 2, vectors: 4, vq_iterations: 9, iterations: 9, method, form, start };
+        let (method, form) = (CpcaMethod::Doubling, CpcaForm::Linear);
+        let options = CpcaOptions { clusters: 2, vectors: 4, vq_iterations: 9, iterations: 9, method, form, seed };
         let compression = compress(&signal, &options, |_| ()).expect("compressed");
         let moved = compression.steps.iter().map(|step| step.moved).collect();
         let (mut of_point, mut subspaces) =
@@ -147,7 +146,8 @@ fn what_exceeds_the_budget_is_passed_over() {
         iterations: 3,
         method: CpcaMethod::Adaptive { rounds: 2 },
         form: CpcaForm::Affine,
-        start: StartPoints::Given(vec![0, 8]),
+        // Draws the points 0 and 8.
+        seed: 4,
     };
     let found = compress(&signal, &options, |_| ()).expect("compressed").clustering;
     assert_eq!(found.subspaces().iter().map(AffineSubspace::len).collect::<Vec<_>>(), [2, 2]);
@@ -168,13 +168,14 @@ fn empty_clusters_take_the_worst_points_but_no_last_ones() {
         iterations: 1,
         method: CpcaMethod::Static,
         form: CpcaForm::Affine,
-        start: StartPoints::Given(vec![0, 1, 2, 6]),
+        // Draws the points 0, 1, 2 and 6.
+        seed: 1585,
     };
     let found = compress(&signal, &options, |_| ()).expect("compressed").clustering;
     assert_eq!(found.of_point(), [0, 0, 0, 1, 2, 0, 3]);
     assert_eq!(found.of_point(), paper::compress(&signal, &options).expect("compressed").of_point());
     let same = Signal::new(1, vec![4.0; 3]).expect("a signal");
-    let options = CpcaOptions { clusters: 3, start: StartPoints::Given(vec![2, 1, 0]), ..options };
+    let options = CpcaOptions { clusters: 3, seed: 11, ..options };
     let found = compress(&same, &options, |_| ()).expect("compressed").clustering;
     assert_eq!(found.of_point(), [0; 3], "points without error stay");
 }

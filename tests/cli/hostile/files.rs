@@ -10,7 +10,7 @@ use super::{Files, assert_refused};
 /// Gives every option for an input file every kind of unsuitable file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 18] = [
+    let commands: [&[&str]; 17] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -19,7 +19,6 @@ fn hostile_files() {
         &["render", "IN", "--renderer", "eye"],
         &["radiosity", "IN"],
         &["bi-scale", "bicluster", "IN"],
-        &["bi-scale", "compare", "IN"],
         &["cpca", "compress", "IN", "--out", "y.npz"],
         &["cpca", "error", "IN", "IN"],
         &["all-frequency", "factor", "--table", "IN"],
@@ -77,12 +76,9 @@ fn claims_of_size() {
         ("claims.npz", &prt),
     ];
     for (name, _) in &files {
-        for verb in ["bicluster", "compare"] {
-            let start = std::time::Instant::now();
-            let arguments = ["bi-scale", verb, name].map(OsString::from);
-            assert_refused(&arguments, &files);
-            assert!(start.elapsed() < std::time::Duration::from_secs(10), "{verb} {name}: {:?}", start.elapsed());
-        }
+        let start = std::time::Instant::now();
+        assert_refused(&["bi-scale", "bicluster", name].map(OsString::from), &files);
+        assert!(start.elapsed() < std::time::Duration::from_secs(10), "{name}: {:?}", start.elapsed());
     }
 }
 

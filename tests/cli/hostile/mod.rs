@@ -44,7 +44,6 @@ const COMMANDS: &[&str] = &[
     "atlas nowhere.obj",
     "bi-scale bicluster nowhere.mtx",
     "bi-scale card nowhere.npz --model nowhere.obj --texture mail",
-    "bi-scale compare nowhere.mtx",
     "bi-scale precompute nowhere.obj --out x.npz",
     "bi-scale render nowhere.npz --model nowhere.obj --texture mail",
     "bi-scale show nowhere.mtx",

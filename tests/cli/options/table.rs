@@ -217,7 +217,7 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca compress docs/examples/step.npz --clusters 4 --vectors 2 --model odd.obj --reclassify 0.5 --out OUT.npz",
         ],
         options: "--clusters=5@0,1 --vectors=1@0,1 --method=adaptive@0,1 --model=white-box@0,1 --reclassify=0@0,1 \
-                  --supercluster-size=2@0,1 --out=other.npz@0,1 --model-up=y --strict@2",
+                  --out=other.npz@0,1 --model-up=y --strict@2",
     },
     Tried { bases: &["cpca error docs/examples/step.npz docs/examples/step_small.npz"], options: "" },
     Tried { bases: &["cpca show docs/examples/step_small.npz"], options: "" },
@@ -318,15 +318,6 @@ pub(super) const TABLE: &[Tried] = &[
         ),
     },
     Tried { bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.npz"], options: "--out=other.npz" },
-    Tried {
-        bases: &[
-            "bi-scale compare court.npz --clusters 2 --vectors 2 --sample 60",
-            "bi-scale compare court.npz --model docs/examples/court.obj --clusters 2 --vectors 2 --sample 60",
-            "bi-scale compare court.npz --model odd.obj",
-        ],
-        options: "--model=white-box --light=red-and-blue@0,1 --clusters=3@0,1 --vectors=1@0,1 \
-                  --sample=40@0,1 --model-up=y --strict@2",
-    },
     Tried {
         bases: &[
             "bi-scale texture bumps --texels 4 --directions 2 --views 2 --out OUT.npy",

@@ -7,7 +7,7 @@ use crossbar::io::{parse_cube_table, parse_light_sources, write_cube_table};
 use crossbar::picture::Picture;
 use crossbar::sphere::{ClearSky, EnvironmentPicture};
 use crossbar::tracer::HostTracer;
-use crossbar::transfer::light::{CubeLight, Decimation, DiskSource};
+use crossbar::transfer::light::{CubeLight, DiskSource};
 use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 use glam::{DMat3, DVec3};
@@ -33,21 +33,21 @@ fn what_is_no_light_is_refused() {
             DiskSource { towards: DVec3::Z, radius: 1.0, radiance: [1.0; 3] },
             DiskSource { towards, radius, radiance },
         ];
-        message(CubeLight::from_disks(&sources, &DMat3::IDENTITY, Decimation::Plain))
+        message(CubeLight::from_disks(&sources, &DMat3::IDENTITY))
     };
     assert!(disk(DVec3::ZERO, 1.0, [1.0; 3]).starts_with("source 1: expected a direction of finite length"));
     assert!(disk(DVec3::Z, 0.0, [1.0; 3]).starts_with("source 1: expected an angular radius above 0"));
     assert!(disk(DVec3::Z, f64::NAN, [1.0; 3]).starts_with("source 1: expected an angular radius above 0"));
     assert!(disk(DVec3::Z, 1.0, [1.0, -1.0, 0.0]).starts_with("source 1: expected finite radiances of at least 0"));
     let mirror = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
-    assert!(message(CubeLight::sampled(|_| [1.0; 3], &mirror, Decimation::Plain)).contains("found a reflection"));
-    assert!(message(CubeLight::red_and_blue(&DMat3::ZERO, Decimation::Plain)).contains("orthonormal columns"));
+    assert!(message(CubeLight::from_disks(&[], &mirror)).contains("found a reflection"));
+    assert!(message(CubeLight::from_disks(&[], &DMat3::ZERO)).contains("orthonormal columns"));
     let night = ClearSky { sun: -DVec3::Z, sun_radiance: [1.0; 3], zenith: [1.0; 3], ground: [0.0; 3] };
-    assert!(message(CubeLight::sky(&night, &DMat3::IDENTITY, Decimation::Plain)).contains("above the horizon"));
+    assert!(message(CubeLight::sky(&night)).contains("above the horizon"));
     let mut pixels = vec![[1.0; 3]; 64 * 32];
     pixels[2 * 64 + 33] = [-1.0; 3];
     let picture = EnvironmentPicture::new(&Picture::rgb(64, 32, &pixels)).expect("an environment");
-    let error = message(CubeLight::from_picture(&picture, &DMat3::IDENTITY, Decimation::Plain));
+    let error = message(CubeLight::from_picture(&picture));
     assert!(error.contains("found -") && error.contains("channel red of face 4"), "{error}");
     assert!(EnvironmentPicture::new(&Picture::rgb(65, 32, &[])).is_err());
 }

@@ -9,7 +9,7 @@ use crossbar::geom::Mesh;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::brdf::Brdf;
 use crossbar::transfer::grid::Segmentation;
-use crossbar::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::transfer::light::{CubeLight, DiskSource, HaarLight, TruncationPriority};
 use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 use glam::{DMat3, DVec3};
@@ -49,7 +49,7 @@ fn light() -> CubeLight {
         disk(DVec3::new(0.3, -0.4, 1.0), 25.0, [1.0, 2.0, 0.5]),
         disk(DVec3::new(1.0, 0.2, 0.4), 2.0, [90.0, 40.0, 60.0]),
     ];
-    CubeLight::from_disks(&disks, &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light")
+    CubeLight::from_disks(&disks, &DMat3::IDENTITY).expect("a light")
 }
 
 fn squares(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {

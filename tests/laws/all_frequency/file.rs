@@ -13,7 +13,7 @@ use proptest::prelude::*;
 
 use super::coding::compressed;
 use super::{all, clutter, factors, trace, vertices};
-use crate::support::{damage_is_seen, forgery_does_no_harm};
+use crate::support::forgery_does_no_harm;
 
 fn bytes(file: &AllFrequencyFile) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -80,12 +80,6 @@ fn what_is_written_is_read_in_all_its_parts() {
         let error = load_all_frequency(&path, Some(&other)).expect_err("refused").to_string();
         assert!(error.contains("expected transfer of a mesh with"), "{error}");
     }
-}
-
-#[test]
-fn every_flipped_bit_and_every_cut_is_seen() {
-    let file = small();
-    damage_is_seen(&file, &bytes(&file), 1, parsed);
 }
 
 #[test]

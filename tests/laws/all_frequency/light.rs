@@ -1,4 +1,4 @@
-//! Cube lights: flux, rotation, decimation, truncation.
+//! Cube lights: flux, rotation, truncation.
 
 use std::f64::consts::PI;
 
@@ -7,12 +7,10 @@ use crossbar::geom::random::CounterRng;
 use crossbar::picture::Picture;
 use crossbar::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 use crossbar::transfer::grid::Segmentation;
-use crossbar::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::transfer::light::{CubeLight, DiskSource, HaarLight, TruncationPriority};
 use glam::{DMat3, DVec3};
 
 use super::close;
-
-const DECIMATIONS: [Decimation; 2] = [Decimation::SolidAngle, Decimation::Plain];
 
 fn turn() -> DMat3 {
     let (sin, cos) = sin_cos(0.7);
@@ -43,21 +41,18 @@ fn sources() -> Vec<DiskSource> {
 
 #[test]
 fn a_constant_stays_a_constant() {
-    for decimation in DECIMATIONS {
-        let light = CubeLight::sampled(|_| [1.0, 0.25, 3.0], &turn(), decimation).expect("a light");
-        let off = light.texels().iter().flat_map(|texel| [texel[0] - 1.0, texel[1] - 0.25, texel[2] - 3.0]);
-        assert!(off.fold(0.0, |most: f64, off| most.max(off.abs())) < 1e-14);
-        close(light.flux()[0], 4.0 * PI, 1e-11, "flux");
-    }
+    let light = CubeLight::sampled(|_| [1.0, 0.25, 3.0]).expect("a light");
+    let off = light.texels().iter().flat_map(|texel| [texel[0] - 1.0, texel[1] - 0.25, texel[2] - 3.0]);
+    assert!(off.fold(0.0, |most: f64, off| most.max(off.abs())) < 1e-14);
+    close(light.flux()[0], 4.0 * PI, 1e-11, "flux");
 }
 
-/// Decimation by solid angle preserves the flux of the samples; the plain mean does not.
 #[test]
 fn a_disk_keeps_its_flux_however_small() {
     for (at, towards) in random_directions(3, 6).chain(DVec3::AXES).chain([DVec3::ONE]).enumerate() {
         for radius in [1e-6, 1e-3, 0.004_654, 0.03, 0.3, 1.5, 3.0, PI] {
             let source = DiskSource { towards: 3.0 * towards, radius, radiance: [1.0, 2.0, 0.0] };
-            let light = CubeLight::from_disks(&[source], &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+            let light = CubeLight::from_disks(&[source], &DMat3::IDENTITY).expect("a light");
             let half = sin_cos(radius / 2.0).0;
             let expected = 4.0 * PI * half * half;
             for (channel, factor) in [1.0, 2.0, 0.0].into_iter().enumerate() {
@@ -69,29 +64,16 @@ fn a_disk_keeps_its_flux_however_small() {
             assert!(brightest <= 1.02 || radius < 1e-3, "{brightest}");
         }
     }
-    let plain = CubeLight::from_disks(&sources(), &DMat3::IDENTITY, Decimation::Plain).expect("a light");
-    let weighted = CubeLight::from_disks(&sources(), &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
-    let ratio = plain.flux()[0] / weighted.flux()[0];
-    assert!(ratio != 1.0 && (ratio - 1.0).abs() < 0.01, "{ratio}");
 }
 
-/// Rotating light and direction together changes nothing: (R l)(R v) = l(v).
 #[test]
-fn lights_turn_with_their_matrix() {
-    let wave = |v: DVec3| [1.0 + v.x, 1.0 + v.y * v.z, 2.0 - v.z];
-    let turn = turn();
-    for decimation in DECIMATIONS {
-        let turned = CubeLight::sampled(wave, &turn, decimation).expect("a light");
-        let expected =
-            CubeLight::sampled(|v| wave(turn.transpose() * v), &DMat3::IDENTITY, decimation).expect("a light");
-        assert_eq!(turned, expected);
-        let disks: Vec<DiskSource> = sources();
-        let moved: Vec<DiskSource> =
-            disks.iter().map(|disk| DiskSource { towards: turn * disk.towards, ..*disk }).collect();
-        let [a, b] = [(&disks, &turn), (&moved, &DMat3::IDENTITY)]
-            .map(|(disks, turn)| CubeLight::from_disks(disks, turn, decimation).expect("a light").flux());
-        close(a[1], b[1], 1e-9, "flux");
-    }
+fn disks_turn_with_their_matrix() {
+    let (disks, turn) = (sources(), turn());
+    let moved: Vec<DiskSource> =
+        disks.iter().map(|disk| DiskSource { towards: turn * disk.towards, ..*disk }).collect();
+    let [a, b] = [(&disks, &turn), (&moved, &DMat3::IDENTITY)]
+        .map(|(disks, turn)| CubeLight::from_disks(disks, turn).expect("a light").flux());
+    close(a[1], b[1], 1e-9, "flux");
 }
 
 /// The flux of pictures and generated lights equals the flux of their l = 0 harmonic, which is exact.
@@ -110,39 +92,30 @@ fn generated_lights_have_the_flux_of_their_harmonics() {
     }
     let picture = Picture::rgb(128, 64, &pixels);
     let shown = EnvironmentPicture::new(&picture).expect("an environment");
-    for turn in [DMat3::IDENTITY, turn()] {
-        let made = [
-            (CubeLight::sky(&sky, &turn, Decimation::SolidAngle), sky.light(3).expect("a light")),
-            (CubeLight::red_and_blue(&turn, Decimation::SolidAngle), HarmonicLight::red_and_blue(3)),
-            (
-                CubeLight::from_picture(&shown, &turn, Decimation::SolidAngle),
-                HarmonicLight::from_picture(3, &picture).expect("a light"),
-            ),
-        ];
-        for (light, harmonic) in made {
-            let light = light.expect("a light");
-            if turn == DMat3::IDENTITY {
-                let found = light.harmonics(3).expect("a light");
-                for (found, expected) in found.channels().iter().zip(harmonic.channels()) {
-                    let squares =
-                        |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
-                    let off = squares(&mut found.iter().zip(expected).map(|(a, b)| a - b));
-                    // Texels of 3 degrees spread the sun.
-                    assert!(off < 1e-5 * squares(&mut expected.iter().copied()), "{found:?} {expected:?}");
-                }
-            }
-            let (found, expected) = (light.flux(), flux(&harmonic));
-            for (found, expected) in found.into_iter().zip(expected) {
-                // Point samples of a discontinuity at the horizon or between pixels.
-                assert!((found / expected - 1.0).abs() < 3e-3, "{found} {expected}");
-            }
+    for (light, harmonic) in [
+        (CubeLight::sky(&sky), sky.light(3).expect("a light")),
+        (CubeLight::red_and_blue(), HarmonicLight::red_and_blue(3)),
+        (CubeLight::from_picture(&shown), HarmonicLight::from_picture(3, &picture).expect("a light")),
+    ] {
+        let light = light.expect("a light");
+        let found = light.harmonics(3).expect("a light");
+        for (found, expected) in found.channels().iter().zip(harmonic.channels()) {
+            let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
+            let off = squares(&mut found.iter().zip(expected).map(|(a, b)| a - b));
+            // Texels of 3 degrees spread the sun.
+            assert!(off < 1e-5 * squares(&mut expected.iter().copied()), "{found:?} {expected:?}");
+        }
+        let (found, expected) = (light.flux(), flux(&harmonic));
+        for (found, expected) in found.into_iter().zip(expected) {
+            // Point samples of a discontinuity at the horizon or between pixels.
+            assert!((found / expected - 1.0).abs() < 3e-3, "{found} {expected}");
         }
     }
 }
 
 #[test]
 fn truncation_keeps_what_was_asked_for() {
-    let light = CubeLight::from_disks(&sources(), &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+    let light = CubeLight::from_disks(&sources(), &DMat3::IDENTITY).expect("a light");
     for segmentation in [Segmentation::Quarters, Segmentation::Faces] {
         let haar = HaarLight::new(&light, segmentation);
         let priorities = [TruncationPriority::Magnitude, TruncationPriority::Area];
@@ -174,7 +147,7 @@ fn truncation_keeps_what_was_asked_for() {
 /// Figure 6: coefficients selected on six faces and drawn in 24 segments represent the same light.
 #[test]
 fn a_truncated_light_is_reprojected_without_change() {
-    let light = CubeLight::from_disks(&sources(), &turn(), Decimation::SolidAngle).expect("a light");
+    let light = CubeLight::from_disks(&sources(), &turn()).expect("a light");
     let faces = HaarLight::new(&light, Segmentation::Faces);
     let truncated = faces.truncated(300, TruncationPriority::Area).light;
     let reprojected = truncated.reprojected(Segmentation::Quarters);

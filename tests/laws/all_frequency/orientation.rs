@@ -5,9 +5,9 @@ use crossbar::io::{parse_cube_table, write_cube_table};
 use crossbar::picture::Picture;
 use crossbar::sphere::EnvironmentPicture;
 use crossbar::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, Segmentation};
-use crossbar::transfer::light::{CubeLight, Decimation, HaarLight};
+use crossbar::transfer::light::{CubeLight, HaarLight};
 use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use std::path::Path;
 
 use super::{all, flat, observer, trace, vertices};
@@ -93,7 +93,7 @@ fn a_picture_lights_the_texel_that_its_pixel_shows() {
         let mut pixels = vec![[0.0; 3]; width * height];
         pixels[pixel[1] * width + pixel[0]] = [1.0; 3];
         let picture = EnvironmentPicture::new(&Picture::rgb(width as u32, height as u32, &pixels)).expect("a picture");
-        let light = CubeLight::from_picture(&picture, &DMat3::IDENTITY, Decimation::Plain).expect("a light");
+        let light = CubeLight::from_picture(&picture).expect("a light");
         let lit: Vec<usize> = (0..6144).filter(|&texel| light.texels()[texel][0] > 0.0).collect();
         let near = |&texel: &usize| {
             let (row, column) = (texel / 32 % 32, texel % 32);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crossbar::bi_scale::bicluster::BiclusterOptions;
+use crossbar::bi_scale::bicluster::SEED;
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::file::{
     BiScaleFile, BiScaleMeaning, load_bi_scale, parse_bi_scale, save_bi_scale, write_bi_scale,
@@ -15,8 +15,7 @@ use proptest::prelude::*;
 
 use super::{matrix, quietly, real_blocks, real_matrix, sight};
 use crate::archive::{members, with_metadata};
-use crate::environment::by_form;
-use crate::support::{damage_is_seen, forgery_does_no_harm};
+use crate::support::forgery_does_no_harm;
 
 fn bytes(file: &BiScaleFile) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -31,7 +30,7 @@ fn parsed(bytes: &[u8]) -> Result<BiScaleFile, String> {
 /// Any matrix with its biclusters.
 fn small(values: &[Vec<i32>]) -> BiScaleFile {
     let matrix = matrix(values, 2);
-    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    let biclusters = Some(quietly(&matrix, SEED));
     BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
 }
 
@@ -44,7 +43,7 @@ fn all_widths() -> [BiScaleFile; 3] {
 /// Any matrix of real numbers with its biclusters.
 fn small_of_numbers(values: &[Vec<f64>]) -> BiScaleFile {
     let matrix = real_matrix(values);
-    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    let biclusters = Some(quietly(&matrix, SEED));
     BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
 }
 
@@ -63,7 +62,7 @@ fn transfer() -> BiScaleFile {
     let (vertices, maps) = sight(1, Horizon::Geometry);
     let matrix = transfer_matrix(&vertices, &maps, &LocalDirections::new(2).expect("a side")).expect("a matrix");
     let meaning = BiScaleMeaning { mesh: MeshDigest::new(&vertices), side: 2, horizon: Horizon::Geometry };
-    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    let biclusters = Some(quietly(&matrix, SEED));
     BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters }
 }
 
@@ -106,13 +105,6 @@ fn values_have_types() {
         ("\"side\":4", "\"side\":3", "size of the transfer: expected 315 x 6144 in 2^-2, found 560 x 6144 in 2^-2"),
     ] {
         assert_eq!(parsed(&with_metadata(&example, |text| text.replace(from, to))), Err(format!("b.npz: {said}")));
-    }
-}
-
-#[test]
-fn every_flipped_bit_and_every_cut_is_seen() {
-    for file in all_widths().into_iter().chain(tables()) {
-        damage_is_seen(&file, &bytes(&file), by_form(1, 8), parsed);
     }
 }
 

@@ -191,8 +191,7 @@ fn compressed_transfer_shows_front_faces() {
             let light = HarmonicLight::red_and_blue(3);
             let vectors = clustering.subspaces().iter().map(|subspace| subspace.len()).max().expect("a cluster");
             let (vertices, clustering, basis) = (&scene.vertices, &clustering, &basis);
-            let transfer =
-                CompressedTransfer { vertices, clustering, basis, channels: 1, vectors, superclusters: None };
+            let transfer = CompressedTransfer { vertices, clustering, basis, channels: 1, vectors };
             let options = PrtCardOptions { map_side: 256, map_format: FLOATS, ..PrtCardOptions::default() };
             let mut card = PrtCard::new(ideal(), ExecutorKind::Batch, transfer, &options).expect("a card");
             let view = MeshView { camera: scene.camera, exposure: 0.5, format: FLOATS };
@@ -217,7 +216,6 @@ fn difference(profile: Profile, exposure: Option<f64>) -> serde_json::Value {
             exposure,
         },
         clustering: scene.clusters(&basis),
-        superclusters: None,
         vertices: scene.vertices,
         meaning,
         light: HarmonicLight::red_and_blue(3),

@@ -41,7 +41,7 @@ impl Hills {
 
     fn transfer(&self, vectors: usize) -> CompressedTransfer<'_> {
         let Self { vertices, clustering, basis, .. } = self;
-        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors, superclusters: None }
+        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors }
     }
 }
 

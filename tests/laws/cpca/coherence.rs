@@ -92,43 +92,6 @@ fn superclusters_keep_within_registers_and_have_no_neighbours_left_to_merge() {
     assert_eq!(before, triangles.len() as u64, "all clusters fit: each triangle is drawn once");
 }
 
-/// Superclusters have at most the given number of clusters, and no two neighbors could be merged.
-#[test]
-fn superclusters_of_a_size_are_as_large_as_may_be() {
-    let (signal, triangles) = (ragged(40, 0.02), grid(40));
-    let clustering = clustered(&signal, 30);
-    let mut before = overdraw(&triangles, clustering.of_point());
-    assert_eq!(Superclusters::of_size(&clustering, &triangles, 1).expect("of one").count(), 30);
-    for size in [2, 3, 8, 30] {
-        let superclusters = Superclusters::of_size(&clustering, &triangles, size).expect("superclusters");
-        let mut used = vec![0; superclusters.count()];
-        superclusters.of_cluster().iter().for_each(|&of| used[of as usize] += 1);
-        assert!(used.iter().all(|&used| used <= size), "{used:?}");
-        let of = |corner: u32| superclusters.of_cluster()[clustering.of_point()[corner as usize] as usize] as usize;
-        for corners in &triangles {
-            let [a, b, c] = corners.map(of);
-            assert!([(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| a == b || used[a] + used[b] > size));
-        }
-        let drawn = superclusters.overdraw(&clustering, &triangles);
-        assert!(drawn < before, "size {size}");
-        before = drawn;
-        let again = Superclusters::of_numbers(superclusters.of_cluster()).expect("in order");
-        assert_eq!(again, superclusters);
-        assert_eq!(again.require(&clustering, ConstantRegisters::diffuse(2 * size)), Ok(()));
-        let error = again.require(&clustering, ConstantRegisters::diffuse(2 * size - 1)).unwrap_err();
-        assert!(error.to_string().contains(&format!(" needs {} constant registers, expected", 2 * size)), "{error}");
-    }
-    assert_eq!(before, triangles.len() as u64, "all clusters in one");
-    assert_eq!(
-        Superclusters::of_size(&clustering, &triangles, 0).unwrap_err().to_string(),
-        "expected superclusters of at least 1 cluster, found 0"
-    );
-    assert_eq!(Superclusters::of_numbers(&[0, 2, 1]), None);
-    let other = Superclusters::of_numbers(&[0, 1, 1]).expect("in order");
-    let error = other.require(&clustering, ConstantRegisters::diffuse(99)).unwrap_err();
-    assert_eq!(error.to_string(), "expected superclusters of 30 clusters, found those of 3");
-}
-
 #[test]
 fn what_does_not_go_together_is_refused() {
     let (signal, triangles) = (ragged(6, 0.0), grid(6));

@@ -46,18 +46,17 @@ fn small() -> PrtFile {
         PrtMeaning::Transfer { channels: 1, exit_functions: vec![0, 3], light_order: 2, includes_albedo: true };
     let mesh = Some(digest(Tangents::Along(DVec3::new(0.0, -0.5, 2.0))));
     let (transfer, clustering) = (Some(signal), Some(clustering));
-    let superclusters = Some(vec![0, 1, 0]);
     let provenance = Some("clusters=3 vectors=2".to_owned());
-    PrtFile { meaning, mesh, transfer, clustering, superclusters, provenance }
+    PrtFile { meaning, mesh, transfer, clustering, provenance }
 }
 
 #[test]
 fn what_is_written_is_read_in_all_its_parts() {
     let all = small();
     let plain = PrtFile { meaning: PrtMeaning::Numbers { dimension: 8 }, mesh: None, ..all.clone() };
-    let transfer = PrtFile { clustering: None, superclusters: None, ..all.clone() };
-    let clusters = PrtFile { transfer: None, superclusters: None, ..plain.clone() };
-    let bare = PrtFile { superclusters: None, provenance: None, ..all.clone() };
+    let transfer = PrtFile { clustering: None, ..all.clone() };
+    let clusters = PrtFile { transfer: None, ..plain.clone() };
+    let bare = PrtFile { provenance: None, ..all.clone() };
     let tangents = [Tangents::Any, Tangents::Texture].map(|tangents| {
         let mesh = all.mesh.map(|mesh| MeshDigest { tangents, ..mesh });
         PrtFile { mesh, ..all.clone() }
@@ -77,6 +76,7 @@ fn what_is_written_is_read_in_all_its_parts() {
     }
 }
 
+/// The checksums of the archive, which all kinds of transfer share.
 #[test]
 fn every_flipped_bit_and_every_cut_is_seen() {
     let file = small();
@@ -167,18 +167,13 @@ fn parts_that_do_not_go_together_are_not_written() {
         assert!(refused(&with(meaning(1, list, 2))).starts_with(functions), "{list:?}");
     }
     assert_eq!(refused(&with(meaning(1, &[0], 2))), "numbers per point: expected 4, found 8");
-    let empty = PrtFile { transfer: None, clustering: None, superclusters: None, ..file.clone() };
+    let empty = PrtFile { transfer: None, clustering: None, ..file.clone() };
     assert_eq!(refused(&empty), "contents: expected transfer or clusters, found neither");
     let mesh = file.mesh.map(|mesh| MeshDigest { vertices: 13, ..mesh });
     assert_eq!(refused(&PrtFile { mesh, ..file.clone() }), "vertices of the mesh: expected 12, found 13");
     let other = PrtFile { transfer: Some(torus_signal(11, 8, 1)), ..file.clone() };
     let shapes = "clusters: expected 11 points of 8 numbers, found 12 points of 8 numbers";
     assert_eq!(refused(&other), shapes);
-    let groups =
-        |superclusters: &[u32]| refused(&PrtFile { superclusters: Some(superclusters.to_vec()), ..file.clone() });
-    assert_eq!(groups(&[0, 1]), "superclusters: expected a number for 3 clusters, found 2");
-    assert_eq!(groups(&[0, 2, 1]), "superclusters: expected 0 to 1, in the order of clusters, found 2");
-    assert_eq!(groups(&[1, 0, 0]), "superclusters: expected 0 to 0, in the order of clusters, found 1");
     let made = |line: &str| refused(&PrtFile { provenance: Some(line.to_owned()), ..file.clone() });
     let expected = "provenance: expected a line of 1 to 4096 bytes without control characters, found";
     for line in ["", "two\nlines", "\u{9b}31m", &"x".repeat(4097)] {
@@ -201,8 +196,8 @@ fn forged_arrays_are_refused_by_name() {
     for name in members(&whole).into_iter().map(|(name, _)| name) {
         let without: Vec<_> = members(&whole).into_iter().filter(|(other, _)| *other != name).collect();
         let read = parsed(&archive(&without));
-        // Transfer and superclusters may be missing.
-        assert_eq!(read.is_ok(), ["M_p.npy", "superclusters.npy"].contains(&name.as_str()), "{name}: {read:?}");
+        // Transfer may be missing.
+        assert_eq!(read.is_ok(), name == "M_p.npy", "{name}: {read:?}");
     }
     let mut more = members(&whole);
     more.push(("else.npy".to_owned(), array("x_0.npy")));
@@ -211,8 +206,6 @@ fn forged_arrays_are_refused_by_name() {
     assert_eq!(parsed(&archive(&more)), Err("a.npz: member `else`: expected a name that ends in .npy".to_owned()));
     let not_finite = with_member(&whole, "w_p.npy", |array| [&array[..array.len() - 2], &[0xf8, 0x7f]].concat());
     assert!(parsed(&not_finite).expect_err("refused").contains("w_p: expected finite numbers, found another at"));
-    let ordered = with_member(&whole, "superclusters.npy", |array| [&array[..array.len() - 3], &[1, 0, 1]].concat());
-    assert!(parsed(&ordered).expect_err("refused").contains("superclusters: expected 0 to 0"));
 }
 
 #[test]
@@ -236,7 +229,6 @@ proptest! {
             mesh: None,
             transfer: (keep & 1 != 0).then_some(signal),
             clustering: (keep & 2 != 0).then_some(clustering),
-            superclusters: None,
             provenance: None,
         };
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));

@@ -1,8 +1,7 @@
 //! Precomputed radiance transfer: from a model to a file ([`Precomputation`]), errors of compression
 //! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and factors of a
 //! reflectance ([`BrdfFactors`]). The same for all-frequency transfer: [`SightOfModel`], [`SegmentedCompression`],
-//! [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. For bi-scale transfer: pictures ([`BiScaleRendering`],
-//! [`BiScaleOnCard`]), and a comparison of ways to store it ([`StoredComparison`]).
+//! [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. For bi-scale transfer: [`BiScaleRendering`], [`BiScaleOnCard`].
 
 mod all_frequency;
 mod bi_scale;
@@ -15,7 +14,6 @@ mod light_picture;
 mod lit_view;
 mod precompute;
 mod render;
-mod stored_ways;
 
 use crate::all_frequency::shade::LightSizeError;
 use crate::card::CardError;
@@ -43,7 +41,6 @@ pub use lit_view::LitView;
 pub(super) use lit_view::auto_exposure;
 pub use precompute::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 pub use render::Rendering;
-pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
 
 library_errors! {
     CardError => "crossbar::prt::card";

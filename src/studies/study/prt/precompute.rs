@@ -1,7 +1,7 @@
 //! Computes the transfer of a model's vertices.
 
 use crate::clustering::Signal;
-use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
+use crate::cpca::transfer::{Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
 use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
@@ -59,7 +59,7 @@ pub struct Precomputation<'a> {
     /// are all different; below, [`DirectionRule::hemisphere`] of this degree.
     pub degree: usize,
     /// Number of interreflections.
-    pub bounces: Bounces,
+    pub bounces: u32,
     /// A medium below the surface, if there is one.
     pub scatterer: Option<Scatterer>,
 }
@@ -115,7 +115,7 @@ impl Precomputation<'_> {
         let responses = responses.collect::<Result<Vec<_>, _>>()?;
         let (directions, steps) = (rule.len(), 1 + self.channels.len() as u64);
         progress("rays", 0, steps);
-        let rays = TracedRays::trace(self.vertices, rule, caster, self.bounces != Bounces::Count(0))?;
+        let rays = TracedRays::trace(self.vertices, rule, caster, self.bounces != 0)?;
         let mut channels = Vec::new();
         for (responses, step) in responses.iter().zip(1..) {
             progress("transfer", step, steps);
@@ -135,7 +135,7 @@ impl Precomputation<'_> {
         let bounces = channels.iter().map(|transfer| transfer.bounces.clone()).collect();
         let transfer = Some(together(channels)?);
         let mesh = Some(MeshDigest::new(self.vertices));
-        let file = PrtFile { meaning, mesh, transfer, clustering: None, superclusters: None, provenance: None };
+        let file = PrtFile { meaning, mesh, transfer, clustering: None, provenance: None };
         Ok(Precomputed { file, directions, counts, bounces })
     }
 
@@ -178,12 +178,11 @@ impl Precomputation<'_> {
 
     /// The transfer of a channel out of direct light on the surface, and of that which enters below it.
     fn channel(&self, rays: &TracedRays, responses: &ChannelResponses) -> Result<Transfer, InputError> {
-        let whole = |responses: &[Response], bounces: Bounces| {
-            Transfer::new(self.vertices, rays, responses, self.order, bounces)
-        };
+        let whole =
+            |responses: &[Response], bounces: u32| Transfer::new(self.vertices, rays, responses, self.order, bounces);
         let mut transfer = whole(&responses.of_materials, self.bounces)?;
         if let (Some((of_entering, dipole)), Some(Scatterer { options, .. })) = (&responses.entering, &self.scatterer) {
-            let entering = whole(of_entering, Bounces::Count(0))?;
+            let entering = whole(of_entering, 0)?;
             transfer.add(&Transfer::scattered(self.vertices, &entering, |r| dipole.r_d(r), *options)?)?;
         }
         Ok(transfer)

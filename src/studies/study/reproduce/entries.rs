@@ -198,7 +198,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     BiScale
         .entry(
             "bi-scale-figure-6",
-            "Biclusters compared with other storage methods (bi-scale transfer, sections II and IV-A, figure 6)",
+            "Biclusters of a chair, and bytes of other ways to store its transfer (bi-scale transfer, figure 6)",
             bi_scale::figure_6::findings,
         )
         .recorded(include_str!("../../records/bi-scale-figure-6.toml")),

@@ -17,10 +17,10 @@ use crossbar_systems::clustering::{AffineSubspace, Clustering, Signal};
 use crossbar_systems::transfer::brdf::Brdf;
 use crossbar_systems::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
 use crossbar_systems::transfer::grid::texel_center;
-use crossbar_systems::transfer::light::{CubeLight, Decimation, DiskSource, DistantLight};
+use crossbar_systems::transfer::light::{CubeLight, DiskSource, DistantLight};
 use crossbar_systems::transfer::linear_basis::BasisWidth;
 use crossbar_systems::transfer::{Tangents, Vertices};
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::StudyFiles;
 
@@ -55,7 +55,7 @@ fn weights_are_barycentric_and_stay_inside() {
     let meaning = PrtMeaning::Transfer { channels: 3, exit_functions: vec![0], light_order: 1, includes_albedo: true };
     let unit = vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     let transfer = Some(Signal::new(3, unit).expect("a signal"));
-    let file = PrtFile { meaning, mesh: None, transfer, clustering: None, superclusters: None, provenance: None };
+    let file = PrtFile { meaning, mesh: None, transfer, clustering: None, provenance: None };
     let light = HarmonicLight::constant(1, [1.0; 3]).expect("a light");
     let scale = light.channels()[0][0];
     let (rays, width) = (view.camera.rays(), view.camera.width() as usize);
@@ -89,9 +89,8 @@ fn picture_of(light: DistantLight) -> Picture {
         coded: None,
         model: None,
     };
-    let (colors, decimation) = (vec![[1.0; 3]], Decimation::SolidAngle);
-    let lit =
-        LitModel { view, mesh, vertices, colors, file, original: None, ground: None, light, decimation, keep: None };
+    let colors = vec![[1.0; 3]];
+    let lit = LitModel { view, mesh, vertices, colors, file, original: None, ground: None, light, keep: None };
     StudyFiles::of(&AllFrequencyRendering { lit }).picture("light.png")
 }
 
@@ -101,7 +100,7 @@ fn the_picture_read_as_a_light_comes_from_the_same_direction() {
     let towards = DVec3::new(0.6, -0.5, 0.4).normalize();
     let picture = picture_of(DistantLight::Disks(vec![DiskSource { towards, radius: 0.3, radiance: [5.0, 4.0, 3.0] }]));
     let read = EnvironmentPicture::new(&picture).expect("a lat-long picture");
-    let read = CubeLight::from_picture(&read, &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+    let read = CubeLight::from_picture(&read).expect("a light");
     let middle: DVec3 = read.texels().iter().enumerate().map(|(n, texel)| texel[0] * texel_center(n)).sum();
     assert!(middle.normalize().dot(towards) > 0.999, "{towards} {}", middle.normalize());
 }

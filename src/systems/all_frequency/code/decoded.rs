@@ -43,29 +43,6 @@ impl CodedSegment {
         );
     }
 
-    /// Iterates over vertices: the decoded weights of the vertex's cluster's representatives.
-    pub fn decoded_weights(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
-        let (firsts, begins) = (self.firsts(), self.weight_begins());
-        self.cluster_of.iter().zip(begins).map(move |(&cluster, begin)| {
-            let weights = &self.weights[begin..][..usize::from(self.counts[usize::from(cluster)])];
-            let steps = &self.weight_steps[firsts[usize::from(cluster)]..];
-            weights.iter().zip(steps).map(|(&weight, &step)| f64::from(weight) * f64::from(step)).collect()
-        })
-    }
-
-    /// The decoded transfer of one vertex, by its index within the segment. Panics if there is no such vertex.
-    pub fn decoded(&self, at: usize) -> Vec<f64> {
-        let (codes, columns) = (self.representatives.decode(), self.representatives.columns());
-        let first = self.firsts()[usize::from(self.cluster_of[at])];
-        let mut sum = vec![0.0; columns];
-        for (weight, row) in self.decoded_weights().nth(at).into_iter().flatten().zip(first..) {
-            let weight = weight * f64::from(self.representative_steps[row]);
-            let codes = &codes[row * columns..][..columns];
-            sum.iter_mut().zip(codes).for_each(|(sum, &code)| *sum += weight * f64::from(code));
-        }
-        sum
-    }
-
     /// Squared differences from the original transfer, vertex by vertex. Panics if the signal has another number of
     /// points or dimensions.
     pub fn squared_errors(&self, signal: &Signal) -> Vec<f64> {

@@ -17,8 +17,7 @@ pub struct CodeOptions {
 
 /// The numbers that share a step, which the paper leaves open.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ScaleOf {
     /// Each representative has a step, and the weights of that representative have another.

@@ -56,8 +56,7 @@ pub enum Shadowing {
 }
 
 /// Definition of w in Schlick's azimuth factor.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TangentCosine {
     /// The cosine of the angle between the tangent and the half vector's projection onto the surface, as
     /// Schlick defines it.

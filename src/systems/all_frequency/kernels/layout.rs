@@ -3,7 +3,7 @@
 /// The representation of the view that is interpolated (section 6 says "compute the local view direction", but not
 /// where).
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 pub enum ViewNumbers {
     /// Two coordinates in the parabolic map, computed at the vertices: nothing is normalised per pixel.

@@ -12,7 +12,7 @@ use crate::card::{PARABOLIC, WrittenKernel, parabolic};
 
 /// The interpolation between texels of G.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum MapFilter {
     /// By the sampler, whose weights have few bits.

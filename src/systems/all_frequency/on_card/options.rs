@@ -19,7 +19,7 @@ pub enum ProductPlace {
 
 /// The format of vertex colors.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum VertexColors {
     /// Four bytes, as in Direct3D's `D3DCOLOR`: 8-bit fractions in [0, 1]. Every card supports them.
@@ -31,7 +31,7 @@ pub enum VertexColors {
 
 /// The format of transferred radiance in vertices.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum RadianceFormat {
     /// Single precision.

@@ -2,6 +2,9 @@
 
 use crate::geom::random::CounterRng;
 
+/// The random seed of all studies.
+pub const SEED: u64 = 1;
+
 /// Chooses the start element of a bicluster uniformly among `count` non-zeros; returns its index, counted row by row.
 pub(in crate::bi_scale) fn start(seed: u64, bicluster: u64, count: u64) -> u64 {
     let bits = CounterRng::new(seed).bits(bicluster, 0, 0);

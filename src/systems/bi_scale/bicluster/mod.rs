@@ -22,7 +22,8 @@ mod search;
 mod sums;
 mod whole;
 
+pub use draw::SEED;
 pub(super) use draw::start;
 pub use search::bicluster;
 pub use sums::BiclusterResidual;
-pub use whole::{Bicluster, BiclusterOptions, Biclustering};
+pub use whole::{Bicluster, Biclustering};

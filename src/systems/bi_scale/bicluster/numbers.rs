@@ -12,25 +12,11 @@ pub(super) trait SearchNumbers {
 
     /// The order of two numbers.
     fn order(&self, a: i32, b: i32) -> Ordering;
-
-    /// True if a residual is small enough to be dropped.
-    fn is_dropped(&self, residual: i32) -> bool;
 }
 
 /// Multiples of the matrix's unit; each integer represents itself.
 #[derive(Debug)]
-pub(super) struct UnitNumbers {
-    /// The largest residual that is dropped.
-    drop: u32,
-}
-
-impl UnitNumbers {
-    /// `drop` in the scale of the matrix.
-    pub(super) fn new(drop: f64, fraction_bits: u32) -> Self {
-        // The conversion saturates; NaN becomes 0.
-        Self { drop: (drop * f64::from(1_u32 << fraction_bits)) as u32 }
-    }
-}
+pub(super) struct UnitNumbers;
 
 impl SearchNumbers for UnitNumbers {
     #[inline]
@@ -42,11 +28,6 @@ impl SearchNumbers for UnitNumbers {
     fn order(&self, a: i32, b: i32) -> Ordering {
         a.cmp(&b)
     }
-
-    #[inline]
-    fn is_dropped(&self, residual: i32) -> bool {
-        residual.unsigned_abs() <= self.drop
-    }
 }
 
 /// Arbitrary numbers, indexed in the order of first appearance. A difference is rounded to the nearest f64; it is 0
@@ -56,14 +37,13 @@ pub(super) struct KnownNumbers {
     numbers: Vec<f64>,
     /// The integer of each number, by its bits.
     known: BTreeMap<u64, i32>,
-    drop: f64,
 }
 
 impl KnownNumbers {
     /// The distinct numbers of a matrix, and its entries row by row, with indices of numbers as values; `None` if there
     /// are more numbers than integers.
-    pub(super) fn new(matrix: &SparseMatrix, drop: f64) -> Option<(Self, Vec<Vec<MatrixEntry>>)> {
-        let mut known = Self { drop, ..Self::default() };
+    pub(super) fn new(matrix: &SparseMatrix) -> Option<(Self, Vec<Vec<MatrixEntry>>)> {
+        let mut known = Self::default();
         known.integer(0.0);
         let mut rows = matrix.to_rows();
         for entry in rows.iter_mut().flatten() {
@@ -95,9 +75,5 @@ impl SearchNumbers for KnownNumbers {
 
     fn order(&self, a: i32, b: i32) -> Ordering {
         self.number(a).total_cmp(&self.number(b))
-    }
-
-    fn is_dropped(&self, residual: i32) -> bool {
-        self.number(residual).abs() <= self.drop
     }
 }

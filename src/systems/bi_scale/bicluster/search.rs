@@ -5,40 +5,33 @@
 //! frequent + non-zeros) - 2r - 2, and a deletion gains the negative of that. So the key of a line is the sum in
 //! parentheses, which depends on the entries of the line, but not on r or l.
 
-use std::collections::BTreeSet;
-
 use super::draw::{Counts, start};
 use super::lines::{ColumnTally, Lines, transposed};
 use super::numbers::{KnownNumbers, SearchNumbers, UnitNumbers};
 use super::queue::BucketQueue;
-use super::{Bicluster, BiclusterOptions, Biclustering};
+use super::{Bicluster, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::error::{InputError, ensure, input_error};
 
 /// Biclusters of a matrix, identical to the result of [`paper::biclusters`](crate::bi_scale::paper::biclusters).
-/// `found` is called after each with the number of remaining non-zeros.
+/// `seed` chooses the non-zeros at which biclusters start. `found` is called after each with the number of remaining
+/// non-zeros.
 ///
 /// Besides the biclusters, the search takes 16 bytes per non-zero and about 80 per row and column. If no unit exists in
 /// which 32 bits hold the values and all residuals, it takes about 100 bytes more per distinct number. If only a
 /// residual exceeds 32 bits, the search restarts, and `found` counts down from all non-zeros again.
-pub fn bicluster(
-    matrix: &SparseMatrix,
-    options: BiclusterOptions,
-    found: &mut dyn FnMut(u64),
-) -> Result<Biclustering, InputError> {
+pub fn bicluster(matrix: &SparseMatrix, seed: u64, found: &mut dyn FnMut(u64)) -> Result<Biclustering, InputError> {
     let nonzeros = matrix.nonzeros() as u64;
     ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
     let values = matrix.values();
-    if let (Some(bits), None) = (values.fraction_bits(), values.table_len()) {
-        let numbers = UnitNumbers::new(options.drop, bits);
-        let mut search = Search::new(matrix.to_rows(), matrix.columns(), numbers, options);
+    if values.table_len().is_none() {
+        let mut search = Search::new(matrix.to_rows(), matrix.columns(), UnitNumbers, seed);
         if let Some(biclustering) = search.run(matrix, found) {
             return Ok(biclustering);
         }
     }
-    let known = KnownNumbers::new(matrix, options.drop);
-    let (numbers, rows) = known.ok_or_else(residuals_error)?;
-    let mut search = Search::new(rows, matrix.columns(), numbers, options);
+    let (numbers, rows) = KnownNumbers::new(matrix).ok_or_else(residuals_error)?;
+    let mut search = Search::new(rows, matrix.columns(), numbers, seed);
     let biclustering = search.run(matrix, found).ok_or_else(residuals_error)?;
     Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.number(integer)))
 }
@@ -139,14 +132,14 @@ impl SearchSide {
     }
 
     /// The best operation on a line of this direction; a key of `cost / 2` has gain 0.
-    fn best(&mut self, cost: i64, deletion: bool) -> Option<Operation> {
+    fn best(&mut self, cost: i64) -> Option<Operation> {
         let (keys, places) = (&self.keys, &self.places);
         let is_outside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] == OUTSIDE;
         let is_inside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] != OUTSIDE;
         let gain = |key: u32| 2 * i64::from(key) - cost;
         let insertion = self.insertions.highest(is_outside).map(|(key, line)| Operation { gain: gain(key), line });
         // The last line stays, because a bicluster has at least one row and one column.
-        if !deletion || self.inside.len() == 1 {
+        if self.inside.len() == 1 {
             return insertion;
         }
         let deletion = self.deletions.lowest(is_inside).map(|(key, line)| Operation { gain: -gain(key), line });
@@ -155,14 +148,13 @@ impl SearchSide {
 
     /// Subtracts the bicluster's values from the entries `all` of a line inside; `places` are the crossing lines'
     /// indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if no integer
-    /// represents a residual. Residuals for which `goes` is true are dropped.
+    /// represents a residual.
     fn subtract<N: SearchNumbers>(
         &mut self,
         line: u32,
         all: impl ExactSizeIterator<Item = MatrixEntry>,
         (places, numbers): (&[u32], &mut N),
         t: impl Fn(u32) -> i32,
-        mut goes: impl FnMut(&N, u32, i32) -> bool,
     ) -> Option<i64> {
         let entries = &mut self.lines[line as usize];
         let before = entries.len().cast_signed() as i64;
@@ -178,7 +170,7 @@ impl SearchSide {
             let residual = numbers.difference(entry.value, t(entry.index));
             has_all &= residual.is_some();
             let value = residual.unwrap_or(0);
-            (value != 0 && !goes(numbers, entry.index, value)).then_some(MatrixEntry { value, ..entry })
+            (value != 0).then_some(MatrixEntry { value, ..entry })
         };
         entries.retain_mut(|entry| subtract(*entry).map(|left| *entry = left).is_some());
         if !has_all {
@@ -187,10 +179,7 @@ impl SearchSide {
         // Elements of the line that were 0 become -t.
         let is_new = |entry: &MatrixEntry| !self.met[places[entry.index as usize] as usize];
         for entry in all.filter(is_new) {
-            let value = numbers.difference(0, entry.value)?;
-            if !goes(numbers, entry.index, value) {
-                entries.push(MatrixEntry { value, ..entry });
-            }
+            entries.push(MatrixEntry { value: numbers.difference(0, entry.value)?, ..entry });
         }
         Some(entries.len().cast_signed() as i64 - before)
     }
@@ -208,7 +197,7 @@ impl SearchSide {
 
 #[derive(Debug)]
 struct Search<N> {
-    options: BiclusterOptions,
+    seed: u64,
     numbers: N,
     rows: SearchSide,
     columns: SearchSide,
@@ -218,23 +207,20 @@ struct Search<N> {
     values: Vec<i32>,
     /// Remaining non-zeros per row.
     left: Counts,
-    /// Row and column of each dropped residual.
-    dropped: BTreeSet<(u32, u32)>,
 }
 
 impl<N: SearchNumbers> Search<N> {
-    fn new(rows: Lines, width: usize, numbers: N, options: BiclusterOptions) -> Self {
+    fn new(rows: Lines, width: usize, numbers: N, seed: u64) -> Self {
         let columns = transposed(&rows, width);
         let left = Counts::new(rows.iter().map(|row| row.len() as u64));
         Self {
-            options,
+            seed,
             numbers,
             rows: SearchSide::new(rows),
             columns: SearchSide::new(columns),
             tallies: vec![ColumnTally::default(); width],
             values: vec![0; width],
             left,
-            dropped: BTreeSet::new(),
         }
     }
 
@@ -242,7 +228,7 @@ impl<N: SearchNumbers> Search<N> {
     fn run(&mut self, matrix: &SparseMatrix, found: &mut dyn FnMut(u64)) -> Option<Biclustering> {
         let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
         while self.left.total() > 0 {
-            self.begin(start(self.options.seed, biclustering.len() as u64, self.left.total()));
+            self.begin(start(self.seed, biclustering.len() as u64, self.left.total()));
             while self.step() {}
             biclustering.push(&self.end()?);
             found(self.left.total());
@@ -267,8 +253,8 @@ impl<N: SearchNumbers> Search<N> {
     /// Lines 7 to 20: applies the best operation; false if none gains.
     fn step(&mut self) -> bool {
         let (r, l) = (self.rows.inside.len().cast_signed() as i64, self.columns.inside.len().cast_signed() as i64);
-        let row = self.rows.best(2 * l + 1, self.options.deletion).filter(|operation| operation.gain > 0);
-        let column = self.columns.best(2 * r + 2, self.options.deletion).filter(|operation| operation.gain > 0);
+        let row = self.rows.best(2 * l + 1).filter(|operation| operation.gain > 0);
+        let column = self.columns.best(2 * r + 2).filter(|operation| operation.gain > 0);
         let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
         match (row, column) {
             // Gains of rows are odd and gains of columns even, so a row and a column never tie.
@@ -343,19 +329,15 @@ impl<N: SearchNumbers> Search<N> {
     /// integer.
     fn end(&mut self) -> Option<Bicluster> {
         let bicluster = self.bicluster();
-        let (numbers, dropped) = (&mut self.numbers, &mut self.dropped);
+        let numbers = &mut self.numbers;
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
-            // Columns are first and only look up dropped residuals; the rows below drop the same residuals and record
-            // them.
-            let goes = |numbers: &N, row, value: i32| numbers.is_dropped(value) && !dropped.contains(&(row, column));
-            self.columns.subtract(column, all, (&self.rows.places, numbers), |_| t, goes)?;
+            self.columns.subtract(column, all, (&self.rows.places, numbers), |_| t)?;
         }
         for &row in &bicluster.rows {
             let (places, values) = (&self.columns.places[..], &self.values);
             let all = bicluster.columns.iter().copied();
-            let goes = |numbers: &N, column, value: i32| numbers.is_dropped(value) && dropped.insert((row, column));
-            let more = self.rows.subtract(row, all, (places, numbers), |column| values[column as usize], goes)?;
+            let more = self.rows.subtract(row, all, (places, numbers), |column| values[column as usize])?;
             self.left.add(row as usize, more);
         }
         self.columns.touched.iter().for_each(|&column| self.tallies[column as usize].clear());

@@ -27,7 +27,7 @@ impl BiclusterResidual {
 impl Biclustering {
     /// The sum of the biclusters: exactly the original matrix if that has a unit, else the original matrix up to
     /// rounding of residuals and of the sum. Fails with [`InputError`] if a sum is not a valid matrix value, which can
-    /// happen for biclusters from other programs or with dropped residuals.
+    /// happen for biclusters from other programs.
     pub fn sum(&self) -> Result<SparseMatrix, InputError> {
         let ([rows, columns], bits) = (self.matrix_size(), self.values().fraction_bits());
         let units = bits.map(EntryValues::units);
@@ -48,8 +48,8 @@ impl Biclustering {
         Ok(sum.expect("finite numbers in a matrix of this size"))
     }
 
-    /// Difference of the sum from a matrix of the same size; zero if the matrix has a unit and no residual was dropped.
-    /// Panics if the sizes differ.
+    /// Difference of the sum from a matrix of the same size; zero if the matrix has a unit. Panics if the sizes
+    /// differ.
     pub fn residual(&self, matrix: &SparseMatrix) -> BiclusterResidual {
         assert_eq!(self.matrix_size(), [matrix.rows(), matrix.columns()], "the size of the matrix");
         let mut residual = BiclusterResidual::default();

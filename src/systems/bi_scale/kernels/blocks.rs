@@ -3,7 +3,7 @@
 
 /// Borders between the blocks of a layer.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum BlockEdges {
     /// Blocks touch, as in Figure 4: the patch has a seam one texel wide.

@@ -7,7 +7,7 @@ use crate::card::through_half;
 
 /// Format of the light on the card, before it is multiplied.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
 pub enum LightFormat {
     /// 8-bit fractions of the largest number.
@@ -37,7 +37,7 @@ impl LightFormat {
 
 /// Format of local light in vertices.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
 pub enum LocalFormat {
     /// 8-bit fractions of the frame's largest number.

@@ -19,6 +19,6 @@ mod response;
 pub use field::HeightField;
 pub use file::{load_bidirectional_texture, write_bidirectional_texture};
 pub use kinds::PatchKind;
-pub use patch::{MesoDetail, MesoMaterial, MesoPatch, MesoTexel, SeenPoint};
+pub use patch::{MesoMaterial, MesoPatch, MesoTexel, SeenPoint};
 pub use ray::REACH;
 pub use response::{BidirectionalTexture, TextureSampling, ViewSamples};

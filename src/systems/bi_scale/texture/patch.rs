@@ -53,28 +53,12 @@ impl MesoMaterial {
     }
 }
 
-/// How much of the height field is drawn (section VII: normal maps and spatially invariant BRDFs instead of a
-/// bidirectional texture).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "kebab-case")]
-pub enum MesoDetail {
-    /// Everything: parallax, normals, shadows.
-    #[default]
-    Relief,
-    /// A normal map: normals only.
-    Normals,
-    /// No relief: the materials on the mesh's own surface.
-    Flat,
-}
-
 /// A repeating patch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MesoPatch {
     heights: HeightField,
     materials: Vec<MesoMaterial>,
     texels: Vec<MesoTexel>,
-    /// The detail that is drawn.
-    pub detail: MesoDetail,
 }
 
 /// Material and tangent of a texel.
@@ -118,7 +102,7 @@ impl MesoPatch {
         for (material, of) in materials.iter().enumerate() {
             of.check().map_err(|reason| input_error!("material {material} (counted from 0): {reason}"))?;
         }
-        Ok(Self { heights, materials, texels, detail: MesoDetail::default() })
+        Ok(Self { heights, materials, texels })
     }
 
     /// A flat patch of one material: a spatially invariant BRDF.
@@ -164,17 +148,12 @@ impl MesoPatch {
         let view = if view.z > 0.0 { view } else { level(view) };
         let through = field.texels(place);
         let floor = |at: [f64; 2]| at.map(|at| at.floor() as isize);
-        let (at, cell) = match self.detail {
-            MesoDetail::Normals | MesoDetail::Flat => (through, floor(through)),
-            MesoDetail::Relief => {
-                let ray = TexelRay::new(field.side(), through, 0.0, (-view).to_array(), -field.depth());
-                // A ray without a hit ends at the lowest height, or after the maximum distance.
-                let end = ray.place(ray.end.max(0.0));
-                first_hit(field, &ray).map_or_else(|| (end, floor(end)), |hit| (hit.at, hit.cell))
-            }
-        };
+        let ray = TexelRay::new(field.side(), through, 0.0, (-view).to_array(), -field.depth());
+        // A ray without a hit ends at the lowest height, or after the maximum distance.
+        let end = ray.place(ray.end.max(0.0));
+        let (at, cell) = first_hit(field, &ray).map_or_else(|| (end, floor(end)), |hit| (hit.at, hit.cell));
         let texel = self.texels[field.wrapped((at[0] + 0.5).floor() as isize, (at[1] + 0.5).floor() as isize)];
-        let normal = if self.detail == MesoDetail::Flat { DVec3::Z } else { field.normal_in(cell, at) };
+        let normal = field.normal_in(cell, at);
         let [x, y] = on_circle(texel.turns);
         // Normals point upwards, so no tangent in the plane is parallel to one.
         let frame = LocalFrame::new(normal, DVec3::new(x, y, 0.0)).unwrap_or_else(|| LocalFrame::of_normal(normal));
@@ -198,12 +177,10 @@ impl MesoPatch {
         if !(light.z > 0.0 && local.z > 0.0 && seen.view.z > 0.0) {
             return [0.0; 3];
         }
-        if self.detail == MesoDetail::Relief {
-            let field = &self.heights;
-            let ray = TexelRay::new(field.side(), seen.at, seen.height, light.to_array(), -field.depth());
-            if is_blocked(field, &ray) {
-                return [0.0; 3];
-            }
+        let field = &self.heights;
+        let ray = TexelRay::new(field.side(), seen.at, seen.height, light.to_array(), -field.depth());
+        if is_blocked(field, &ray) {
+            return [0.0; 3];
         }
         self.materials[seen.material].value(seen.view, local).map(|value| value * local.z)
     }

@@ -3,8 +3,8 @@
 //!
 //! - [`overdraw`]: the number of triangles drawn;
 //! - [`reclassify`]: vertices move to clusters of their neighbours, within a budget of error;
-//! - [`Superclusters`]: groups of clusters that are drawn as one, up to the number of constant registers, or of a given
-//!   size; they do not change the error.
+//! - [`Superclusters`]: groups of clusters that are drawn as one, up to the number of constant registers; they do not
+//!   change the error.
 
 mod reclassify;
 mod supercluster;

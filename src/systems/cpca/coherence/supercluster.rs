@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{check_triangles, overdraw};
 use crate::clustering::Clustering;
-use crate::error::{InputError, ensure, input_error};
+use crate::error::{InputError, input_error};
 
 /// Constant registers for the products of clusters' vectors with the light (section 6.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,54 +50,15 @@ impl Superclusters {
         registers: ConstantRegisters,
     ) -> Result<Self, InputError> {
         check_triangles(triangles, clustering.points())?;
-        Ok(Self::merged(clustering, triangles, needed(clustering, registers)?, registers.limit))
-    }
-
-    /// Creates superclusters of at most `clusters` clusters, for any number of registers, so that the size is the same
-    /// on all cards. Fails with [`InputError`] if a triangle names a vertex without a cluster, or for a size of 0.
-    pub fn of_size(clustering: &Clustering, triangles: &[[u32; 3]], clusters: usize) -> Result<Self, InputError> {
-        check_triangles(triangles, clustering.points())?;
-        ensure!(clusters != 0, "expected superclusters of at least 1 cluster, found 0");
-        Ok(Self::merged(clustering, triangles, vec![1; clustering.subspaces().len()], clusters))
-    }
-
-    /// Creates superclusters from the supercluster index of each cluster, as in a
-    /// [`PrtFile`](crate::transfer::file::PrtFile). `None` unless indices are in the order of lowest clusters.
-    pub fn of_numbers(of_cluster: &[u32]) -> Option<Self> {
-        let numbered = Self::numbered(of_cluster.to_vec());
-        (numbered.of_cluster == of_cluster).then_some(numbered)
-    }
-
-    /// Rejects superclusters that exceed the registers, or belong to another clustering.
-    pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), InputError> {
-        let (expected, found) = (clustering.subspaces().len(), self.of_cluster.len());
-        ensure!(expected == found, "expected superclusters of {expected} clusters, found those of {found}");
-        let mut sums = vec![0_usize; self.count];
-        for (&of, needed) in self.of_cluster.iter().zip(needed(clustering, registers)?) {
-            sums[of as usize] = sums[of as usize].saturating_add(needed);
-        }
-        match sums.iter().position(|&sum| sum > registers.limit) {
-            Some(supercluster) => {
-                let (needed, limit) = (sums[supercluster], registers.limit);
-                Err(input_error!(
-                    "supercluster {supercluster} needs {needed} constant registers, expected at most {limit}; \
-         take smaller ones"
-                ))
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// Merges superclusters while two that share triangles need at most `limit` together.
-    fn merged(clustering: &Clustering, triangles: &[[u32; 3]], mut needed: Vec<usize>, limit: usize) -> Self {
+        let mut needed = needed(clustering, registers)?;
         let mut of_cluster: Vec<u32> = (0..needed.len() as u32).collect();
         let mut corners = mixed_triangles(triangles, clustering.of_point());
-        while let Some((a, b)) = best_pair(&corners, &needed, limit) {
+        while let Some((a, b)) = best_pair(&corners, &needed, registers.limit) {
             needed[a as usize] += needed[b as usize];
             of_cluster.iter_mut().filter(|of| **of == b).for_each(|of| *of = a);
             corners = renamed(corners, a, b);
         }
-        Self::numbered(of_cluster)
+        Ok(Self::numbered(of_cluster))
     }
 
     /// One supercluster per cluster. Fails with [`InputError`] if a cluster exceeds the registers.

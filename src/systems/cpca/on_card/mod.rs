@@ -69,10 +69,9 @@ impl<'a> PrtCard<'a> {
         let kernel = kernel(&profile, &transfer)?;
         let (clustering, triangles) = (transfer.clustering, transfer.vertices.triangles());
         let registers = registers(&profile, &kernel);
-        let superclusters = match transfer.superclusters {
-            _ if !options.superclusters => Superclusters::apart(clustering, registers),
-            None => Superclusters::new(clustering, triangles, registers),
-            Some(given) => given.require(clustering, registers).map(|()| given.clone()),
+        let superclusters = match options.superclusters {
+            true => Superclusters::new(clustering, triangles, registers),
+            false => Superclusters::apart(clustering, registers),
         };
         let superclusters = superclusters.map_err(CardError::input)?;
         let programs = ShadingPrograms::new(&profile, kernel)?;

@@ -2,7 +2,6 @@
 
 use crate::card::CardError;
 use crate::clustering::Clustering;
-use crate::cpca::coherence::Superclusters;
 use crate::sphere::order_with;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
@@ -23,8 +22,6 @@ pub struct CompressedTransfer<'a> {
     pub channels: usize,
     /// The number n' of vectors per cluster. A cluster of lower rank may have fewer.
     pub vectors: usize,
-    /// The superclusters that are drawn; `None`: superclusters of as many clusters as the constant registers hold.
-    pub superclusters: Option<&'a Superclusters>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

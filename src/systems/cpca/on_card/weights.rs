@@ -7,7 +7,7 @@ use crate::card::{CardError, through_half};
 use crate::clustering::Clustering;
 
 /// The format of a weight in a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
 pub enum WeightFormat {
     /// Single precision.
@@ -93,8 +93,8 @@ impl CardWeights {
 /// Options of drawing compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrtCardOptions {
-    /// True if clusters are drawn in superclusters: the transfer's, or ones as large as the constant registers allow;
-    /// false if each cluster is drawn alone.
+    /// True if clusters are drawn in superclusters, as large as the constant registers allow; false if each cluster is
+    /// drawn alone.
     pub superclusters: bool,
     /// Texels along an edge of the maps of y; 32 in the paper.
     pub map_side: usize,

@@ -13,4 +13,4 @@ mod whole;
 pub use rays::{TracedRays, TransferCounts};
 pub use response::{Incident, Response};
 pub use scattering::ScatteringOptions;
-pub use whole::{Bounces, Transfer};
+pub use whole::Transfer;

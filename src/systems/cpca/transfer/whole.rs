@@ -15,20 +15,6 @@ use crate::transfer::error::require;
 /// Vertices per chunk of a sum over all vertices; it fixes the order of the additions.
 const CHUNK: usize = 1024;
 
-/// Number of interreflections, not counting the reflection towards the eye.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bounces {
-    /// This number of them; with 0, only direct light with shadows is computed.
-    Count(u32),
-    /// Bounces until one adds less than this fraction of the direct transfer (root mean square over all numbers).
-    Tolerance {
-        /// The fraction, above 0.
-        share: f64,
-        /// Largest number of bounces.
-        most: u32,
-    },
-}
-
 /// The transfer of every vertex: a matrix from light in global coordinates to exit radiance in an exit basis in local
 /// coordinates.
 #[derive(Clone, Debug)]
@@ -42,7 +28,9 @@ pub struct Transfer {
 
 impl Transfer {
     /// Computes the transfer of all vertices for light of an order. There must be one response per material, all in one
-    /// exit basis. The rays must have been traced from these vertices, with hits kept if `bounces` is not 0. Fails with
+    /// exit basis. `bounces` is the number of interreflections, not counting the reflection towards the eye; with 0,
+    /// only direct light with shadows is computed. The rays must have been traced from these vertices, with hits kept
+    /// if `bounces` is not 0. Fails with
     /// [`InputError`] for responses with different bases or of another rule, a missing material, an order outside 1 to
     /// 10, or bounces without hits.
     pub fn new(
@@ -50,7 +38,7 @@ impl Transfer {
         rays: &TracedRays,
         responses: &[Response],
         light_order: usize,
-        bounces: Bounces,
+        bounces: u32,
     ) -> Result<Self, InputError> {
         check_bounces(vertices, rays, bounces)?;
         if let Some((triangle, material)) = unknown_material(vertices, responses) {
@@ -63,24 +51,17 @@ impl Transfer {
         let size = basis.len() * columns;
         let gather = TransferGather::new(vertices, rays, responses, light_order);
         let direct = gather.direct();
-        let most = match bounces {
-            Bounces::Count(most) | Bounces::Tolerance { most, .. } => most,
-        };
-        if most == 0 {
+        if bounces == 0 {
             return Ok(Self { basis, columns, values: direct, bounces: Vec::new() });
         }
         let whole = squares(&direct, size);
-        let least = match bounces {
-            Bounces::Count(_) => 0.0,
-            Bounces::Tolerance { share, .. } => share * share * whole,
-        };
         let (mut last, mut total, mut added) = (direct.clone(), direct, Vec::new());
-        for _ in 0..most {
+        for _ in 0..bounces {
             last = gather.bounce(&last, &basis);
             total.par_iter_mut().zip(&last).for_each(|(total, more)| *total += more);
             let now = squares(&last, size);
             added.push(if whole > 0.0 { (now / whole).sqrt() } else { 0.0 });
-            if now <= least {
+            if now <= 0.0 {
                 break;
             }
         }
@@ -99,7 +80,7 @@ impl Transfer {
     ) -> Result<Self, InputError> {
         let responses = [Response::incident(basis, inverse, rays.rule())];
         check(rays, &responses, light_order)?;
-        check_bounces(vertices, rays, Bounces::Count(u32::from(exit.is_some())))?;
+        check_bounces(vertices, rays, u32::from(exit.is_some()))?;
         let gather = TransferGather::new(vertices, rays, &responses, light_order);
         let mut values = gather.direct();
         let columns = function_count(light_order);
@@ -210,17 +191,11 @@ fn check(rays: &TracedRays, responses: &[Response], light_order: usize) -> Resul
 }
 
 /// Checks that rays of all vertices were traced, with hits if there are bounces.
-fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: Bounces) -> Result<(), InputError> {
+fn check_bounces(vertices: &Vertices, rays: &TracedRays, bounces: u32) -> Result<(), InputError> {
     differ("vertices of rays", [vertices.len(), rays.vertex_count()])?;
-    match bounces {
-        Bounces::Tolerance { share, .. } if !(share > 0.0 && share.is_finite()) => {
-            require(false, "the tolerance of bounces", "a finite number above 0", share)
-        }
-        Bounces::Count(0) => Ok(()),
-        _ if !rays.keeps_hits() => Err(input_error!("crossbar::prt::precompute" =>
-            "the rays were traced without keeping hits, which bounces need; trace them with `keep_hits`")),
-        _ => Ok(()),
-    }
+    ensure!(bounces == 0 || rays.keeps_hits(), "crossbar::prt::precompute" =>
+        "the rays were traced without keeping hits, which bounces need; trace them with `keep_hits`");
+    Ok(())
 }
 
 /// The first triangle whose material has no response, and the material.

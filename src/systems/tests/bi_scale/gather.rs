@@ -1,6 +1,6 @@
 //! Products on the card compared with the host bit by bit.
 
-use crossbar_systems::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crossbar_systems::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crossbar_systems::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crossbar_systems::bi_scale::on_card::{GatherCard, LightFormat};
 use crossbar_systems::bi_scale::product::Gather;
@@ -28,7 +28,7 @@ fn matrix(rows: usize, columns: usize, seed: u64) -> SparseMatrix {
 }
 
 fn biclusters(matrix: &SparseMatrix) -> Biclustering {
-    bicluster(matrix, BiclusterOptions::default(), &mut |_| ()).expect("biclusters")
+    bicluster(matrix, SEED, &mut |_| ()).expect("biclusters")
 }
 
 fn light(columns: usize, seed: u64) -> Vec<[f32; 3]> {

@@ -1,9 +1,7 @@
-//! Local directions; the numbers that entries of matrices and biclusters represent; start elements of biclusters;
-//! errors of products.
+//! Local directions; the numbers that entries of matrices and biclusters represent; start elements of biclusters.
 
 use approx::assert_abs_diff_eq;
-use crossbar_systems::bi_scale::baselines::LocalLightError;
-use crossbar_systems::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crossbar_systems::bi_scale::bicluster::bicluster;
 use crossbar_systems::bi_scale::directions::{LocalDirections, hemisphere, square};
 use crossbar_systems::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use glam::DVec3;
@@ -137,39 +135,14 @@ fn entries_are_ordered_as_their_numbers() {
     assert_eq!([0, 1, 2].map(entries), [vec![5, 2, 3], vec![1, 4], vec![5]]);
 }
 
-/// NaN and negative limits drop no residuals; infinity drops all, like any number above all residuals.
-#[test]
-fn any_number_is_a_limit_of_what_is_dropped() {
-    for (numbers, most) in [([1.0, 1.25, 1.0, 0.75, 2.0, 2.0], 10.0), ([0.1, 0.2, 0.1, 1e9, 0.1, 0.1], 1e10)] {
-        let entries: Vec<_> = (0..6).map(|at| (at / 3, at % 3, numbers[at as usize])).collect();
-        let matrix = of(&entries).unwrap();
-        let found = |drop| {
-            let options = BiclusterOptions { drop, ..BiclusterOptions::default() };
-            bicluster(&matrix, options, &mut |_| ()).expect("biclusters")
-        };
-        assert_eq!([f64::NAN, -1.0].map(found), [found(0.0), found(0.0)]);
-        assert_eq!(found(f64::INFINITY), found(most));
-    }
-}
-
 #[test]
 fn every_element_is_drawn_alike() {
     let diagonal: Vec<(u32, u32, f64)> = (0..10).map(|at| (at, at, f64::from(at + 1))).collect();
     let matrix = SparseMatrix::from_coordinates(&CoordinateMatrix { rows: 10, columns: 10, entries: diagonal });
     let (matrix, mut drawn) = (matrix.unwrap(), [0; 10]);
     for seed in 0..10_000 {
-        let options = BiclusterOptions { seed, ..BiclusterOptions::default() };
-        let found = bicluster(&matrix, options, &mut |_| ()).expect("biclusters");
+        let found = bicluster(&matrix, seed, &mut |_| ()).expect("biclusters");
         drawn[found.rows_of(0)[0] as usize] += 1;
     }
     assert!(drawn.iter().all(|count| (900..1100).contains(count)), "{drawn:?}");
-}
-
-#[test]
-fn errors_are_means_and_shares() {
-    let error = LocalLightError::new(&[1.0, 5.0, 0.0, 0.0], &[4.0, 1.0, 0.0, 0.0]);
-    assert_eq!((error.root_mean_square, error.largest), (2.5, 4.0));
-    assert_eq!(error.relative, (25.0_f64 / 17.0).sqrt());
-    let none = LocalLightError { root_mean_square: 0.0, largest: 0.0, relative: 0.0 };
-    assert_eq!(LocalLightError::new(&[0.0, 0.0], &[0.0, 0.0]), none);
 }

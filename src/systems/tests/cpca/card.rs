@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use crossbar_systems::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar_systems::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, compress};
 use crossbar_systems::cpca::on_card::{
     CardWeights, CompressedTransfer, Products, PrtCard, PrtCardOptions, WeightFormat,
 };
@@ -175,22 +175,15 @@ impl CompressedHills {
         let columns = if matches!(basis, ExitBasis::Radiance) { 16 } else { 4 };
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), basis.len() * columns, 5, place);
-        let options = CpcaOptions {
-            clusters,
-            vectors,
-            vq_iterations: 4,
-            iterations: 4,
-            method,
-            form: CpcaForm::Affine,
-            start: StartPoints::Seed(1),
-        };
+        let options =
+            CpcaOptions { clusters, vectors, vq_iterations: 4, iterations: 4, method, form: CpcaForm::Affine, seed: 1 };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         Self { vertices, clustering, basis }
     }
 
     fn transfer(&self, vectors: usize) -> CompressedTransfer<'_> {
         let Self { vertices, clustering, basis } = self;
-        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors, superclusters: None }
+        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors }
     }
 }
 

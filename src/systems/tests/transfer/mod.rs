@@ -2,5 +2,4 @@
 
 mod brdf;
 mod grid;
-mod light;
 mod vertices;

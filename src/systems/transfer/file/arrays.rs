@@ -49,10 +49,7 @@ pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, InputError> {
     });
     let transfer = transfer.transpose()?;
     let clustering = clusters.map(|sizes| clustering(&mut arrays, &meaning, points, sizes)).transpose()?;
-    let of_clusters = clusters.map_or(0, |sizes| sizes.count);
-    let superclusters = arrays.has("superclusters").then(|| arrays.integers("superclusters", &[of_clusters]));
-    let superclusters = superclusters.transpose()?;
-    let file = PrtFile { meaning, mesh, transfer, clustering, superclusters, provenance };
+    let file = PrtFile { meaning, mesh, transfer, clustering, provenance };
     if let Some((field, expected, found)) = file.fault() {
         return Err(arrays.refuse(field, expected, found));
     }
@@ -113,9 +110,6 @@ pub fn write_prt(file: &PrtFile, out: &mut dyn Write) -> std::io::Result<()> {
     }
     if let (Some(clustering), Some(sizes)) = (&file.clustering, clusters) {
         write_clustering(clustering, sizes, &file.meaning, &mut arrays)?;
-    }
-    if let Some(superclusters) = &file.superclusters {
-        arrays.integers("superclusters", &[superclusters.len()], superclusters.iter().copied())?;
     }
     arrays.finish()
 }

@@ -32,9 +32,6 @@ pub struct PrtFile {
     pub transfer: Option<Signal>,
     /// The compressed numbers.
     pub clustering: Option<Clustering>,
-    /// The supercluster in which each cluster is drawn, if precomputed; superclusters are numbered from 0 in the order
-    /// of their lowest clusters.
-    pub superclusters: Option<Vec<u32>>,
     /// Provenance of the numbers: one line of at most 4,096 bytes without control characters.
     pub provenance: Option<String>,
 }
@@ -142,27 +139,7 @@ impl PrtFile {
         if first.1 != expected {
             return Some(("numbers per point", expected.to_string(), first.1.to_string()));
         }
-        self.superclusters_fault().or_else(|| line_fault("provenance", self.provenance.as_deref()))
-    }
-
-    fn superclusters_fault(&self) -> Option<(&'static str, String, String)> {
-        let superclusters = self.superclusters.as_ref()?;
-        let clusters = self.clustering.as_ref().map_or(0, |clustering| clustering.subspaces().len());
-        if superclusters.len() != clusters {
-            return Some((
-                "superclusters",
-                format!("a number for {clusters} clusters"),
-                superclusters.len().to_string(),
-            ));
-        }
-        let mut next = 0;
-        for &found in superclusters {
-            if found > next {
-                return Some(("superclusters", format!("0 to {next}, in the order of clusters"), found.to_string()));
-            }
-            next += u32::from(found == next);
-        }
-        None
+        line_fault("provenance", self.provenance.as_deref())
     }
 }
 

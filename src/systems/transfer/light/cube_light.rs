@@ -8,24 +8,8 @@ use crate::error::{InputError, input_error};
 use crate::picture::Picture;
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
 use crate::transfer::grid::{
-    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
-    light_texel,
+    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column, light_texel,
 };
-
-/// The weights by which 4 x 4 samples are averaged to a texel.
-///
-/// The paper says "supersample the lighting 4 x 4 and decimate", without weights.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "kebab-case")]
-pub enum Decimation {
-    /// Their mean, weighted by the solid angles of the samples: keeps the flux through the texel.
-    #[default]
-    SolidAngle,
-    /// Their plain mean, the plain reading of the text.
-    ///
-    /// Samples of a texel differ by up to 1.4 in solid angle.
-    Plain,
-}
 
 /// Distant light: finite red, green and blue of each light texel. Only truncated light ([`Self::signed`]) may have
 /// texels below 0.
@@ -61,66 +45,42 @@ impl CubeLight {
         Self::new(vec![radiance; LIGHT_TEXELS])
     }
 
-    /// Creates a light from a function of unit directions, sampled in the 4 x 4 fine directions of each texel. The
-    /// function's direction v is rotated to `rotation` v. Fails with [`InputError`] if the matrix is not a rotation, or
-    /// a radiance is negative or not finite.
-    pub fn sampled(
-        radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
-        rotation: &DMat3,
-        decimation: Decimation,
-    ) -> Result<Self, InputError> {
-        Self::decimated(&fine_samples(radiance, rotation, 0.0)?, decimation)
-    }
-
-    /// The rotated light: each fine direction has the radiance, perhaps negative, of the texel that contains it. Fails
-    /// with [`InputError`] if the matrix is not a rotation.
-    pub fn turned(&self, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
-        Self::decimated(&self.fine(rotation)?, decimation)
-    }
-
-    /// The rotated light's radiances in the fine directions.
-    pub(super) fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
-        let texel = |direction: DVec3| {
-            let [face, column, row] = LIGHT_MAP.texel_of(direction);
-            (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
-        };
-        fine_samples(|direction| self.texels[texel(direction)], rotation, f64::NEG_INFINITY)
+    /// Creates a light from a function of unit directions: the mean over 4 x 4 fine directions of each texel, weighted
+    /// by their solid angles, which keeps the flux through the texel. (The paper says "supersample the lighting 4 x 4
+    /// and decimate", without weights.) Fails with [`InputError`] if a radiance is negative or not finite.
+    pub fn sampled(radiance: impl Fn(DVec3) -> [f64; 3] + Sync) -> Result<Self, InputError> {
+        Self::decimated(&fine_samples(radiance)?)
     }
 
     /// Creates a light from a picture of the whole sphere, with constant radiance over each pixel.
-    pub fn from_picture(
-        picture: &EnvironmentPicture,
-        rotation: &DMat3,
-        decimation: Decimation,
-    ) -> Result<Self, InputError> {
-        Self::sampled(|direction| picture.radiance(direction), rotation, decimation)
+    pub fn from_picture(picture: &EnvironmentPicture) -> Result<Self, InputError> {
+        Self::sampled(|direction| picture.radiance(direction))
     }
 
-    /// Creates a light from small sources, counted from 0 in errors. Each adds its radiance times the covered fraction
+    /// Creates a light from small, rotated sources, counted from 0 in errors. Each adds its radiance times the covered fraction
     /// of each fine texel. The fractions are computed on a grid fine enough for the source, and scaled so that the
     /// source's flux, 2 pi (1 - cos radius) times its radiance, is exact. Fails with [`InputError`] for a matrix that
     /// is not a rotation, or a source without direction, radius or radiance.
-    pub fn from_disks(sources: &[DiskSource], rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
-        Self::decimated(&fine_disks(sources, rotation)?, decimation)
+    pub fn from_disks(sources: &[DiskSource], rotation: &DMat3) -> Result<Self, InputError> {
+        Self::decimated(&fine_disks(sources, rotation)?)
     }
 
     /// The light of the CIE clear sky over z >= 0 with its sun, and of the ground below. Fails as [`Self::sampled`]
     /// does, and if the sun is not above the horizon.
-    pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
+    pub fn sky(sky: &ClearSky) -> Result<Self, InputError> {
         sky.relative(DVec3::Z).map_err(of_light)?;
-        let without_sun = Self::sampled(|v| sky_radiance(sky, v), rotation, decimation)?;
-        Ok(without_sun.plus(&Self::from_disks(&[sun_disk(sky)], rotation, decimation)?))
+        let without_sun = Self::sampled(|v| sky_radiance(sky, v))?;
+        Ok(without_sun.plus(&Self::from_disks(&[sun_disk(sky)], &DMat3::IDENTITY)?))
     }
 
-    /// [`HarmonicLight::red_and_blue`] without truncation to an order: two disks in a dim surrounding. Fails with
-    /// [`InputError`] if the matrix is not a rotation.
-    pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, InputError> {
+    /// [`HarmonicLight::red_and_blue`] without truncation to an order: two disks in a dim surrounding.
+    pub fn red_and_blue() -> Result<Self, InputError> {
         let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
-        Ok(Self::from_disks(&red_and_blue_disks(), rotation, decimation)?.plus(&surrounding))
+        Ok(Self::from_disks(&red_and_blue_disks(), &DMat3::IDENTITY)?.plus(&surrounding))
     }
 
     /// Averages samples in all fine directions to texels.
-    fn decimated(fine: &[[f64; 3]], decimation: Decimation) -> Result<Self, InputError> {
+    fn decimated(fine: &[[f64; 3]]) -> Result<Self, InputError> {
         let solid_angles = FineDirections::get().solid_angles();
         let texel = |texel: usize| {
             let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
@@ -128,12 +88,8 @@ impl CubeLight {
             let (mut sum, mut whole) = ([0.0; 3], 0.0);
             for at in (0..SUPERSAMPLES * SUPERSAMPLES).map(|k| first + k / SUPERSAMPLES * FINE_SIDE + k % SUPERSAMPLES)
             {
-                let weight = match decimation {
-                    Decimation::SolidAngle => solid_angles[at],
-                    Decimation::Plain => 1.0,
-                };
-                sum.iter_mut().zip(fine[at]).for_each(|(sum, radiance)| *sum += weight * radiance);
-                whole += weight;
+                sum.iter_mut().zip(fine[at]).for_each(|(sum, radiance)| *sum += solid_angles[at] * radiance);
+                whole += solid_angles[at];
             }
             sum.map(|sum| sum / whole)
         };
@@ -171,19 +127,12 @@ impl CubeLight {
     }
 }
 
-/// Samples a function of unit directions in all fine directions and checks it; the function's direction v is rotated to
-/// `rotation` v.
-pub(super) fn fine_samples(
-    radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
-    rotation: &DMat3,
-    least: f64,
-) -> Result<Vec<[f64; 3]>, InputError> {
-    check_rotation(rotation).map_err(of_light)?;
-    let back = rotation.transpose();
+/// Samples a function of unit directions in all fine directions and checks it.
+pub(super) fn fine_samples(radiance: impl Fn(DVec3) -> [f64; 3] + Sync) -> Result<Vec<[f64; 3]>, InputError> {
     let fine: Vec<[f64; 3]> =
-        FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
+        FineDirections::get().directions().par_iter().map(|&direction| radiance(direction)).collect();
     // An invalid sample might not be visible in the mean of sixteen.
-    check(&fine, light_texel, least)?;
+    check(&fine, light_texel, 0.0)?;
     Ok(fine)
 }
 

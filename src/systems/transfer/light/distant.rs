@@ -1,12 +1,12 @@
-//! Distant light that can be rotated.
+//! Distant light of any kind.
 
 use glam::{DMat3, DVec3};
 
 use super::cube_light::{fine_disks, fine_samples, red_and_blue_disks, sky_radiance, sun_disk};
-use super::{CubeLight, Decimation, DiskSource};
+use super::{CubeLight, DiskSource};
 use crate::error::InputError;
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
-use crate::transfer::grid::FINE_DIRECTIONS;
+use crate::transfer::grid::{FINE_DIRECTIONS, light_texel};
 use crate::transfer::light::cube_light::of_light;
 
 /// Distant light, before it is sampled by the cube's texels.
@@ -22,41 +22,40 @@ pub enum DistantLight {
     RedAndBlue,
     /// A picture of all directions.
     Picture(EnvironmentPicture),
-    /// Radiances of the cube's texels, as in [`CubeLight`]. After a rotation, a direction has the radiance of the texel
-    /// that contains it.
+    /// Radiances of the cube's texels, as in [`CubeLight`].
     Texels(CubeLight),
 }
 
 impl DistantLight {
-    /// The cube of texels of the rotated light.
-    pub fn cube(&self, rotation: &DMat3, decimation: Decimation) -> Result<CubeLight, InputError> {
+    /// The cube of texels of the light.
+    pub fn cube(&self) -> Result<CubeLight, InputError> {
         match self {
             Self::Constant(radiance) => CubeLight::constant(*radiance),
-            Self::Disks(sources) => CubeLight::from_disks(sources, rotation, decimation),
-            Self::Sky(sky) => CubeLight::sky(sky, rotation, decimation),
-            Self::RedAndBlue => CubeLight::red_and_blue(rotation, decimation),
-            Self::Picture(picture) => CubeLight::from_picture(picture, rotation, decimation),
-            Self::Texels(light) if *rotation == DMat3::IDENTITY => Ok(light.clone()),
-            Self::Texels(light) => light.turned(rotation, decimation),
+            Self::Disks(sources) => CubeLight::from_disks(sources, &DMat3::IDENTITY),
+            Self::Sky(sky) => CubeLight::sky(sky),
+            Self::RedAndBlue => CubeLight::red_and_blue(),
+            Self::Picture(picture) => CubeLight::from_picture(picture),
+            Self::Texels(light) => Ok(light.clone()),
         }
     }
 
     /// The radiances in the fine directions, 4 x 4 per texel, which [`Self::cube`] averages.
-    pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, InputError> {
+    pub fn fine(&self) -> Result<Vec<[f64; 3]>, InputError> {
+        let disks = |sources: &[DiskSource]| fine_disks(sources, &DMat3::IDENTITY);
         match self {
-            Self::Constant(radiance) => fine_samples(|_| *radiance, rotation, 0.0),
-            Self::Disks(sources) => fine_disks(sources, rotation),
+            Self::Constant(radiance) => fine_samples(|_| *radiance),
+            Self::Disks(sources) => disks(sources),
             Self::Sky(sky) => {
                 sky.relative(DVec3::Z).map_err(of_light)?;
-                let without_sun = fine_samples(|v| sky_radiance(sky, v), rotation, 0.0)?;
-                Ok(sum(&without_sun, &fine_disks(&[sun_disk(sky)], rotation)?))
+                let without_sun = fine_samples(|v| sky_radiance(sky, v))?;
+                Ok(sum(&without_sun, &disks(&[sun_disk(sky)])?))
             }
             Self::RedAndBlue => {
                 let surrounding = vec![HarmonicLight::RED_AND_BLUE_SURROUNDING; FINE_DIRECTIONS];
-                Ok(sum(&fine_disks(&red_and_blue_disks(), rotation)?, &surrounding))
+                Ok(sum(&disks(&red_and_blue_disks())?, &surrounding))
             }
-            Self::Picture(picture) => fine_samples(|v| picture.radiance(v), rotation, 0.0),
-            Self::Texels(light) => light.fine(rotation),
+            Self::Picture(picture) => fine_samples(|v| picture.radiance(v)),
+            Self::Texels(light) => Ok((0..FINE_DIRECTIONS).map(|fine| light.texels()[light_texel(fine)]).collect()),
         }
     }
 }

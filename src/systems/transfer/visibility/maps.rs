@@ -32,19 +32,7 @@ impl VisibilitySampling {
 }
 
 /// The horizon that limits the view of a vertex.
-#[derive(
-    Clone,
-    Copy,
-    Debug,
-    Default,
-    PartialEq,
-    Eq,
-    Serialize,
-    Deserialize,
-    strum::Display,
-    strum::EnumIter,
-    strum::EnumMessage,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Horizon {
     /// The plane of its normal, and the triangles around it.

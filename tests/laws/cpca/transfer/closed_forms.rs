@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crossbar::cpca::transfer::{Bounces, Response, TracedRays, Transfer};
+use crossbar::cpca::transfer::{Response, TracedRays, Transfer};
 use crossbar::elementary::on_circle;
 use crossbar::geom::Mesh;
 use crossbar::sphere::{DirectionRule, function_index, harmonics};
@@ -22,7 +22,7 @@ fn diffuse(mesh: &Mesh, degree: usize, order: usize) -> (Transfer, TracedRays) {
     let vertices = Vertices::new(mesh, Tangents::Along(DVec3::X)).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(degree), &mut caster(mesh), false).expect("rays");
     let response = Response::diffuse(1.0, rays.rule()).expect("a response");
-    (Transfer::new(&vertices, &rays, &[response], order, Bounces::Count(0)).expect("t_p"), rays)
+    (Transfer::new(&vertices, &rays, &[response], order, 0).expect("t_p"), rays)
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn bowls_of_any_height_cost_no_more_than_walls() {
             exit: ExitRadiance::Diffuse,
             order: 2,
             degree: 44,
-            bounces: Bounces::Count(0),
+            bounces: 0,
             scatterer: None,
         };
         let found = precomputation.run(&mut |_, _, _| ()).expect("transfer");

@@ -1,7 +1,7 @@
 //! Exact consequences of equation 1, and its relation to the double integral of section 3.1.
 
 use crossbar::cpca::paper::Reference;
-use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
+use crossbar::cpca::transfer::{Incident, Response, TracedRays, Transfer};
 use crossbar::geom::Mesh;
 use crossbar::linalg::Matrix;
 use crossbar::sphere::{DirectionRule, HarmonicRotation, Hemisphere};
@@ -30,10 +30,10 @@ fn lambert_is_the_diffuse_path() {
     assert!(rays.counts().blocked > 0);
     for bounces in [0, 3] {
         let diffuse = Response::diffuse(0.8, rays.rule()).expect("a response");
-        let diffuse = Transfer::new(&vertices, &rays, &[diffuse], 5, Bounces::Count(bounces)).expect("t_p");
+        let diffuse = Transfer::new(&vertices, &rays, &[diffuse], 5, bounces).expect("t_p");
         for exit in [ExitBasis::of_order(5), ExitBasis::of_order(4), ExitBasis::without_1_0(5).expect("24")] {
             let response = glossy(&lambert, &exit, ORDER_5, rays.rule());
-            let glossy = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(bounces)).expect("M_p");
+            let glossy = Transfer::new(&vertices, &rays, &[response], 5, bounces).expect("M_p");
             assert_eq!([glossy.row_count(), glossy.column_count()], [exit.len(), 25]);
             let y_0 = (1.0 / (4.0 * std::f64::consts::PI)).sqrt();
             for vertex in 0..vertices.len() {
@@ -76,7 +76,7 @@ fn unoccluded_transfer_is_the_brdf_turned() {
     let views = DirectionRule::hemisphere(40);
     for exit in [ExitBasis::of_order(5), ExitBasis::without_1_0(5).expect("24 functions")] {
         let response = glossy(&WARD, &exit, ORDER_5, rays.rule());
-        let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(0)).expect("M_p");
+        let transfer = Transfer::new(&vertices, &rays, &[response], 5, 0).expect("M_p");
         let b = brdf_matrix(&WARD, &exit, 5, &views).expect("B");
         let ExitBasis::Harmonics(hemisphere) = &exit else { unreachable!("harmonics") };
         let expected = hemisphere.inverse().product(&b).expect("a product");
@@ -103,8 +103,8 @@ fn the_chain_of_matrices_is_the_transfer() {
     let rays = trace(&mesh, &vertices, 16);
     let exit = ExitBasis::of_order(4);
     let response = glossy(&WARD, &exit, ORDER_5, rays.rule());
-    let once = Transfer::new(&vertices, &rays, std::slice::from_ref(&response), 6, Bounces::Count(0)).expect("M_p");
-    let twice = Transfer::new(&vertices, &rays, &[response], 6, Bounces::Count(1)).expect("M_p");
+    let once = Transfer::new(&vertices, &rays, std::slice::from_ref(&response), 6, 0).expect("M_p");
+    let twice = Transfer::new(&vertices, &rays, &[response], 6, 1).expect("M_p");
     let ExitBasis::Harmonics(hemisphere) = &exit else { unreachable!("harmonics") };
     let b = brdf_matrix(&WARD, &exit, 5, &DirectionRule::hemisphere(40)).expect("B");
     let chain = hemisphere.inverse().product(&b).and_then(|b| b.product(Hemisphere::new(5).inverse()));
@@ -127,7 +127,7 @@ fn the_chain_of_matrices_is_the_transfer() {
 /// Transfer; all comparisons use the same rays, so that shadows are equal.
 fn matrices(vertices: &Vertices, rays: &TracedRays, incident: Incident) -> Transfer {
     let response = glossy(&WARD, &ExitBasis::of_order(4), incident, rays.rule());
-    Transfer::new(vertices, rays, &[response], 5, Bounces::Count(0)).expect("M_p")
+    Transfer::new(vertices, rays, &[response], 5, 0).expect("M_p")
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn the_double_integral_is_the_projection_of_the_reference() {
     let exit = ExitBasis::of_order(3);
     let response =
         Response::glossy(&WARD, &exit, false, Incident::Directions, rays.rule(), &views).expect("a response");
-    let transfer = Transfer::new(&vertices, &rays, &[response], 5, Bounces::Count(0)).expect("M_p");
+    let transfer = Transfer::new(&vertices, &rays, &[response], 5, 0).expect("M_p");
     let reference = Reference { vertices: &vertices, brdfs: &[WARD], rule: rays.rule(), light: &light };
     for vertex in (0..vertices.len()).step_by(3) {
         let expected = views.project(3, |view| reference.exit_radiance(vertex, view, 0));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crossbar::cpca::transfer::{Bounces, Response, ScatteringOptions, TracedRays, Transfer};
+use crossbar::cpca::transfer::{Response, ScatteringOptions, TracedRays, Transfer};
 use crossbar::geom::Mesh;
 use crossbar::sphere::DirectionRule;
 use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance};
@@ -22,7 +22,7 @@ fn entering(mesh: &Mesh, order: usize, transmittance: fn(f64) -> f64) -> (Vertic
     let vertices = Vertices::new(mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(14), &mut caster(mesh), false).expect("traced");
     let response = Response::entering(transmittance, rays.rule());
-    let entering = Transfer::new(&vertices, &rays, &[response], order, Bounces::Count(0)).expect("irradiance");
+    let entering = Transfer::new(&vertices, &rays, &[response], order, 0).expect("irradiance");
     (vertices, entering)
 }
 
@@ -104,7 +104,7 @@ fn it_goes_into_the_constant_function_alone() {
     let views = DirectionRule::hemisphere(20);
     let gloss =
         Response::glossy(&brdf, &ExitBasis::of_order(3), true, incident, rays.rule(), &views).expect("a response");
-    let gloss = Transfer::new(&vertices, &rays, &[gloss], 3, Bounces::Count(0)).expect("a transfer");
+    let gloss = Transfer::new(&vertices, &rays, &[gloss], 3, 0).expect("a transfer");
     let mut both = gloss.clone();
     both.add(&part).expect("the same vertices");
     for vertex in 0..vertices.len() {

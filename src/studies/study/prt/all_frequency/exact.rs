@@ -1,7 +1,6 @@
 //! First steps of rendering: the light's coefficients (step 1 of section 6), and uncompressed transferred radiance, M_p
 //! L, from the raw matrices of one segment after the other.
 
-use glam::DMat3;
 use rayon::prelude::*;
 
 use crate::all_frequency::Reflectance;
@@ -10,16 +9,13 @@ use crate::error::InputError;
 use crate::linalg::dot;
 use crate::transfer::Vertices;
 use crate::transfer::grid::Segmentation;
-use crate::transfer::light::{Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority};
+use crate::transfer::light::{DistantLight, HaarLight, LightTruncation, TruncationPriority};
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 
 /// The coefficients of a light: the `keep` largest by area times magnitude, or all.
-pub(in crate::study) fn coefficients(
-    (light, decimation): (&DistantLight, Decimation),
-    keep: Option<usize>,
-) -> Result<LightTruncation, InputError> {
-    let light = HaarLight::new(&light.cube(&DMat3::IDENTITY, decimation)?, Segmentation::Quarters);
+pub(in crate::study) fn coefficients(light: &DistantLight, keep: Option<usize>) -> Result<LightTruncation, InputError> {
+    let light = HaarLight::new(&light.cube()?, Segmentation::Quarters);
     Ok(light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area))
 }
 

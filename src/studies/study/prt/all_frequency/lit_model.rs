@@ -5,7 +5,7 @@ use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
 use crate::study::prt::LitView;
 use crate::transfer::Vertices;
-use crate::transfer::light::{Decimation, DistantLight};
+use crate::transfer::light::DistantLight;
 
 /// A model with its transfer, a light and a camera.
 #[derive(Debug)]
@@ -26,8 +26,6 @@ pub struct LitModel {
     pub ground: Option<LitGround>,
     /// The light.
     pub light: DistantLight,
-    /// Decimation of the light.
-    pub decimation: Decimation,
     /// Number of light coefficients kept, the largest by area times magnitude; `None` for all.
     pub keep: Option<usize>,
 }

@@ -100,7 +100,7 @@ impl AllFrequencyRendering {
     /// Step 1: the light's coefficients.
     fn light(&self, times: &mut FrameTimes) -> Result<LightTruncation, StudyError> {
         let start = Instant::now();
-        let cut = exact::coefficients((&self.lit.light, self.lit.decimation), self.lit.keep)?;
+        let cut = exact::coefficients(&self.lit.light, self.lit.keep)?;
         times.light = start.elapsed().as_secs_f64();
         Ok(cut)
     }

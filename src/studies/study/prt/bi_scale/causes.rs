@@ -1,7 +1,6 @@
 //! Compares a picture with a ray-traced one, and divides its error among causes: each picture in between adds one
 //! approximation of transfer.
 
-use glam::DMat3;
 use rayon::prelude::*;
 
 use super::cause_pictures::CausePictures;
@@ -42,7 +41,7 @@ impl<'a> Causes<'a> {
         let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
         let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
         let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
-        Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine(&DMat3::IDENTITY)? })
+        Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine()? })
     }
 
     /// All pictures; `drawn` is the picture from transfer.

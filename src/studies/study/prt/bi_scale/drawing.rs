@@ -1,6 +1,5 @@
 //! A rendering in progress: visible surfaces of its pixels, and its textures.
 
-use glam::DMat3;
 use rayon::prelude::*;
 
 use super::cause_pictures::CausePictures;
@@ -12,7 +11,7 @@ use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::shade::TextureLookup;
 use crate::error::InputError;
 use crate::study::{ProgressFn, StudyError};
-use crate::transfer::light::{CubeLight, Decimation};
+use crate::transfer::light::CubeLight;
 
 /// A rendering whose visible surfaces are known.
 pub(in crate::study) struct BiScaleDrawing<'a> {
@@ -50,7 +49,7 @@ impl<'a> BiScaleDrawing<'a> {
 
     /// The light's texels.
     pub(in crate::study) fn cube(&self) -> Result<CubeLight, InputError> {
-        self.rendering.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)
+        self.rendering.light.cube()
     }
 
     /// L~, light from the light's texels. Fails if the file is not transfer of a mesh.

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::scenes::SCENES;
 use super::{HOST, RunResult, Shared, StudyError};
-use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crate::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::transfer_matrix;
@@ -86,7 +86,7 @@ impl ModelVisibility {
 
     pub(super) fn clustered(&self, side: usize) -> Result<ClusteredModel, StudyError> {
         let matrix = self.matrix(side)?;
-        let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).on(HOST)?;
+        let biclusters = bicluster(&matrix, SEED, &mut |_| ()).on(HOST)?;
         Ok(ClusteredModel { nonzeros: matrix.nonzeros(), biclusters })
     }
 }

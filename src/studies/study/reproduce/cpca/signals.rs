@@ -1,9 +1,9 @@
 //! The signals of Table 1 and of Figures 2 to 4, on our own models.
 
 use super::{ModelSize, RunResult, StudyError};
-use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, StartPoints, compress};
+use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, compress};
 use crate::cpca::on_card::model::TransferSize;
-use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions};
+use crate::cpca::transfer::{Incident, ScatteringOptions};
 use crate::geom::Mesh;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{ExitRadiance, Precomputation, Scatterer};
@@ -145,7 +145,7 @@ impl ComputedSignal {
             exit,
             order: paper.size.columns.isqrt(),
             degree: paper.degree(models),
-            bounces: Bounces::Count(if paper.model == FoldedBuddha { BOUNCES } else { 0 }),
+            bounces: if paper.model == FoldedBuddha { BOUNCES } else { 0 },
             scatterer: if paper.material == Translucent { Some(scatterer()?) } else { None },
         };
         let computed = precomputation.run(&mut |_, _, _| ()).on(HOST)?;
@@ -220,15 +220,7 @@ impl ComputedSignal {
 }
 
 fn options(clusters: usize, vectors: usize, (method, iterations): (CpcaMethod, usize)) -> CpcaOptions {
-    CpcaOptions {
-        clusters,
-        vectors,
-        vq_iterations: iterations,
-        iterations,
-        method,
-        form: CpcaForm::Affine,
-        start: StartPoints::Seed(1),
-    }
+    CpcaOptions { clusters, vectors, vq_iterations: iterations, iterations, method, form: CpcaForm::Affine, seed: 1 }
 }
 
 impl SignalMaterial {

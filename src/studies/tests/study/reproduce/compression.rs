@@ -1,7 +1,7 @@
 //! Tools of entries about compression: interpolation of their curves, and errors by the number of vectors.
 
 use crossbar_studies::study::reproduce::tested::{crossings, reaching};
-use crossbar_systems::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar_systems::clustering::{CpcaForm, CpcaMethod, CpcaOptions, compress};
 use crossbar_systems::transfer::synthetic::signal_at;
 
 /// Halfway between storages 1 and 4 on a logarithmic scale, at 2, the first curve has the error 8.
@@ -33,8 +33,15 @@ fn vectors_are_interpolated_by_logarithms() {
 fn errors_by_vectors_are_those_of_compressions() {
     let signal = signal_at(300, 12, 7, |at| [0.1 * at as f64, (at % 7) as f64, (at % 11) as f64]);
     let of = |vectors: usize, method| {
-        let (form, start) = (CpcaForm::Affine, StartPoints::Seed(1));
-        let options = CpcaOptions { clusters: 5, vectors, vq_iterations: 20, iterations: 20, method, form, start };
+        let options = CpcaOptions {
+            clusters: 5,
+            vectors,
+            vq_iterations: 20,
+            iterations: 20,
+            method,
+            form: CpcaForm::Affine,
+            seed: 1,
+        };
         compress(&signal, &options, |_| ()).expect("compressed")
     };
     let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected.max(1.0);

@@ -36,7 +36,7 @@ impl AllFrequencyOnCard {
     }
 
     pub(super) fn cut(&self, keep: Option<usize>) -> Result<LightTruncation, InputError> {
-        exact::coefficients((&self.lit.light, self.lit.decimation), keep)
+        exact::coefficients(&self.lit.light, keep)
     }
 
     /// Computes the host's steps, before a card draws.

@@ -1,7 +1,5 @@
 //! Findings of bi-scale transfer on a card.
 
-use glam::DMat3;
-
 use super::picture::{CardLight, Drawn, doubles};
 use super::precision::{count, variants};
 use super::subject::BiScaleOnCard;
@@ -17,7 +15,6 @@ use crate::study::prt::card::sweep::report_sweep;
 use crate::study::prt::card::{PixelErrors, frame};
 use crate::study::prt::of_texels;
 use crate::study::{ProgressFn, Study, StudyError};
-use crate::transfer::light::Decimation;
 
 const SWEEP: &str = "Each row uses one number format of fewer bits, and single precision elsewhere. Errors are in 255ths of white, against equation \
     3 and light multiplied in double precision. 8-bit fractions are relative to the largest number.";
@@ -43,7 +40,7 @@ impl Study for BiScaleOnCard {
         let drawn = self.draw(&local.local, self.options, card.format, exposure)?;
         let compared = ComparedPicture::new(&seen, &drawn.pixels, &host, card.is_clamped());
         let mut found = study.findings("Bi-scale transfer on a card", &compared, exposure)?;
-        let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
+        let cube = self.light.cube()?;
         found.pictures(vec![self.view.light_picture(of_texels(cube.texels()))?]);
         let whole = self.exact(&exact, &seen, exposure, edges);
         let blames = [

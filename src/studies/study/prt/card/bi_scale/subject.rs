@@ -1,7 +1,5 @@
 //! A model with bi-scale transfer and textures, with a light and a camera.
 
-use glam::DMat3;
-
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, TexturedMesh};
 use crate::bi_scale::paper;
@@ -13,7 +11,7 @@ use crate::study::prt::LitView;
 use crate::study::prt::card::CardSetting;
 use crate::transfer::Vertices;
 use crate::transfer::grid::LIGHT_TEXELS;
-use crate::transfer::light::{Decimation, DistantLight};
+use crate::transfer::light::DistantLight;
 
 /// A model with biclusters of its transfer, bidirectional textures, a light and a camera, and the card.
 #[derive(Debug)]
@@ -70,7 +68,7 @@ impl BiScaleOnCard {
 
     /// L: red, green and blue of each light texel, multiplied by its solid angle.
     pub(super) fn light_texels(&self) -> Result<Vec<[f64; 3]>, InputError> {
-        let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
+        let cube = self.light.cube()?;
         Ok(side_by_side(light_vectors(&cube)))
     }
 

@@ -1,7 +1,6 @@
 //! A model with compressed transfer, with a light and a camera.
 
 use crate::clustering::Clustering;
-use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions};
 use crate::sphere::HarmonicLight;
 use crate::study::StudyError;
@@ -23,8 +22,6 @@ pub struct OnCard {
     pub meaning: PrtMeaning,
     /// Clusters of the compressed transfer.
     pub clustering: Clustering,
-    /// Superclusters of these clusters, if the file has any.
-    pub superclusters: Option<Superclusters>,
     /// The light, with the same order as the transfer.
     pub light: HarmonicLight,
     /// The card that draws.
@@ -44,8 +41,7 @@ impl OnCard {
     pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, StudyError> {
         let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(no_transfer()) };
         let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
-        let Self { vertices, clustering, superclusters, .. } = self;
-        let (channels, superclusters) = (*channels as usize, superclusters.as_ref());
-        Ok(CompressedTransfer { vertices, clustering, basis, channels, vectors, superclusters })
+        let Self { vertices, clustering, .. } = self;
+        Ok(CompressedTransfer { vertices, clustering, basis, channels: *channels as usize, vectors })
     }
 }

@@ -1,6 +1,6 @@
 //! Model on a ground, and differences of its pictures.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::{HOST, RunResult, StudyError};
 use crate::geom::Mesh;
@@ -10,7 +10,7 @@ use crate::scene::built::ground::on_ground;
 use crate::study::prt::SeenSurface;
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::tracer::HostTracer;
-use crate::transfer::light::{CubeLight, Decimation, DistantLight};
+use crate::transfer::light::{CubeLight, DistantLight};
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{Tangents, Vertices};
@@ -74,6 +74,6 @@ impl FigureScene {
 
 /// Stand-in for the light of St. Peter's: [`HARD_SUN`].
 pub(super) fn stand_in() -> Result<CubeLight, StudyError> {
-    let cube = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
+    let cube = DistantLight::Sky(HARD_SUN).cube();
     cube.on(HOST)
 }

@@ -12,7 +12,7 @@ use crate::geom::random::CounterRng;
 use crate::report::{Cell, Table};
 use crate::sphere::turn_around_z;
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
-use crate::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crate::transfer::light::{CubeLight, DiskSource, HaarLight, TruncationPriority};
 use crate::transfer::linear_basis::LinearBasis;
 
 const SOURCES: u64 = 40;
@@ -45,7 +45,7 @@ fn sources() -> Vec<DiskSource> {
 
 /// Projects the light of the sources to coefficients on six faces.
 fn on_faces(turn: &DMat3) -> Result<HaarLight, StudyError> {
-    let cube = CubeLight::from_disks(&sources(), turn, Decimation::SolidAngle).on(HOST)?;
+    let cube = CubeLight::from_disks(&sources(), turn).on(HOST)?;
     Ok(HaarLight::new(&cube, Segmentation::Faces))
 }
 

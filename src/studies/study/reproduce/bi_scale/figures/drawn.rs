@@ -2,8 +2,8 @@
 
 use super::scene::{FigureSize, TexturedModel};
 use super::{HOST, RunResult, StudyError};
-use crate::bi_scale::baselines::{HarmonicRows, LocalTransfer, StoredTransfer};
 use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::low_frequency::LowFrequencyTransfer;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::study::prt::{BiScaleDrawing, BiScaleRendering, CausePictures};
@@ -47,7 +47,7 @@ fn low_frequency(
     channels: &[Vec<f64>; 3],
 ) -> Result<Vec<[f64; 3]>, StudyError> {
     let directions = LocalDirections::new(side).on(HOST)?;
-    let transfer = LocalTransfer::new(matrix, rendering.surface.vertices.frames(), &directions).on(HOST)?;
-    let rows = HarmonicRows::of_both(&transfer, ORDER).on(HOST)?;
-    Ok(side_by_side(channels.each_ref().map(|channel| rows.multiply(channel))))
+    let frames = rendering.surface.vertices.frames();
+    let transfer = LowFrequencyTransfer::new(matrix, frames, &directions, ORDER).on(HOST)?;
+    Ok(side_by_side(channels.each_ref().map(|channel| transfer.multiply(channel))))
 }

@@ -1,7 +1,7 @@
 //! Models with a bidirectional texture, for pictures by transfer and by rays.
 
 use super::{HARD_SUN, HOST, Horizon, ModelSize, ModelVisibility, RunResult, StudyError, filled};
-use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crate::bi_scale::bicluster::{SEED, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
 use crate::bi_scale::texture::{PatchKind, TextureSampling};
@@ -48,7 +48,7 @@ impl TexturedModel {
         let mesh = &self.mesh;
         let seen = ModelVisibility::new(mesh, Horizon::Normal)?;
         let matrix = seen.matrix(side)?;
-        let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).on(HOST)?;
+        let biclusters = bicluster(&matrix, SEED, &mut |_| ()).on(HOST)?;
         let meaning =
             BiScaleMeaning { mesh: MeshDigest::new(&seen.vertices), side: side as u32, horizon: Horizon::Normal };
         let file = BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters: Some(biclusters) };
