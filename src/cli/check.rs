@@ -40,18 +40,25 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let program = text.assemble()?;
     let (version, size) = (program.version, slots(&program));
     out.outlive_reader();
-    match text.check(program, &profile) {
-        Ok(program) if out.json() => {
-            out.document(&json!({
-                "shader": text.name(),
-                "device": profile.name,
-                "version": version.token(),
-                "legal": true,
-                "texture_slots": size.texture,
-                "arithmetic_slots": size.arithmetic,
-                "violations": [],
-                "warnings": program.warnings().iter().map(warning_json).collect::<Vec<_>>(),
-            }))?;
+    let checked = text.check(program, &profile);
+    let (violations, warnings): (&[Violation], &[Warning]) = match &checked {
+        Ok(program) => (&[], program.warnings()),
+        Err(ShaderError::Illegal { violations, warnings, .. }) => (violations, warnings),
+        Err(_) => (&[], &[]),
+    };
+    let mut document = json!({
+        "shader": text.name(),
+        "device": profile.name,
+        "version": version.token(),
+        "legal": checked.is_ok(),
+        "violations": violations.iter().map(violation_json).collect::<Vec<_>>(),
+        "warnings": warnings.iter().map(warning_json).collect::<Vec<_>>(),
+    });
+    match checked {
+        Ok(_) if out.json() => {
+            document["texture_slots"] = size.texture.into();
+            document["arithmetic_slots"] = size.arithmetic.into();
+            out.document(&document)?;
             Ok(Verdict::Done)
         }
         Ok(program) => {
@@ -66,19 +73,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
             }
             Ok(Verdict::Done)
         }
-        Err(ShaderError::Illegal { violations, warnings, .. }) if out.json() => {
-            out.document(&json!({
-                "shader": text.name(),
-                "device": profile.name,
-                "version": version.token(),
-                "legal": false,
-                "violations": violations.iter().map(violation_json).collect::<Vec<_>>(),
-                "warnings": warnings.iter().map(warning_json).collect::<Vec<_>>(),
-            }))?;
-            Ok(Verdict::Failed)
-        }
         Err(illegal @ ShaderError::Illegal { .. }) => {
-            out.finding(&illegal)?;
+            if out.json() {
+                out.document(&document)?
+            } else {
+                out.finding(&illegal)?
+            }
             Ok(Verdict::Failed)
         }
         Err(other) => Err(other.into()),

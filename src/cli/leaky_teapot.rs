@@ -148,37 +148,23 @@ fn kernels() -> OneOf<EdgeRule> {
 }
 
 fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
-    let formats: Vec<(&str, Format)> = args
-        .format
-        .iter()
-        .map(|text| Ok((text.as_str(), text.parse().and_then(Format::for_registers).map_err(view::bad_format)?)))
-        .collect::<miette::Result<_>>()?;
-    let mut all = Vec::new();
-    match (args.device.is_empty(), formats.is_empty()) {
-        (true, true) => {
-            all.extend(Configuration::device_under_each_switch("r200")?);
-            for format in ["fp16", "fp24", "fp32"] {
-                all.push(Configuration::format(format)?);
-            }
-        }
-        (true, false) => {
-            for (text, _) in formats {
-                all.push(Configuration::format(text)?);
-            }
-        }
-        (false, true) => {
-            for device in &args.device {
-                all.push(Configuration::device(device)?);
-            }
-        }
-        (false, false) => {
-            for device in &args.device {
-                for (text, _) in &formats {
-                    all.push(Configuration::device_in_format(device, text)?);
-                }
-            }
-        }
+    let (devices, formats) = (&args.device, &args.format);
+    for text in formats {
+        text.parse().and_then(Format::for_registers).map_err(view::bad_format)?;
     }
+    let all = match (devices.is_empty(), formats.is_empty()) {
+        (true, true) => {
+            let of_formats = ["fp16", "fp24", "fp32"].map(Configuration::format);
+            let switched = Configuration::device_under_each_switch("r200")?.into_iter().map(Ok);
+            switched.chain(of_formats).collect::<Result<Vec<_>, _>>()?
+        }
+        (true, false) => formats.iter().map(|text| Configuration::format(text)).collect::<Result<_, _>>()?,
+        (false, true) => devices.iter().map(|device| Configuration::device(device)).collect::<Result<_, _>>()?,
+        (false, false) => {
+            let pairs = devices.iter().flat_map(|device| formats.iter().map(move |text| (device, text)));
+            pairs.map(|(device, text)| Configuration::device_in_format(device, text)).collect::<Result<_, _>>()?
+        }
+    };
     let mut labels = BTreeSet::new();
     if let Some(row) = all.iter().find(|row| !labels.insert(&row.label)) {
         let what = format!("expected different rows, found `{}` twice", row.label);

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap_mangen::Man;
 use serde_json::json;
 
-use super::{Out, Problem, Verdict};
+use super::{Out, Problem, Verdict, study};
 use crate::io::write_files;
+use crate::report::Findings;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,14 +27,10 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, program: clap::Command, out: &mut Out) -> miette::Result<Verdict> {
     let written = write_files(&args.out, &pages(program)).map_err(Problem::from)?;
-    if out.json() {
-        out.document(&json!({ "files": written }))?;
-        return Ok(Verdict::Done);
-    }
-    for path in written {
-        out.line(format_args!("wrote {}", path.display()))?;
-    }
-    Ok(Verdict::Done)
+    let mut found = Findings::new("Manual pages");
+    found.field("files", json!(written));
+    written.iter().for_each(|path| found.print(format!("wrote {}", path.display())));
+    study::show(&found, out)
 }
 
 /// Name and text of each page.

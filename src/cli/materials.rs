@@ -1,11 +1,11 @@
 //! `crossbar materials`: published media, and the dipole's totals for a medium.
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::{Out, Problem, Verdict, study};
 use crate::error::InputError;
 use crate::names::did_you_mean;
-use crate::report::{Cell, Findings, Table};
+use crate::report::{Cell, Findings, FoundTable, Table};
 use crate::subsurface::materials::{MATERIALS, PublishedFigure, PublishedMaterial, named};
 use crate::subsurface::{Dipole, Material};
 
@@ -83,19 +83,11 @@ const RGB: [&str; 3] = ["red", "green", "blue"];
 
 /// The published media side by side.
 fn all(out: &mut Out) -> miette::Result<Verdict> {
-    let mut rows = Vec::new();
-    for material in &MATERIALS {
-        rows.push((material, Shown::new(&material.material()).map_err(refused)?));
-    }
-    if out.json() {
-        let rows: Vec<Value> = rows.iter().map(|(material, shown)| document(shown, material)).collect();
-        out.document(&rows)?;
-        return Ok(Verdict::Done);
-    }
     let columns =
         ["medium", "channel", "sigma'_s (1/mm)", "sigma_a (1/mm)", "eta", "path (mm)", "R_d total", "R_d printed"];
     let mut table = Table::new("Published media", &columns);
-    for (material, shown) in &rows {
+    for material in &MATERIALS {
+        let shown = Shown::new(&material.material()).map_err(refused)?;
         for (c, dipole) in shown.dipoles.iter().enumerate() {
             let printed = material.reflectance.map_or(Cell::Empty, |figure| Cell::decimals(figure.value[c], 2));
             table.push([
@@ -110,6 +102,10 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
             ]);
         }
     }
+    if out.json() {
+        out.document(&table.json())?;
+        return Ok(Verdict::Done);
+    }
     out.table(&table)?;
     out.line("")?;
     out.sentence("`crossbar materials NAME` shows lengths, R_d by distance and sources of one.")?;
@@ -119,17 +115,17 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
 /// All findings about one medium.
 fn one(shown: &Shown, published: &PublishedMaterial) -> Findings {
     let mut found = Findings::new(shown.name.as_str());
-    found.fields(document(shown, published));
+    found.fields(json!({ "name": shown.name, "eta": shown.eta }));
     found.introduce(format!("{}: index of refraction {}", shown.name, shown.eta));
-    found.table(lengths(shown));
+    found.table(FoundTable::from(lengths(shown)).field("lengths"));
     let title = "R_d: exitance at a distance from where a flux of 1 enters, per mm^2";
     let mut table = Table::new(title, &["distance (mm)", "red", "green", "blue"]);
     for &r in &shown.at {
         let [red, green, blue] = shown.each(|dipole| dipole.r_d(r)).map(Cell::measured);
         table.push([r.into(), red, green, blue]);
     }
-    found.table(table);
-    found.table(sources(published));
+    found.table(FoundTable::from(table).field("r_d"));
+    found.table(FoundTable::from(sources(published)).field("sources"));
     found
 }
 
@@ -168,41 +164,4 @@ fn sources(material: &PublishedMaterial) -> Table {
         row("R_d printed", list(figure), figure.confidence.word(), figure.source);
     }
     table
-}
-
-fn document(shown: &Shown, published: &PublishedMaterial) -> Value {
-    let radii: Vec<Value> = FRACTIONS
-        .iter()
-        .map(|&fraction| json!({ "fraction": fraction, "mm": shown.each(|dipole| dipole.radius_of(fraction)) }))
-        .collect();
-    let r_d: Vec<Value> =
-        shown.at.iter().map(|&r| json!({ "mm": r, "per_mm2": shown.each(|dipole| dipole.r_d(r)) })).collect();
-    json!({
-        "name": shown.name,
-        "eta": shown.eta,
-        "sigma_s_prime_per_mm": shown.each(|dipole| dipole.coefficients().sigma_s_prime),
-        "sigma_a_per_mm": shown.each(|dipole| dipole.coefficients().sigma_a),
-        "alpha_prime": shown.each(Dipole::alpha_prime),
-        "mean_free_path_mm": shown.each(Dipole::mean_free_path),
-        // Without absorption it is infinite, which JSON writes as null.
-        "diffusion_length_mm": shown.each(Dipole::diffusion_length),
-        "z_r_mm": shown.each(Dipole::z_r),
-        "z_v_mm": shown.each(Dipole::z_v),
-        "total": shown.each(Dipole::total),
-        "total_integrated": shown.each(Dipole::integrated_total),
-        "radii": radii,
-        "r_d": r_d,
-        "sources": source_document(published),
-    })
-}
-
-fn source_document(material: &PublishedMaterial) -> Value {
-    let figure = |value: Value, source: &str, confidence: &str| json!({ "value": value, "source": source, "confidence": confidence });
-    let triple = |it: PublishedFigure<[f64; 3]>| figure(json!(it.value), it.source, it.confidence.word());
-    json!({
-        "sigma_s_prime": triple(material.sigma_s_prime),
-        "sigma_a": triple(material.sigma_a),
-        "eta": figure(json!(material.eta.value), material.eta.source, material.eta.confidence.word()),
-        "reflectance": material.reflectance.map(triple),
-    })
 }

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{Out, Problem, ProgressBar, Verdict};
+use super::{Out, Problem, ProgressBar, Verdict, study};
 use crate::error::InputError;
 use crate::io::read_file;
 use crate::io::{require_writable, write_files};
+use crate::report::Findings;
 use crate::study::page::page;
 
 const EXAMPLES: &str = "\
@@ -43,14 +44,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     drop(bar);
     let bytes = text.len();
     let written = write_files(&args.out, &[("index.html".to_owned(), text.into_bytes())]).map_err(Problem::from)?;
-    if out.json() {
-        out.document(&json!({ "files": written, "bytes": bytes }))?;
-        return Ok(Verdict::Done);
-    }
-    for path in written {
-        out.line(format_args!("wrote {} ({bytes} bytes)", path.display()))?;
-    }
-    Ok(Verdict::Done)
+    let mut found = Findings::new("Page");
+    found.fields(json!({ "files": written, "bytes": bytes }));
+    written.iter().for_each(|path| found.print(format!("wrote {} ({bytes} bytes)", path.display())));
+    study::show(&found, out)
 }
 
 fn read_emulator(path: &Path) -> Result<Vec<u8>, InputError> {

@@ -4,7 +4,7 @@
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use indicatif::{ProgressDrawTarget, ProgressStyle};
 
@@ -33,7 +33,7 @@ pub struct ProgressBar {
     bar: indicatif::ProgressBar,
     /// `true` if standard error is not a terminal.
     is_plain: bool,
-    pace: Mutex<Pace>,
+    said: Mutex<Said>,
     /// Options that would make the work faster; empty if there are none.
     quicker: &'static str,
 }
@@ -46,7 +46,7 @@ impl ProgressBar {
             bar.set_style(style.progress_chars("=> "));
         }
         let is_plain = !begin(&bar) && !io::stderr().is_terminal();
-        Self { bar, is_plain, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
+        Self { bar, is_plain, said: Mutex::default(), quicker: "" }
     }
 
     /// Sets the options that would make long work faster, such as "a smaller `--size`".
@@ -60,7 +60,7 @@ impl ProgressBar {
     pub fn unending(what: &str) -> Self {
         let bar = indicatif::ProgressBar::new_spinner().with_message(what.to_owned());
         begin(&bar);
-        Self { bar, is_plain: false, pace: Mutex::new(Pace::new(Instant::now(), 0)), quicker: "" }
+        Self { bar, is_plain: false, said: Mutex::default(), quicker: "" }
     }
 
     /// Reports that `done` of `total` steps of `what` are done.
@@ -79,11 +79,19 @@ impl ProgressBar {
 
     /// Writes the messages that are due: that the work will take long, and, without a bar, a plain line.
     fn say(&self) {
-        let (now, done, total) = (Instant::now(), self.bar.position(), self.bar.length().unwrap_or(0));
+        let (done, total) = (self.bar.position(), self.bar.length().unwrap_or(0));
+        let elapsed = self.bar.elapsed();
+        // Without steps, no time is known.
+        let left = Some(self.bar.eta()).filter(|left| !left.is_zero() && elapsed >= FIRST);
         // A panic elsewhere leaves this data valid.
-        let mut pace = self.pace.lock().unwrap_or_else(PoisonError::into_inner);
-        let ((left, is_news), is_due) = (pace.left(now, done, total), self.is_plain && pace.is_line_due(now));
-        drop(pace);
+        let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_news = left > Some(LONG) && !said.is_announced;
+        said.is_announced |= is_news;
+        let is_due = self.is_plain && elapsed >= said.line.map_or(FIRST, |line| line + EVERY);
+        if is_due {
+            said.line = Some(elapsed);
+        }
+        drop(said);
         let what = self.bar.message();
         if let Some(left) = left.filter(|_| is_news) {
             self.announce(&long_work(&what, left, self.quicker));
@@ -119,49 +127,12 @@ impl Drop for ProgressBar {
     }
 }
 
-/// Speed of the steps; it is measured anew for each stage of the work.
-#[derive(Debug)]
-struct Pace {
-    start: Instant,
-    /// Start of this stage, number of steps done at that time, and number of steps in the stage.
-    stage: (Instant, u64, u64),
-    done: u64,
+/// The messages that were written.
+#[derive(Debug, Default)]
+struct Said {
     is_announced: bool,
-    /// Time of the next plain line.
-    next_line: Instant,
-}
-
-impl Pace {
-    fn new(start: Instant, total: u64) -> Self {
-        Self { start, stage: (start, 0, total), done: 0, is_announced: false, next_line: start + FIRST }
-    }
-
-    /// Returns `true` if a plain line is due, and then schedules the next one.
-    fn is_line_due(&mut self, now: Instant) -> bool {
-        let is_due = now >= self.next_line;
-        if is_due {
-            self.next_line = now + EVERY;
-        }
-        is_due
-    }
-
-    /// Estimated remaining time of a stage, once known; and `true` the first time that this estimate is long.
-    fn left(&mut self, now: Instant, done: u64, total: u64) -> (Option<Duration>, bool) {
-        if total != self.stage.2 || done < self.done {
-            self.stage = (now, done, total);
-        }
-        self.done = done;
-        let (began, first, _) = self.stage;
-        let steps = done.saturating_sub(first);
-        if steps == 0 || now.duration_since(self.start) < FIRST {
-            return (None, false);
-        }
-        let rest = total.saturating_sub(done) as f64 / steps as f64;
-        let left = Duration::try_from_secs_f64(now.duration_since(began).as_secs_f64() * rest).unwrap_or(Duration::MAX);
-        let is_news = left > LONG && !self.is_announced;
-        self.is_announced |= is_news;
-        (Some(left), is_news)
-    }
+    /// Time of the last plain line, from the beginning of the work.
+    line: Option<Duration>,
 }
 
 /// Formats a duration with about two digits.

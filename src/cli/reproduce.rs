@@ -1,6 +1,5 @@
 //! `crossbar reproduce`: the papers' tables and figures, compared with ours.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::LazyLock;
@@ -31,15 +30,9 @@ Examples:
 
 Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json and a drawing
 NAME.svg per chart.
-Each printed figure has one row, with a bound and the date on which it was stated, and a verdict:
-predicted (measured on our side, within a bound in numbers), order only, consistency of print
-(nothing is measured), by construction (no value that can come out is outside the bound),
-calibrated (within its bound, but no evidence), explained (a sweep of the same run over something
-that the paper leaves open reaches the value), missed, contradictory (the paper contradicts itself,
-and ours agrees with one of its values), or too vague to judge. All bounds were restated on
-2026-11-26: after the first results of most rows, before the recorded runs.
-Entries that take minutes to hours are recorded runs, which the program contains; --full-size
-computes them anew and compares them with the record. The source of each row says which.
+Each printed figure has one row, with a bound and the date on which it was stated, and a verdict, which the page
+explains. Entries that take minutes to hours are recorded runs, which the program contains; --full-size computes them
+anew and compares them with the record. The source of each row says which.
 An interrupted run leaves no incomplete files; the next run starts from the beginning, or from the
 entries that are named. --record continues: an existing file stays, and so do the finished pieces
 of all-frequency-table-1 and all-frequency-figures, which take hours, in FOLDER/ID.pieces.
@@ -98,9 +91,9 @@ fn list(out: &mut Out) -> miette::Result<Verdict> {
         table.push([entry.id.into(), entry.title.into()]);
     }
     if out.json() {
-        out.document(&table.json())?;
+        out.document(&table.json())?
     } else {
-        out.table(&table)?;
+        out.table(&table)?
     }
     Ok(Verdict::Done)
 }
@@ -164,20 +157,13 @@ fn clock() -> SpentTime {
 }
 
 /// Processor time of all threads so far, in seconds; `None` if the system does not report it.
-fn processor_time() -> Option<f64> {
-    let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // After the name, which may contain blanks: state, ten numbers, then clock ticks in the program and in the system.
-    let (_, rest) = stat.rsplit_once(')')?;
-    let ticks = |at: usize| rest.split_whitespace().nth(at)?.parse::<u64>().ok();
-    Some((ticks(11)? + ticks(12)?) as f64 / ticks_per_second() as f64)
-}
-
 #[cfg(unix)]
-fn ticks_per_second() -> u64 {
-    rustix::param::clock_ticks_per_second()
+fn processor_time() -> Option<f64> {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Some(time.tv_sec as f64 + time.tv_nsec as f64 / 1e9)
 }
 
 #[cfg(not(unix))]
-const fn ticks_per_second() -> u64 {
-    1
+const fn processor_time() -> Option<f64> {
+    None
 }

@@ -43,17 +43,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 
 /// All scenes, one per line.
 fn all(out: &mut Out) -> miette::Result<Verdict> {
-    let scenes = || built::names().filter_map(|name| Some((name, built::description(name)?, built::build(name)?)));
-    if out.json() {
-        let rows: Vec<Value> = scenes().map(|(name, what, scene)| summary(name, what, &scene)).collect();
-        out.document(&rows)?;
-        return Ok(Verdict::Done);
-    }
     let mut table = Table::new("Scenes", &["scene", "triangles", "views", "what"]);
-    for (name, what, scene) in scenes() {
+    for name in built::names() {
+        let (Some(what), Some(scene)) = (built::description(name), built::build(name)) else { continue };
         table.push([name.into(), scene.mesh().len().into(), views(&scene).into(), what.into()]);
     }
-    out.table(&table)?;
+    if out.json() {
+        out.document(&table.json())?
+    } else {
+        out.table(&table)?
+    }
     Ok(Verdict::Done)
 }
 

@@ -132,7 +132,7 @@ fn many_lines_keep_their_order() {
 fn json_lines() {
     assert_eq!(
         results("add --format fp16 --json --flags", "3C00 3C00\n7BFF 7BFF"),
-        [r#"{"result":"4000","flags":"00"}"#, r#"{"result":"7C00","flags":"05"}"#]
+        [r#"{"flags":"00","result":"4000"}"#, r#"{"flags":"05","result":"7C00"}"#]
     );
 }
 

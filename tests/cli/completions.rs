@@ -3,15 +3,15 @@
 use std::process::Command;
 
 use crate::crossbar;
-use crate::help::COMMANDS;
+use crate::help;
 
 #[test]
 fn scripts_for_five_shells_name_every_command() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let ran = crossbar(&["completions", shell], "");
         assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{shell}");
-        for command in COMMANDS.split(' ').chain(["--rays-per-edge"]) {
-            assert!(ran.stdout.contains(command.trim_start_matches('-')), "{shell}: {command}");
+        for word in help::commands().into_iter().chain(["rays-per-edge".to_owned()]) {
+            assert!(ran.stdout.contains(&word), "{shell}: {word}");
         }
         let json = crossbar(&["completions", shell, "--json"], "").stdout;
         let json: serde_json::Value = serde_json::from_str(&json).expect("one JSON document");

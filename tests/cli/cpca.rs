@@ -152,6 +152,7 @@ fn light_comes_from_a_place_in_a_scene() {
         ("scene:cornell", "expected constant"),
         ("scene:cornell@0,0", "X,Y,Z"),
         ("scene:cornell-box@9,9,9", "expected a place"),
+        ("scene:cornell-box@1e9,0,0", "expected a place of light within 2^24 of the origin"),
     ] {
         let said = refused(&["cpca", "render", transfer, "--model", model, "--light", light]);
         assert!(said.contains(words), "{light}: {said}");

@@ -68,20 +68,6 @@ fn a_model_with_y_up_stands_up() {
     }
 }
 
-/// Every command reports faces that are not planar.
-#[test]
-fn faces_with_a_fault_are_said() {
-    let folder = folder();
-    let bent = "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nf 1 2 3 4\nf 2 3 4 1\n";
-    fs::write(folder.path().join("bent.obj"), bent).expect("written");
-    let said = "2 faces not flat: cut as seen along an axis near the normal; first: bent.obj:5\n";
-    for line in ["intersect --mesh bent.obj --rays r.csv --out h.csv", "atlas bent.obj --side 16"] {
-        let ran = run(folder.path(), line);
-        assert_eq!(ran.code, Some(0), "{line}: {}", ran.transcript());
-        assert!(ran.stderr.contains(&format!("warning: bent.obj: {said}")), "{line}: {}", ran.stderr);
-    }
-}
-
 /// The distance is 2^33 / 2^-100 = 2^133.
 #[test]
 fn a_hit_beyond_f32_has_its_distance() {

@@ -1,7 +1,5 @@
 //! Tests that the page of `crossbar page` is self-contained. `tests/page` opens it in Chromium.
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
 
 use crate::crossbar_in;
@@ -40,61 +38,6 @@ fn the_page_stands_alone() {
         })
         .collect();
     assert!(digests[0] != digests[1] && digests[1] != digests[2]);
-}
-
-/// The page's traces equal `run --trace` on its cases.
-#[test]
-fn stored_traces_are_those_of_the_cases() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let ran = crossbar_in(folder.path(), &["page", "--out", "page"], "");
-    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-    let page = std::fs::read_to_string(folder.path().join("page/index.html")).expect("the page");
-    let data = page.split_once("type=\"application/json\">").and_then(|(_, rest)| rest.split_once("</script>"));
-    let data: Value = serde_json::from_str(data.expect("data").0).expect("JSON");
-    let programs = data["programs"]["programs"].as_array().expect("programs");
-    assert_eq!(programs.len(), 5);
-    let variants = |program: &'_ Value| program["variants"].as_array().cloned().expect("variants");
-    for (program, variant) in
-        programs.iter().flat_map(|program| variants(program).into_iter().map(move |v| (program, v)))
-    {
-        let format = variant["named"].as_str().map_or_else(String::new, |format| format!("format = \"{format}\"\n"));
-        let [head, rest] = [0, 1].map(|part| program["case"][part].as_str().expect("text"));
-        std::fs::write(folder.path().join("case.toml"), format!("{head}{format}{rest}")).expect("a file");
-        let ran = crossbar_in(folder.path(), &["run", "case.toml", "--trace", "9,6", "--json"], "");
-        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-        let told: Value = serde_json::from_str(&ran.stdout).expect("JSON");
-        let pass = &told["trace"]["passes"][0];
-        let inputs = pass["inputs"].as_array().expect("inputs").iter();
-        let steps = pass["steps"].as_array().expect("steps").iter();
-        let written = inputs.chain(steps.flat_map(|step| step["written"].as_array().expect("values")));
-        let expected: Vec<[&str; 2]> =
-            written.map(|w| ["name", "bits"].map(|key| w[key].as_str().expect("text"))).collect();
-        let stored = stored(&variant, 6 * 16 + 9);
-        let stored: Vec<[&str; 2]> = stored.iter().map(|pair| pair.each_ref().map(String::as_str)).collect();
-        assert_eq!(stored, expected, "{} {}", variant["device"], variant["format"]);
-    }
-}
-
-/// Names and bits that the page stores for a pixel.
-fn stored(variant: &Value, pixel: usize) -> Vec<[String; 2]> {
-    let bytes = STANDARD.decode(variant["values"].as_str().expect("values")).expect("base64");
-    let mut bytes = bytes.into_iter();
-    let mut all = Vec::new();
-    for at in 0..=pixel {
-        for entry in variant["entries"].as_array().expect("entries") {
-            let width = variant["formats"][entry["format"].as_u64().expect("a number") as usize]["width"].as_u64();
-            let width = width.expect("a width") as usize;
-            for name in entry["names"].as_array().expect("names") {
-                let pattern =
-                    bytes.by_ref().take(width.div_ceil(8)).zip(0..).map(|(byte, k)| u32::from(byte) << (8 * k));
-                let bits = format!("0x{:0digits$x}", pattern.sum::<u32>(), digits = width.div_ceil(4));
-                if at == pixel {
-                    all.push([name.as_str().expect("a name").to_owned(), bits]);
-                }
-            }
-        }
-    }
-    all
 }
 
 #[test]

@@ -3,75 +3,38 @@
 use refsim::device::SumRules;
 use refsim::num::{Format, NumberOperation as Op, Unit};
 
-use super::operation::{AluOperation, VectorOperation};
+use super::operation::AluOperation;
 use crate::cli::{Problem, switch};
 
-/// A programmable stage, for `--stage`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum AluStage {
-    Vertex,
-    Pixel,
-}
+/// A state that a card's unit can be in, for `--state`: the unit in each of its states, and the unit in this one.
+pub(super) type State = ([Unit; 2], Unit);
 
-/// A state that a card's unit can be in, for `--state`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
-    Legacy,
-    Modern,
-    ZeroWins,
-    Ieee,
-}
+/// A number format, and a device's rules of products and sums; without them, those of the format.
+pub(super) type AluArithmetic = (Format, Option<SumRules>);
 
-impl State {
-    /// The unit in this state, and its name; `None` if the unit has no such state.
-    const fn of(self, unit: Unit) -> Option<Unit> {
-        match (unit, self) {
-            (Unit::Nv3x | Unit::Nv3xLegacy, Self::Legacy) => Some(Unit::Nv3xLegacy),
-            (Unit::Nv3x | Unit::Nv3xLegacy, Self::Modern) => Some(Unit::Nv3x),
-            (Unit::Gt200 | Unit::Gt200ZeroWins, Self::ZeroWins) => Some(Unit::Gt200ZeroWins),
-            (Unit::Gt200 | Unit::Gt200ZeroWins, Self::Ieee) => Some(Unit::Gt200),
-            _ => None,
+/// The arithmetic of a device's stage: by default the stage with a measured unit, otherwise the pixel stage.
+pub(super) fn arithmetic(name: &str, is_vertex: Option<bool>, state: Option<State>) -> miette::Result<AluArithmetic> {
+    let rules = switch::device(name, &[])?.rules;
+    let is_measured = |format: Format| format.unit.is_card();
+    let is_vertex = is_vertex.unwrap_or(is_measured(rules.vertex_format) && !is_measured(rules.format));
+    let mut format = if is_vertex { rules.vertex_format } else { rules.format };
+    if let Some((units, unit)) = state {
+        if !units.contains(&format.unit) {
+            return Err(no_state(name, is_vertex).into());
         }
+        format.unit = unit;
     }
+    // Measured units have their own rules, in every state.
+    let sums = match is_vertex {
+        _ if is_measured(format) => SumRules::plain(format),
+        true => rules.vertex_sums(),
+        false => rules.sums_in(format),
+    };
+    Ok((format, Some(sums)))
 }
 
-/// The arithmetic of one stage.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct AluArithmetic {
-    pub(super) format: Format,
-    /// Rules of products and sums: the device's, otherwise the format's.
-    pub(super) sums: Option<SumRules>,
-}
-
-impl AluArithmetic {
-    pub(super) fn of_format(format: Format) -> Self {
-        Self { format, sums: None }
-    }
-
-    /// The arithmetic of a device's stage: by default the stage with a measured unit, otherwise the pixel stage.
-    pub(super) fn of_device(name: &str, stage: Option<AluStage>, state: Option<State>) -> miette::Result<Self> {
-        let rules = switch::device(name, &[])?.rules;
-        let measured = |format: Format| format.unit.is_card();
-        let stage = stage.unwrap_or(match (measured(rules.vertex_format), measured(rules.format)) {
-            (true, false) => AluStage::Vertex,
-            _ => AluStage::Pixel,
-        });
-        let mut format = if stage == AluStage::Vertex { rules.vertex_format } else { rules.format };
-        if let Some(state) = state {
-            format.unit = state.of(format.unit).ok_or_else(|| no_state(name, stage))?;
-        }
-        // Measured units have their own rules, in every state.
-        let sums = match stage {
-            _ if format.unit.is_card() => SumRules::plain(format),
-            AluStage::Vertex => rules.vertex_sums(),
-            AluStage::Pixel => rules.sums_in(format),
-        };
-        Ok(Self { format, sums: Some(sums) })
-    }
-}
-
-fn no_state(name: &str, stage: AluStage) -> Problem {
-    let stage = if stage == AluStage::Vertex { "vertex" } else { "pixel" };
+fn no_state(name: &str, is_vertex: bool) -> Problem {
+    let stage = if is_vertex { "vertex" } else { "pixel" };
     Problem::usage(
         format!("the {stage} arithmetic of `{name}` has no such state"),
         "leave `--state` out, or use `legacy` or `modern` for vertices of nv30 and nv35, `zero-wins` or `ieee` for gt200",
@@ -115,11 +78,9 @@ pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<
     let vertex = matches!(format.unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x);
     let theirs = matches!(
         operation,
-        AluOperation::Table(Op::Sign)
-            | AluOperation::Rcc
-            | AluOperation::Vector(VectorOperation::Expp | VectorOperation::Logp | VectorOperation::Lit)
+        AluOperation::Table(Op::Sign) | AluOperation::Rcc | AluOperation::Expp | AluOperation::Logp | AluOperation::Lit
     );
-    let card = format.unit.is_card() && matches!(operation, AluOperation::Vector(VectorOperation::Dst));
+    let card = format.unit.is_card() && operation == AluOperation::Dst;
     if !vertex && (theirs || card) {
         return Err(Problem::usage(
             format!("`{}` is an instruction of the vertex units of nv20 to nv35; {format} has none", operation.name()),

@@ -1,10 +1,12 @@
-//! TestFloat's line format.
+//! Lines: operands, and with `--verify` the expected result and flags, as TestFloat writes them.
 
-use super::operation::AluUnit;
+use std::ops::RangeInclusive;
+
+use refsim::num::{Flags, Outcome};
+use serde_json::json;
+
+use super::operation::{AluOperation, AluUnit};
 use crate::error::{InputError, ensure, input_error};
-
-/// Maximum number of fields of a valid line: three operands, a result and flags.
-const MAX_FIELDS: usize = 5;
 
 /// Error for a line (counted from 1) with a wrong number of fields.
 pub(super) fn other_fields(line: u64, expected: &str, found: usize) -> InputError {
@@ -14,130 +16,118 @@ pub(super) fn other_fields(line: u64, expected: &str, found: usize) -> InputErro
 }
 
 /// The fields of a line, separated by blanks or commas.
-pub(super) fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|byte| byte.is_ascii_whitespace() || *byte == b',').filter(|field| !field.is_empty())
 }
 
-/// Parser of the fields of a line.
+/// What is asked of every line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LineFormat {
-    operands: usize,
-    operand_width: u32,
-    result_width: u32,
-    /// Minimum and maximum number of fields after the operands.
-    after: (usize, usize),
+pub(super) struct Asked {
+    pub(super) verify: bool,
+    pub(super) flags: bool,
+    pub(super) json: bool,
 }
 
-/// A line that was read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct AluLine {
-    /// The operands; unused ones are 0.
-    pub(super) operands: [u32; 3],
-    /// The expected result, if the format has one.
-    pub(super) result: u32,
-    /// The expected flags, if the line has them.
-    pub(super) flags: Option<u8>,
+/// The result of a line.
+pub(super) enum Answer {
+    /// The line has what `--verify` expects.
+    Passed,
+    /// The result, or the sentence about a mismatch; a JSON object with `--json`.
+    Text(String),
 }
 
-impl LineFormat {
-    /// Operands only.
-    pub(super) const fn compute(unit: &AluUnit) -> Self {
-        Self {
-            operands: unit.op.operands(),
-            operand_width: unit.operand_width(),
-            result_width: unit.result_width(),
-            after: (0, 0),
-        }
-    }
-
-    /// Operands, result and flags; without `flags`, the flags may be missing.
-    pub(super) const fn verify(unit: &AluUnit, flags: bool) -> Self {
-        let mut format = Self::compute(unit);
-        format.after = if flags { (2, 2) } else { (1, 2) };
-        format
-    }
-
-    /// Reads line `number` (from 1); `None` if it is blank.
-    pub(super) fn read(&self, text: &[u8], number: u64) -> Result<Option<AluLine>, InputError> {
-        let mut found = [&text[..0]; MAX_FIELDS];
-        let mut count = 0;
-        for field in fields(text) {
-            if let Some(place) = found.get_mut(count) {
-                *place = field;
-            }
-            count += 1;
-        }
+impl AluUnit {
+    /// Computes line `number` (from 1), or compares it with the result that it expects; `None` if it is blank.
+    pub(super) fn answer(&self, text: &[u8], number: u64, asked: Asked) -> Result<Option<Answer>, InputError> {
+        let fields: Vec<&[u8]> = fields(text).collect();
+        let (words, expected) = self.op.words();
+        let (after, and): (RangeInclusive<usize>, &str) = match (asked.verify, asked.flags) {
+            (false, _) => (0..=0, ""),
+            (true, true) => (2..=2, ", result and flags"),
+            (true, false) => (1..=2, ", result and optionally flags"),
+        };
+        let count = fields.len();
         if count == 0 {
             return Ok(None);
         }
-        let (least, most) = (self.operands + self.after.0, self.operands + self.after.1);
-        if count < least || count > most {
-            return Err(other_fields(number, &self.expectation(), count));
+        let is_odd = self.op == AluOperation::Dot && count % 2 == 1;
+        if is_odd || !(words.start() + after.start()..=words.end() + after.end()).contains(&count) {
+            return Err(other_fields(number, &format!("{expected}{and}"), count));
         }
-        let mut line = AluLine { operands: [0; 3], result: 0, flags: None };
-        for (operand, field) in line.operands.iter_mut().zip(&found[..self.operands]) {
-            *operand = hex(field, self.operand_width, number)?;
+        let (operands, after) = fields.split_at(if asked.verify { *words.end() } else { count });
+        let operand = |(at, field): (usize, &&[u8])| hex(field, self.operand_width(at), number);
+        let operands: Vec<u32> = operands.iter().enumerate().map(operand).collect::<Result<_, _>>()?;
+        let wanted = after.first().map(|field| hex(field, self.result_width(0), number)).transpose()?;
+        let wanted_flags = after.get(1).map(|field| hex(field, 8, number)).transpose()?;
+        let outcomes = self.evaluate(&operands, number - 1);
+        let flags = outcomes.iter().fold(Flags::empty(), |flags, outcome| flags | outcome.flags);
+        let flags = u32::from(flags.bits());
+        if let Some(wanted) = wanted {
+            let bits = outcomes[0].bits;
+            let is_same = bits == wanted || (self.is_nan(bits) && self.is_nan(wanted));
+            if is_same && (!asked.flags || wanted_flags == Some(flags)) {
+                return Ok(Some(Answer::Passed));
+            }
+            let sides = [(wanted, wanted_flags.unwrap_or_default()), (bits, flags)];
+            return Ok(Some(Answer::Text(self.mismatch(&operands, sides, number, asked))));
         }
-        if count > self.operands {
-            line.result = hex(found[self.operands], self.result_width, number)?;
+        let digit = |(at, outcome): (usize, &Outcome)| digits(outcome.bits, self.result_width(at));
+        let mut found: Vec<String> = outcomes.iter().enumerate().map(digit).collect();
+        let flags = asked.flags.then(|| digits(flags, 8));
+        if !asked.json {
+            found.extend(flags);
+            return Ok(Some(Answer::Text(found.join(" "))));
         }
-        if count > self.operands + 1 {
-            // Eight bits fit a byte.
-            line.flags = Some(hex(found[self.operands + 1], 8, number)? as u8);
+        let mut record = match (self.op, &found[..]) {
+            (AluOperation::Quantize, [scale, elements @ ..]) => json!({ "scale": scale, "elements": elements }),
+            (op, results) if op.takes_many() => json!({ "results": results }),
+            (_, results) => json!({ "result": results[0] }),
+        };
+        if let Some(flags) = flags {
+            record["flags"] = flags.into();
         }
-        Ok(Some(line))
+        Ok(Some(Answer::Text(record.to_string())))
     }
 
-    fn expectation(&self) -> String {
-        let operands = match self.operands {
-            1 => "1 operand".to_owned(),
-            n => format!("{n} operands"),
-        };
-        match self.after {
-            (0, _) => operands,
-            (2, _) => format!("{operands}, result and flags"),
-            _ => format!("{operands}, result and optionally flags"),
+    /// The mismatch of a line; each side is a result and its flags.
+    fn mismatch(&self, operands: &[u32], sides: [(u32, u32); 2], number: u64, asked: Asked) -> String {
+        let operands: Vec<String> = operands.iter().map(|&bits| digits(bits, self.operand_width(0))).collect();
+        let [[expected, expected_flags], [found, found_flags]] =
+            sides.map(|(bits, flags)| [digits(bits, self.result_width(0)), digits(flags, 8)]);
+        if asked.json {
+            let mut record = json!({ "line": number, "operands": operands, "expected": expected, "found": found });
+            if asked.flags {
+                record["expected_flags"] = expected_flags.into();
+                record["found_flags"] = found_flags.into();
+            }
+            return record.to_string();
         }
+        let [expected_flags, found_flags] =
+            [expected_flags, found_flags].map(|flags| if asked.flags { format!(" {flags}") } else { String::new() });
+        let (name, operands) = (self.op.name(), operands.join(" "));
+        format!("line {number}: {name} {operands}: expected {expected}{expected_flags}, found {found}{found_flags}")
     }
 }
 
 /// Parses hexadecimal digits. Fails if the number has more than `width` bits.
-pub(super) fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError> {
-    let found = || String::from_utf8_lossy(field).chars().take(40).collect::<String>();
-    let mut value = 0_u64;
-    for &byte in field {
-        let digit = match byte {
-            b'0'..=b'9' => byte - b'0',
-            b'A'..=b'F' => byte - b'A' + 10,
-            b'a'..=b'f' => byte - b'a' + 10,
-            _ => {
-                return Err(input_error!(
-                    "crossbar::alu::hex" => "line {line}: expected hexadecimal digits, found `{}`", found();
-                    help "write bit patterns as TestFloat does, without `0x`: `3C00` for example"
-                ));
-            }
-        };
-        // Clamped to at most 2^32, so that any number of digits is safe.
-        value = (value << 4 | u64::from(digit)).min(1 << 32);
-    }
-    let digits = width.div_ceil(4);
+fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError> {
+    let text = String::from_utf8_lossy(field);
+    let found = || text.chars().take(40).collect::<String>();
     ensure!(
-        field.len() <= digits as usize && value >> width == 0, "crossbar::alu::width" =>
-        "line {line}: expected at most {digits} hexadecimal digits ({width} bits), found `{}`", found();
-        help "check that `--format` is the format of the lines"
+        field.iter().all(u8::is_ascii_hexdigit), "crossbar::alu::hex" =>
+        "line {line}: expected hexadecimal digits, found `{}`", found();
+        help "write bit patterns as TestFloat does, without `0x`: `3C00` for example"
     );
-    // At most 32 bits, as checked above.
-    Ok(value as u32)
+    let digits = width.div_ceil(4);
+    let value = u32::from_str_radix(&text, 16).ok().filter(|value| u64::from(*value) >> width == 0);
+    value.filter(|_| field.len() <= digits as usize).ok_or_else(|| {
+        input_error!("crossbar::alu::width" =>
+            "line {line}: expected at most {digits} hexadecimal digits ({width} bits), found `{}`", found();
+            help "check that `--format` is the format of the lines")
+    })
 }
 
 /// `value` in as many digits as `width` bits need.
-pub(super) fn digits(value: u32, width: u32) -> String {
+fn digits(value: u32, width: u32) -> String {
     format!("{value:0places$X}", places = width.div_ceil(4) as usize)
-}
-
-/// Appends [`digits`], without a string.
-pub(super) fn push_hex(text: &mut Vec<u8>, value: u32, width: u32) {
-    for place in (0..width.div_ceil(4)).rev() {
-        text.push(b"0123456789ABCDEF"[(value >> (4 * place) & 15) as usize]);
-    }
 }

@@ -1,12 +1,9 @@
 //! Dot products in matrix units: `alu dot --unit`.
 
-use std::io::{Read, Write as _};
-
 use refsim::num::matrix::{Element, MatrixUnit, Operand};
+use serde_json::json;
 
-use super::line::other_fields;
-use super::stream::{TaskOutput, verified, written};
-use crate::cli::{Out, Verdict};
+use super::line::{Answer, Asked, other_fields};
 use crate::error::{InputError, ensure, input_error};
 
 fn shortened(cell: &str) -> String {
@@ -83,36 +80,18 @@ fn compute<'a>(
     Ok(Some((unit.dot(a, b, c[0]), last)))
 }
 
-/// Writes the word of every line, or compares it with the line's expected result; `nan` matches any NaN.
-pub(super) fn run(unit: &MatrixUnit, verify: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
-    let json = out.json();
-    let digits = unit.result.element.digits();
-    let work = |part: &mut TaskOutput, text: &[u8], number: u64| {
-        let text = String::from_utf8_lossy(text);
-        let Some((word, expected)) = compute(unit, &text, number, verify)? else { return Ok(()) };
-        let found = format!("{word:0digits$x}");
-        let is_nan = expected.eq_ignore_ascii_case("nan") && unit.result.element.number(word).is_nan();
-        let name = unit.name;
-        // Writing to memory cannot fail.
-        match (verify, json) {
-            (false, false) => writeln!(part.text, "{found}").ok(),
-            (false, true) => writeln!(part.text, "{{\"result\":\"{found}\"}}").ok(),
-            _ if is_nan || expected.eq_ignore_ascii_case(&found) => {
-                part.passed += 1;
-                None
-            }
-            (true, is_json) => {
-                part.failed += 1;
-                let record = serde_json::json!({ "line": number, "expected": expected, "found": found });
-                let sentence = format!("line {number}: {name}: expected {expected}, found {found}");
-                if is_json { write!(part.text, ",{record}").ok() } else { writeln!(part.text, "{sentence}").ok() }
-            }
-        };
-        Ok(())
-    };
-    if verify {
-        return verified(input, out, work);
-    }
-    written(input, out, work)?;
-    Ok(Verdict::Done)
+/// Returns the word of line `number`, or compares it with the line's expected result; `nan` matches any NaN.
+pub(super) fn answer(unit: &MatrixUnit, text: &[u8], number: u64, asked: Asked) -> Result<Option<Answer>, InputError> {
+    let Asked { verify, json, .. } = asked;
+    let text = String::from_utf8_lossy(text);
+    let Some((word, expected)) = compute(unit, &text, number, verify)? else { return Ok(None) };
+    let found = format!("{word:0digits$x}", digits = unit.result.element.digits());
+    let is_nan = expected.eq_ignore_ascii_case("nan") && unit.result.element.number(word).is_nan();
+    Ok(Some(match (verify, json) {
+        (true, _) if is_nan || expected.eq_ignore_ascii_case(&found) => Answer::Passed,
+        (false, false) => Answer::Text(found),
+        (false, true) => Answer::Text(json!({ "result": found }).to_string()),
+        (true, false) => Answer::Text(format!("line {number}: {}: expected {expected}, found {found}", unit.name)),
+        (true, true) => Answer::Text(json!({ "line": number, "expected": expected, "found": found }).to_string()),
+    }))
 }

@@ -4,19 +4,14 @@ mod device;
 mod line;
 mod matrix;
 mod operation;
-mod row;
 mod stream;
-mod vector;
 
-use std::io::{self, Read};
-
-use refsim::device::SumRules;
 use refsim::num::matrix::MatrixUnit;
-use refsim::num::{DotOrder, Format, Rounding, Tininess, block::BlockFormat};
+use refsim::num::{DotOrder, Format, Rounding, Tininess, Unit, block::BlockFormat};
 
-use self::device::{AluArithmetic, AluStage, State, refuse_foreign, refuse_lacking};
+use self::device::{AluArithmetic, State, refuse_foreign, refuse_lacking};
+use self::line::Asked;
 use self::operation::{AluOperation, AluUnit};
-use self::row::{RowOperation, RowUnit};
 use super::{Out, Problem, Verdict, given};
 use crate::options::one_of::{OneOf, one_of};
 
@@ -67,7 +62,7 @@ pub(super) struct Args {
 
     /// The stage of the device; by default the one with a measured unit, otherwise pixels
     #[arg(long, requires = "device", value_parser = stages())]
-    stage: Option<AluStage>,
+    stage: Option<bool>,
 
     /// The state of the device's unit; by default modern, or ieee
     #[arg(long, requires = "device", value_parser = states())]
@@ -122,18 +117,19 @@ fn summation(text: &str) -> Result<DotOrder, String> {
     DotOrder::named(text).ok_or_else(|| "expected sequential, tree, exact, or aligned:F with F from 0 to 28".to_owned())
 }
 
-/// Values of `--stage`.
-fn stages() -> OneOf<AluStage> {
-    one_of([("vertex", "vertex programs", AluStage::Vertex), ("pixel", "pixel programs", AluStage::Pixel)])
+/// Values of `--stage`: is it the vertex stage?
+fn stages() -> OneOf<bool> {
+    one_of([("vertex", "vertex programs", true), ("pixel", "pixel programs", false)])
 }
 
 /// Values of `--state`: the states of units.
 fn states() -> OneOf<State> {
+    let (nv3x, gt200) = ([Unit::Nv3x, Unit::Nv3xLegacy], [Unit::Gt200, Unit::Gt200ZeroWins]);
     one_of([
-        ("legacy", "nv30, nv35: as GL_NV_vertex_program", State::Legacy),
-        ("modern", "nv30, nv35: as GL_NV_vertex_program2", State::Modern),
-        ("zero-wins", "gt200: 0 times anything is 0", State::ZeroWins),
-        ("ieee", "gt200: 0 times infinity is NaN", State::Ieee),
+        ("legacy", "nv30, nv35: as GL_NV_vertex_program", (nv3x, Unit::Nv3xLegacy)),
+        ("modern", "nv30, nv35: as GL_NV_vertex_program2", (nv3x, Unit::Nv3x)),
+        ("zero-wins", "gt200: 0 times anything is 0", (gt200, Unit::Gt200ZeroWins)),
+        ("ieee", "gt200: 0 times infinity is NaN", (gt200, Unit::Gt200)),
     ])
 }
 
@@ -143,31 +139,29 @@ fn blocks() -> OneOf<BlockFormat> {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let asked = Asked { verify: args.verify, flags: args.flags, json: out.json() };
     if let Some(unit) = &args.unit {
         let others = [("--unit", args.op != AluOperation::Dot)];
         given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
         // The parser accepts these options with a unit, although it excludes --device.
         let of_device = [("--stage", args.stage.is_some()), ("--state", args.state.is_some())];
         given::refuse(of_device, "`--device`", "leave it out: a matrix unit has one rule")?;
-        return matrix::run(unit, args.verify, io::stdin().lock(), out);
+        return stream::run(asked, out, |text, number| matrix::answer(unit, text, number, asked));
     }
     let arithmetic = arithmetic(args)?;
-    refuse_others(args, &arithmetic.format)?;
-    if let Some(unit) = row_unit(args, arithmetic)? {
-        row::run(&unit, args.flags, io::stdin().lock(), out)?;
-        return Ok(Verdict::Done);
-    }
+    let seed =
+        [("--seed", args.seed.is_some() && !by_chance(&arithmetic.0) && !args.to.as_ref().is_some_and(by_chance))];
+    given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")?;
     let unit = unit(args, arithmetic)?;
-    let input = io::stdin().lock();
-    if args.verify { stream::verify(&unit, args.flags, input, out) } else { compute(&unit, args.flags, input, out) }
+    stream::run(asked, out, |text, number| unit.answer(text, number, asked))
 }
 
 /// The arithmetic of a format, or of a device's stage.
 fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
     let arithmetic = match (&args.device, args.format) {
         (Some(device), _) => {
-            let arithmetic = AluArithmetic::of_device(device, args.stage, args.state)?;
-            refuse_lacking(args.op, arithmetic.format)?;
+            let arithmetic = device::arithmetic(device, args.stage, args.state)?;
+            refuse_lacking(args.op, arithmetic.0)?;
             arithmetic
         }
         // The parser requires a format or a device, but accepts these options with a format.
@@ -178,9 +172,9 @@ fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
             )
             .into());
         }
-        (None, format) => AluArithmetic::of_format(format.unwrap_or(Format::FP32)),
+        (None, format) => (format.unwrap_or(Format::FP32), None),
     };
-    refuse_foreign(args.op, arithmetic.format)?;
+    refuse_foreign(args.op, arithmetic.0)?;
     Ok(arithmetic)
 }
 
@@ -189,92 +183,57 @@ fn by_chance(format: &Format) -> bool {
     matches!(format.rounding, Rounding::Stochastic(_))
 }
 
-/// Rejects options that do not fit the operation or the formats.
-fn refuse_others(args: &Args, format: &Format) -> Result<(), Problem> {
-    let needs_seed = by_chance(format) || args.to.as_ref().is_some_and(by_chance);
-    let seed = [("--seed", args.seed.is_some() && !needs_seed)];
-    given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")
-}
-
-fn compute(unit: &AluUnit, flags: bool, input: impl Read, out: &mut Out) -> miette::Result<Verdict> {
-    stream::compute(unit, flags, input, out)?;
-    Ok(Verdict::Done)
-}
-
-/// Checks that the options go together, and returns the unit of an operation that reads many numbers per line (`dot`,
-/// `quantize`, `dequantize`); `None` for other operations.
-fn row_unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<Option<RowUnit>, Problem> {
-    if args.op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
-        return Err(Problem::usage(
-            "`--accumulator` and `--summation` are for `dot` only",
-            "leave them out: every other operation is rounded once, in its format",
-        ));
+/// Checks that the options go together, and returns the unit that they describe.
+fn unit(args: &Args, (format, sums): AluArithmetic) -> Result<AluUnit, Problem> {
+    let usage = |what: &str, help: &str| Err(Problem::usage(what, help));
+    let op = args.op;
+    let accumulator = args.accumulator.unwrap_or(format);
+    let is_block = matches!(op, AluOperation::Quantize | AluOperation::Dequantize);
+    if op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
+        let help = "leave them out: every other operation is rounded once, in its format";
+        return usage("`--accumulator` and `--summation` are for `dot` only", help);
     }
-    let operation = match (args.op, args.block) {
-        (AluOperation::Quantize, Some(block)) => RowOperation::Quantize(block),
-        (AluOperation::Dequantize, Some(block)) => RowOperation::Dequantize(block),
-        (AluOperation::Quantize | AluOperation::Dequantize, None) => {
-            return Err(Problem::usage("blocks need a block format", "add for example `--block mxfp4`"));
-        }
-        (_, Some(_)) => {
-            return Err(Problem::usage(
-                "`--block` is for `quantize` and `dequantize` only",
-                "leave `--block` out, or quantize first and compute with the elements",
-            ));
-        }
-        (AluOperation::Vector(operation), None) => {
-            RowOperation::Vector(operation, sums.unwrap_or(SumRules::plain(format)))
-        }
-        (AluOperation::Dot, None) => {
-            RowOperation::Dot(args.summation.unwrap_or(DotOrder::Sequential), args.accumulator.unwrap_or(format))
-        }
-        (_, None) => {
-            return Ok(None);
-        }
-    };
-    if args.verify || args.to.is_some() {
-        return Err(Problem::usage(
-            "operations on lines of many numbers support neither `--verify` nor `--to`",
-            "leave the option out; `--format` is the format of the plain numbers",
-        ));
+    if is_block && args.block.is_none() {
+        return usage("blocks need a block format", "add for example `--block mxfp4`");
     }
-    let formats = [format, args.accumulator.unwrap_or(format)];
-    if formats.iter().any(by_chance) {
-        return Err(Problem::usage(
+    if !is_block && args.block.is_some() {
+        let help = "leave `--block` out, or quantize first and compute with the elements";
+        return usage("`--block` is for `quantize` and `dequantize` only", help);
+    }
+    if op.takes_many() && (args.verify || args.to.is_some()) {
+        let help = "leave the option out; `--format` is the format of the plain numbers";
+        return usage("operations on lines of many numbers support neither `--verify` nor `--to`", help);
+    }
+    if op.takes_many() && (by_chance(&format) || by_chance(&accumulator)) {
+        let help = "use another rounding, or round each number on its own line";
+        return usage(
             "operations on lines of many numbers round more than once, and `:rst` has one word for a line",
-            "use another rounding, or round each number on its own line",
-        ));
+            help,
+        );
     }
-    if let RowOperation::Dot(DotOrder::Aligned(_), accumulator) = operation
-        && accumulator.is_fixed()
-    {
+    if matches!(args.summation, Some(DotOrder::Aligned(_))) && accumulator.is_fixed() {
         return Err(Problem::usage(
             format!("`--summation aligned` compares exponents: expected sums in a float format, found `{accumulator}`"),
             "leave it out: sums of fixed point are exact; or add a float `--accumulator`",
         ));
     }
-    Ok(Some(RowUnit { operation, env: format.tininess(Tininess::After) }))
-}
-
-/// Checks that the options go together, and returns the unit that they describe.
-fn unit(args: &Args, AluArithmetic { format, sums }: AluArithmetic) -> Result<AluUnit, Problem> {
-    let convert = args.op == AluOperation::Convert;
-    let to = match args.to {
-        Some(to) if convert => to,
-        None if !convert => format,
-        None => {
-            return Err(Problem::usage(
-                "`convert` needs a result format",
-                "add for example `--to fp16`; `--format` is the source format",
-            ));
+    match (op == AluOperation::Convert, args.to) {
+        (true, None) => {
+            let help = "add for example `--to fp16`; `--format` is the source format";
+            usage("`convert` needs a result format", help)
         }
-        Some(_) => {
-            return Err(Problem::usage(
-                "`--to` is for `convert` only: every other operation stays in its format",
-                "leave `--to` out, or convert the result in a second run",
-            ));
+        (false, Some(_)) => {
+            let help = "leave `--to` out, or convert the result in a second run";
+            usage("`--to` is for `convert` only: every other operation stays in its format", help)
         }
-    };
-    let seed = args.seed.unwrap_or_default();
-    Ok(AluUnit { op: args.op, env: format.tininess(Tininess::After), to, seed, sums })
+        (_, to) => Ok(AluUnit {
+            op,
+            env: format.tininess(Tininess::After),
+            to: to.unwrap_or(format),
+            seed: args.seed.unwrap_or_default(),
+            sums,
+            block: args.block,
+            dot: (args.summation.unwrap_or(DotOrder::Sequential), accumulator),
+        }),
+    }
 }

@@ -1,8 +1,11 @@
 //! The operations by name.
 
+use std::ops::RangeInclusive;
+
 use refsim::device::SumRules;
+use refsim::num::block::{BLOCK, BlockFormat};
 use refsim::num::unit::nv_functions;
-use refsim::num::{Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
+use refsim::num::{DotOrder, Env, Format, NumberOperation as Op, Outcome, Rounding, ops, random_word};
 
 use crate::options::one_of::{OneOf, one_of};
 
@@ -26,13 +29,7 @@ pub(super) enum AluOperation {
     Rcc,
     /// A comparison that gives one or zero; `true` swaps its operands.
     Set(Op, bool),
-    /// An instruction on vectors; a line holds their words.
-    Vector(VectorOperation),
-}
-
-/// An operation on vectors.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum VectorOperation {
+    // Instructions on vectors: a line holds the components of a, then those of b.
     Dp3,
     Dph,
     Dp4,
@@ -76,13 +73,13 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Log2), "lg2", "the logarithm to base 2"),
     (AluOperation::Table(Op::Sin), "sin", "sine, radians"),
     (AluOperation::Table(Op::Cos), "cos", "cosine, radians"),
-    (AluOperation::Vector(VectorOperation::Dp3), "dp3", "a.x b.x + a.y b.y + a.z b.z: a, then b, 6 words"),
-    (AluOperation::Vector(VectorOperation::Dph), "dph", "dp3 + b.w: a, then b, 8 words"),
-    (AluOperation::Vector(VectorOperation::Dp4), "dp4", "the sum of four products: a, then b, 8 words"),
-    (AluOperation::Vector(VectorOperation::Dst), "dst", "(1, a.y b.y, a.z, b.w): a, then b, 8 words"),
-    (AluOperation::Vector(VectorOperation::Expp), "expp", "EXP of one word: 4 components (vertex units)"),
-    (AluOperation::Vector(VectorOperation::Logp), "logp", "LOG of one word: 4 components (vertex units)"),
-    (AluOperation::Vector(VectorOperation::Lit), "lit", "lighting of x, y, w: 4 components (vertex units)"),
+    (AluOperation::Dp3, "dp3", "a.x b.x + a.y b.y + a.z b.z: a, then b, 6 words"),
+    (AluOperation::Dph, "dph", "dp3 + b.w: a, then b, 8 words"),
+    (AluOperation::Dp4, "dp4", "the sum of four products: a, then b, 8 words"),
+    (AluOperation::Dst, "dst", "(1, a.y b.y, a.z, b.w): a, then b, 8 words"),
+    (AluOperation::Expp, "expp", "EXP of one word: 4 components (vertex units)"),
+    (AluOperation::Logp, "logp", "LOG of one word: 4 components (vertex units)"),
+    (AluOperation::Lit, "lit", "lighting of x, y, w: 4 components (vertex units)"),
     (AluOperation::Dot, "dot", "a b + c d + ... of 1 to 32 pairs, in the format of --accumulator"),
     (AluOperation::Quantize, "quantize", "1 to 32 numbers to a block of --block: scale, then elements"),
     (AluOperation::Dequantize, "dequantize", "a block of --block (scale, then elements) to numbers"),
@@ -99,16 +96,34 @@ impl AluOperation {
         NAMED.iter().find(|(operation, ..)| *operation == self).map_or("", |&(_, name, _)| name)
     }
 
-    /// Number of operands, 1 to 3; 0 for operations on lines of any length ([`super::row`]).
-    pub(super) const fn operands(self) -> usize {
-        match self {
+    /// Number of words in a line of blocks, sums or vectors, and its description for errors; `None` for other operations.
+    fn many(self) -> Option<(RangeInclusive<usize>, &'static str)> {
+        Some(match self {
+            Self::Quantize => (1..=BLOCK, "1 to 32 numbers"),
+            Self::Dequantize => (2..=BLOCK + 1, "a scale and 1 to 32 elements"),
+            Self::Dot => (2..=2 * BLOCK, "1 to 32 pairs of numbers"),
+            Self::Dp3 => (6..=6, "6 numbers (a.x a.y a.z b.x b.y b.z)"),
+            Self::Dph | Self::Dp4 | Self::Dst => (8..=8, "8 numbers (a.x to a.w, b.x to b.w)"),
+            Self::Expp | Self::Logp => (1..=1, "1 number"),
+            Self::Lit => (3..=3, "3 numbers (x, y, w)"),
+            _ => return None,
+        })
+    }
+
+    /// Returns `true` for blocks, sums and vectors, whose lines have many numbers.
+    pub(super) fn takes_many(self) -> bool {
+        self.many().is_some()
+    }
+
+    /// Number of words in a line, and its description for errors.
+    pub(super) fn words(self) -> (RangeInclusive<usize>, &'static str) {
+        let operands = match self {
             Self::Table(operation) => operation.operands(),
-            Self::RoundToInt | Self::Convert | Self::Mov | Self::Rcc => 1,
-            Self::Set(..) => 2,
             Self::Mad => 3,
-            // These operations read lines of many numbers: see `super::row`.
-            Self::Dot | Self::Quantize | Self::Dequantize | Self::Vector(_) => 0,
-        }
+            Self::Set(..) => 2,
+            _ => 1,
+        };
+        self.many().unwrap_or((operands..=operands, ["1 operand", "2 operands", "3 operands"][operands - 1]))
     }
 
     /// Returns `true` if the result is 0 or 1 rather than a number of the format.
@@ -121,7 +136,7 @@ impl AluOperation {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluUnit {
     pub(super) op: AluOperation,
-    /// The format of the operands.
+    /// The format of the operands; of blocks, that of the plain numbers.
     pub(super) env: Env,
     /// The format of the result: the operands' format, except for `convert`.
     pub(super) to: Format,
@@ -129,17 +144,27 @@ pub(super) struct AluUnit {
     pub(super) seed: u64,
     /// A device's rules of products and sums.
     pub(super) sums: Option<SumRules>,
+    /// The format of blocks; only these have one.
+    pub(super) block: Option<BlockFormat>,
+    /// The order of `dot`, and its accumulator.
+    pub(super) dot: (DotOrder, Format),
 }
 
 impl AluUnit {
-    /// Width of an operand in bits.
-    pub(super) const fn operand_width(&self) -> u32 {
-        self.env.format.width()
+    /// Format of the scale or the elements of a block; `None` for numbers of plain format.
+    fn block_format(&self, op: AluOperation, at: usize) -> Option<Format> {
+        self.block.filter(|_| self.op == op).map(|block| if at == 0 { Format::E8M0 } else { block.element() })
     }
 
-    /// Width of a result in bits.
-    pub(super) const fn result_width(&self) -> u32 {
-        if self.op.is_comparison() { 1 } else { self.to.width() }
+    /// Width of operand `at` in bits.
+    pub(super) fn operand_width(&self, at: usize) -> u32 {
+        self.block_format(AluOperation::Dequantize, at).unwrap_or(self.env.format).width()
+    }
+
+    /// Width of result `at` in bits.
+    pub(super) fn result_width(&self, at: usize) -> u32 {
+        let format = self.block_format(AluOperation::Quantize, at).unwrap_or(self.to);
+        if self.op.is_comparison() { 1 } else { format.width() }
     }
 
     /// Returns `true` if a result is a NaN.
@@ -147,33 +172,72 @@ impl AluUnit {
         !self.op.is_comparison() && self.to.is_nan(result)
     }
 
-    /// Returns the result for operands of the format's width; surplus operands are ignored. Stochastic rounding uses
-    /// the random word number `index`.
-    pub(super) fn evaluate(&self, operands: [u32; 3], index: u64) -> Outcome {
-        let (mut env, mut to, [a, b, c]) = (self.env, self.to, operands);
+    /// Returns the results of a line, of a block with its scale first. Stochastic rounding uses the random word number
+    /// `index`.
+    pub(super) fn evaluate(&self, words: &[u32], index: u64) -> Vec<Outcome> {
+        use AluOperation as Alu;
+        let (mut env, mut to) = (self.env, self.to);
         for format in [&mut env.format, &mut to] {
             if let Rounding::Stochastic(word) = &mut format.rounding {
                 *word = random_word(self.seed, index);
             }
         }
         let sums = self.sums.unwrap_or(SumRules::plain(env.format));
-        match self.op {
-            AluOperation::Table(Op::Add) => sums.add(env, a, b),
-            AluOperation::Table(Op::Mul) => sums.mul(env, a, b),
-            AluOperation::Mad => sums.mad(env, a, b, c),
-            AluOperation::Mov => ops::convert(&env.format, env, a),
-            AluOperation::Rcc => Outcome::exact(nv_functions::rcc(a)),
-            AluOperation::Set(operation, swapped) => set(env, operation, if swapped { [b, a] } else { [a, b] }),
-            AluOperation::Table(operation) => {
-                operation.evaluate(env, operands).expect("the table defines what the command names")
+        let [a, b, c] = [0, 1, 2].map(|at| words.get(at).copied().unwrap_or_default());
+        let one = Outcome::exact(env.format.one());
+        let table = |operation: Op| operation.evaluate(env, [a, b, c]).expect("the command refuses what a unit lacks");
+        vec![match self.op {
+            Alu::Table(Op::Add) => sums.add(env, a, b),
+            Alu::Table(Op::Mul) => sums.mul(env, a, b),
+            Alu::Mad => sums.mad(env, a, b, c),
+            Alu::Mov => ops::convert(&env.format, env, a),
+            Alu::Rcc => Outcome::exact(nv_functions::rcc(a)),
+            Alu::Set(operation, swapped) => set(env, operation, if swapped { [b, a] } else { [a, b] }),
+            Alu::Table(operation) => table(operation),
+            Alu::RoundToInt => ops::round_to_int(env, a),
+            Alu::Convert => ops::convert(&env.format, to.tininess(env.tininess), a),
+            Alu::Dot => {
+                let terms: Vec<(u32, u32)> = words.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
+                let (order, accumulator) = self.dot;
+                ops::dot_accumulated(env, accumulator.tininess(env.tininess), order, &terms)
             }
-            AluOperation::RoundToInt => ops::round_to_int(env, a),
-            AluOperation::Dot | AluOperation::Quantize | AluOperation::Dequantize | AluOperation::Vector(_) => {
-                unreachable!("`super::row` has the operations on lines of many numbers")
+            Alu::Dp3 | Alu::Dp4 => dot(env, sums, words),
+            Alu::Dph => homogeneous(env, sums, words),
+            Alu::Dst => return vec![one, sums.mul(env, b, words[5]), Outcome::exact(c), Outcome::exact(words[7])],
+            Alu::Lit => return vec![one, table(Op::LitDiffuse), table(Op::LitSpecular), one],
+            Alu::Expp => return vec![table(Op::ExpFloor), table(Op::ExpFraction), table(Op::ExpPower), one],
+            Alu::Logp => return vec![table(Op::LogExponent), table(Op::LogMantissa), table(Op::LogPower), one],
+            Alu::Quantize => {
+                let Some(made) = self.block.map(|block| block.quantize(&env.format, words)) else { return Vec::new() };
+                let elements = made.elements.into_iter().map(Outcome::exact);
+                return std::iter::once(Outcome::new(made.scale, made.flags)).chain(elements).collect();
             }
-            AluOperation::Convert => ops::convert(&env.format, to.tininess(env.tininess), a),
-        }
+            Alu::Dequantize => {
+                return self.block.map(|block| block.dequantize(env, a, &words[1..])).unwrap_or_default();
+            }
+        }]
     }
+}
+
+/// The dot product of the two halves of the words.
+fn dot(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
+    let (a, b) = words.split_at(words.len() / 2);
+    let terms: Vec<(u32, u32)> = a.iter().copied().zip(b.iter().copied()).collect();
+    sums.dot(env, env.format, &terms)
+}
+
+/// DPH: in a card's unit, with 1 as the fourth component of `a`; otherwise the dot product of three components, and a
+/// sum.
+fn homogeneous(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
+    let mut words = words.to_vec();
+    if env.format.unit.is_card() {
+        words[3] = env.format.one();
+        return dot(env, sums, &words);
+    }
+    let last = words.remove(7);
+    words.remove(3);
+    let three = dot(env, sums, &words);
+    sums.add(env, three.bits, last).also(three.flags)
 }
 
 /// A comparison as a number: computed by a card's unit if it has one, otherwise as a quiet comparison.

@@ -7,7 +7,7 @@ use miette::{Diagnostic, SourceSpan};
 use super::super::Out;
 use crate::{
     case::{ComparedSides, Comparison, First, Setup, pass_text},
-    compare::{Compared, Operand, SurfaceDifference, TraceDifference},
+    compare::{Compared, SurfaceDifference, TraceDifference},
     report::{Cell, SourceText, Table, visible::visible_line},
 };
 
@@ -31,18 +31,10 @@ fn ulps_cell(values: &Compared) -> Cell {
     values.ulps.map_or_else(|| "none".into(), Cell::from)
 }
 
-fn values_table(values: &[Compared]) -> Table {
-    let mut table = Table::new("Values", &["component", "left", "bits", "right", "bits ", "ulps", "of"]);
+/// Values on both sides; `named` is the heading of their names.
+fn values_table<'a>(named: &str, values: impl IntoIterator<Item = &'a Compared>) -> Table {
+    let mut table = Table::new("Values", &[named, "left", "bits", "right", "bits ", "ulps", "of"]);
     for v in values {
-        let text = [&v.name, &v.left, &v.left_bits, &v.right, &v.right_bits].map(|text| Cell::from(text.as_str()));
-        table.push(text.into_iter().chain([ulps_cell(v), v.unit.as_str().into()]));
-    }
-    table
-}
-
-fn operands_table(operands: &[Operand]) -> Table {
-    let mut table = Table::new("Operands", &["read", "left", "bits", "right", "bits ", "ulps", "of"]);
-    for v in operands.iter().flat_map(|operand| &operand.values) {
         let text = [&v.name, &v.left, &v.left_bits, &v.right, &v.right_bits].map(|text| Cell::from(text.as_str()));
         table.push(text.into_iter().chain([ulps_cell(v), v.unit.as_str().into()]));
     }
@@ -160,7 +152,7 @@ impl ShownComparison<'_> {
         }
         if !difference.values.is_empty() {
             out.line("")?;
-            out.table(&values_table(&difference.values))?;
+            out.table(&values_table("component", &difference.values))?;
         }
         if !difference.operands.is_empty() {
             let differs = difference.operands.iter().any(|operand| operand.differs);
@@ -170,7 +162,7 @@ impl ShownComparison<'_> {
             } else {
                 "its operands, the same on both sides (before swizzle and modifiers):"
             })?;
-            out.table(&operands_table(&difference.operands))?;
+            out.table(&values_table("read", difference.operands.iter().flat_map(|operand| &operand.values)))?;
         }
         Ok(())
     }

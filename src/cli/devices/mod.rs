@@ -1,16 +1,10 @@
 //! `crossbar devices`: the profiles, and the source of every figure.
 
-use refsim::device::{FigureRow, MeasuredCounts, Profile, Switch};
-use serde_json::{Value, json};
+use refsim::device::{FigureRow, Profile};
+use serde_json::json;
 
 #[cfg(feature = "wgpu")]
 mod adapters;
-#[cfg(not(feature = "wgpu"))]
-#[path = "no_adapters.rs"]
-mod adapters;
-
-#[cfg(not(feature = "wgpu"))]
-pub(super) use adapters::missing as no_adapters;
 
 use super::{Out, Verdict, study};
 use crate::case::device_named;
@@ -40,8 +34,10 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if args.adapters {
-        adapters::list(out)?;
-        return Ok(Verdict::Done);
+        #[cfg(feature = "wgpu")]
+        return adapters::list(out).map(|()| Verdict::Done);
+        #[cfg(not(feature = "wgpu"))]
+        return Err(no_adapters().into());
     }
     match &args.name {
         Some(name) => study::show(&one(&device_named(name)?), out),
@@ -49,24 +45,30 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
 }
 
+/// Error that names the missing feature.
+#[cfg(not(feature = "wgpu"))]
+pub(super) fn no_adapters() -> super::Problem {
+    super::Problem::usage(
+        "this build has no GPU support: the feature `wgpu` is off",
+        "build with `cargo build --release --features wgpu`",
+    )
+}
+
 /// The cards and their variants side by side.
 fn all(out: &mut Out) -> miette::Result<()> {
     let names = Profile::card_names().into_iter().chain(Profile::variant_names());
-    let profiles = names.map(Profile::named).collect::<Result<Vec<_>, _>>()?;
-    if out.json() {
-        let rows: Vec<Value> = profiles.iter().map(summary).collect();
-        return Ok(out.document(&rows)?);
-    }
     let mut table = Table::new(
         "Devices",
         &["device", "card", "programs", "pixel format", "temporaries", "constants", "samplers", "targets", "switches"],
     );
-    for profile in &profiles {
+    for name in names {
+        let profile = Profile::named(name)?;
         let limits = &profile.limits;
+        let versions: Vec<&str> = limits.versions.iter().map(|version| version.token()).collect();
         table.push([
             profile.name.as_str().into(),
             profile.title.as_str().into(),
-            versions(profile).into(),
+            versions.join(" ").into(),
             profile.rules.format.to_string().into(),
             limits.temporaries.into(),
             limits.constants.into(),
@@ -75,31 +77,14 @@ fn all(out: &mut Out) -> miette::Result<()> {
             profile.switches().len().into(),
         ]);
     }
+    if out.json() {
+        return Ok(out.document(&table.json())?);
+    }
     out.table(&table)?;
     out.line("")?;
     out.line("There is also ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:")?;
     out.line("no limits and no timing. `crossbar devices NAME` shows every figure of a device with its source.")?;
     Ok(())
-}
-
-fn versions(profile: &Profile) -> String {
-    let tokens: Vec<&str> = profile.limits.versions.iter().map(|version| version.token()).collect();
-    tokens.join(" ")
-}
-
-fn summary(profile: &Profile) -> Value {
-    let limits = &profile.limits;
-    json!({
-        "name": profile.name,
-        "title": profile.title,
-        "versions": limits.versions.iter().map(|version| version.token()).collect::<Vec<_>>(),
-        "format": profile.rules.format.to_string(),
-        "temporaries": limits.temporaries,
-        "constants": limits.constants,
-        "samplers": limits.samplers,
-        "render_targets": limits.render_targets,
-        "switches": profile.switches().len(),
-    })
 }
 
 /// Table of the formats of single instructions in a device file.
@@ -126,12 +111,7 @@ fn storages(profile: &Profile) -> FoundTable {
 /// All findings about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
-    found.fields(json!({
-        "name": profile.name,
-        "title": profile.title,
-        "figures": profile.figures().iter().map(figure_json).collect::<Vec<_>>(),
-        "switches": profile.switches().iter().map(switch_json).collect::<Vec<_>>(),
-    }));
+    found.fields(json!({ "name": profile.name, "title": profile.title }));
     found.introduce(format!("{}: {}", profile.name, profile.title));
     let mut figures = Table::new("Figures", &["figure", "value", "unit", "confidence", "source"]);
     for row in profile.figures() {
@@ -139,7 +119,7 @@ fn one(profile: &Profile) -> Findings {
         let value = row.value.parse::<u64>().map_or_else(|_| row.value.into(), Cell::Count);
         figures.push([row.key.into(), value, row.unit.into(), confidence.into(), row.source.into()]);
     }
-    found.table(figures);
+    found.table(FoundTable::from(figures).field("figures"));
     found.table(storages(profile).field("storages"));
     found.table(instructions(profile).field("instructions"));
     let title = "Switches: open questions of the hardware. Set one in a case file under [switches].";
@@ -155,7 +135,7 @@ fn one(profile: &Profile) -> Findings {
             switch.source.as_str().into(),
         ]);
     }
-    found.table(switches);
+    found.table(FoundTable::from(switches).field("switches"));
     found
 }
 
@@ -163,33 +143,4 @@ fn one(profile: &Profile) -> Findings {
 fn confidence(row: &FigureRow) -> String {
     let counts = row.counts.as_ref().map(|counts| format!(" ({counts})")).unwrap_or_default();
     format!("{}{counts}", row.confidence)
-}
-
-fn figure_json(row: &FigureRow) -> Value {
-    json!({
-        "key": row.key,
-        "value": row.value,
-        "unit": row.unit,
-        "source": row.source,
-        "confidence": row.confidence.to_string(),
-        "counts": row.counts.as_ref().map(counts_json),
-    })
-}
-
-fn counts_json(counts: &MeasuredCounts) -> Value {
-    let right: serde_json::Map<String, Value> =
-        counts.right.iter().map(|(name, right)| (name.clone(), json!(right))).collect();
-    json!({ "of": counts.of, "all": counts.all, "right": right })
-}
-
-fn switch_json(switch: &Switch) -> Value {
-    json!({
-        "name": switch.name,
-        "values": switch.values,
-        "current": switch.current,
-        "default": switch.default,
-        "meaning": switch.meaning,
-        "source": switch.source,
-        "confidence": switch.confidence.to_string(),
-    })
 }

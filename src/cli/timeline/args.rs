@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use refsim::event::ReadBackMode;
-use refsim::timing::Level;
 
+use crate::options::Size;
 use crate::options::one_of::{OneOf, one_of};
-use crate::options::{BadSize, Size};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -14,14 +13,13 @@ Examples:
       both models of a case: what each draw costs, what each unit does, the critical path
   crossbar timeline --eye-rays 64x64 --device r200 --readback async --double-buffer --perfetto out.json
       the Ray Engine's crossbar on the teapot, as a trace for https://ui.perfetto.dev or chrome://tracing
-  crossbar timeline fixtures/cases/modulate.toml --timing pipeline --sensitivity
+  crossbar timeline fixtures/cases/modulate.toml --sensitivity
       and the effect on the total if a guessed figure is halved or doubled
 
 The model `rates` has a fill rate and the rates of the bus (equation 11 of the Ray Engine paper), and commands are \
 free; `pipeline` has clocks of the units, memory traffic, latencies and the cost of a command on the host. Both put \
 the same log on the time axis; the log is the same for every executor. With `--readback async` no read-back is waited \
-for: the result is a lower bound on the time. With both models, the trace is that of `pipeline`. docs/timing.md \
-explains all of it.
+for: the result is a lower bound on the time. The trace is that of `pipeline`. docs/timing.md explains all of it.
 
 Exit codes: 0 done, 2 the case cannot be run, or the device has no timing.";
 
@@ -33,21 +31,13 @@ pub(in crate::cli) struct Args {
     #[arg(required_unless_present = "eye_rays", conflicts_with = "eye_rays")]
     pub(super) case: Option<PathBuf>,
 
-    /// Instead of a case: the Ray Engine's crossbar with this many eye rays, bucket after bucket on one card
-    #[arg(long, value_name = "WxH", value_parser = parse_rays, allow_hyphen_values = true)]
+    /// Instead of a case: the Ray Engine's crossbar on the teapot with this many eye rays, bucket after bucket on one card
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(super) eye_rays: Option<Size>,
-
-    /// With --eye-rays: the mesh, a Wavefront OBJ, PLY, STL or glTF file [default: the teapot, 8 x 8 quads per patch]
-    #[arg(long, value_name = "M.obj", requires = "eye_rays", conflicts_with = "case")]
-    pub(super) mesh: Option<PathBuf>,
 
     /// The card [default: the case's; r200 for --eye-rays]
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
-
-    /// The timing model
-    #[arg(long, default_value = "both", value_parser = models())]
-    pub(super) timing: &'static [Level],
 
     /// Read-back mode: the host waits, or not [default: the run's]
     #[arg(long, value_name = "MODE", value_parser = readback())]
@@ -70,24 +60,10 @@ pub(in crate::cli) struct Args {
     pub(super) perfetto: Option<PathBuf>,
 }
 
-/// Values of `--timing`: the models.
-fn models() -> OneOf<&'static [Level]> {
-    one_of([
-        ("rates", "Fill rate and bus rates", &[Level::Rates][..]),
-        ("pipeline", "Clocks of each unit", &[Level::Pipeline]),
-        ("both", "One after the other", &[Level::Rates, Level::Pipeline]),
-    ])
-}
-
 /// Values of `--readback`: modes of read-back.
 fn readback() -> OneOf<ReadBackMode> {
     one_of([
         ("sync", "The host waits for all earlier work and the transfer", ReadBackMode::Synchronous),
         ("async", "The host continues", ReadBackMode::Asynchronous),
     ])
-}
-
-/// Parses `64x64` or `64,64`.
-fn parse_rays(text: &str) -> Result<Size, BadSize> {
-    text.replace(',', "x").parse()
 }

@@ -5,7 +5,9 @@ mod run;
 mod sensitivity;
 mod show;
 
-use super::{Out, Problem, ProgressBar, Verdict};
+use refsim::timing::Level;
+
+use super::{Out, Problem, ProgressBar, Verdict, study};
 use crate::io::write_file;
 use crate::study::timeline_trace::trace;
 use run::{Input, TimedLog};
@@ -19,17 +21,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let log = input.log(args.cache)?;
     drop(bar);
     let mut timed = Vec::new();
-    for level in args.timing {
-        timed.push(TimedLog::new(*level, &input, &log, args)?);
+    for level in [Level::Rates, Level::Pipeline] {
+        timed.push(TimedLog::new(level, &input, &log, args)?);
     }
     if let (Some(path), Some(last)) = (&args.perfetto, timed.last()) {
         let trace = trace(input.profile(), last.name(), &input.title(), &last.replay.timeline);
         write_file(path, |file| trace.write(file)).map_err(Problem::from)?;
     }
-    if out.json() {
-        out.document(&show::document(args, &input, &log, &timed))?;
-    } else {
-        show::print(args, &input, &log, &timed, out)?;
-    }
-    Ok(Verdict::Done)
+    study::show(&show::findings(args, &input, &log, &timed), out)
 }

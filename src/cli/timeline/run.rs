@@ -1,7 +1,5 @@
 //! The input of the timing model, and its replay.
 
-use std::path::Path;
-
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
 use refsim::event::{Event, TexelObserver};
@@ -13,11 +11,10 @@ use refsim::timing::{Level, Model, TimingError};
 use super::args::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup, device_named};
-use crate::cli::{Problem, model_file, view};
+use crate::cli::Problem;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
-use crate::options::Size;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
@@ -25,13 +22,11 @@ use crate::scene::Camera;
 const DEFAULT_DEVICE: &str = "r200";
 /// Quads per side of each patch of the teapot.
 const TESSELLATION: u32 = 8;
-/// Tangent of half the vertical field of view, for meshes.
-const TANGENT: f32 = 0.375;
 
-/// A case, or rays and a mesh.
+/// A case, or rays on the teapot.
 pub(super) enum Input {
     Case(Box<Setup>),
-    Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch>, name: String },
+    Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch> },
 }
 
 impl Input {
@@ -45,9 +40,10 @@ impl Input {
             }
             (None, Some(size)) => {
                 let profile = device.map_or_else(|| device_named(DEFAULT_DEVICE), Ok)?;
-                let (mesh, camera, name) = scene(args.mesh.as_deref(), size)?;
+                let camera = Camera::teapot(size.width, size.height).into_diagnostic()?;
+                let mesh = Box::new(teapot(TESSELLATION).into_diagnostic()?);
                 let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
-                Ok(Self::Rays { profile: Box::new(profile), mesh: Box::new(mesh), rays: Box::new(rays), name })
+                Ok(Self::Rays { profile: Box::new(profile), mesh, rays: Box::new(rays) })
             }
             _ => Err(Problem::usage("expected a case or `--eye-rays`", "name one of them").into()),
         }
@@ -64,8 +60,8 @@ impl Input {
     pub(super) fn title(&self) -> String {
         match self {
             Self::Case(setup) => setup.title.clone().unwrap_or_else(|| "a case".to_owned()),
-            Self::Rays { mesh, rays, name, .. } => {
-                format!("{}x{} rays on {name}, {} triangles", rays.width(), rays.height(), mesh.len())
+            Self::Rays { mesh, rays, .. } => {
+                format!("{}x{} rays on the teapot, {} triangles", rays.width(), rays.height(), mesh.len())
             }
         }
     }
@@ -102,21 +98,6 @@ impl Input {
 /// Error for a figure that the timing model needs but the device lacks.
 fn no_figure(error: TimingError) -> Problem {
     Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
-}
-
-/// A mesh, a camera that sees it, and a name for both.
-fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, String)> {
-    match mesh {
-        Some(path) => {
-            let mesh = model_file::mesh(path)?;
-            let camera = view::framing(&mesh, size, TANGENT, (None, None, [0.0, 0.0, 1.0]))?;
-            Ok((mesh, camera, path.display().to_string()))
-        }
-        None => {
-            let camera = Camera::teapot(size.width, size.height).into_diagnostic()?;
-            Ok((teapot(TESSELLATION).into_diagnostic()?, camera, "the teapot".to_owned()))
-        }
-    }
 }
 
 /// A log timed by one model.

@@ -1,66 +1,57 @@
-//! The tables of a timeline, and its JSON document.
+//! The findings of a timeline.
 
 use std::collections::BTreeMap;
 
-use refsim::event::ReadBackMode;
-use refsim::event::{DrawRecord, Event, MipmapRecord, SamplerTraffic};
+use refsim::event::{DrawRecord, Event, ReadBackMode, SamplerTraffic};
 use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
 use super::args::Args;
 use super::run::{Input, TimedLog};
-use crate::cli::Out;
-use crate::report::visible::visible_line;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, FoundTable, Table};
 
 /// Maximum number of draws in the table; the document has all draws.
 const MAX_DRAWS: usize = 16;
 
-pub(super) fn print(
-    args: &Args,
-    input: &Input,
-    log: &[Event],
-    timed: &[TimedLog],
-    out: &mut Out,
-) -> miette::Result<()> {
+/// The tables of both models, as text and as a document.
+pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[TimedLog]) -> Findings {
     let profile = input.profile();
-    out.line(visible_line(&input.title()))?;
-    out.line(format_args!("{} ({}), times in microseconds", profile.title, profile.name))?;
+    let mut found = Findings::new(input.title());
+    found.fields(json!({
+        "case": args.case.as_ref().map(|path| path.display().to_string()),
+        "title": input.title(),
+        "rays": input.rays(),
+        "version": env!("CARGO_PKG_VERSION"),
+        "device": profile.name,
+        "readback": args.readback.map(|mode| if mode == ReadBackMode::Synchronous { "sync" } else { "async" }),
+        "double_buffered": args.double_buffer,
+        "events": log.len(),
+        "models": timed.iter().map(|one| model(log, one)).collect::<Vec<_>>(),
+        "trace": args.perfetto.as_ref().map(|path| path.display().to_string()),
+    }));
+    found.introduce(input.title());
+    found.introduce(format!("{} ({}), times in microseconds", profile.title, profile.name));
     if args.cache {
-        out.line("")?;
-        out.titled_table(&cache(log))?;
+        found.table(FoundTable::from(cache(log)).field("texture_cache"));
     }
     for one in timed {
-        out.line("")?;
-        out.line(format_args!("Model: {}", one.name()))?;
-        let tables = [Some(draws(log, one)), mipmaps(log, one), Some(units(one)), Some(shares(one))];
-        for table in tables.into_iter().flatten() {
-            out.line("")?;
-            out.titled_table(&table)?;
-        }
-        if args.sensitivity {
-            out.line("")?;
-            let table = guesses(one);
-            if table.rows().is_empty() {
-                out.line(format_args!("{}: none", table.title()))?;
-            } else {
-                out.titled_table(&table)?;
+        for (field, table) in tables(log, one, false) {
+            if field != "sensitivity" || args.sensitivity {
+                found.table(table);
             }
         }
         if one.replay.uncosted > 0 {
-            let operations = one.replay.uncosted;
-            out.line(format_args!(
-                "{operations} operations of the host cost nothing here: no run has calibrated them"
-            ))?;
+            let (name, operations) = (one.name(), one.replay.uncosted);
+            found
+                .print(format!("{name}: {operations} operations of the host cost nothing: no run has calibrated them"));
         }
     }
-    out.line("")?;
-    out.titled_table(&totals(input, log, timed))?;
+    found.table(FoundTable::from(totals(input, log, timed)).field("totals"));
     if let Some(path) = &args.perfetto {
-        out.line(format_args!("wrote {}", path.display()))?;
+        found.print(format!("wrote {}", path.display()));
     }
-    Ok(())
+    found
 }
 
 /// Microseconds.
@@ -83,6 +74,13 @@ fn change(from: Picoseconds, to: Picoseconds) -> Cell {
     percent(i128::from(to.0) - i128::from(from.0), from)
 }
 
+impl TimedLog {
+    /// A table about this model.
+    fn table(&self, title: &str, headings: &[&str]) -> Table {
+        Table::new(format!("Model {}: {title}", self.name()), headings)
+    }
+}
+
 fn costs<'a>(log: &'a [Event], timed: &'a TimedLog) -> impl Iterator<Item = (&'a DrawRecord, &'a DrawCost)> {
     log.iter().filter_map(record).zip(&timed.replay.draws)
 }
@@ -94,12 +92,23 @@ fn record(event: &Event) -> Option<&DrawRecord> {
     }
 }
 
-fn draws(log: &[Event], timed: &TimedLog) -> Table {
+/// The tables about one model, each with its field in the document; `json` selects all draws and all digits.
+fn tables(log: &[Event], timed: &TimedLog, json: bool) -> [(&'static str, Table); 5] {
+    [
+        ("draws", draws(log, timed, if json { usize::MAX } else { MAX_DRAWS })),
+        ("mipmaps", mipmaps(log, timed, if json { usize::MAX } else { MAX_DRAWS })),
+        ("units", units(timed, if json { Cell::machine_text } else { Cell::text })),
+        ("critical_path", shares(timed)),
+        ("sensitivity", guesses(timed)),
+    ]
+}
+
+fn draws(log: &[Event], timed: &TimedLog, most: usize) -> Table {
     let headings = ["draw", "triangles", "fragments", "front end", "shader", "memory", "total", "clocks", "bound by"];
     let count = timed.replay.draws.len();
-    let title = if count > MAX_DRAWS { format!("Draws, {MAX_DRAWS} of {count}") } else { "Draws".to_owned() };
-    let mut table = Table::new(title, &headings);
-    for (number, (record, cost)) in costs(log, timed).take(MAX_DRAWS).enumerate() {
+    let title = if count > most { format!("draws, {most} of {count}") } else { "draws".to_owned() };
+    let mut table = timed.table(&title, &headings);
+    for (number, (record, cost)) in costs(log, timed).take(most).enumerate() {
         table.push([
             number.into(),
             record.counts.primitives.rasterised.into(),
@@ -115,20 +124,15 @@ fn draws(log: &[Event], timed: &TimedLog) -> Table {
     table
 }
 
-/// Generations of mip levels in a log, each with its cost.
-fn generations<'a>(log: &'a [Event], timed: &'a TimedLog) -> impl Iterator<Item = (&'a MipmapRecord, &'a DrawCost)> {
+/// The mip levels that the card generated.
+fn mipmaps(log: &[Event], timed: &TimedLog, most: usize) -> Table {
+    let headings = ["levels", "texels read", "texels written", "total", "clocks", "bound by"];
+    let mut table = timed.table("generated mip levels", &headings);
     let records = log.iter().filter_map(|event| match event {
         Event::GenerateMipmaps(record) => Some(record),
         _ => None,
     });
-    records.zip(&timed.replay.mipmaps)
-}
-
-/// Table of the mip levels that the card generated; `None` if there are none.
-fn mipmaps(log: &[Event], timed: &TimedLog) -> Option<Table> {
-    let headings = ["levels", "texels read", "texels written", "total", "clocks", "bound by"];
-    let mut table = Table::new("Generated mip levels", &headings);
-    for (record, cost) in generations(log, timed).take(MAX_DRAWS) {
+    for (record, cost) in records.zip(&timed.replay.mipmaps).take(most) {
         table.push([
             record.levels.len().into(),
             record.texels_read().into(),
@@ -138,7 +142,7 @@ fn mipmaps(log: &[Event], timed: &TimedLog) -> Option<Table> {
             cost.bottleneck.to_string().into(),
         ]);
     }
-    (!table.rows().is_empty()).then_some(table)
+    table
 }
 
 /// Texture cache hits and misses per sampler, over all draws.
@@ -162,12 +166,13 @@ fn cache(log: &[Event]) -> Table {
     table
 }
 
-fn units(timed: &TimedLog) -> Table {
+/// Times of the units; `written` formats the times of what a unit waits for.
+fn units(timed: &TimedLog, written: fn(&Cell) -> String) -> Table {
     let whole = timed.replay.timeline.makespan();
-    let mut table = Table::new("Units", &["unit", "busy", "waiting", "idle", "busy %", "waits for"]);
+    let mut table = timed.table("units", &["unit", "busy", "waiting", "idle", "busy %", "waits for"]);
     for Usage { unit, busy, waiting, idle, reasons } in timed.replay.timeline.usage() {
         let reasons: Vec<String> =
-            reasons.iter().map(|(reason, time)| format!("{reason} {}", us(*time).text())).collect();
+            reasons.iter().map(|(reason, time)| format!("{reason} {}", written(&us(*time)))).collect();
         table.push([
             unit.to_string().into(),
             us(busy),
@@ -182,7 +187,7 @@ fn units(timed: &TimedLog) -> Table {
 
 fn shares(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
-    let mut table = Table::new("Critical path: where the time went", &["unit", "with", "pieces", "time", "%"]);
+    let mut table = timed.table("critical path, where the time went", &["unit", "with", "pieces", "time", "%"]);
     for part in timed.replay.timeline.where_the_time_went() {
         table.push([
             part.unit.to_string().into(),
@@ -197,8 +202,8 @@ fn shares(timed: &TimedLog) -> Table {
 
 fn guesses(timed: &TimedLog) -> Table {
     let whole = timed.replay.timeline.makespan();
-    let headings = ["guess", "value", "halved", "change %", "doubled", "change %"];
-    let mut table = Table::new("Guesses: the total with half and with twice the figure", &headings);
+    let headings = ["guess", "value", "halved", "halved %", "doubled", "doubled %"];
+    let mut table = timed.table("guesses, the total with half and with twice the figure", &headings);
     for row in &timed.sensitivity {
         let (halved, doubled) = (row.halved, row.doubled);
         table.push([
@@ -233,79 +238,10 @@ fn totals(input: &Input, log: &[Event], timed: &[TimedLog]) -> Table {
     table
 }
 
-pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[TimedLog]) -> Value {
-    json!({
-        "case": args.case.as_ref().map(|path| path.display().to_string()),
-        "title": input.title(),
-        "rays": input.rays(),
-        "version": env!("CARGO_PKG_VERSION"),
-        "device": input.profile().name,
-        "readback": args.readback.map(|mode| if mode == ReadBackMode::Synchronous { "sync" } else { "async" }),
-        "double_buffered": args.double_buffer,
-        "texture_cache": args.cache.then(|| cache(log).json()),
-        "events": log.len(),
-        "models": timed.iter().map(|one| model(input, log, one)).collect::<Vec<_>>(),
-        "trace": args.perfetto.as_ref().map(|path| path.display().to_string()),
-    })
-}
-
-fn model(input: &Input, log: &[Event], timed: &TimedLog) -> Value {
-    let timeline = &timed.replay.timeline;
-    let whole = timeline.makespan();
-    let draws = costs(log, timed).map(|(record, cost)| {
-        json!({
-            "triangles": record.counts.primitives.rasterised,
-            "fragments": record.counts.fragments.generated,
-            "front_end_ps": cost.front_end.0,
-            "shader_ps": cost.shader.0,
-            "memory_ps": cost.memory.0,
-            "total_ps": cost.total.0,
-            "core_clocks": cost.core_clocks.0,
-            "bound_by": cost.bottleneck.to_string(),
-        })
-    });
-    let mipmaps = generations(log, timed).map(|(record, cost)| {
-        json!({
-            "levels": record.levels.len(),
-            "texels_read": record.texels_read(),
-            "texels_written": record.texels_written(),
-            "total_ps": cost.total.0,
-            "core_clocks": cost.core_clocks.0,
-            "bound_by": cost.bottleneck.to_string(),
-        })
-    });
-    let units = timeline.usage().into_iter().map(|usage| {
-        let reasons: serde_json::Map<String, Value> =
-            usage.reasons.iter().map(|(reason, time)| (reason.to_string(), time.0.into())).collect();
-        json!({
-            "unit": usage.unit.to_string(),
-            "busy_ps": usage.busy.0,
-            "waiting_ps": usage.waiting.0,
-            "idle_ps": usage.idle.0,
-            "waits_for_ps": reasons,
-        })
-    });
-    let path = timeline.where_the_time_went().into_iter().map(|share| {
-        json!({
-            "unit": share.unit.to_string(),
-            "kind": share.kind.to_string(),
-            "pieces": share.segments,
-            "time_ps": share.time.0,
-        })
-    });
-    let sensitivity = timed.sensitivity.iter().map(
-        |row| json!({ "guess": row.key, "value": row.value, "halved_ps": row.halved.0, "doubled_ps": row.doubled.0 }),
-    );
-    json!({
-        "model": timed.name(),
-        "total_ps": whole.0,
-        "fragments_per_s": a_second(fragments(log, timed), whole),
-        "rays_per_s": input.rays().map(|rays| a_second(rays, whole)),
-        "draws": draws.collect::<Vec<_>>(),
-        "mipmaps": mipmaps.collect::<Vec<_>>(),
-        "units": units.collect::<Vec<_>>(),
-        "critical_path": path.collect::<Vec<_>>(),
-        "sensitivity": sensitivity.collect::<Vec<_>>(),
-        "uncosted_host_operations": timed.replay.uncosted,
-    })
+fn model(log: &[Event], timed: &TimedLog) -> Value {
+    let mut document = json!({ "model": timed.name(), "uncosted_host_operations": timed.replay.uncosted });
+    for (field, table) in tables(log, timed, true) {
+        document[field] = table.json();
+    }
+    document
 }

@@ -169,6 +169,15 @@ fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
         let what = format!("{}: expected a scene with lights, found none", path.display());
         return Err(Problem::usage(what, "docs/scenes.md says how a scene gets lights").into());
     }
+    let no_place = |what: String| {
+        Problem::usage(format!("{}: {what}", path.display()), "name a place inside of the scene, in its units")
+    };
+    // Beyond, the faces of a cube around the place lie at the place itself in single precision.
+    if at.abs().max_element() >= f64::from(1 << 24) {
+        return Err(
+            no_place(format!("expected a place of light within 2^24 of the origin, found {}", at.as_vec3())).into()
+        );
+    }
     let (mut tracer, bar) = (HostTracer::new(scene.mesh(), Sides::Both), ProgressBar::new("light in the scene", 6));
     let settings = Settings { samples: SAMPLES, ..Settings::default() };
     let mut faces = 0..;
@@ -176,9 +185,6 @@ fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
         bar.show("light in the scene".to_owned(), faces.next().unwrap_or(6), 6);
         Ok(path::render(&scene, camera, &settings, path::Direct::Both, &mut tracer, &mut |_| ())?.color)
     });
-    let no_place = |what: String| {
-        Problem::usage(format!("{}: {what}", path.display()), "name a place inside of the scene, in its units")
-    };
     let texels = texels.map_err(|error| no_place(error.to_string()))?;
     if texels.iter().flatten().all(|&radiance| radiance == 0.0) {
         return Err(no_place(format!("expected a place that light reaches, found {}", at.as_vec3())).into());

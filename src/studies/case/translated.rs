@@ -61,7 +61,8 @@ impl Binder<'_> {
                 let numbers = NUMBERS[width - 1];
                 Err(input_error!("crossbar::case::uniform" =>
                     "`{}` reads the uniform `{name}`, which has no value", text.name();
-                    help "give it one: `--uniform {name}={numbers}`, or `\"{name}\" = [{numbers}]` in [constants] of a case")
+                    help "give it one: `\"{name}\" = [{numbers}]` in [constants] of a case, or, with `crossbar run` and \
+                          `precision`, `--uniform {name}={numbers}`")
                 .into())
             }
             None => Ok(constants),

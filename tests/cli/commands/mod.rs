@@ -170,19 +170,3 @@ fn outputs_on_pages_are_those_of_the_program() {
         hold(&output.page, &page.replace(&block(&output.text), &block(ran.stdout.trim_end())));
     }
 }
-
-/// Mistakes in a text are found: a missing file, an unknown option.
-#[test]
-fn mistakes_are_found() {
-    for text in ["crossbar run docs/examples/none.toml", "crossbar devices --colour", "crossbar reproduce --all"] {
-        let page = format!("```\n{text}\n```\n");
-        let commands = texts::commands_of_page("a page", &page);
-        assert_eq!(commands.len(), 1, "{text}");
-        assert!(fault(&commands[0]).is_some(), "{text}");
-    }
-    for text in ["--test nowhere", "--bench nowhere", "-p nobody", "--features speed", "--test watertight no_such_test"]
-    {
-        let found = texts::cargo_of_page("a page", &format!("```\ncargo test {text}\n```\n"));
-        assert!(cargo::fault(&found[0]).is_some(), "{text}");
-    }
-}

@@ -172,16 +172,6 @@ pub(crate) fn of_cargo() -> Vec<CargoCommand> {
     lines_of_pages().iter().filter_map(Line::of_cargo).collect()
 }
 
-/// The program's commands of one page.
-pub(crate) fn commands_of_page(name: &str, text: &str) -> Vec<Command> {
-    lines_of_page(name, text).iter().filter_map(Line::of_the_program).collect()
-}
-
-/// Cargo's commands of one page.
-pub(crate) fn cargo_of_page(name: &str, text: &str) -> Vec<CargoCommand> {
-    lines_of_page(name, text).iter().filter_map(Line::of_cargo).collect()
-}
-
 /// All outputs that pages quote: a comment `<!-- output of: COMMAND -->` followed by a block of text.
 pub(crate) fn outputs() -> Vec<Output> {
     let mut found = Vec::new();

@@ -98,53 +98,6 @@ fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
     bytes
 }
 
-/// A PNG file whose header claims `side` x `side` RGBA pixels, followed by `length` arbitrary bytes.
-fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
-    let header = [&b"IHDR"[..], &side.to_be_bytes(), &side.to_be_bytes(), &[sample_bits, 6, 0, 0, 0]].concat();
-    let chunk = |body: &[u8]| {
-        let length = (body.len() as u32 - 4).to_be_bytes();
-        [&length[..], body, &crc32fast::hash(body).to_be_bytes()].concat()
-    };
-    let noise = [&b"IDAT"[..], &b"nothing ".repeat(length / 8)].concat();
-    [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(&header), chunk(&noise), chunk(b"IEND")].concat()
-}
-
-/// A picture with too many pixels for the program, the command or its file's size is refused because of its header,
-/// whatever its contents.
-#[test]
-fn large_pictures_are_refused_by_their_headers() {
-    let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));
-    for (arguments, words) in [
-        (&["diff", "huge.png", "huge.png"][..], "found 9000x9000 with 4 channels"),
-        (&["diff", "huge.png", "huge.png"], "16384 pixels per side"),
-        (&["bi-scale", "texture", "large.png", "--out", "b.npy"], "expected 1 to 1024 texels"),
-        (&["diff", "cut.png", "cut.png"], "for the 7000x7000 pixels that its header says"),
-    ] {
-        let files: [(&str, &[u8]); 3] = [("huge.png", &huge), ("large.png", &large), ("cut.png", &cut)];
-        let arguments: Vec<OsString> = arguments.iter().map(OsString::from).collect();
-        let stderr = assert_refused(&arguments, &files);
-        assert!(crate::answers::words(&stderr).contains(words), "{arguments:?}: {stderr}");
-    }
-}
-
-/// A scene without light sources is refused before the computation, which would take minutes here.
-#[test]
-fn a_dark_scene_is_refused_before_the_work() {
-    let side = 40;
-    let (mut model, vertex) = (String::new(), |x: u32, y: u32| y * (side + 1) + x + 1);
-    for (x, y) in (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y))) {
-        model.push_str(&format!("v {x} {y} {}\n", (x * 7 + y * 13) % 5));
-    }
-    for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
-        let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
-        model.push_str(&format!("f {a} {b} {c}\nf {a} {c} {d}\n"));
-    }
-    let start = std::time::Instant::now();
-    let stderr = assert_refused(&["radiosity", "m.obj"].map(OsString::from), &[("m.obj", model.as_bytes())]);
-    assert!(stderr.contains("radiosity::dark"), "{stderr}");
-    assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
-}
-
 /// Gives every option for an output path every kind of path that cannot be written.
 #[test]
 fn hostile_places_for_results() {

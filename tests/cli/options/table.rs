@@ -185,13 +185,9 @@ pub(super) const TABLE: &[Tried] = &[
         ),
     },
     Tried {
-        bases: &[
-            "timeline docs/examples/product.toml",
-            "timeline --eye-rays 4x4 --mesh odd.obj",
-            "timeline --eye-rays 4x4",
-        ],
-        options: "--eye-rays=5x4 --mesh=square.obj --device=nv20 --timing=rates --readback=async --double-buffer --cache \
-                  --sensitivity --perfetto=trace.json --model-up=y@0,1 --strict@0,1",
+        bases: &["timeline docs/examples/product.toml", "timeline --eye-rays 4x4"],
+        options: "--eye-rays=5x4 --device=nv20 --readback=async --double-buffer --cache \
+                  --sensitivity --perfetto=trace.json",
     },
     Tried { bases: &["tour --size 8x8 --coarser 8 --out OUT"], options: "--size=9x7 --coarser=7 --out=other" },
     Tried {
