@@ -2,7 +2,6 @@
 
 use super::bits::FormatFamily;
 use super::outcome::{FamilyOutcome, MOST_SPARE, Precision, PrecisionOutcome};
-use super::refutation_tables;
 use super::runs::Runs;
 use super::tables::{self, number};
 use crate::report::words::{counted, percent};
@@ -17,9 +16,9 @@ pub(super) fn per_instruction(
     runs: &Runs<'_>,
 ) {
     let (Some(minimum), name) = (family.curve.minimum, family.curve.family.name()) else { return };
-    let [csv, mixed_csv, refuted_csv, traces_csv] = match family.curve.family {
-        FormatFamily::Float => ["instructions_float", "mixed_float", "refuted_float", "traces_float"],
-        FormatFamily::Fixed => ["instructions_fixed", "mixed_fixed", "refuted_fixed", "traces_fixed"],
+    let [csv, mixed_csv, refuted_csv] = match family.curve.family {
+        FormatFamily::Float => ["instructions_float", "mixed_float", "refuted_float"],
+        FormatFamily::Fixed => ["instructions_fixed", "mixed_fixed", "refuted_fixed"],
     };
     found.heading(format!("Instructions in {name} formats"));
     found.table(FoundTable::from(tables::instructions(family, minimum, outcome, runs)).csv(csv).field(csv));
@@ -59,15 +58,6 @@ pub(super) fn per_instruction(
         _ => {}
     }
     found.table(FoundTable::from(tables::refuted(mixed, runs)).csv(refuted_csv).field(refuted_csv).unprinted());
-    let traces = refutation_tables::all(&family.refutations, runs);
-    found.keep_table(FoundTable::from(traces).csv(traces_csv));
-    if let Some(trace) = refutation_tables::most_blamed(&family.refutations, family) {
-        let table = refutation_tables::table(refutation_tables::title(trace, runs), trace, runs);
-        found.explained_table(
-            FoundTable::from(table).unprinted(),
-            "The refutation of the instruction most to blame; the table of all is beside the page.",
-        );
-    }
 }
 
 /// Explains the sum of the blame shares.

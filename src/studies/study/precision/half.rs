@@ -6,7 +6,6 @@ use refsim::front::{WgslOperation, wgsl_operations};
 
 use super::bits::{Assignment, FormatBits};
 use super::runs::{RunError, Runs};
-use super::subject::WorstPlace;
 use crate::shader::ShaderText;
 
 /// The format f16.
@@ -22,7 +21,7 @@ pub(super) struct HalfExpression {
     /// `true` if it is f16 in the largest set that was found to meet the goal.
     pub(super) together: bool,
     /// Location of the largest error of the run that refuted it.
-    pub(super) worst: Option<WorstPlace>,
+    pub(super) worst: Option<String>,
 }
 
 /// The operations of a text by their spans; empty if it is not WGSL.

@@ -16,8 +16,6 @@ mod half_report;
 mod instructions;
 mod outcome;
 mod pictures;
-mod refutation_tables;
-mod refutations;
 mod report;
 mod runs;
 mod sampled;
@@ -39,8 +37,8 @@ pub use expression::{ExpressionError, ExpressionStudy, InputDraw};
 pub use goal::{Goal, GoalError, GoalRelation};
 pub use outcome::Precision;
 pub use subject::{
-    ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
-    RefutingDevices, RoundedInstruction, SampledResults, StepResult, StudiedProgram, WorstPlace,
+    ErrorMap, FragmentResults, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, RoundedInstruction,
+    SampledResults, StudiedProgram,
 };
 pub use systems::PaperSystem;
 #[doc(hidden)]

@@ -8,7 +8,6 @@ use super::curve::Curve;
 use super::goal::Goal;
 use super::half::{HalfExpression, half_expressions};
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
-use super::refutations::{self, RefutationTrace};
 use super::runs::{RunError, Runs};
 use super::sampled::sample_results;
 use super::search::{MixedFormats, STARTS, search};
@@ -58,8 +57,6 @@ pub(super) struct FamilyOutcome {
     /// Number of bits to add to the range and to the precision of every instruction so that the held-back input meets
     /// the goal too; `None` if [`MOST_SPARE`] bits are not enough.
     pub(super) spare: Option<u8>,
-    /// Traces of the refuted formats.
-    pub(super) refutations: Vec<RefutationTrace>,
 }
 
 /// Everything that was found.
@@ -195,8 +192,7 @@ impl FamilyOutcome {
     /// Without findings.
     fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
-        let refutations = Vec::new();
-        Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None, refutations }
+        Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None }
     }
 
     /// Index and share of blame of the most blamed instruction; the first one on a tie.
@@ -205,8 +201,7 @@ impl FamilyOutcome {
         shares.min_by(|a, b| b.1.total_cmp(&a.1))
     }
 
-    /// Runs the mixed formats on the scalar executor and on held-back input, and traces the pixels that refuted
-    /// narrower formats.
+    /// Runs the mixed formats on the scalar executor and on held-back input.
     fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
         let Some(mixed) = &self.mixed else { return Ok(()) };
         let value = |measured: Measured| measured.value(&runs.goal.measure);
@@ -226,7 +221,6 @@ impl FamilyOutcome {
                 break;
             }
         }
-        self.refutations = refutations::traces(mixed, runs)?;
         Ok(())
     }
 

@@ -10,8 +10,7 @@ use refsim::num::Format;
 use super::bits::{Assignment, FormatBits};
 use super::goal::Goal;
 use super::subject::{
-    InstructionPlace, Measured, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
-    places,
+    InstructionPlace, Measured, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram, places,
 };
 use crate::study::{ProgressFn, StudyError};
 
@@ -41,7 +40,7 @@ pub(super) struct Runs<'a> {
     /// Number of runs made.
     pub(super) made: u64,
     /// Values of the goal's measure, and the location of the largest error.
-    values: BTreeMap<Assignment, (f64, Option<WorstPlace>)>,
+    values: BTreeMap<Assignment, (f64, Option<String>)>,
     /// Number of runs that the study is likely to make, for progress.
     pub(super) expected: u64,
     /// Name of the current step, for progress.
@@ -128,7 +127,7 @@ impl<'a> Runs<'a> {
     }
 
     /// Value of a run that was made, and the location of its largest error.
-    pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
+    pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<String>)> {
         self.values.get(assignment).cloned()
     }
 

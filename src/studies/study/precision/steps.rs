@@ -6,32 +6,7 @@ use refsim::isa::Program;
 use refsim::machine::FragmentTrace;
 use refsim::num::to_f64;
 
-use super::subject::{InstructionResults, RoundedInstruction, StepResult};
-
-/// Results of a fragment's instructions that write registers, component by component; `program` is its index among the
-/// subject's programs, `fragment` its number within the trace.
-pub(super) fn step_results(
-    profile: &Profile,
-    (index, program): (usize, &Program),
-    (number, fragment): (u32, &FragmentTrace),
-) -> Vec<StepResult> {
-    let formats = FragmentFormats::new(&profile.rules);
-    let mut results = Vec::new();
-    for step in &fragment.shading.steps {
-        let instruction = program.instructions.get(step.instruction);
-        let Some(destination) = instruction.and_then(|instruction| instruction.destination) else { continue };
-        let format = formats.of_file(destination.register.file);
-        let components = (0..4_u8).filter(|&component| step.mask.contains(usize::from(component)));
-        results.extend(components.map(|component| StepResult {
-            fragment: number,
-            program: index,
-            instruction: step.instruction,
-            component,
-            value: to_f64(&format, step.value[usize::from(component)]),
-        }));
-    }
-    results
-}
+use super::subject::{InstructionResults, RoundedInstruction};
 
 /// Device of the exact run, with a format for one instruction.
 pub(super) fn with_rounded(exact: &Profile, program: &Program, rounded: RoundedInstruction) -> Profile {
@@ -48,11 +23,17 @@ pub(super) fn first_results<'t>(
     (first, fragments): (u32, impl IntoIterator<Item = &'t FragmentTrace>),
     is_wanted: impl Fn(usize) -> bool,
 ) -> InstructionResults {
+    let formats = FragmentFormats::new(&profile.rules);
     let mut results = InstructionResults::new();
     for (number, fragment) in (first..).zip(fragments) {
-        for step in step_results(profile, (0, program), (number, fragment)) {
-            if is_wanted(step.instruction) {
-                results.entry(step.instruction).or_default().entry((number, step.component)).or_insert(step.value);
+        for step in fragment.shading.steps.iter().filter(|step| is_wanted(step.instruction)) {
+            let instruction = program.instructions.get(step.instruction);
+            let Some(destination) = instruction.and_then(|instruction| instruction.destination) else { continue };
+            let format = formats.of_file(destination.register.file);
+            for component in (0..4_u8).filter(|&component| step.mask.contains(usize::from(component))) {
+                let of_instruction = results.entry(step.instruction).or_default();
+                let value = to_f64(&format, step.value[usize::from(component)]);
+                of_instruction.entry((number, component)).or_insert(value);
             }
         }
     }

@@ -41,21 +41,12 @@ pub(super) const NOT_FINITE: PrecisionMeasure = PrecisionMeasure {
 pub struct Measured {
     /// Values by the names of their measures.
     pub values: Vec<(&'static str, f64)>,
-    /// Location of the largest error; `None` if nothing differs.
-    pub worst: Option<WorstPlace>,
+    /// Location of the largest error, with the found and the expected value; `None` if nothing differs.
+    pub worst: Option<String>,
     /// Picture of the result.
     pub picture: Option<RgbImage>,
     /// Error of each pixel.
     pub errors: Option<ErrorMap>,
-}
-
-/// Place where a run differs most from the expected result.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WorstPlace {
-    /// The location, with the found and the expected value.
-    pub text: String,
-    /// Column and row of its pixel, if [`PrecisionSubject::steps`] can trace it.
-    pub pixel: Option<[u32; 2]>,
 }
 
 /// Error of each pixel, rows from the top.
@@ -67,50 +58,6 @@ pub struct ErrorMap {
     pub unit: &'static str,
     /// Largest error of a channel, per pixel; infinite if a value is not finite.
     pub values: Vec<f64>,
-}
-
-/// Result of one component of an executed instruction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepResult {
-    /// Number of the fragment within its trace, from 0.
-    pub fragment: u32,
-    /// Index of the program.
-    pub program: usize,
-    /// Index of the instruction.
-    pub instruction: usize,
-    /// Component, 0 to 3.
-    pub component: u8,
-    /// The result.
-    pub value: f64,
-}
-
-/// Three devices that differ in the formats of instructions.
-#[derive(Clone, Copy, Debug)]
-pub struct RefutingDevices<'a> {
-    /// Device of the exact run.
-    pub exact: &'a Profile,
-    /// Device with the formats that meet the goal.
-    pub mixed: &'a Profile,
-    /// Device with one bit less in one instruction, which misses the goal.
-    pub less: &'a Profile,
-    /// Index of that instruction's program.
-    pub program: usize,
-}
-
-impl<'a> RefutingDevices<'a> {
-    /// The devices, in the order of [`PixelSteps::steps`].
-    pub fn all(self) -> [&'a Profile; 3] {
-        [self.exact, self.mixed, self.less]
-    }
-}
-
-/// Results of all instructions executed for a pixel, fragment by fragment, in order of execution.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PixelSteps {
-    /// Column and row in the target.
-    pub pixel: [u32; 2],
-    /// Results in the exact run, with the mixed formats, and with one bit less.
-    pub steps: [Vec<StepResult>; 3],
 }
 
 impl Measured {
@@ -198,14 +145,6 @@ pub trait PrecisionSubject {
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
         let _ = (exact, rounded);
         Ok(SampledResults::default())
-    }
-
-    /// Follows a pixel on three devices: `worst`, the pixel of the largest error on the last device, or, if `worst`
-    /// does not run the program, a pixel of an earlier pass or another ray. `None` if the subject has no traces. Fails
-    /// if a device cannot run the programs.
-    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
-        let _ = (devices, worst);
-        Ok(None)
     }
 
     /// Sentences about the subject for the page.

@@ -19,24 +19,14 @@ pub(super) fn number(value: f64) -> String {
 /// Source line of an instruction.
 pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
     let place = &runs.places[place];
-    source_line(place.program, place.at, runs)
-}
-
-fn source_line(program: usize, instruction: usize, runs: &Runs<'_>) -> SourceLine {
-    let studied = &runs.programs[program];
+    let studied = &runs.programs[place.program];
     // Places of a study are instructions of its programs.
-    studied.text.instruction(studied.program, instruction).unwrap_or_else(|| studied.text.line(Span::default()))
+    studied.text.instruction(studied.program, place.at).unwrap_or_else(|| studied.text.line(Span::default()))
 }
 
 /// Line number and text of the instruction at a place, with the program's name if there are several programs.
 pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
-    let place = &runs.places[place];
-    line_cells(place.program, place.at, runs)
-}
-
-/// Like [`named_line`], by the indices of program and instruction.
-pub(super) fn line_cells(program: usize, instruction: usize, runs: &Runs<'_>) -> [Cell; 2] {
-    let SourceLine { file, line, text, .. } = source_line(program, instruction, runs);
+    let SourceLine { file, line, text, .. } = self::line(place, runs);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }
@@ -134,7 +124,7 @@ pub(super) fn refuted(mixed: &MixedFormats, runs: &Runs<'_>) -> Table {
             refuted.bits.to_string().into(),
             Cell::error(refuted.value),
             runs.goal.met(refuted.value).into(),
-            refuted.worst.as_ref().map(|worst| worst.text.as_str()).into(),
+            refuted.worst.as_deref().into(),
         ];
         table.push(named_line(refuted.place, runs).into_iter().chain(cells));
     }

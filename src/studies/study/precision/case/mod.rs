@@ -12,12 +12,12 @@ use refsim::machine::ExecutorKind;
 use super::executors::SubjectExecutors;
 use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
-use super::steps::{first_results, step_results, with_rounded};
+use super::steps::{first_results, with_rounded};
 use super::subject::{
-    ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
-    RefutingDevices, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
+    ErrorMap, FragmentResults, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, RoundedInstruction,
+    SampledResults, StudiedProgram,
 };
-use crate::case::{CaseError, Loaded, Setup, trace};
+use crate::case::{CaseError, Loaded, Setup};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
 use crate::shader::ShaderText;
 use crate::study::StudyError;
@@ -121,16 +121,6 @@ impl PrecisionSubject for CaseSubject {
         self.held_back.as_deref().map(measure).transpose()
     }
 
-    fn steps(&self, devices: RefutingDevices<'_>, pixel: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
-        let mut steps = [const { Vec::new() }; 3];
-        for (steps, device) in steps.iter_mut().zip(devices.all()) {
-            let fragments = trace(&self.setup.on_device(device.clone())?, &self.executors.batch, pixel)?.fragments;
-            let program = (0, &*self.setup.pixel);
-            steps.extend((0..).zip(&fragments).flat_map(|fragment| step_results(device, program, fragment)));
-        }
-        Ok(Some(PixelSteps { pixel, steps }))
-    }
-
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
         let all = self.sampled(&self.setup, exact, |_| true)?;
         let of = |rounded: &RoundedInstruction| {
@@ -183,21 +173,20 @@ impl CaseSubject {
     }
 
     /// Describes the location of a value, and the exact value there.
-    fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> WorstPlace {
+    fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> String {
         let (ours, exact) = (&drawn.targets[target], &self.exact.targets[target]);
         let (pixel, channel) = (at / exact.channels.len(), exact.channels[at % exact.channels.len()]);
         let width = self.setup.size[0] as usize;
         let name = ["red", "green", "blue", "alpha"].get(usize::from(channel.stored_from)).copied().unwrap_or_default();
         let of = if self.exact.targets.len() > 1 { format!(" of target {target}") } else { String::new() };
         let (x, y) = (pixel % width, pixel / width);
-        let text = match codes(channel) {
+        match codes(channel) {
             Some(codes) => {
                 let [ours, exact] = [ours, exact].map(|target| (target.values[at] * codes).round());
                 format!("{x}, {y}{of}: {name} {ours}, not {exact}")
             }
             None => format!("{x}, {y}{of}: {name} {}, not {}", ours.values[at] as f32, exact.values[at] as f32),
-        };
-        WorstPlace { text, pixel: Some([x as u32, y as u32]) }
+        }
     }
 
     /// Results of rounded instructions of a translated shader, in one draw per format: before each instruction stands a

@@ -12,7 +12,6 @@ mod ray_engine;
 mod run;
 mod sampler;
 mod subsurface;
-mod watchers;
 
 use refsim::device::Profile;
 

@@ -1,20 +1,16 @@
 //! The Ray Engine: eye rays on the teapot, judged by exact arithmetic.
 
-use std::sync::Arc;
-
 use glam::{DMat3, DVec3};
 use refsim::device::Profile;
 use refsim::isa::Version;
-use refsim::machine::{DrawWatcher, Executor, ExecutorKind, FragmentTrace};
+use refsim::machine::{Executor, ExecutorKind};
 
 use super::programs::PixelPrograms;
 use super::run::at_most;
 use super::sampler::ResultSampler;
-use super::watchers::{FollowedDraws, FollowedPixel};
-use crate::geom::classify::HitVerdict;
+use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
-use crate::geom::{Hit, Mesh};
 use crate::picture::rgb8;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
@@ -23,8 +19,7 @@ use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{
-    Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, RoundedInstruction, SampledResults,
-    StudiedProgram, WorstPlace,
+    Measured, PrecisionMeasure, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram,
 };
 
 /// Number of quads per side of a Bezier patch.
@@ -99,18 +94,10 @@ impl RayEngineSubject {
         let picture = is_pictured.then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
         let worst = pixels.position(|verdict| verdict.is_error());
         let worst = worst.map(|at| {
-            let [x, y] = pixel_of(at);
-            WorstPlace { text: format!("ray at pixel {x}, {y}"), pixel: Some([x, y]) }
+            let (x, y) = (at as u32 % SIDE, at as u32 / SIDE);
+            format!("ray at pixel {x}, {y}")
         });
         Ok(Measured { values, worst, picture, errors: None })
-    }
-
-    /// Hits of the rays of the search. With a watcher, one target holds all rays.
-    fn hits(&self, device: &Profile, watcher: Option<Arc<dyn DrawWatcher>>) -> Result<Vec<Option<Hit>>, StudyError> {
-        let batch = &self.executors.batch;
-        let executor = watcher.clone().map_or_else(|| batch.clone(), |watcher| batch.watched(watcher));
-        let crossbar = Crossbar::new(device.clone(), executor).all_pairs(watcher.is_some());
-        Ok(crossbar.intersect(&self.mesh, &self.views[0].0, Sides::Front)?.hits)
     }
 }
 
@@ -125,11 +112,6 @@ fn drawn(
         Ok(Crossbar::new(device.clone(), executor.clone()).intersect(mesh, view, Sides::Front)?)
     })?;
     Ok(programs)
-}
-
-/// Column and row of a ray.
-fn pixel_of(at: usize) -> [u32; 2] {
-    [at as u32 % SIDE, at as u32 / SIDE]
 }
 
 impl PrecisionSubject for RayEngineSubject {
@@ -165,32 +147,10 @@ impl PrecisionSubject for RayEngineSubject {
 
     fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
         let sampler = ResultSampler::new(&self.programs, exact, rounded)?;
-        self.hits(exact, Some(sampler.clone()))?;
+        // One target holds all rays.
+        let executor = self.executors.batch.watched(sampler.clone());
+        Crossbar::new(exact.clone(), executor).all_pairs(true).intersect(&self.mesh, &self.views[0].0, Sides::Front)?;
         Ok(sampler.results())
-    }
-
-    /// Follows the first ray that becomes wrong with one bit less, otherwise `worst`, on its exact triangle and on the
-    /// triangles that it hits on the three devices.
-    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
-        let judged = &self.views[0].1;
-        let [exact, mixed, less] = devices.all();
-        let hits = [self.hits(exact, None)?, self.hits(mixed, None)?, self.hits(less, None)?];
-        let [_, before, after] = hits.each_ref().map(|hits| judged.judge(&self.mesh, hits).0);
-        let is_wrong = |verdict: &HitVerdict| *verdict != HitVerdict::Right;
-        let broken = after.iter().zip(&before).position(|(after, before)| is_wrong(after) && !is_wrong(before));
-        let ray = broken.unwrap_or(worst[1] as usize * SIDE as usize + worst[0] as usize);
-        let found = hits.iter().map(|hits| hits.get(ray).copied().flatten().map(|hit| hit.triangle));
-        let triangles: Vec<u32> = found.chain([judged.exact_triangle(ray)]).flatten().collect();
-        let mut steps = [const { Vec::new() }; 3];
-        let (pixel, size) = (pixel_of(ray), FollowedDraws::IntoTargets([SIDE; 2]));
-        for (steps, device) in steps.iter_mut().zip(devices.all()) {
-            let followed = FollowedPixel::new(pixel, size);
-            self.hits(device, Some(followed.clone()))?;
-            // One instance per triangle, in order.
-            let is_near = |fragment: &FragmentTrace| triangles.contains(&(fragment.instance as u32));
-            *steps = followed.steps(device, &self.programs, is_near);
-        }
-        Ok(Some(PixelSteps { pixel, steps }))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
