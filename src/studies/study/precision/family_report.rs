@@ -1,34 +1,27 @@
 //! Tables of one family of formats.
 
 use super::bits::FormatFamily;
-use super::outcome::{FamilyOutcome, MOST_SPARE, Precision, PrecisionOutcome};
+use super::outcome::{FamilyOutcome, MOST_SPARE, Precision};
 use super::runs::Runs;
 use super::tables::{self, number};
 use crate::report::words::{counted, percent};
 use crate::report::{Findings, FoundTable};
 
 /// Adds the tables of one family.
-pub(super) fn per_instruction(
-    found: &mut Findings,
-    study: &Precision,
-    family: &FamilyOutcome,
-    outcome: &PrecisionOutcome,
-    runs: &Runs<'_>,
-) {
+pub(super) fn per_instruction(found: &mut Findings, study: &Precision, family: &FamilyOutcome, runs: &Runs<'_>) {
     let (Some(minimum), name) = (family.curve.minimum, family.curve.family.name()) else { return };
     let [csv, mixed_csv, refuted_csv] = match family.curve.family {
         FormatFamily::Float => ["instructions_float", "mixed_float", "refuted_float"],
         FormatFamily::Fixed => ["instructions_fixed", "mixed_fixed", "refuted_fixed"],
     };
     found.heading(format!("Instructions in {name} formats"));
-    found.table(FoundTable::from(tables::instructions(family, minimum, outcome, runs)).csv(csv).field(csv));
+    found.table(FoundTable::from(tables::instructions(family, minimum, runs)).csv(csv).field(csv));
     if let Some(blamed) = family.blamed {
         let sum: f64 = family.needs.iter().filter_map(|needs| needs.blame).fold(0.0, |sum, share| sum + share);
         found.paragraph(format!(
             "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
-             Errors are in units in the last place of {minimum}, against the exact results of the same operands. Blame \
-             is the share of the loss with all instructions in {} that remains if only this one is; regained is the \
-             share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
+             Blame is the share of the loss with all instructions in {} that remains if only this one is; regained is \
+             the share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
             blamed.bits,
             percent(sum),
             additivity(sum),

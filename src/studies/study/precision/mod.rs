@@ -18,14 +18,11 @@ mod outcome;
 mod pictures;
 mod report;
 mod runs;
-mod sampled;
 mod search;
-mod steps;
 mod subject;
 mod switches;
 mod systems;
 mod tables;
-mod ulps;
 
 use super::{ProgressFn, Study, StudyError};
 use crate::report::{Findings, Provenance};
@@ -36,13 +33,8 @@ pub use costs::FormatCosts;
 pub use expression::{ExpressionError, ExpressionStudy, InputDraw};
 pub use goal::{Goal, GoalError, GoalRelation};
 pub use outcome::Precision;
-pub use subject::{
-    ErrorMap, FragmentResults, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, RoundedInstruction,
-    SampledResults, StudiedProgram,
-};
+pub use subject::{ErrorMap, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 pub use systems::PaperSystem;
-#[doc(hidden)]
-pub use systems::spread;
 
 impl Study for Precision {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

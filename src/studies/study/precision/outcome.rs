@@ -9,11 +9,9 @@ use super::goal::Goal;
 use super::half::{HalfExpression, half_expressions};
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
 use super::runs::{RunError, Runs};
-use super::sampled::sample_results;
 use super::search::{MixedFormats, STARTS, search};
 use super::subject::{Measured, PrecisionSubject};
 use super::switches::{SwitchRow, sensitivity};
-use super::ulps::ResultRange;
 use crate::names::did_you_mean;
 use crate::report::words::listed;
 use crate::study::{ProgressFn, StudyError};
@@ -71,8 +69,6 @@ pub(super) struct PrecisionOutcome {
     /// Expressions that may be in half precision, for a shader in WGSL.
     pub(super) half: Vec<HalfExpression>,
     pub(super) families: Vec<FamilyOutcome>,
-    /// Ranges of results by instruction; empty if the subject has no traces.
-    pub(super) ranges: Vec<Option<ResultRange>>,
     pub(super) switches: Vec<SwitchRow>,
     /// `true` if the budget was spent before the study ended.
     pub(super) budget_spent: bool,
@@ -152,13 +148,6 @@ impl Precision {
             outcome.named.push((name, bits, value));
         }
         half_expressions(runs, &mut outcome.half)?;
-        let minima: Vec<FormatBits> = outcome.families.iter().filter_map(|family| family.curve.minimum).collect();
-        let sample = sample_results(&minima, runs)?;
-        outcome.ranges = sample.ranges;
-        let with_minimum = outcome.families.iter_mut().filter(|family| family.curve.minimum.is_some());
-        for (family, errors) in with_minimum.zip(sample.errors) {
-            family.needs.iter_mut().zip(errors).for_each(|(needs, error)| needs.local = error);
-        }
         for family in &mut outcome.families {
             family.run(&self.costs, runs)?;
         }

@@ -29,7 +29,7 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     found.table(FoundTable::from(tables::curves(outcome, runs)).csv("curve").field("curve").unprinted());
     half_report::report(&mut found, &outcome.half, runs)?;
     for family in &outcome.families {
-        family_report::per_instruction(&mut found, study, family, outcome, runs);
+        family_report::per_instruction(&mut found, study, family, runs);
     }
     open_switches(&mut found, outcome);
     found.heading("Measures");

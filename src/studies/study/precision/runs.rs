@@ -9,9 +9,7 @@ use refsim::num::Format;
 
 use super::bits::{Assignment, FormatBits};
 use super::goal::Goal;
-use super::subject::{
-    InstructionPlace, Measured, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram, places,
-};
+use super::subject::{InstructionPlace, Measured, PrecisionSubject, StudiedProgram, places};
 use crate::study::{ProgressFn, StudyError};
 
 /// Reason why a search ends.
@@ -145,13 +143,6 @@ impl<'a> Runs<'a> {
     /// Measures everything for the report, outside of the budget.
     pub(super) fn shown(&self, device: &Profile, executor: ExecutorKind) -> Result<Measured, StudyError> {
         self.subject.measure(device, executor, None)
-    }
-
-    /// Results of all instructions in the exact run, and of the rounded instructions: counts as one run.
-    pub(super) fn results(&mut self, rounded: &[RoundedInstruction]) -> Result<SampledResults, RunError> {
-        self.spend()?;
-        let exact = self.uniform_device(self.subject.profile(), None);
-        Ok(self.subject.results(&exact, rounded)?)
     }
 
     fn spend(&mut self) -> Result<(), RunError> {

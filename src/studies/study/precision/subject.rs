@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use refsim::device::{Profile, takes_format};
 use refsim::isa::{Instruction, Opcode, Program};
 use refsim::machine::ExecutorKind;
-use refsim::num::Format;
 
 use super::goal::Goal;
 use crate::picture::RgbImage;
@@ -67,32 +66,6 @@ impl Measured {
     }
 }
 
-/// Results of one instruction by fragment number and component: the first result in that fragment.
-pub type FragmentResults = BTreeMap<(u32, u8), f64>;
-
-/// Results of the instructions of one program, by the index of the instruction.
-pub type InstructionResults = BTreeMap<usize, FragmentResults>;
-
-/// Instruction with its own format while all others are exact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RoundedInstruction {
-    /// Index of the program.
-    pub program: usize,
-    /// Index of the instruction.
-    pub instruction: usize,
-    /// Its format.
-    pub format: Format,
-}
-
-/// Results of instructions; all fields have the same fragments.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SampledResults {
-    /// Results in the exact run, by program.
-    pub exact: Vec<InstructionResults>,
-    /// Results of each rounded instruction, in draws with the input of the exact run.
-    pub rounded: Vec<FragmentResults>,
-}
-
 /// Pixel programs with their input, run on a device repeatedly in different number formats.
 ///
 /// Every run is compared with the same reference, which does not depend on the device of the run. The same device gives
@@ -138,13 +111,6 @@ pub trait PrecisionSubject {
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
         let _ = profile;
         Ok(None)
-    }
-
-    /// Results in a sample of fragments: of all instructions in the exact run, and of the rounded ones; empty if the
-    /// subject has no traces. Fails if the device cannot run the programs.
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let _ = (exact, rounded);
-        Ok(SampledResults::default())
     }
 
     /// Sentences about the subject for the page.

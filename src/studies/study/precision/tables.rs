@@ -3,7 +3,6 @@
 use refsim::isa::Span;
 
 use super::bits::FormatBits;
-use super::instructions::InstructionNeeds;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
 use super::search::MixedFormats;
@@ -63,45 +62,27 @@ pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
 }
 
 /// Table with a row per instruction.
-pub(super) fn instructions(
-    family: &FamilyOutcome,
-    minimum: FormatBits,
-    outcome: &PrecisionOutcome,
-    runs: &Runs<'_>,
-) -> Table {
+pub(super) fn instructions(family: &FamilyOutcome, minimum: FormatBits, runs: &Runs<'_>) -> Table {
     let mut table = Table::of(
         format!("Instructions, {}", family.curve.family.digits()),
-        "line instruction alone others_at_minimum mixed exponents median_ulp largest_ulp blame_% regained_% note",
+        "line instruction alone others_at_minimum mixed blame_% regained_% note",
     );
+    let fewest = *minimum.family.digit_bits(minimum.range).start();
     for (place, needs) in family.needs.iter().enumerate() {
         let mixed = family.mixed.as_ref().map(|mixed| mixed.formats[place].to_string());
-        let range = outcome.ranges.get(place).copied().flatten();
-        let exponents = range.and_then(|range| range.exponents).map(|[low, high]| format!("{low} to {high}"));
         let share = |share: Option<f64>| share.map(|share| Cell::percent(100.0 * share).heated(share));
-        let cells: [Cell; 9] = [
+        let has_no_effect = needs.blame == Some(0.0) && needs.alone == Some(fewest);
+        let cells: [Cell; 6] = [
             needs.alone.into(),
             needs.in_company.into(),
             mixed.into(),
-            exponents.into(),
-            needs.local.map(|local| Cell::error(local.median)).into(),
-            needs.local.map(|local| Cell::error(local.largest)).into(),
             share(needs.blame).into(),
             share(needs.regained).into(),
-            note(needs, minimum, range.is_some_and(|range| range.not_finite)).into(),
+            has_no_effect.then_some("no effect").into(),
         ];
         table.push(named_line(place, runs).into_iter().chain(cells));
     }
     table
-}
-
-fn note(needs: &InstructionNeeds, minimum: FormatBits, not_finite: bool) -> Option<&'static str> {
-    let fewest = *minimum.family.digit_bits(minimum.range).start();
-    let no_effect = needs.blame == Some(0.0) && needs.alone == Some(fewest);
-    match (no_effect, not_finite) {
-        (true, _) => Some("no effect"),
-        (_, true) => Some("infinite or NaN"),
-        _ => None,
-    }
 }
 
 /// Table of the mixed formats.

@@ -3,29 +3,19 @@
 mod drawn;
 mod errors;
 
-use std::collections::BTreeMap;
-
 use refsim::device::Profile;
-use refsim::isa::{Destination, Instruction, Program, Register, RegisterFile};
 use refsim::machine::ExecutorKind;
 
 use super::executors::SubjectExecutors;
 use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
-use super::steps::{first_results, with_rounded};
-use super::subject::{
-    ErrorMap, FragmentResults, InstructionResults, Measured, PrecisionMeasure, PrecisionSubject, RoundedInstruction,
-    SampledResults, StudiedProgram,
-};
-use crate::case::{CaseError, Loaded, Setup};
+use super::subject::{ErrorMap, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+use crate::case::{CaseError, Setup};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
 use crate::shader::ShaderText;
 use crate::study::StudyError;
 use drawn::{DrawnCase, codes};
 use errors::{CaseErrors, FLIP, LARGEST_CODES, MEASURES, SSIM};
-
-/// Maximum number of pixels that are traced.
-const TRACED: usize = 1024;
 
 /// Case whose pixel program is studied. The reference is its exact run.
 #[derive(Debug)]
@@ -121,20 +111,6 @@ impl PrecisionSubject for CaseSubject {
         self.held_back.as_deref().map(measure).transpose()
     }
 
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let all = self.sampled(&self.setup, exact, |_| true)?;
-        let of = |rounded: &RoundedInstruction| {
-            let device = with_rounded(exact, &self.setup.pixel, *rounded);
-            let mut found = self.sampled(&self.setup, &device, |instruction| instruction == rounded.instruction)?;
-            Ok(found.remove(&rounded.instruction).unwrap_or_default())
-        };
-        let rounded = match self.rounded_copies(exact, rounded)? {
-            Some(found) => found,
-            None => rounded.iter().map(of).collect::<Result<_, StudyError>>()?,
-        };
-        Ok(SampledResults { exact: vec![all], rounded })
-    }
-
     fn notes(&self) -> Vec<String> {
         let all = || self.exact.targets.iter().flat_map(|target| &target.values);
         let not_finite = all().filter(|value| !value.is_finite()).count();
@@ -187,57 +163,5 @@ impl CaseSubject {
             }
             None => format!("{x}, {y}{of}: {name} {}, not {}", ours.values[at] as f32, exact.values[at] as f32),
         }
-    }
-
-    /// Results of rounded instructions of a translated shader, in one draw per format: before each instruction stands a
-    /// copy that writes to a register that nothing reads. `None` if the program has no such register.
-    fn rounded_copies(
-        &self,
-        exact: &Profile,
-        rounded: &[RoundedInstruction],
-    ) -> Result<Option<Vec<FragmentResults>>, StudyError> {
-        let (program, text) = (&self.setup.pixel, &self.setup.pixel_text);
-        let written = program.instructions.iter().filter_map(|instruction| Some(instruction.destination?.register));
-        let free =
-            written.filter(|register| register.file == RegisterFile::Temp).map(|register| register.index + 1).max();
-        let Some(index) = free.filter(|_| text.is_wgsl()) else { return Ok(None) };
-        let mut found = Vec::new();
-        for group in rounded.chunk_by(|a, b| a.format == b.format) {
-            let (mut instructions, mut copies) = (Vec::new(), BTreeMap::new());
-            for (at, instruction) in program.instructions.iter().enumerate() {
-                if group.iter().any(|rounded| rounded.instruction == at) {
-                    copies.insert(at, instructions.len());
-                    let register = Register::new(RegisterFile::Temp, index);
-                    let destination = instruction.destination.map(|to| Destination { register, ..to });
-                    instructions.push(Instruction { destination, ..instruction.clone() });
-                }
-                instructions.push(instruction.clone());
-            }
-            let copied = Program { instructions, ..(**program).clone() };
-            let Ok(pixel) = text.check(copied, exact) else { return Ok(None) };
-            let mut device = exact.clone();
-            device.set_instruction_formats(&pixel, copies.values().map(|at| (*at, group[0].format)).collect());
-            let setup = Setup { pixel, ..self.setup.clone() };
-            let mut results = self.sampled(&setup, &device, |at| copies.values().any(|copy| *copy == at))?;
-            let of = |rounded: &RoundedInstruction| results.remove(&copies[&rounded.instruction]).unwrap_or_default();
-            found.extend(group.iter().map(of));
-        }
-        Ok(Some(found))
-    }
-
-    /// First results of the wanted instructions of a case, in the fragments of evenly spaced pixels.
-    fn sampled(
-        &self,
-        setup: &Setup,
-        device: &Profile,
-        is_wanted: impl Fn(usize) -> bool,
-    ) -> Result<InstructionResults, StudyError> {
-        let setup = setup.on_device(device.clone())?;
-        let [width, height] = self.setup.size;
-        let count = width as usize * height as usize;
-        let step = count.div_ceil(TRACED).max(1);
-        let pixels: Vec<(u32, u32)> = (0..count as u32).step_by(step).map(|at| (at % width, at / width)).collect();
-        let traces = Loaded::new(&setup, &self.executors.batch)?.trace(&pixels)?;
-        Ok(first_results(device, &setup.pixel, (0, traces.iter().flatten()), is_wanted))
     }
 }

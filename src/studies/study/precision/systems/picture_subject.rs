@@ -5,15 +5,13 @@ use refsim::machine::{Executor, ExecutorKind};
 
 use super::programs::PixelPrograms;
 use super::run::{SystemInput, SystemRun};
-use super::sampler::ResultSampler;
 use crate::picture::metrics::{ErrorSums, relative_error, value_error};
 use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{
-    ErrorMap, Measured, NOT_FINITE, PrecisionMeasure, PrecisionSubject, RoundedInstruction, SampledResults,
-    StudiedProgram,
+    ErrorMap, Measured, NOT_FINITE, PrecisionMeasure, PrecisionSubject, StudiedProgram,
 };
 
 const MEASURES: [PrecisionMeasure; 5] = [
@@ -134,12 +132,6 @@ impl PrecisionSubject for SystemSubject {
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
         let run = |device: &Profile, executor: &Executor| self.run.values(SystemInput::Searched, device, executor);
         Ok(!PixelPrograms::of(profile, &self.executors.batch, run)?.0.are_among(&self.programs))
-    }
-
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let sampler = ResultSampler::new(&self.programs, exact, rounded)?;
-        self.run.values(SystemInput::Searched, exact, &self.executors.batch.watched(sampler.clone()))?;
-        Ok(sampler.results())
     }
 }
 

@@ -7,7 +7,6 @@ use refsim::machine::{Executor, ExecutorKind};
 
 use super::programs::PixelPrograms;
 use super::run::at_most;
-use super::sampler::ResultSampler;
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
@@ -18,9 +17,7 @@ use crate::study::StudyError;
 use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{
-    Measured, PrecisionMeasure, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram,
-};
+use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 
 /// Number of quads per side of a Bezier patch.
 const TESSELLATION: u32 = 4;
@@ -143,14 +140,6 @@ impl PrecisionSubject for RayEngineSubject {
 
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
         Ok(!drawn(profile, &self.executors, &self.mesh, &self.views[0].0)?.are_among(&self.programs))
-    }
-
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let sampler = ResultSampler::new(&self.programs, exact, rounded)?;
-        // One target holds all rays.
-        let executor = self.executors.batch.watched(sampler.clone());
-        Crossbar::new(exact.clone(), executor).all_pairs(true).intersect(&self.mesh, &self.views[0].0, Sides::Front)?;
-        Ok(sampler.results())
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {

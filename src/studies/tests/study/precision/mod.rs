@@ -186,19 +186,6 @@ fn a_dead_instruction_has_no_blame() {
     assert_eq!(needs("note")[1], "no effect");
 }
 
-/// Ranges are the exact results' ranges, and a local error is the error of one operation on exact operands.
-#[test]
-fn ranges_and_local_errors_are_those_of_the_results() {
-    let body = "mul r0, c0, c0\nmul r0, r0, c1";
-    let constants = "c0 = [3, 3, 3, 3]\nc1 = [0.125, 0.125, 0.125, 0.125]";
-    let document = document(&study(&case(body, constants), "largest_relative<=0.2", &[FormatFamily::Float]));
-    let needs = |key: &str| column(&document, "instructions_float", key);
-    assert_eq!(needs("exponents"), ["3 to 3", "0 to 0", "0 to 0"]);
-    assert_eq!(digits(&document["families"][0]["minimum"]), Some(1));
-    // 9 rounds to 8 in steps of 4, and 9/8 rounds to 1 in steps of 1/2.
-    assert_eq!([needs("median_ulp"), needs("largest_ulp")].concat(), [0.25; 6]);
-}
-
 const POLYNOMIAL: &str = "mov r0, t0\nmad r1, r0, c0, c1\nmad r1, r1, r0, c2\nmul r0, r1, r0\nmad r0, r0, c3, r0";
 
 /// Case whose instructions need different formats, and whose pixels have different values.
