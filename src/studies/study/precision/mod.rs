@@ -33,7 +33,7 @@ pub use costs::FormatCosts;
 pub use expression::{ExpressionError, ExpressionStudy, InputDraw};
 pub use goal::{Goal, GoalError, GoalRelation};
 pub use outcome::Precision;
-pub use subject::{ErrorMap, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+pub use subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 pub use systems::PaperSystem;
 
 impl Study for Precision {

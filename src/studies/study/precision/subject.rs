@@ -44,19 +44,6 @@ pub struct Measured {
     pub worst: Option<String>,
     /// Picture of the result.
     pub picture: Option<RgbImage>,
-    /// Error of each pixel.
-    pub errors: Option<ErrorMap>,
-}
-
-/// Error of each pixel, rows from the top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ErrorMap {
-    /// Width in pixels.
-    pub width: u32,
-    /// Unit of the errors, in the plural.
-    pub unit: &'static str,
-    /// Largest error of a channel, per pixel; infinite if a value is not finite.
-    pub values: Vec<f64>,
 }
 
 impl Measured {

@@ -70,7 +70,7 @@ pub(super) fn instructions(family: &FamilyOutcome, minimum: FormatBits, runs: &R
     let fewest = *minimum.family.digit_bits(minimum.range).start();
     for (place, needs) in family.needs.iter().enumerate() {
         let mixed = family.mixed.as_ref().map(|mixed| mixed.formats[place].to_string());
-        let share = |share: Option<f64>| share.map(|share| Cell::percent(100.0 * share).heated(share));
+        let share = |share: Option<f64>| share.map(|share| Cell::percent(100.0 * share));
         let has_no_effect = needs.blame == Some(0.0) && needs.alone == Some(fewest);
         let cells: [Cell; 6] = [
             needs.alone.into(),

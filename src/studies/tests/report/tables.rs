@@ -100,14 +100,6 @@ fn verdicts_stand_second_and_rows_have_links() {
 }
 
 #[test]
-fn shares_are_colored() {
-    let mut table = Table::of("Rows", "what share other");
-    table.push(["a".into(), Cell::percent(50.0).heated(0.5), Cell::percent(1.0)]);
-    let html = page_of(table);
-    assert!(html.contains("style=\"background:rgb(213 94 0 / 30%)\">50.0</td><td class=\"number\">1.0<"), "{html}");
-}
-
-#[test]
 fn the_fold_of_a_named_row_keeps_its_name() {
     let mut table = Table::of("Rows", "what");
     ["a", "b", "c"].into_iter().for_each(|name| table.push_named(name.to_owned(), [name.into()]));

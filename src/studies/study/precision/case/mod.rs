@@ -9,7 +9,7 @@ use refsim::machine::ExecutorKind;
 use super::executors::SubjectExecutors;
 use super::goal::{Goal, GoalRelation};
 use super::runs::exact;
-use super::subject::{ErrorMap, Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+use super::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 use crate::case::{CaseError, Setup};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
 use crate::shader::ShaderText;
@@ -139,12 +139,10 @@ impl CaseSubject {
             values.extend(ssim(&ours, &exact).map(|ssim| (SSIM.name, ssim)));
             values.extend(flip(&ours, &exact, DEFAULT_PPD).map(|flip| (FLIP.name, flip.mean)));
         }
-        let is_shown = wanted.is_none();
         Ok(Measured {
             values,
             worst: errors.worst.map(|worst| self.place(worst, &drawn)),
-            picture: is_shown.then(|| drawn.picture(self.setup.size)),
-            errors: is_shown.then(|| ErrorMap { width, unit: self.exact.unit(), values: errors.off }),
+            picture: wanted.is_none().then(|| drawn.picture(self.setup.size)),
         })
     }
 

@@ -10,9 +10,7 @@ use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
 use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{
-    ErrorMap, Measured, NOT_FINITE, PrecisionMeasure, PrecisionSubject, StudiedProgram,
-};
+use crate::study::precision::subject::{Measured, NOT_FINITE, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 
 const MEASURES: [PrecisionMeasure; 5] = [
     PrecisionMeasure {
@@ -56,8 +54,6 @@ struct SystemErrors {
     values: Vec<(&'static str, f64)>,
     /// Index of the largest error, the first one on a tie; `None` if there are no errors.
     worst: Option<usize>,
-    /// Largest error of a channel per pixel or patch, in 255ths.
-    off: Vec<f64>,
 }
 
 /// Errors of values compared with exact ones.
@@ -83,7 +79,7 @@ fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> SystemErrors {
         ("visible", visible as f64 / count),
         ("not_finite", sums.not_finite as f64),
     ];
-    SystemErrors { values, worst: off.iter().position(|off| *off > 0.0 && *off == most), off }
+    SystemErrors { values, worst: off.iter().position(|off| *off > 0.0 && *off == most) }
 }
 
 impl PrecisionSubject for SystemSubject {
@@ -109,7 +105,7 @@ impl PrecisionSubject for SystemSubject {
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
         let found = self.run.values(SystemInput::Searched, profile, self.executors.of(executor))?;
-        let SystemErrors { values, worst, off } = errors(&found, &self.exact);
+        let SystemErrors { values, worst } = errors(&found, &self.exact);
         let worst = worst.map(|at| {
             let place = match self.run.size() {
                 Some([width, _]) => format!("pixel {}, {}", at as u32 % width, at as u32 / width),
@@ -119,8 +115,7 @@ impl PrecisionSubject for SystemSubject {
             format!("{place}: {ours:?}, not {exact:?}")
         });
         let shown = self.run.size().filter(|_| wanted.is_none());
-        let errors = shown.map(|[width, _]| ErrorMap { width, unit: "255ths", values: off });
-        Ok(Measured { values, worst, picture: shown.map(|size| picture(size, &found)), errors })
+        Ok(Measured { values, worst, picture: shown.map(|size| picture(size, &found)) })
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {

@@ -94,7 +94,7 @@ impl RayEngineSubject {
             let (x, y) = (at as u32 % SIDE, at as u32 / SIDE);
             format!("ray at pixel {x}, {y}")
         });
-        Ok(Measured { values, worst, picture, errors: None })
+        Ok(Measured { values, worst, picture })
     }
 }
 

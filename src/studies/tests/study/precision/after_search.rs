@@ -1,4 +1,4 @@
-//! Tests of the steps after a search: held-back input, refutations, pictures of errors.
+//! Tests of the steps after a search: held-back input and refutations.
 
 use crossbar_studies::study::StudyError;
 
@@ -39,5 +39,4 @@ fn a_refutation_has_its_place() {
     let document = document(&study);
     let places = column(&document, "refuted_float", "largest_error_at_column_row");
     assert!(!places.is_empty() && places.iter().all(|place| place.is_string()), "{document}");
-    assert!(!StudyFiles::of(&study).bytes("errors-float.png").is_empty());
 }
