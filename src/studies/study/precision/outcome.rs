@@ -12,8 +12,6 @@ use super::runs::{RunError, Runs};
 use super::search::{MixedFormats, STARTS, search};
 use super::subject::{Measured, PrecisionSubject};
 use super::switches::{SwitchRow, sensitivity};
-use crate::names::did_you_mean;
-use crate::report::words::listed;
 use crate::study::{ProgressFn, StudyError};
 
 /// Approximate number of runs per curve.
@@ -85,15 +83,8 @@ impl PrecisionOutcome {
 impl Precision {
     /// Goal of the study. Fails if the subject does not have the goal's measure.
     pub(super) fn goal(&self) -> Result<Goal, StudyError> {
-        let Some(goal) = &self.goal else { return Ok(self.subject.default_goal()) };
         let names: Vec<&str> = self.subject.measures().iter().map(|measure| measure.name).collect();
-        if names.contains(&goal.measure.as_str()) {
-            return Ok(goal.clone());
-        }
-        let shown: String = goal.measure.chars().take(60).collect();
-        let found = format!("expected a goal for {}, found `{shown}`", listed(&names));
-        let help = format!("{}for example `--goal \"{}\"`", did_you_mean(&shown, names), self.subject.default_goal());
-        Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
+        Goal::chosen(self.goal.as_ref(), &names, self.subject.default_goal())
     }
 
     /// Runs of the subject. Fails if no runs are allowed, or no instruction has a format.

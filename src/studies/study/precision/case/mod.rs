@@ -7,7 +7,7 @@ use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::executors::SubjectExecutors;
-use super::goal::{Goal, GoalRelation};
+use super::goal::Goal;
 use super::runs::exact;
 use super::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 use crate::case::{CaseError, Setup};
@@ -92,7 +92,7 @@ impl PrecisionSubject for CaseSubject {
     fn default_goal(&self) -> Goal {
         let first = self.measures[0];
         let bound = if first == LARGEST_CODES { 1.0 } else { 0.01 };
-        Goal { measure: first.name.to_owned(), relation: GoalRelation::AtMost, bound }
+        Goal::at_most(first.name, bound)
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {

@@ -14,10 +14,9 @@ use super::sample::{self, Discard, InputDraw, Samples};
 use super::syntax::{self, ExpressionError};
 use super::{blame, errors};
 use crate::io::read_limited;
-use crate::names::did_you_mean;
 use crate::report::SourceText;
 use crate::report::digits::exact;
-use crate::report::words::{counted, listed};
+use crate::report::words::counted;
 use crate::study::StudyError;
 use crate::study::error::library_errors;
 use refsim::num::Format;
@@ -151,17 +150,7 @@ impl ExpressionStudy {
     }
 
     pub(super) fn goal(&self) -> Result<Goal, StudyError> {
-        let default = "mean_relative<=0.01";
-        let Some(goal) = &self.goal else {
-            return default.parse().map_err(|error| StudyError::coded("crossbar::precision::goal", error));
-        };
-        if MEASURES.contains(&goal.measure.as_str()) {
-            return Ok(goal.clone());
-        }
-        let shown: String = goal.measure.chars().take(60).collect();
-        let found = format!("expected a goal for {}, found `{shown}`", listed(&MEASURES));
-        let help = format!("{}for example `--goal \"{default}\"`", did_you_mean(&shown, MEASURES));
-        Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
+        Goal::chosen(self.goal.as_ref(), &MEASURES, Goal::at_most(MEASURES[0], 0.01))
     }
 
     /// Formats whose errors are shown: double precision, and cards' formats of the families.

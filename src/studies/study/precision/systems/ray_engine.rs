@@ -6,7 +6,6 @@ use refsim::isa::Version;
 use refsim::machine::{Executor, ExecutorKind};
 
 use super::programs::PixelPrograms;
-use super::run::at_most;
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
@@ -131,7 +130,7 @@ impl PrecisionSubject for RayEngineSubject {
     /// At most one ray in a thousand is wrong. Leaks alone are no sufficient goal: a format in which every ray hits
     /// something has none.
     fn default_goal(&self) -> Goal {
-        at_most("wrong", 0.001)
+        Goal::at_most("wrong", 0.001)
     }
 
     fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
