@@ -25,7 +25,7 @@ pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
 
 /// Line number and text of the instruction at a place, with the program's name if there are several programs.
 pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
-    let SourceLine { file, line, text, .. } = self::line(place, runs);
+    let SourceLine { file, line, text, .. } = line(place, runs);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }
