@@ -32,20 +32,6 @@ fn short_rows_are_filled() {
 }
 
 #[test]
-fn a_fold_keeps_the_first_row_and_names_the_others() {
-    let mut table = Table::of("t", "row leaks");
-    for (name, leaks) in [("a", 3_u32), ("b", 3), ("c", 4), ("d", 3)] {
-        table.push([name.into(), leaks.into()]);
-    }
-    let name = |row: usize| ["a", "b", "c", "d"][row].to_owned();
-    let folded = table.folded(&[0, 0, 2, 0], name, (["row", "rows"], "the same bits"));
-    assert_eq!(folded.rows().len(), 3);
-    assert_eq!(folded.rows()[1][0].text(), "2 rows: the same bits");
-    assert_eq!(folded.notes(), ["The same bits as a: b, d"]);
-    assert_eq!(table.folded(&[0, 1, 2, 3], name, (["row", "rows"], "the same bits")), table);
-}
-
-#[test]
 fn marks_are_named_in_json_and_stand_behind_numbers() {
     let mut table = Table::of("t", "what ours");
     table.push(["a".into(), Cell::percent(23.456).marked("*")]);

@@ -10,7 +10,7 @@ use super::arithmetic::Arithmetic;
 use super::blame::OperationError;
 use super::errors::{BitErrors, MEASURES};
 use super::graph::Expression;
-use super::sample::{self, Discard, InputDraw, Samples};
+use super::sample::{self, InputDraw, Samples};
 use super::syntax::{self, ExpressionError};
 use super::{blame, errors};
 use crate::io::read_limited;
@@ -144,7 +144,7 @@ impl ExpressionStudy {
     pub fn results(&self, name: &str, format: Option<Format>, inputs: &[u64]) -> Option<[u64; 2]> {
         let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
         let expression = self.expressions.iter().find(|expression| expression.name == name)?;
-        let exact = sample::exact(expression, arithmetic, inputs.to_vec()).ok()?.exact;
+        let exact = sample::exact(expression, arithmetic, inputs.to_vec())?.exact;
         let constants = arithmetic.constants(&expression.body);
         Some([exact, arithmetic.values(&expression.body, inputs, &constants).pop()?])
     }
@@ -225,18 +225,14 @@ fn without_inputs(expression: &Expression, arithmetic: Arithmetic, samples: &Sam
             return failed(&reason, "its bounds contradict each other");
         }
     }
-    let tried: usize = samples.discarded.iter().sum();
-    if tried == 0 {
+    if samples.discarded == 0 {
         return failed("expected inputs that meet the precondition, found none", "give it wider bounds");
     }
-    let (expected, help) = match Discard::ALL.into_iter().max_by_key(|&reason| samples.discarded[reason as usize]) {
-        Some(Discard::TooLarge) => ("a finite result in single precision", "give it inputs with smaller results"),
-        Some(Discard::Undecided) => {
-            ("a result that 12,288 bits decide", "values that are compared must not be equal: leave a distance")
-        }
-        _ => ("a real result", "it divides by zero, or takes a function outside of its domain"),
-    };
-    failed(&format!("expected {expected}, found none at {}", counted(tried as u64, "input", "inputs")), help)
+    let tried = counted(samples.discarded as u64, "input", "inputs");
+    failed(
+        &format!("expected a real, finite result in single precision, found none at {tried}"),
+        "it divides by zero, leaves a function's domain, is too large or compares equal numbers",
+    )
 }
 
 /// A format with the default rules.
