@@ -32,12 +32,11 @@ pub(super) fn per_instruction(found: &mut Findings, study: &Precision, family: &
     let state = if mixed.is_minimal { "1-minimal" } else { "the best so far" };
     found.heading(format!("Mixed {name} formats, {state}"));
     found.table(FoundTable::from(tables::mixed(mixed, study, runs)).csv(mixed_csv).field(mixed_csv).unprinted());
-    for (where_from, value) in
-        [("On the scalar executor", family.checked), ("On input that was held back from the search", family.held_back)]
-    {
-        let Some(value) = value else { continue };
-        let met = if runs.goal.met(value) { "meets" } else { "misses" };
-        found.paragraph(format!("{where_from} {} is {}: it {met} the goal.", runs.goal.measure, number(value)));
+    if let Some(value) = family.held_back {
+        let (measure, met) = (&runs.goal.measure, if runs.goal.met(value) { "meets" } else { "misses" });
+        let value = number(value);
+        found
+            .paragraph(format!("On input that was held back from the search {measure} is {value}: it {met} the goal."));
     }
     match family.spare {
         Some(spare @ 1..) => found.paragraph(format!(

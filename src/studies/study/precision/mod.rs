@@ -7,7 +7,6 @@ mod bits;
 mod case;
 mod costs;
 mod curve;
-mod executors;
 mod expression;
 mod family_report;
 mod goal;

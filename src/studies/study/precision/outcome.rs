@@ -1,7 +1,5 @@
 //! Parameters, and the steps of the study.
 
-use refsim::machine::ExecutorKind;
-
 use super::bits::{FormatBits, FormatFamily};
 use super::costs::FormatCosts;
 use super::curve::Curve;
@@ -46,9 +44,7 @@ pub(super) struct FamilyOutcome {
     pub(super) needs: Vec<InstructionNeeds>,
     /// Cheapest assignment found.
     pub(super) mixed: Option<MixedFormats>,
-    /// Value of the goal's measure with this assignment on the scalar executor.
-    pub(super) checked: Option<f64>,
-    /// Value on the input held back from the search.
+    /// Value of the goal's measure with this assignment on the input held back from the search.
     pub(super) held_back: Option<f64>,
     /// Number of bits to add to the range and to the precision of every instruction so that the held-back input meets
     /// the goal too; `None` if [`MOST_SPARE`] bits are not enough.
@@ -172,7 +168,7 @@ impl FamilyOutcome {
     /// Without findings.
     fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
-        Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None }
+        Self { curve, blamed: None, needs, mixed: None, held_back: None, spare: None }
     }
 
     /// Index and share of blame of the most blamed instruction; the first one on a tie.
@@ -181,7 +177,7 @@ impl FamilyOutcome {
         shares.min_by(|a, b| b.1.total_cmp(&a.1))
     }
 
-    /// Runs the mixed formats on the scalar executor and on held-back input.
+    /// Runs the mixed formats on held-back input.
     fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
         let Some(mixed) = &self.mixed else { return Ok(()) };
         let value = |measured: Measured| measured.value(&runs.goal.measure);
@@ -189,9 +185,6 @@ impl FamilyOutcome {
             let formats: Vec<_> = mixed.formats.iter().map(|bits| Some(bits.wider(spare))).collect();
             runs.device(runs.subject.profile(), &formats)
         };
-        if let Some(device) = with_spare(0) {
-            self.checked = Some(value(runs.shown(&device, ExecutorKind::Scalar)?));
-        }
         for spare in 0..=MOST_SPARE {
             let Some(device) = with_spare(spare) else { continue };
             let Some(found) = runs.subject.held_back(&device)?.map(value) else { break };

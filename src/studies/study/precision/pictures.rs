@@ -1,7 +1,5 @@
 //! Pictures of the study.
 
-use refsim::machine::ExecutorKind;
-
 use super::outcome::PrecisionOutcome;
 use super::runs::Runs;
 use super::tables::number;
@@ -13,7 +11,7 @@ pub(super) fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &
     let profile = runs.subject.profile();
     let mut pictures = Vec::new();
     let mut add = |name: String, caption: String, device| -> Result<(), StudyError> {
-        let measured = runs.shown(&device, ExecutorKind::Batch)?;
+        let measured = runs.shown(&device)?;
         let value = number(measured.value(&runs.goal.measure));
         let caption = format!("{caption}: {} {value}", runs.goal.measure);
         pictures.extend(measured.picture.map(|picture| NamedPicture::new(name, picture, caption)));

@@ -181,7 +181,6 @@ fn fields(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
             "counterexample": family.curve.scan.counterexample,
             "mixed_cost": family.mixed.as_ref().map(|mixed| mixed.cost),
             "one_minimal": family.mixed.as_ref().map(|mixed| mixed.is_minimal),
-            "scalar": family.checked,
             "held_back": family.held_back,
             "spare": family.spare,
         })

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use refsim::device::Profile;
 use refsim::isa::Program;
-use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 
 use super::bits::{Assignment, FormatBits};
@@ -137,12 +136,12 @@ impl<'a> Runs<'a> {
     /// Measures the goal's measure on any device.
     pub(super) fn measure(&mut self, device: &Profile) -> Result<Measured, RunError> {
         self.spend()?;
-        Ok(self.subject.measure(device, ExecutorKind::Batch, Some(&self.goal.measure))?)
+        Ok(self.subject.measure(device, Some(&self.goal.measure))?)
     }
 
     /// Measures everything for the report, outside of the budget.
-    pub(super) fn shown(&self, device: &Profile, executor: ExecutorKind) -> Result<Measured, StudyError> {
-        self.subject.measure(device, executor, None)
+    pub(super) fn shown(&self, device: &Profile) -> Result<Measured, StudyError> {
+        self.subject.measure(device, None)
     }
 
     fn spend(&mut self) -> Result<(), RunError> {

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use refsim::device::{Profile, takes_format};
 use refsim::isa::{Instruction, Opcode, Program};
-use refsim::machine::ExecutorKind;
 
 use super::goal::Goal;
 use crate::picture::RgbImage;
@@ -75,7 +74,7 @@ pub trait PrecisionSubject {
 
     /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`. Fails if the
     /// device cannot run the programs.
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
     /// Runs another text in place of the only pixel program on the device of the exact run, and measures; `None` if the
     /// subject has several programs.

@@ -4,9 +4,8 @@ mod drawn;
 mod errors;
 
 use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
+use refsim::machine::{Executor, ExecutorKind};
 
-use super::executors::SubjectExecutors;
 use super::goal::Goal;
 use super::runs::exact;
 use super::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
@@ -22,7 +21,7 @@ use errors::{CaseErrors, FLIP, LARGEST_CODES, MEASURES, SSIM};
 pub struct CaseSubject {
     setup: Setup,
     title: String,
-    executors: SubjectExecutors,
+    executor: Executor,
     measures: Vec<PrecisionMeasure>,
     exact: DrawnCase,
     /// Another case with the same pixel program, which tests the mixed formats that were searched on this one.
@@ -33,15 +32,15 @@ impl CaseSubject {
     /// Draws the exact run of a case, whose device is used unchanged. `name` is the title of a case without one. Fails
     /// if the device cannot draw the case.
     pub fn new(setup: Setup, name: &str) -> Result<Self, StudyError> {
-        let executors = SubjectExecutors::new();
-        let exact = DrawnCase::new(&setup, &executors.batch, &exact(&setup.profile, [&*setup.pixel]))?;
+        let executor = ExecutorKind::Batch.into();
+        let exact = DrawnCase::new(&setup, &executor, &exact(&setup.profile, [&*setup.pixel]))?;
         let screen = exact.screen(setup.size)?;
         let perceptual = [(SSIM, ssim(&screen, &screen).is_some()), (FLIP, true)];
         let first = exact.has_codes().then_some(LARGEST_CODES);
         let last = perceptual.into_iter().filter(|(_, has)| *has).map(|(measure, _)| measure);
         let title = setup.title.clone().unwrap_or_else(|| name.to_owned());
         let measures = first.into_iter().chain(MEASURES).chain(last).collect();
-        Ok(Self { title, executors, measures, exact, setup, held_back: None })
+        Ok(Self { title, executor, measures, exact, setup, held_back: None })
     }
 
     /// Holds back a case: formats found on this case are tested on it, on this case's device. `name` says where it
@@ -95,19 +94,19 @@ impl PrecisionSubject for CaseSubject {
         Goal::at_most(first.name, bound)
     }
 
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        self.measured(&self.setup, profile, executor, wanted)
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        self.measured(&self.setup, profile, wanted)
     }
 
     fn measure_text(&self, text: &ShaderText, wanted: &str) -> Result<Option<Measured>, StudyError> {
         let profile = exact(&self.setup.profile, []);
         let pixel = text.assemble().and_then(|program| text.check(program, &profile)).map_err(CaseError::from)?;
         let setup = Setup { pixel, pixel_text: text.clone(), ..self.setup.clone() };
-        Ok(Some(self.measured(&setup, &profile, ExecutorKind::Batch, Some(wanted))?))
+        Ok(Some(self.measured(&setup, &profile, Some(wanted))?))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        let measure = |other: &Self| other.measure(profile, ExecutorKind::Batch, None);
+        let measure = |other: &Self| other.measure(profile, None);
         self.held_back.as_deref().map(measure).transpose()
     }
 
@@ -122,14 +121,8 @@ impl PrecisionSubject for CaseSubject {
 
 impl CaseSubject {
     /// Draws a case of the same size and targets, and measures it against the exact run.
-    fn measured(
-        &self,
-        setup: &Setup,
-        profile: &Profile,
-        executor: ExecutorKind,
-        wanted: Option<&str>,
-    ) -> Result<Measured, StudyError> {
-        let drawn = DrawnCase::new(setup, self.executors.of(executor), profile)?;
+    fn measured(&self, setup: &Setup, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        let drawn = DrawnCase::new(setup, &self.executor, profile)?;
         let [width, height] = self.setup.size;
         let errors = CaseErrors::new(&drawn, &self.exact, width as usize * height as usize);
         let known = errors.values().into_iter().filter(|(name, _)| self.measures.iter().any(|m| m.name == *name));

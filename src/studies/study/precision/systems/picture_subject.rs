@@ -8,7 +8,6 @@ use super::run::{SystemInput, SystemRun};
 use crate::picture::metrics::{ErrorSums, relative_error, value_error};
 use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
-use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{Measured, NOT_FINITE, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 
@@ -30,7 +29,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
 pub(super) struct SystemSubject {
     run: Box<dyn SystemRun>,
     profile: Profile,
-    executors: SubjectExecutors,
+    executor: Executor,
     programs: PixelPrograms,
     exact: Vec<[f64; 3]>,
     exact_held_back: Vec<[f64; 3]>,
@@ -38,13 +37,12 @@ pub(super) struct SystemSubject {
 
 impl SystemSubject {
     pub(super) fn new(run: Box<dyn SystemRun>, profile: Profile) -> Result<Self, StudyError> {
-        let executors = SubjectExecutors::new();
-        let (programs, [exact, exact_held_back]) =
-            PixelPrograms::of(&profile, &executors.batch, |device, executor| {
-                let values = |input| run.values(input, device, executor);
-                Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
-            })?;
-        Ok(Self { run, profile, executors, programs, exact, exact_held_back })
+        let executor = ExecutorKind::Batch.into();
+        let (programs, [exact, exact_held_back]) = PixelPrograms::of(&profile, &executor, |device, executor| {
+            let values = |input| run.values(input, device, executor);
+            Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
+        })?;
+        Ok(Self { run, profile, executor, programs, exact, exact_held_back })
     }
 }
 
@@ -103,8 +101,8 @@ impl PrecisionSubject for SystemSubject {
         self.run.default_goal()
     }
 
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let found = self.run.values(SystemInput::Searched, profile, self.executors.of(executor))?;
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        let found = self.run.values(SystemInput::Searched, profile, &self.executor)?;
         let SystemErrors { values, worst } = errors(&found, &self.exact);
         let worst = worst.map(|at| {
             let place = match self.run.size() {
@@ -119,14 +117,14 @@ impl PrecisionSubject for SystemSubject {
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        let found = self.run.values(SystemInput::HeldBack, profile, &self.executors.batch)?;
+        let found = self.run.values(SystemInput::HeldBack, profile, &self.executor)?;
         let values = errors(&found, &self.exact_held_back).values;
         Ok(Some(Measured { values, ..Measured::default() }))
     }
 
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
         let run = |device: &Profile, executor: &Executor| self.run.values(SystemInput::Searched, device, executor);
-        Ok(!PixelPrograms::of(profile, &self.executors.batch, run)?.0.are_among(&self.programs))
+        Ok(!PixelPrograms::of(profile, &self.executor, run)?.0.are_among(&self.programs))
     }
 }
 

@@ -14,7 +14,6 @@ use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 use crate::study::StudyError;
 use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
-use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
 use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 
@@ -40,7 +39,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
 /// Eye rays on the teapot.
 pub(super) struct RayEngineSubject {
     profile: Profile,
-    executors: SubjectExecutors,
+    executor: Executor,
     mesh: Mesh,
     /// View of the search, and the held-back view.
     views: [(RayBatch, JudgedRays); 2],
@@ -63,9 +62,9 @@ impl RayEngineSubject {
             let judged = JudgedRays::new(&tracer, view.rays().to_vec(), Sides::Front);
             (view, judged)
         });
-        let executors = SubjectExecutors::new();
-        let programs = drawn(&profile, &executors, &mesh, &views[0].0)?;
-        Ok(Self { profile, executors, mesh, views, programs })
+        let executor = ExecutorKind::Batch.into();
+        let programs = drawn(&profile, &executor, &mesh, &views[0].0)?;
+        Ok(Self { profile, executor, mesh, views, programs })
     }
 
     /// Traces a view on a device, and measures its errors.
@@ -73,10 +72,10 @@ impl RayEngineSubject {
         &self,
         (view, judged): &(RayBatch, JudgedRays),
         profile: &Profile,
-        executor: &Executor,
         is_pictured: bool,
     ) -> Result<Measured, StudyError> {
-        let hits = Crossbar::new(profile.clone(), executor.clone()).intersect(&self.mesh, view, Sides::Front)?.hits;
+        let hits =
+            Crossbar::new(profile.clone(), self.executor.clone()).intersect(&self.mesh, view, Sides::Front)?.hits;
         let (verdicts, tally) = judged.judge(&self.mesh, &hits);
         let wrong = tally.leaks + tally.false_hits + tally.wrong_triangle;
         let values = vec![
@@ -98,13 +97,8 @@ impl RayEngineSubject {
 }
 
 /// Programs that find the hits of a view.
-fn drawn(
-    profile: &Profile,
-    executors: &SubjectExecutors,
-    mesh: &Mesh,
-    view: &RayBatch,
-) -> Result<PixelPrograms, StudyError> {
-    let (programs, _) = PixelPrograms::of(profile, &executors.batch, |device, executor| {
+fn drawn(profile: &Profile, executor: &Executor, mesh: &Mesh, view: &RayBatch) -> Result<PixelPrograms, StudyError> {
+    let (programs, _) = PixelPrograms::of(profile, executor, |device, executor| {
         Ok(Crossbar::new(device.clone(), executor.clone()).intersect(mesh, view, Sides::Front)?)
     })?;
     Ok(programs)
@@ -133,15 +127,15 @@ impl PrecisionSubject for RayEngineSubject {
         Goal::at_most("wrong", 0.001)
     }
 
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        self.measured(&self.views[0], profile, self.executors.of(executor), wanted.is_none())
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        self.measured(&self.views[0], profile, wanted.is_none())
     }
 
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
-        Ok(!drawn(profile, &self.executors, &self.mesh, &self.views[0].0)?.are_among(&self.programs))
+        Ok(!drawn(profile, &self.executor, &self.mesh, &self.views[0].0)?.are_among(&self.programs))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        self.measured(&self.views[1], profile, &self.executors.batch, false).map(Some)
+        self.measured(&self.views[1], profile, false).map(Some)
     }
 }

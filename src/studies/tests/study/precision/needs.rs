@@ -92,7 +92,7 @@ impl PrecisionSubject for Told {
         self.case.default_goal()
     }
 
-    fn measure(&self, profile: &Profile, _: ExecutorKind, _: Option<&str>) -> Result<Measured, StudyError> {
+    fn measure(&self, profile: &Profile, _: Option<&str>) -> Result<Measured, StudyError> {
         let formats: Vec<_> = profile.instruction_formats().iter().flat_map(|(_, formats)| formats).collect();
         let text = |at: usize| {
             let (_, format) = formats.iter().find(|(index, _)| **index == at)?;

@@ -3,7 +3,6 @@
 use crossbar_studies::study::precision::{PaperSystem, PrecisionSubject};
 use refsim::device::{Profile, takes_format};
 use refsim::isa::Program;
-use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 use strum::IntoEnumIterator as _;
 
@@ -31,8 +30,7 @@ fn exact_device(subject: &dyn PrecisionSubject) -> Profile {
     device
 }
 
-/// The exact run is exact; with all instructions in single precision it is unchanged; fewer bits change it; both
-/// executors agree.
+/// The exact run is exact; with all instructions in single precision it is unchanged; fewer bits change it.
 #[test]
 fn each_system_is_run_with_formats_of_its_instructions() {
     for system in PaperSystem::iter() {
@@ -48,17 +46,14 @@ fn each_system_is_run_with_formats_of_its_instructions() {
             device
         };
         let goal = subject.default_goal();
-        let value = |device: &Profile, kind| {
-            let measured =
-                subject.measure(device, kind, Some(&goal.measure)).unwrap_or_else(|e| panic!("{system:?}: {e}"));
+        let value = |device: &Profile| {
+            let measured = subject.measure(device, Some(&goal.measure)).unwrap_or_else(|e| panic!("{system:?}: {e}"));
             measured.value(&goal.measure)
         };
-        let right = value(&exact, ExecutorKind::Batch);
+        let right = value(&exact);
         assert!(goal.met(right), "{system:?}: the exact run has {right}");
-        assert_eq!(value(&uniform("fp32"), ExecutorKind::Batch), right, "{system:?}: single precision");
-        let coarse = uniform("e8m4");
-        let found = value(&coarse, ExecutorKind::Batch);
+        assert_eq!(value(&uniform("fp32")), right, "{system:?}: single precision");
+        let found = value(&uniform("e8m4"));
         assert!(!goal.met(found), "{system:?}: four bits give {found}");
-        assert_eq!(value(&coarse, ExecutorKind::Scalar), found, "{system:?}: executors");
     }
 }
