@@ -8,7 +8,7 @@ use super::half::{HalfExpression, half_expressions};
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
 use super::runs::{RunError, Runs};
 use super::search::{MixedFormats, STARTS, search};
-use super::subject::{Measured, PrecisionSubject};
+use super::subject::PrecisionSubject;
 use super::switches::{SwitchRow, sensitivity};
 use crate::study::{ProgressFn, StudyError};
 
@@ -180,14 +180,13 @@ impl FamilyOutcome {
     /// Runs the mixed formats on held-back input.
     fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
         let Some(mixed) = &self.mixed else { return Ok(()) };
-        let value = |measured: Measured| measured.value(&runs.goal.measure);
-        let with_spare = |spare: u8| {
-            let formats: Vec<_> = mixed.formats.iter().map(|bits| Some(bits.wider(spare))).collect();
-            runs.device(runs.subject.profile(), &formats)
-        };
         for spare in 0..=MOST_SPARE {
-            let Some(device) = with_spare(spare) else { continue };
-            let Some(found) = runs.subject.held_back(&device)?.map(value) else { break };
+            let formats: Vec<_> = mixed.formats.iter().map(|bits| Some(bits.wider(spare))).collect();
+            let Some(device) = runs.device(runs.subject.profile(), &formats) else { continue };
+            let Some(found) = runs.subject.held_back(&device)?.map(|measured| measured.value(&runs.goal.measure))
+            else {
+                break;
+            };
             self.held_back.get_or_insert(found);
             if runs.goal.met(found) {
                 self.spare = Some(spare);
