@@ -22,7 +22,6 @@ const LINES: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Excerpt {
     piece: SourceText,
-    named: bool,
     /// Number of lines before the excerpt.
     first_line: usize,
     /// Per label: its position in the excerpt, and its column in the whole text, from 0, in characters.
@@ -66,7 +65,7 @@ impl Excerpt {
         });
         let (columns, moved) = (columns.collect(), moved.collect());
         let piece = SourceText::new(visible_line(whole.name().unwrap_or_default()), text);
-        Some((Self { piece, named: whole.name().is_some(), first_line: whole.line(), columns }, moved))
+        Some((Self { piece, first_line: whole.line(), columns }, moved))
     }
 }
 
@@ -82,10 +81,8 @@ impl SourceCode for Excerpt {
         let column = known.map_or(piece.column(), |(_, column)| *column);
         let (data, at, line, count) = (piece.data(), *piece.span(), piece.line(), piece.line_count());
         let line = self.first_line + line;
-        Ok(Box::new(match self.named {
-            true => MietteSpanContents::new_named(self.piece.name().to_owned(), data, at, line, column, count),
-            false => MietteSpanContents::new(data, at, line, column, count),
-        }))
+        let name = self.piece.name().to_owned();
+        Ok(Box::new(MietteSpanContents::new_named(name, data, at, line, column, count)))
     }
 }
 
