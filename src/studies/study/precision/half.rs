@@ -34,7 +34,7 @@ fn operations(text: &ShaderText) -> BTreeMap<[u32; 2], WgslOperation> {
 fn spans(place: usize, runs: &Runs<'_>) -> impl Iterator<Item = [u32; 2]> {
     let place = &runs.places[place];
     let program = runs.programs[place.program].program;
-    place.instructions().map(|at| program.instructions[at].span).map(|span| [span.start, span.end])
+    place.instructions.iter().map(|at| program.instructions[*at].span).map(|span| [span.start, span.end])
 }
 
 /// Tries each expression alone; then adds one after the other, least harmful first, as long as the goal is met.

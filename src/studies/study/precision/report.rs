@@ -33,8 +33,7 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     }
     open_switches(&mut found, outcome);
     found.heading("Measures");
-    found.keep_table(FoundTable::from(tables::measures(runs)).field("measures"));
-    found.table(FoundTable::from(tables::measures(runs)).unprinted());
+    found.table(FoundTable::from(tables::measures(runs)).field("measures").unprinted());
     fields(&mut found, outcome, runs);
     if let Some(family) = outcome.cheapest() {
         let programs: Vec<_> = runs.programs.iter().map(|studied| studied.program).collect();

@@ -93,7 +93,7 @@ impl<'a> Runs<'a> {
         let mut formats = vec![BTreeMap::new(); self.programs.len()];
         for (place, bits) in self.places.iter().zip(assignment) {
             let format = bits.map(|bits| bits.format(given.rules.format));
-            formats[place.program].extend(place.instructions().filter_map(|at| Some((at, format?))));
+            formats[place.program].extend(place.instructions.iter().filter_map(|at| Some((*at, format?))));
         }
         let mut device = exact(given, []);
         for (studied, formats) in self.programs.iter().zip(formats) {

@@ -113,16 +113,8 @@ const UNROLLED: usize = 8;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct InstructionPlace {
     pub(super) program: usize,
-    /// The first of these instructions.
-    pub(super) at: usize,
-    /// The other instructions.
-    pub(super) alike: Vec<usize>,
-}
-
-impl InstructionPlace {
-    pub(super) fn instructions(&self) -> impl Iterator<Item = usize> + '_ {
-        std::iter::once(self.at).chain(self.alike.iter().copied())
-    }
+    /// In ascending order; at least one.
+    pub(super) instructions: Vec<usize>,
 }
 
 /// Instructions that can have their own format, in the order of the texts.
@@ -151,11 +143,11 @@ fn places_of(program: usize, StudiedProgram { program: studied, text }: StudiedP
         };
         let place = |mut all: Vec<usize>| {
             all.sort_unstable();
-            InstructionPlace { program, at: all[0], alike: all.split_off(1) }
+            InstructionPlace { program, instructions: all }
         };
         together.into_iter().map(place).collect()
     };
     let mut places: Vec<InstructionPlace> = by_text.into_values().flat_map(split).collect();
-    places.sort_by_key(|place| place.at);
+    places.sort_by_key(|place| place.instructions[0]);
     places
 }

@@ -20,7 +20,10 @@ pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
     let place = &runs.places[place];
     let studied = &runs.programs[place.program];
     // Places of a study are instructions of its programs.
-    studied.text.instruction(studied.program, place.at).unwrap_or_else(|| studied.text.line(Span::default()))
+    studied
+        .text
+        .instruction(studied.program, place.instructions[0])
+        .unwrap_or_else(|| studied.text.line(Span::default()))
 }
 
 /// Line number and text of the instruction at a place, with the program's name if there are several programs.
