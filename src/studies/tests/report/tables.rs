@@ -84,11 +84,3 @@ fn verdicts_stand_second_and_rows_have_links() {
     assert!(after(row) < after("<td class=\"said\">missed</td><td class=\"number\">1</td>"));
     assert!(html.contains("<tr><th scope=\"row\">other</th>"), "a row without name or known verdict: {html}");
 }
-
-#[test]
-fn the_fold_of_a_named_row_keeps_its_name() {
-    let mut table = Table::of("Rows", "what");
-    ["a", "b", "c"].into_iter().for_each(|name| table.push_named(name.to_owned(), [name.into()]));
-    let html = page_of(table.folded(&[0, 0, 0], |row| row.to_string(), (["row", "rows"], "the same")));
-    assert!(html.contains("<tr id=\"a\">") && html.contains("<tr class=\"folded\">"), "{html}");
-}
