@@ -1,7 +1,5 @@
 //! The page that compares a GPU with the emulator, tested through its data.
 
-use std::fs;
-use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use base64::Engine as _;
@@ -36,20 +34,6 @@ fn text(value: &Value) -> &str {
 
 fn words(value: &Value) -> Vec<u32> {
     list(value).iter().map(|word| word.as_u64().expect("a number") as u32).collect()
-}
-
-fn assets(extension: &str) -> Vec<(PathBuf, String)> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("study/page/assets");
-    let files = fs::read_dir(folder).expect("the assets").map(|file| file.expect("a file").path());
-    let files = files.filter(|path| path.extension().is_some_and(|found| found == extension));
-    files.map(|path| (path.clone(), fs::read_to_string(path).expect("text"))).collect()
-}
-
-/// Every color of the sheet is a variable of the reports' sheet, so a dark page uses no color of a light page.
-#[test]
-fn the_sheet_has_no_color_of_its_own() {
-    let [(_, css)] = &assets("css")[..] else { panic!("one sheet") };
-    assert!(!css.contains("rgb(") && !css.contains(": #"));
 }
 
 /// Results of an operation in a format, set by set.
@@ -102,19 +86,6 @@ fn operands_reach_the_corners_of_a_format() {
         ] {
             assert!(found, "{name}: {what}");
         }
-    }
-}
-
-/// The text of each shader has its own entry point and none of the other shaders' operations.
-#[test]
-fn shaders_hold_what_they_run() {
-    let shaders = list(&DATA["arithmetic"]["shaders"]);
-    assert_eq!(shaders.len(), 3);
-    for shader in shaders {
-        let (entry, text) = (text(&shader["entry"]), text(&shader["text"]));
-        assert_eq!(text.matches("@compute").count(), 1, "{entry}");
-        assert!(text.contains(&format!("fn {entry}(")));
-        assert_eq!(text.contains("fn n_circle("), entry == "circle_main", "{entry}");
     }
 }
 
