@@ -44,7 +44,6 @@ mod shown;
 mod subsurface;
 mod tables;
 mod timeline;
-mod trace_format;
 mod tracing;
 mod tree;
 mod values;

@@ -6,7 +6,6 @@ use serde_json::Value;
 
 use crate::answers::{document, number};
 use crate::case::{CASES, example};
-use crate::trace_format::{Shown, read};
 use crate::{crossbar, crossbar_in};
 
 /// A small crossbar.
@@ -103,31 +102,70 @@ fn the_texture_cache_on_request() {
     assert_eq!(sum(&estimated["models"][0]["draws"], "fragments"), sum(&simulated["models"][0]["draws"], "fragments"));
 }
 
-fn traced(arguments: &[&str]) -> (Shown, f64) {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let path = folder.path().join("trace.json");
-    let path = path.to_str().expect("a path of text");
-    let document = document(&[arguments, &["--perfetto", path]].concat());
-    assert_eq!(document["trace"], path);
-    let totals = document["totals"].as_array().expect("totals");
-    let total = number(&totals.last().expect("a model")["total"]);
-    let shown = read(&fs::read_to_string(path).expect("the trace")).expect("a good trace");
-    (shown, total)
+fn whole(value: &Value) -> u64 {
+    value.as_u64().unwrap_or_else(|| panic!("expected a whole number, found {value}"))
+}
+
+/// Slice of a lane; times in nanoseconds, as viewers round them.
+struct Slice {
+    name: String,
+    category: String,
+    start: u64,
+    end: u64,
+    end_ps: u64,
+}
+
+/// Events of a trace in one phase of the trace event format.
+fn events<'t>(trace: &'t Value, phase: &'t str) -> impl Iterator<Item = &'t Value> {
+    trace["traceEvents"].as_array().expect("events").iter().filter(move |event| event["ph"] == phase)
+}
+
+/// Lanes of a trace, from the top. Checks what viewers require: slices that do not overlap after Perfetto's rounding of
+/// starts and durations, and flows whose ends lie in slices.
+fn lanes(trace: &Value) -> Vec<(&str, Vec<Slice>)> {
+    let text = |value: &'_ Value| value.as_str().expect("text").to_owned();
+    let rounded = |value: &Value| (value.as_f64().expect("microseconds") * 1e3).round() as u64;
+    let threads = events(trace, "M").filter(|event| event["name"] == "thread_name");
+    let mut lanes: Vec<(&str, Vec<Slice>)> =
+        threads.map(|event| (event["args"]["name"].as_str().expect("a name"), Vec::new())).collect();
+    let lane = |event: &Value| whole(&event["tid"]) as usize - 1;
+    for event in events(trace, "X") {
+        let [start, length] = ["ts", "dur"].map(|key| rounded(&event[key]));
+        let [start_ps, length_ps] = ["start_ps", "duration_ps"].map(|key| whole(&event["args"][key]));
+        let (end, end_ps) = (start + length, start_ps + length_ps);
+        assert_eq!([start, end], [start_ps / 1000, end_ps / 1000], "{event}");
+        let slices = &mut lanes[lane(event)].1;
+        assert!(slices.last().is_none_or(|before| before.end <= start), "two at a time: {event}");
+        slices.push(Slice { name: text(&event["name"]), category: text(&event["cat"]), start, end, end_ps });
+    }
+    for flow in events(trace, "s").chain(events(trace, "f")) {
+        let at = rounded(&flow["ts"]);
+        assert!(lanes[lane(flow)].1.iter().any(|slice| (slice.start..=slice.end).contains(&at)), "{flow}");
+    }
+    lanes
 }
 
 #[test]
 fn the_trace_is_one_that_viewers_open() {
     for arguments in [&["timeline", "fixtures/cases/modulate.toml"], RAYS] {
-        let (shown, total) = traced(arguments);
-        let names: Vec<&str> = shown.threads.iter().map(|(name, _)| name.as_str()).collect();
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let path = folder.path().join("trace.json");
+        let path = path.to_str().expect("a path of text");
+        let document = document(&[arguments, &["--perfetto", path]].concat());
+        assert_eq!(document["trace"], path);
+        let total = number(&document["totals"].as_array().and_then(|all| all.last()).expect("a model")["total"]);
+        let trace: Value = serde_json::from_str(&fs::read_to_string(path).expect("the trace")).expect("JSON");
+        let lanes = lanes(&trace);
+        let names: Vec<&str> = lanes.iter().map(|(name, _)| *name).collect();
         assert_eq!(names, ["host", "upload bus", "front end", "shader array", "memory", "read-back bus"]);
-        assert!(shown.process.contains("(pipeline model)"), "{}", shown.process);
-        assert_same(number(&shown.about["makespan_ps"]) / 1e6, total, &"the length of the run");
-        let slices = || shown.threads.iter().flat_map(|(_, slices)| slices);
-        let end = slices().map(|slice| slice.end_ps).max().unwrap_or_default();
-        assert_eq!(number(&shown.about["makespan_ps"]), end as f64, "the last slice ends with the run");
+        let process = events(&trace, "M").find(|event| event["name"] == "process_name").expect("a process");
+        assert!(process["args"]["name"].as_str().is_some_and(|name| name.contains("(pipeline model)")), "{process}");
+        let makespan = whole(&trace["otherData"]["makespan_ps"]);
+        assert_same(makespan as f64 / 1e6, total, &"the length of the run");
+        let slices = || lanes.iter().flat_map(|(_, slices)| slices);
+        assert_eq!(slices().map(|slice| slice.end_ps).max(), Some(makespan), "the last slice ends with the run");
         assert!(slices().any(|slice| slice.category == "wait") && slices().any(|slice| slice.name == "draw 0"));
-        assert!(shown.flows > 0, "the critical path goes from unit to unit");
+        assert!(events(&trace, "s").count() > 0, "the critical path goes from unit to unit");
     }
 }
 

@@ -1,48 +1,13 @@
 //! Evaluation of probes.
 
-use std::fmt;
-
 use refsim::{
     num::{Format, to_f64},
     output::DepthSurface,
     texture::{Image, SignedTexelMinimum},
 };
-use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::state::{Expected, Probe};
-
-/// Value found at a probed pixel.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Found {
-    /// Red, green, blue, alpha as numbers.
-    Color([f64; 4]),
-    /// The stored channels.
-    Raw(Vec<u32>),
-    /// The depth as a number.
-    Depth(f64),
-}
-
-impl fmt::Display for Found {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Color(channels) => write!(f, "{channels:?}"),
-            Self::Raw(channels) => write!(f, "raw {channels:?}"),
-            Self::Depth(depth) => write!(f, "depth {depth:?}"),
-        }
-    }
-}
-
-impl fmt::Display for Expected {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Color(channels) => write!(f, "{channels:?}"),
-            Self::Raw(channels) => write!(f, "raw {channels:?}"),
-            Self::Depth(depth) => write!(f, "depth {depth:?}"),
-        }
-    }
-}
+use super::state::{Probe, ProbeValue};
 
 /// Result of a probe.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +15,7 @@ pub struct ProbeResult {
     /// The probe.
     pub probe: Probe,
     /// Value found.
-    pub found: Found,
+    pub found: ProbeValue,
     /// `true` if the value found is the expected one.
     pub passed: bool,
 }
@@ -59,9 +24,9 @@ impl ProbeResult {
     /// Converts the result to JSON.
     pub fn document(&self) -> Value {
         let found = match &self.found {
-            Found::Color(channels) => json!(channels.map(number_json)),
-            Found::Raw(channels) => json!(channels),
-            Found::Depth(depth) => number_json(*depth),
+            ProbeValue::Color(channels) => channels.iter().map(|channel| number_json(*channel)).collect(),
+            ProbeValue::Raw(channels) => json!(channels),
+            ProbeValue::Depth(depth) => number_json(*depth),
         };
         json!({
             "pixel": self.probe.pixel,
@@ -91,24 +56,24 @@ pub(super) fn answer(
         expected == found || (expected.is_nan() && found.is_nan()) || (expected - found).abs() <= probe.tolerance
     };
     let (found, passed) = match &probe.expected {
-        Expected::Color(expected) => {
+        ProbeValue::Color(expected) => {
             let found = target.texel(0, 0, y, x, minimum).to_f64();
             let passed = expected.iter().zip(found).all(|(&expected, found)| close(expected, found));
-            (Found::Color(found), passed)
+            (ProbeValue::Color(found.to_vec()), passed)
         }
-        Expected::Raw(expected) => {
+        ProbeValue::Raw(expected) => {
             let raw = target.raw(0, 0, y, x);
             let found: Vec<u32> = target.format().record().stored().iter().map(|channel| channel.code(raw)).collect();
             let passed = expected.len() <= found.len() && found.starts_with(expected);
-            (Found::Raw(found), passed)
+            (ProbeValue::Raw(found), passed)
         }
-        Expected::Depth(expected) => {
+        ProbeValue::Depth(expected) => {
             // The set-up rejects depth probes without a depth buffer.
             let found = depth.and_then(|surface| {
                 let stored = surface.get(x, y)?;
                 Some(to_f64(&Format::FP32, surface.format().to_format(stored, Format::FP32)))
             });
-            (Found::Depth(found.unwrap_or(f64::NAN)), found.is_some_and(|found| close(*expected, found)))
+            (ProbeValue::Depth(found.unwrap_or(f64::NAN)), found.is_some_and(|found| close(*expected, found)))
         }
     };
     ProbeResult { probe: probe.clone(), found, passed }

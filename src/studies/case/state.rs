@@ -1,5 +1,7 @@
 //! Binding of targets, tests, blending and probes to the emulator's state.
 
+use std::fmt;
+
 use refsim::{
     output::{AlphaTest, BlendEquation, BlendState, DepthFormat, DepthState},
     texture::TexelFormat,
@@ -20,20 +22,30 @@ pub struct Probe {
     /// Index of the target.
     pub target: usize,
     /// Expected value.
-    pub expected: Expected,
+    pub expected: ProbeValue,
     /// Maximum absolute error of numbers.
     pub tolerance: f64,
 }
 
-/// Expected value of a probe.
+/// Value at a pixel, expected or found.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Expected {
-    /// The first components of red, green, blue and alpha, as numbers.
+pub enum ProbeValue {
+    /// Red, green, blue and alpha as numbers, or the first of them.
     Color(Vec<f64>),
     /// Stored channels, compared exactly.
     Raw(Vec<u32>),
     /// Depth as a number.
     Depth(f64),
+}
+
+impl fmt::Display for ProbeValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Color(channels) => write!(f, "{channels:?}"),
+            Self::Raw(channels) => write!(f, "raw {channels:?}"),
+            Self::Depth(depth) => write!(f, "depth {depth:?}"),
+        }
+    }
 }
 
 /// Binds the formats of the color targets.
@@ -156,7 +168,7 @@ pub(super) fn probes(
     probes.iter().map(one).collect()
 }
 
-fn expected(binder: &Binder<'_>, probe: &Spanned<schema::Probe>, has_depth: bool) -> Result<Expected, CaseError> {
+fn expected(binder: &Binder<'_>, probe: &Spanned<schema::Probe>, has_depth: bool) -> Result<ProbeValue, CaseError> {
     let wrong = |message: &str, help: &str| Err(binder.place.wrong(probe.span(), message, help));
     let four = |found: usize, span| {
         let message = format!("expected 1 to 4 channels, found {found}");
@@ -165,14 +177,14 @@ fn expected(binder: &Binder<'_>, probe: &Spanned<schema::Probe>, has_depth: bool
     let written = probe.get_ref();
     match (&written.expected, &written.raw, written.depth) {
         (Some(color), None, None) => match color.get_ref().len() {
-            1..=4 => Ok(Expected::Color(color.get_ref().iter().map(|number| number.double()).collect())),
+            1..=4 => Ok(ProbeValue::Color(color.get_ref().iter().map(|number| number.double()).collect())),
             found => four(found, color.span()),
         },
         (None, Some(raw), None) => match raw.get_ref().len() {
-            1..=4 => Ok(Expected::Raw(raw.get_ref().clone())),
+            1..=4 => Ok(ProbeValue::Raw(raw.get_ref().clone())),
             found => four(found, raw.span()),
         },
-        (None, None, Some(depth)) if has_depth => Ok(Expected::Depth(depth.double())),
+        (None, None, Some(depth)) if has_depth => Ok(ProbeValue::Depth(depth.double())),
         (None, None, Some(_)) => wrong("the probe asks for depth, but the case has no depth buffer", "add [depth]"),
         (None, None, None) => wrong("the probe expects nothing", "write `expected`, `raw` or `depth`"),
         _ => wrong("the probe expects several things at once", "write one probe for each"),

@@ -33,14 +33,12 @@ pub struct Figure {
     pub quantity: Quantity,
     /// Mark after the number, for example `*`; usually empty.
     pub mark: &'static str,
-    /// Strength of the color behind the number on a page, in [0, 1]; usually 0.
-    pub heat: f64,
 }
 
 impl Cell {
     /// Creates a number of this kind.
     pub const fn real(value: f64, quantity: Quantity) -> Self {
-        Self::Real(Figure { value, quantity, mark: "", heat: 0.0 })
+        Self::Real(Figure { value, quantity, mark: "" })
     }
 
     /// [`Quantity::Decimals`]
@@ -73,15 +71,6 @@ impl Cell {
     pub fn marked(self, mark: &'static str) -> Self {
         match self {
             Self::Real(figure) => Self::Real(Figure { mark, ..figure }),
-            other => other,
-        }
-    }
-
-    /// Colors a number on a page by a fraction, clamped to [0, 1]; other cells are unchanged.
-    #[must_use]
-    pub fn heated(self, share: f64) -> Self {
-        match self {
-            Self::Real(figure) => Self::Real(Figure { heat: share.clamp(0.0, 1.0), ..figure }),
             other => other,
         }
     }

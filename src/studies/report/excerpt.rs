@@ -1,7 +1,6 @@
 //! Excerpts of a text for error messages: lines around labels. Long lines are truncated, hidden characters escaped.
 
 use std::ops::Range;
-use std::slice;
 
 use miette::{LabeledSpan, MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
@@ -23,7 +22,6 @@ const LINES: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Excerpt {
     piece: SourceText,
-    named: bool,
     /// Number of lines before the excerpt.
     first_line: usize,
     /// Per label: its position in the excerpt, and its column in the whole text, from 0, in characters.
@@ -32,45 +30,42 @@ pub struct Excerpt {
 
 impl Excerpt {
     /// Extracts the lines of `source` around `labels`; also returns the labels' positions in the excerpt. `None` if
-    /// there are no labels, or a label lies outside the text.
+    /// there are no labels, a label lies outside the text, or the text is not UTF-8.
     pub fn new(source: &dyn SourceCode, labels: &[LabeledSpan]) -> Option<(Self, Vec<LabeledSpan>)> {
         let low = labels.iter().map(LabeledSpan::offset).min()?;
         let high = labels.iter().map(|label| label.offset().saturating_add(label.len())).max()?;
         let whole = source.read_span(&(low, high - low).into(), 1, 1).ok()?;
-        let base = whole.span().offset();
-        let mut lines: Vec<Range<usize>> = line_ranges(whole.data());
-        let spans: Vec<Range<usize>> = labels
-            .iter()
-            .map(|label| {
-                let start = label.offset() - base;
-                clip(start..start + label.len(), &lines)
-            })
-            .collect();
+        let (base, data) = (whole.span().offset(), std::str::from_utf8(whole.data()).ok()?);
+        let mut lines = line_ranges(data);
+        let starts = labels.iter().map(|label| (label.offset() - base, label.len()));
+        let spans: Vec<Range<usize>> = starts.map(|(start, length)| clip(start..start + length, &lines)).collect();
         // The empty line after the last line end is shown only if a label is on it.
-        let end = whole.data().len();
+        let end = data.len();
         if lines.len() > 1 && lines.last() == Some(&(end..end)) && spans.iter().all(|span| span.start < end) {
             lines.pop();
         }
-        let mut text = String::new();
-        let mut placed = vec![0..0; labels.len()];
+        // Position in the excerpt of each byte, and of the end.
+        let (mut text, mut places) = (String::new(), Vec::with_capacity(end + 1));
         for (number, line) in lines.iter().enumerate() {
             let near = |other: usize| lines.get(other).is_some_and(|line| spans.iter().any(|span| meets(span, line)));
+            // A label that ends between two lines ends with the first.
+            places.resize(line.start, places.last().copied().unwrap_or_default());
             if near(number) || near(number + 1) || number.checked_sub(1).is_some_and(near) {
-                push_line(&mut text, &whole.data()[line.clone()], line.start, &spans, &mut placed);
+                let focus = spans.iter().map(|span| span.start).filter(|at| (line.start..=line.end).contains(at)).min();
+                push_line(&mut text, &mut places, &data[line.clone()], focus.unwrap_or(line.start) - line.start);
             }
             text.push('\n');
         }
+        places.resize(end + 1, places.last().copied().unwrap_or_default());
         let column = |label: &LabeledSpan| Some(source.read_span(&(label.offset(), 0).into(), 0, 0).ok()?.column());
-        let columns =
-            labels.iter().zip(&placed).filter_map(|(label, place)| Some((place.start, column(label)?))).collect();
-        let name = visible_line(whole.name().unwrap_or_default());
-        let moved = labels.iter().zip(placed).map(|(label, place)| {
+        let columns = labels.iter().zip(&spans).filter_map(|(label, span)| Some((places[span.start], column(label)?)));
+        let moved = labels.iter().zip(&spans).map(|(label, span)| {
             let text = label.label().map(|text| visible_line(text).into_owned());
-            LabeledSpan::new(text, place.start, place.end - place.start)
+            LabeledSpan::new(text, places[span.start], places[span.end] - places[span.start])
         });
-        let moved = moved.collect();
-        let (piece, named) = (SourceText::new(name, text), whole.name().is_some());
-        Some((Self { piece, named, first_line: whole.line(), columns }, moved))
+        let (columns, moved) = (columns.collect(), moved.collect());
+        let piece = SourceText::new(visible_line(whole.name().unwrap_or_default()), text);
+        Some((Self { piece, first_line: whole.line(), columns }, moved))
     }
 }
 
@@ -86,10 +81,8 @@ impl SourceCode for Excerpt {
         let column = known.map_or(piece.column(), |(_, column)| *column);
         let (data, at, line, count) = (piece.data(), *piece.span(), piece.line(), piece.line_count());
         let line = self.first_line + line;
-        Ok(Box::new(match self.named {
-            true => MietteSpanContents::new_named(self.piece.name().to_owned(), data, at, line, column, count),
-            false => MietteSpanContents::new(data, at, line, column, count),
-        }))
+        let name = self.piece.name().to_owned();
+        Ok(Box::new(MietteSpanContents::new_named(name, data, at, line, column, count)))
     }
 }
 
@@ -97,25 +90,20 @@ impl SourceCode for Excerpt {
 /// it is long.
 pub fn quoted_line(line: &str, focus: usize) -> String {
     let mut text = String::new();
-    push_line(&mut text, line.as_bytes(), 0, slice::from_ref(&(focus..focus)), slice::from_mut(&mut (0..0)));
+    push_line(&mut text, &mut Vec::new(), line, focus);
     text.replace('\t', " ").trim().to_owned()
 }
 
-/// Returns the byte ranges of the lines of a text, without line ends.
-fn line_ranges(text: &[u8]) -> Vec<Range<usize>> {
-    let mut lines = Vec::new();
+/// Returns the byte ranges of the lines of a text, without line ends. A label may be after the last line end.
+fn line_ranges(text: &str) -> Vec<Range<usize>> {
+    let bare = |line: &str| line.strip_suffix('\r').unwrap_or(line).len();
     let mut start = 0;
-    for line in text.split_inclusive(|&b| b == b'\n') {
-        let bare = line.strip_suffix(b"\n").unwrap_or(line);
-        let bare = bare.strip_suffix(b"\r").unwrap_or(bare);
-        lines.push(start..start + bare.len());
-        start += line.len();
-    }
-    // A label may be after the last line end.
-    if text.last().is_none_or(|&b| b == b'\n') {
-        lines.push(start..start);
-    }
-    lines
+    let range = |line: &str| {
+        let from = start;
+        start += line.len() + 1;
+        from..from + bare(line)
+    };
+    text.split('\n').map(range).collect()
 }
 
 /// Returns `true` if a span overlaps a line; the end of a line belongs to it.
@@ -133,112 +121,53 @@ fn clip(span: Range<usize>, lines: &[Range<usize>]) -> Range<usize> {
     }
 }
 
-/// Writes a line in displayed form, and records the positions in `text` of the spans that start or end on it.
-fn push_line(text: &mut String, line: &[u8], start: usize, spans: &[Range<usize>], placed: &mut [Range<usize>]) {
-    let begins: Vec<usize> =
-        spans.iter().filter(|s| (start..=start + line.len()).contains(&s.start)).map(|s| s.start - start).collect();
-    let window = window(line, begins.iter().min().copied());
+/// Writes a line in displayed form, truncated around the byte `focus` if it is long. `places` gets the position in
+/// `text` of each byte of the line, and of its end.
+fn push_line(text: &mut String, places: &mut Vec<usize>, line: &str, focus: usize) {
+    let (before, window) = (places.len(), window(line, focus));
     if window.start > 0 {
         text.push_str(CUT);
     }
-    // Output position of each byte of the line's window.
-    let mut places = vec![text.len(); window.len() + 1];
-    let mut at = window.start;
-    for piece in characters(&line[window.clone()]) {
-        let place = text.len();
-        push_visible(text, &piece);
-        places[at - window.start..at - window.start + piece.bytes()].fill(place);
-        at += piece.bytes();
-        places[at - window.start] = text.len();
+    places.resize(before + window.start, text.len());
+    for c in line[window.clone()].chars() {
+        places.resize(places.len() + c.len_utf8(), text.len());
+        if is_escaped(c) { text.extend(c.escape_default()) } else { text.push(c) }
     }
-    let place = |byte: usize| places[byte.clamp(window.start, window.end) - window.start];
-    for (span, placed) in spans.iter().zip(placed) {
-        let on_line = |byte: usize| (start..=start + line.len()).contains(&byte);
-        if on_line(span.start) {
-            *placed = place(span.start - start)..placed.end;
-            // A span that ends in a truncated part or on another line must not end before its start.
-            placed.end = placed.start;
-        }
-        if on_line(span.end) && span.end >= span.start {
-            placed.end = place(span.end - start).max(placed.start);
-        } else if span.start <= start + line.len() && span.end > start + line.len() {
-            placed.end = text.len().max(placed.start);
-        }
-    }
+    places.resize(before + line.len() + 1, text.len());
     if window.end < line.len() {
         text.push_str(CUT);
     }
 }
 
 /// Range of a line's bytes that is shown: all of a short line, otherwise the bytes around `focus`.
-fn window(line: &[u8], focus: Option<usize>) -> Range<usize> {
-    let fits = line.len() <= 4 * WIDTH && width(line) <= WIDTH;
-    if fits {
+fn window(line: &str, focus: usize) -> Range<usize> {
+    if line.len() <= 4 * WIDTH && line.chars().map(width).sum::<usize>() <= WIDTH {
         return 0..line.len();
     }
-    let mut start = focus.unwrap_or(0).min(line.len());
-    for _ in 0..BEFORE {
-        start = previous(line, start);
-    }
-    let (mut end, mut room) = (start, WIDTH);
-    // No character takes more than four bytes.
-    for piece in characters(&line[start..line.len().min(start + 4 * WIDTH)]) {
-        let Some(rest) = room.checked_sub(piece.width()) else { break };
-        room = rest;
-        end += piece.bytes();
-    }
-    start..end
-}
-
-/// Start of the character before `at`.
-fn previous(line: &[u8], at: usize) -> usize {
-    let mut start = at.saturating_sub(1);
-    while start > 0 && at - start < 4 && line[start] & 0xc0 == 0x80 {
-        start -= 1;
-    }
-    start
-}
-
-/// Character of a line, or a byte outside any UTF-8 character.
-enum Piece {
-    Character(char),
-    Byte(u8),
-}
-
-impl Piece {
-    const fn bytes(&self) -> usize {
-        match self {
-            Self::Character(c) => c.len_utf8(),
-            Self::Byte(_) => 1,
+    let focus = line.floor_char_boundary(focus);
+    let start = line[..focus].char_indices().rev().take(BEFORE).last().map_or(focus, |(at, _)| at);
+    let mut room = WIDTH;
+    let beyond = line[start..].char_indices().find(|(_, c)| match room.checked_sub(width(*c)) {
+        Some(rest) => {
+            room = rest;
+            false
         }
-    }
-
-    /// Width in terminal columns. Zero-width characters count as one, which bounds the length of a line.
-    fn width(&self) -> usize {
-        match self {
-            // Renderers write a tab as at most four blanks.
-            Self::Character('\t') => 4,
-            Self::Character(c) if is_hidden(*c) => c.escape_default().len(),
-            Self::Character(c) => c.width().unwrap_or(1).max(1),
-            Self::Byte(_) => 4,
-        }
-    }
+        None => true,
+    });
+    start..beyond.map_or(line.len(), |(at, _)| start + at)
 }
 
-fn width(line: &[u8]) -> usize {
-    characters(line).map(|piece| piece.width()).sum()
+/// Hidden characters are escaped, except for tabs.
+const fn is_escaped(c: char) -> bool {
+    is_hidden(c) && c != '\t'
 }
 
-fn characters(line: &[u8]) -> impl Iterator<Item = Piece> {
-    line.utf8_chunks().flat_map(|chunk| {
-        chunk.valid().chars().map(Piece::Character).chain(chunk.invalid().iter().copied().map(Piece::Byte))
-    })
-}
-
-fn push_visible(text: &mut String, piece: &Piece) {
-    match piece {
-        Piece::Character(c) if is_hidden(*c) && *c != '\t' => text.extend(c.escape_default()),
-        Piece::Character(c) => text.push(*c),
-        Piece::Byte(byte) => text.push_str(&format!("\\x{byte:02x}")),
+/// Width in terminal columns. Zero-width characters count as one, which bounds the length of a line.
+fn width(c: char) -> usize {
+    match c {
+        // Renderers write a tab as at most four blanks.
+        '\t' => 4,
+        c if is_hidden(c) => c.escape_default().len(),
+        c => c.width().unwrap_or(1).max(1),
     }
 }

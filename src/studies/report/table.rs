@@ -111,7 +111,7 @@ impl Table {
 
     /// Folds rows whose results equal an earlier row's into one row. `first[i]` is the first row with the result of row
     /// i. `called` names a row; `rows` and `same` are as in [`Folded`]. A table is unchanged if its number of rows
-    /// differs from the length of `first`.
+    /// differs from the length of `first`; otherwise its rows lose their names in links.
     #[must_use]
     pub fn folded(
         &self,
@@ -124,11 +124,7 @@ impl Table {
         }
         let mut table = Self { rows: Vec::new(), names: BTreeMap::new(), ..self.clone() };
         for (row, others) in fold::groups(first) {
-            let cells = self.rows[row].iter().cloned();
-            match self.name(row) {
-                Some(name) => table.push_named(name.to_owned(), cells),
-                None => table.push(cells),
-            }
+            table.push(self.rows[row].iter().cloned());
             if !others.is_empty() {
                 let names = others.into_iter().map(&called).collect();
                 let folded = Folded { rows, same, first: called(row), names };

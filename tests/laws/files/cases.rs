@@ -38,15 +38,6 @@ fn draw(setup: &Setup) {
 }
 
 #[test]
-fn the_good_cases_pass() {
-    for (name, text) in CASES {
-        let setup = read(text.as_bytes()).unwrap_or_else(|| panic!("{name} is a good case"));
-        let outcome = case::run(&setup, ExecutorKind::Scalar).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert!(outcome.passed(), "{name}: {:?}", outcome.probes);
-    }
-}
-
-#[test]
 fn deep_nesting_does_not_overflow_the_stack() {
     for (open, close) in [("[", "]"), ("{a=", "}")] {
         let text = format!("device = {}{}", open.repeat(200_000), close.repeat(200_000));

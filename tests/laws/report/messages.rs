@@ -95,12 +95,6 @@ proptest! {
         }).collect();
         let text = rendered(&SourceText::new("\x1b[1mx", lossy), &inside);
         prop_assert!(!text.contains(|c| c != '\n' && is_hidden(c)), "{text:?}");
-        // Sources of other types may contain bytes that are not UTF-8.
-        let labels: Vec<_> = spans.iter().map(|s| LabeledSpan::new(None, s.start, s.len())).collect();
-        if Excerpt::new(&bytes, &labels).is_some() {
-            let text = rendered(&bytes, &spans);
-            prop_assert!(!text.contains(|c| c != '\n' && is_hidden(c)), "{text:?}");
-        }
     }
 
     #[test]

@@ -1,21 +1,9 @@
-//! Pages of studies: complete, balanced, self-contained HTML in which every wrong pixel stays visible.
+//! Pages of studies: complete, balanced, self-contained HTML.
 
-use base64::{Engine as _, engine::general_purpose::STANDARD};
-use crossbar::geom::exact::Sides;
-use crossbar::geom::teapot::teapot;
-use crossbar::picture::{RgbImage, rgb8};
-use crossbar::ray_engine::RayBatch;
-use crossbar::report::digits;
+use crossbar::picture::rgb8;
 use crossbar::report::{
     Chart, Findings, NamedChart, NamedFile, NamedPicture, Provenance, Scale, Series, Table, Tone, Verdict,
 };
-use crossbar::scene::Camera;
-use crossbar::study::Study as _;
-use crossbar::study::configuration::Configuration;
-use crossbar::study::leaky_teapot::{LeakyTeapotOptions, Parameters, PixelVerdict};
-use crossbar::study::reproduce;
-use refsim::machine::ExecutorKind;
-use strum::VariantArray as _;
 
 fn text(files: &[NamedFile], name: &str) -> String {
     String::from_utf8(file(files, name).to_vec()).expect("text")
@@ -47,33 +35,6 @@ fn everything() -> Vec<NamedFile> {
     let chart = Chart { title: "c".to_owned(), x_scale: Scale::Logarithmic, lines, ..Chart::default() };
     found.chart(NamedChart { name: "c".to_owned(), chart, caption: "a chart".to_owned() });
     found.take_files(&Provenance::new("crossbar leaky-teapot --size 8x8")).expect("all of it can be encoded")
-}
-
-/// A page without style sheets and without the contents of drawings and pictures.
-fn structure(page: &str) -> String {
-    let cut = |text: &str, from: &str, to: &str| -> String {
-        let mut parts = text.split(from);
-        let first = parts.next().unwrap_or_default().to_owned();
-        parts.fold(first, |out, part| {
-            let (_, rest) = part.split_once(to).expect("an end");
-            format!("{out}{from}...{to}{rest}")
-        })
-    };
-    let page = cut(&cut(page, "<style>", "</style>"), "<script>", "</script>");
-    let page = cut(&page, "<svg", "</svg>");
-    let page = cut(&page, "base64,", "\"").replace(env!("CARGO_PKG_VERSION"), "VERSION");
-    // One line per block.
-    [
-        "<h1", "<h2", "<section", "<nav", "<ul", "<li", "<p", "<div", "<figure", "<img", "<table", "<thead", "<tbody",
-        "<tr", "<dl", "<body", "<main", "<head",
-    ]
-    .into_iter()
-    .fold(page, |page, tag| page.replace(tag, &format!("\n{tag}")))
-}
-
-#[test]
-fn the_structure_of_a_page() {
-    insta::assert_snapshot!("page", structure(&text(&everything(), "index.html")));
 }
 
 /// Tags that have no end tag.
@@ -151,92 +112,4 @@ fn conclusion_and_tally_come_first_and_go_to_machines() {
     assert!(found.is_sorted(), "{found:?}");
     let document: serde_json::Value = serde_json::from_str(&text(&files, "study.json")).expect("JSON");
     assert_eq!(document["conclusion"], serde_json::json!(["Two of <three> rows hold.", "The third does not."]));
-}
-
-fn decoded(png: &[u8]) -> RgbImage {
-    image::load_from_memory(png).expect("a picture").to_rgb8()
-}
-
-/// The decoded picture of one figure of the page; asserts that the page shows it at its pixel size.
-fn shown(page: &str, alt: &str) -> RgbImage {
-    let mut images =
-        page.split("<img ").filter(|image| image.split_once('>').is_some_and(|(tag, _)| tag.contains(alt)));
-    let image = images.next().expect("a picture");
-    assert!(images.next().is_none(), "one picture is {alt}");
-    let value =
-        |name: &str| image.split(&format!("{name}=\"")).nth(1).and_then(|rest| rest.split('"').next()).expect(name);
-    let data = value("src").strip_prefix("data:image/png;base64,").expect("data");
-    let picture = decoded(&STANDARD.decode(data).expect("base64"));
-    assert_eq!([" width", " height"].map(|name| value(name).parse()), [picture.width(), picture.height()].map(Ok));
-    picture
-}
-
-/// The page of a leaky teapot shows every pixel of the map and of the shaded picture, and its conclusion counts the
-/// leaks.
-#[test]
-fn every_wrong_pixel_is_shown() {
-    let (width, height) = (800, 160);
-    let camera = Camera::teapot(width, height).expect("a camera");
-    let parameters = Parameters {
-        mesh: teapot(6).expect("a teapot"),
-        view: RayBatch::new(width, height, camera.rays()).expect("rays"),
-        configurations: vec![Configuration::device("r200").expect("a card")],
-        model: None,
-        listed: None,
-        shared: Vec::new(),
-        executor: ExecutorKind::Batch.into(),
-        options: LeakyTeapotOptions { rays_per_edge: 0, sides: Sides::Front, all_pairs: false },
-    };
-    let mut found = parameters.findings(&mut |_, _, _| ()).expect("the study runs");
-    let files = found.take_files(&Provenance::new("crossbar leaky-teapot")).expect("files");
-    let page = text(&files, "index.html");
-    balanced(&page);
-    let verdict = |pixel: &image::Rgb<u8>| {
-        let of = |verdict: &&PixelVerdict| verdict.color() == pixel.0;
-        *PixelVerdict::VARIANTS.iter().find(of).expect("a colour of the legend")
-    };
-    let map = decoded(file(&files, "r200-map.png"));
-    let wrong = map.pixels().filter(|pixel| verdict(pixel).is_error()).count();
-    let leaks = map.pixels().filter(|pixel| verdict(pixel) == PixelVerdict::Leak).count();
-    assert!(wrong > 100 && leaks > 20, "{wrong} {leaks}");
-    // The conclusion counts these pixels.
-    let said = found.conclusions().join(" ");
-    let sentences = [(leaks, ": "), (wrong, "r200 is wrong in ")];
-    for (count, before) in sentences {
-        assert!(said.contains(&format!("{before}{} ", digits::count(count as u64))), "{said}");
-    }
-    assert!(
-        said.starts_with("The 16-bit fixed-point arithmetic of the ATI Radeon 8500, rounded down, loses "),
-        "{said}"
-    );
-    assert_eq!(shown(&page, "alt=\"ATI Radeon 8500, what is wrong where"), map);
-    assert_eq!(shown(&page, "alt=\"ATI Radeon 8500: "), decoded(file(&files, "r200.png")));
-}
-
-/// On the `reproduce` page, the counts in the conclusion match the rows, and each verdict is in the column next to its
-/// figure.
-#[test]
-fn papers_rows_are_tallied() {
-    let entries = reproduce::choose(&["ray-engine-equation-11".to_owned(), "ray-engine-radeon-8500".to_owned()])
-        .expect("two entries");
-    let mut found =
-        reproduce::Parameters { entries, full_size: false }.findings(&mut |_, _, _| ()).expect("the entries run");
-    let files = found.take_files(&Provenance::new("crossbar reproduce")).expect("files");
-    let rows: serde_json::Value = serde_json::from_str(&text(&files, "study.json")).expect("JSON");
-    let rows = rows["rows"].as_array().expect("rows");
-    let counted: u64 = found.tallied().iter().map(|entry| entry.count).sum();
-    assert_eq!(counted, rows.len() as u64);
-    for entry in found.tallied() {
-        assert_eq!(rows.iter().filter(|row| row["verdict"] == entry.what.as_str()).count() as u64, entry.count);
-    }
-    let judged = rows.iter().filter(|row| row["dependence"] != "calibrated");
-    let predicted = judged.clone().filter(|row| row["verdict"] == "predicted").count();
-    let sentence = format!("Of {} figures not used for calibration, {predicted} are predicted", judged.count());
-    assert!(found.conclusions()[0].starts_with(&sentence), "{:?}", found.conclusions());
-    let page = text(&files, "index.html");
-    let tags = balanced(&page);
-    assert!(page.contains("<th scope=\"col\">what</th><th scope=\"col\">verdict</th>"), "verdicts stand second");
-    assert!(tags.iter().any(|tag| tag.starts_with("tr id=\"ray-engine-equation-11.1\"")), "rows have links");
-    assert!(page.contains("<ul class=\"lines\">"), "a line per paper");
-    assert!(!page.contains("class=\"summary failed\""), "a missed figure of the Radeon 8500 is no failure");
 }

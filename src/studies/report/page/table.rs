@@ -2,9 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::super::palette::okabe_ito;
 use super::super::summary::TallyEntry;
-use super::super::{Cell, Figure, Table};
+use super::super::{Cell, Table};
 
 /// Name of the column that the page moves to second place; files keep the order.
 const VERDICT: &str = "verdict";
@@ -41,7 +40,7 @@ pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Ma
                             @for &column in columns.iter().take(row.len()) {
                                 @let text = row[column].text();
                                 @if column > 0 {
-                                    td class=[class(column, &row[column])] style=[heat(&row[column])] { (text) }
+                                    td class=[class(column, &row[column])] { (text) }
                                 } @else if let Some(name) = name {
                                     th scope="row" { (text) " " a.anchor href=(format!("#{name}")) title="Link to this row" { "#" } }
                                 } @else {
@@ -59,13 +58,6 @@ pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Ma
 /// Columns after the first, except the verdict column.
 fn others(count: usize, verdict: Option<usize>) -> impl Iterator<Item = usize> {
     (1..count).filter(move |column| Some(*column) != verdict)
-}
-
-/// Color behind a number, translucent so that the text is readable on light and dark pages.
-fn heat(cell: &Cell) -> Option<String> {
-    let Cell::Real(Figure { heat, .. }) = cell else { return None };
-    let [red, green, blue] = okabe_ito::VERMILION;
-    (*heat > 0.0).then(|| format!("background:rgb({red} {green} {blue} / {:.0}%)", 60.0 * heat))
 }
 
 /// CSS class of a number.

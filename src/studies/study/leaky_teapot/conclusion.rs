@@ -14,8 +14,6 @@ use crate::study::configuration::Configuration;
 
 /// Maximum number of names in a sentence; further ones are counted.
 pub(super) const MAX_NAMES: usize = 4;
-/// Maximum number of different warnings; beyond that, their range is printed.
-const MAX_WARNINGS: usize = 2;
 
 impl Tally {
     /// Number of rays with a wrong result.
@@ -40,8 +38,7 @@ pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUni
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 
-/// Warnings about formats with too few bits, each once, with the rows that they apply to; if there are many different
-/// warnings, their range.
+/// Warnings about formats with too few bits, each once, with the rows that they apply to.
 fn limits(rows: &[(&str, FormatLimits)]) -> Vec<String> {
     let mut warnings: Vec<(String, Vec<&str>)> = Vec::new();
     for (name, warning) in rows.iter().filter_map(|(name, limits)| Some((*name, limits.warning()?))) {
@@ -50,36 +47,7 @@ fn limits(rows: &[(&str, FormatLimits)]) -> Vec<String> {
             None => warnings.push((warning, vec![name])),
         }
     }
-    if warnings.len() > MAX_WARNINGS {
-        return limit_ranges(rows);
-    }
     warnings.into_iter().map(|(warning, rows)| format!("{}: {warning}.", names(&rows))).collect()
-}
-
-/// Range of each kind of loss over the rows that have it.
-fn limit_ranges(rows: &[(&str, FormatLimits)]) -> Vec<String> {
-    let with = |has: fn(&FormatLimits) -> bool| -> (Vec<&str>, Vec<FormatLimits>) {
-        rows.iter().filter(|(_, limits)| has(limits)).copied().unzip()
-    };
-    let mut said = Vec::new();
-    let (labels, limits) = with(FormatLimits::triangles_vanish);
-    if !labels.is_empty() {
-        let below = range(&limits, |limits| limits.bits.below_step);
-        let names = names(&labels);
-        said.push(format!("{names}: no bits left: n of {below} triangles is below one step of the card's format."));
-    }
-    let (labels, limits) = with(FormatLimits::t_is_coarse);
-    if !labels.is_empty() {
-        let [hits, values] = [range(&limits, |limits| limits.hits), range(&limits, |limits| limits.t_values)];
-        said.push(format!("{}: no bits left: t of {hits} hits has {values} different values.", names(&labels)));
-    }
-    said
-}
-
-/// Smallest and largest of some counts as text, or one count if all are equal.
-fn range(limits: &[FormatLimits], of: fn(&FormatLimits) -> u64) -> String {
-    let (least, most) = limits.iter().map(of).fold((u64::MAX, 0), |(least, most), n| (least.min(n), most.max(n)));
-    if least == most { count(most) } else { format!("{} to {}", count(least), count(most)) }
 }
 
 fn names(rows: &[&str]) -> String {

@@ -75,11 +75,6 @@ impl JudgedRays {
         (judgements.into_iter().map(|j| j.verdict).collect(), tally)
     }
 
-    /// Triangle that a ray hits first in exact arithmetic.
-    pub(super) fn exact_triangle(&self, ray: usize) -> Option<u32> {
-        self.nearest.get(ray)?.as_ref().map(|hit| hit.triangle)
-    }
-
     /// Verdicts of the leak map.
     pub(super) fn pixels<'a>(&'a self, verdicts: &'a [HitVerdict]) -> impl Iterator<Item = PixelVerdict> + Clone + 'a {
         verdicts.iter().zip(&self.nearest).map(|(verdict, nearest)| PixelVerdict::of(*verdict, nearest.is_some()))

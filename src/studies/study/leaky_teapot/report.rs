@@ -105,13 +105,14 @@ fn aimed(parameters: &Parameters) -> bool {
     parameters.options.rays_per_edge > 0 && parameters.view.common_origin().is_some()
 }
 
-/// For each row, the index of the first row with bit-identical hits and the same counts of aimed rays.
-fn first_alike(outcome: &TeapotOutcome) -> Vec<usize> {
+/// Returns `true` if two rows have the same hits, bit for bit.
+fn same_hits(a: &TeapotRow, b: &TeapotRow) -> bool {
     let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
-    let alike = |a: &TeapotRow, b: &TeapotRow| {
-        (&a.triangle, a.edges, a.vertices) == (&b.triangle, b.edges, b.vertices) && bits(a) == bits(b)
-    };
-    let rows = &outcome.rows;
+    a.triangle == b.triangle && bits(a) == bits(b)
+}
+
+/// For each row, the index of the first row that is alike.
+fn first_alike(rows: &[TeapotRow], alike: impl Fn(&TeapotRow, &TeapotRow) -> bool) -> Vec<usize> {
     let first = |(i, row): (usize, &TeapotRow)| rows[..i].iter().position(|other| alike(other, row)).unwrap_or(i);
     rows.iter().enumerate().map(first).collect()
 }
@@ -129,19 +130,11 @@ struct Group<'a> {
 }
 
 /// Groups the rows by their hits: most switches change nothing for these programs.
-fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
-    let mut groups: Vec<Group<'_>> = Vec::new();
-    for row in &outcome.rows {
-        let alike = |g: &&mut Group<'_>| {
-            let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
-            g.row.triangle == row.triangle && bits(&g.row.t) == bits(&row.t)
-        };
-        match groups.iter_mut().find(alike) {
-            Some(group) => group.same.push(row),
-            None => groups.push(Group { row, same: Vec::new() }),
-        }
-    }
-    groups
+fn groups(rows: &[TeapotRow]) -> Vec<Group<'_>> {
+    let first = first_alike(rows, same_hits);
+    let same = |at: usize| (at + 1..rows.len()).filter(|other| first[*other] == at).map(|other| &rows[other]).collect();
+    let leaders = (0..rows.len()).filter(|at| first[*at] == *at);
+    leaders.map(|at| Group { row: &rows[at], same: same(at) }).collect()
 }
 
 /// Maps each row without files of its own to the row with the same bits whose files represent it.
@@ -196,13 +189,16 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     conclude(&mut found, &outcome.rows, &unit);
     pictures(&mut found, parameters, &outcome);
     let [rows, edges] = tables(parameters, &outcome);
-    let (first, names): (Vec<usize>, Vec<String>) = (first_alike(&outcome), outcome.rows.iter().map(called).collect());
+    let counted_alike =
+        |a: &TeapotRow, b: &TeapotRow| (a.edges, a.vertices) == (b.edges, b.vertices) && same_hits(a, b);
+    let first = first_alike(&outcome.rows, counted_alike);
+    let names: Vec<String> = outcome.rows.iter().map(called).collect();
     let switched = outcome.rows.iter().any(|row| row.configuration.switch.is_some());
     let of = if switched { ["switch", "switches"] } else { ["row", "rows"] };
     let folded = |table: Table, same| FoundTable::from(table).folded(&first, |row| names[row].clone(), (of, same));
     let (rows, edges) = (folded(rows, "the same bits"), folded(edges, "the same counts"));
     let programs = (aimed(parameters) && !parameters.shared.is_empty()).then(|| programs(&outcome));
-    let groups = groups(&outcome);
+    let groups = groups(&outcome.rows);
     // Files of rows with the same bits would be copies.
     found.field("same_bits", same_bits(&groups));
     let kept: Vec<&str> = groups.iter().map(|group| group.row.configuration.label.as_str()).collect();
@@ -262,7 +258,7 @@ fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
 /// Adds the pictures of the page: first the card that leaks with its cure, or the row that leaks most, and the exact
 /// picture; then all others. One picture and one map of each group are shown on the page.
 fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutcome) {
-    let mut groups = groups(outcome);
+    let mut groups = groups(&outcome.rows);
     let mut lead: Vec<NamedPicture> = Vec::new();
     let exact = NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic");
     if let Some(three) = cure(&groups) {

@@ -1,35 +1,27 @@
 //! Tables of one family of formats.
 
 use super::bits::FormatFamily;
-use super::outcome::{FamilyOutcome, MOST_SPARE, Precision, PrecisionOutcome};
-use super::refutation_tables;
+use super::outcome::{FamilyOutcome, MOST_SPARE, Precision};
 use super::runs::Runs;
 use super::tables::{self, number};
 use crate::report::words::{counted, percent};
 use crate::report::{Findings, FoundTable};
 
 /// Adds the tables of one family.
-pub(super) fn per_instruction(
-    found: &mut Findings,
-    study: &Precision,
-    family: &FamilyOutcome,
-    outcome: &PrecisionOutcome,
-    runs: &Runs<'_>,
-) {
+pub(super) fn per_instruction(found: &mut Findings, study: &Precision, family: &FamilyOutcome, runs: &Runs<'_>) {
     let (Some(minimum), name) = (family.curve.minimum, family.curve.family.name()) else { return };
-    let [csv, mixed_csv, refuted_csv, traces_csv] = match family.curve.family {
-        FormatFamily::Float => ["instructions_float", "mixed_float", "refuted_float", "traces_float"],
-        FormatFamily::Fixed => ["instructions_fixed", "mixed_fixed", "refuted_fixed", "traces_fixed"],
+    let [csv, mixed_csv, refuted_csv] = match family.curve.family {
+        FormatFamily::Float => ["instructions_float", "mixed_float", "refuted_float"],
+        FormatFamily::Fixed => ["instructions_fixed", "mixed_fixed", "refuted_fixed"],
     };
     found.heading(format!("Instructions in {name} formats"));
-    found.table(FoundTable::from(tables::instructions(family, minimum, outcome, runs)).csv(csv).field(csv));
+    found.table(FoundTable::from(tables::instructions(family, minimum, runs)).csv(csv).field(csv));
     if let Some(blamed) = family.blamed {
         let sum: f64 = family.needs.iter().filter_map(|needs| needs.blame).fold(0.0, |sum, share| sum + share);
         found.paragraph(format!(
             "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
-             Errors are in units in the last place of {minimum}, against the exact results of the same operands. Blame \
-             is the share of the loss with all instructions in {} that remains if only this one is; regained is the \
-             share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
+             Blame is the share of the loss with all instructions in {} that remains if only this one is; regained is \
+             the share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
             blamed.bits,
             percent(sum),
             additivity(sum),
@@ -40,12 +32,11 @@ pub(super) fn per_instruction(
     let state = if mixed.is_minimal { "1-minimal" } else { "the best so far" };
     found.heading(format!("Mixed {name} formats, {state}"));
     found.table(FoundTable::from(tables::mixed(mixed, study, runs)).csv(mixed_csv).field(mixed_csv).unprinted());
-    for (where_from, value) in
-        [("On the scalar executor", family.checked), ("On input that was held back from the search", family.held_back)]
-    {
-        let Some(value) = value else { continue };
-        let met = if runs.goal.met(value) { "meets" } else { "misses" };
-        found.paragraph(format!("{where_from} {} is {}: it {met} the goal.", runs.goal.measure, number(value)));
+    if let Some(value) = family.held_back {
+        let (measure, met) = (&runs.goal.measure, if runs.goal.met(value) { "meets" } else { "misses" });
+        let value = number(value);
+        found
+            .paragraph(format!("On input that was held back from the search {measure} is {value}: it {met} the goal."));
     }
     match family.spare {
         Some(spare @ 1..) => found.paragraph(format!(
@@ -59,15 +50,6 @@ pub(super) fn per_instruction(
         _ => {}
     }
     found.table(FoundTable::from(tables::refuted(mixed, runs)).csv(refuted_csv).field(refuted_csv).unprinted());
-    let traces = refutation_tables::all(&family.refutations, runs);
-    found.keep_table(FoundTable::from(traces).csv(traces_csv));
-    if let Some(trace) = refutation_tables::most_blamed(&family.refutations, family) {
-        let table = refutation_tables::table(refutation_tables::title(trace, runs), trace, runs);
-        found.explained_table(
-            FoundTable::from(table).unprinted(),
-            "The refutation of the instruction most to blame; the table of all is beside the page.",
-        );
-    }
 }
 
 /// Explains the sum of the blame shares.

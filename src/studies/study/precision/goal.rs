@@ -3,6 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::names::did_you_mean;
+use crate::report::words::listed;
+use crate::study::StudyError;
+
 /// Relation of a measure to its bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GoalRelation {
@@ -71,6 +75,23 @@ impl fmt::Display for Goal {
 }
 
 impl Goal {
+    /// The goal `given`, or else the default. Fails if the given one is for a measure that is none of `names`.
+    pub(super) fn chosen(given: Option<&Self>, names: &[&str], default: Self) -> Result<Self, StudyError> {
+        let Some(goal) = given else { return Ok(default) };
+        if names.contains(&goal.measure.as_str()) {
+            return Ok(goal.clone());
+        }
+        let shown: String = goal.measure.chars().take(60).collect();
+        let found = format!("expected a goal for {}, found `{shown}`", listed(names));
+        let help = format!("{}for example `--goal \"{default}\"`", did_you_mean(&shown, names.iter().copied()));
+        Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
+    }
+
+    /// The goal that a measure is at most a bound.
+    pub(super) fn at_most(measure: &str, bound: f64) -> Self {
+        Self { measure: measure.to_owned(), relation: GoalRelation::AtMost, bound }
+    }
+
     /// Returns `true` if a value meets the goal; NaN does not.
     pub fn met(&self, value: f64) -> bool {
         match self.relation {

@@ -6,7 +6,6 @@ use refsim::front::{WgslOperation, wgsl_operations};
 
 use super::bits::{Assignment, FormatBits};
 use super::runs::{RunError, Runs};
-use super::subject::WorstPlace;
 use crate::shader::ShaderText;
 
 /// The format f16.
@@ -22,7 +21,7 @@ pub(super) struct HalfExpression {
     /// `true` if it is f16 in the largest set that was found to meet the goal.
     pub(super) together: bool,
     /// Location of the largest error of the run that refuted it.
-    pub(super) worst: Option<WorstPlace>,
+    pub(super) worst: Option<String>,
 }
 
 /// The operations of a text by their spans; empty if it is not WGSL.
@@ -35,7 +34,7 @@ fn operations(text: &ShaderText) -> BTreeMap<[u32; 2], WgslOperation> {
 fn spans(place: usize, runs: &Runs<'_>) -> impl Iterator<Item = [u32; 2]> {
     let place = &runs.places[place];
     let program = runs.programs[place.program].program;
-    place.instructions().map(|at| program.instructions[at].span).map(|span| [span.start, span.end])
+    place.instructions.iter().map(|at| program.instructions[*at].span).map(|span| [span.start, span.end])
 }
 
 /// Tries each expression alone; then adds one after the other, least harmful first, as long as the goal is met.

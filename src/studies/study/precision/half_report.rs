@@ -18,7 +18,7 @@ pub(super) fn report(found: &mut Findings, rows: &[HalfExpression], runs: &Runs<
             (false, true) => "alone",
             _ => "no",
         };
-        let refuted = row.worst.as_ref().filter(|_| !row.together).map(|worst| worst.text.as_str());
+        let refuted = row.worst.as_ref().filter(|_| !row.together).map(String::as_str);
         let cells = [Cell::error(row.alone), may.into(), refuted.into()];
         table.push(tables::named_line(row.place, runs).into_iter().chain(cells));
     }

@@ -1,9 +1,8 @@
-//! Per instruction: the fewest bits, the error of its results, and its share of the loss.
+//! Per instruction: the fewest bits, and its share of the loss.
 
 use super::bits::{Assignment, FormatBits};
 use super::curve::BitScan;
 use super::runs::{RunError, Runs};
-use super::ulps::LocalError;
 
 /// Findings on one instruction, in one family of formats.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,8 +11,6 @@ pub(super) struct InstructionNeeds {
     pub(super) alone: Option<u8>,
     /// Fewest bits of precision if all other instructions have the smallest uniform format.
     pub(super) in_company: Option<u8>,
-    /// Error of its results in the smallest uniform format, compared with the exact results of the same operands.
-    pub(super) local: Option<LocalError>,
     /// Share of the loss when only this instruction is rounded.
     pub(super) blame: Option<f64>,
     /// Share of the loss that is regained when only this instruction is exact.

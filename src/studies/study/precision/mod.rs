@@ -7,7 +7,6 @@ mod bits;
 mod case;
 mod costs;
 mod curve;
-mod executors;
 mod expression;
 mod family_report;
 mod goal;
@@ -16,18 +15,13 @@ mod half_report;
 mod instructions;
 mod outcome;
 mod pictures;
-mod refutation_tables;
-mod refutations;
 mod report;
 mod runs;
-mod sampled;
 mod search;
-mod steps;
 mod subject;
 mod switches;
 mod systems;
 mod tables;
-mod ulps;
 
 use super::{ProgressFn, Study, StudyError};
 use crate::report::{Findings, Provenance};
@@ -38,13 +32,8 @@ pub use costs::FormatCosts;
 pub use expression::{ExpressionError, ExpressionStudy, InputDraw};
 pub use goal::{Goal, GoalError, GoalRelation};
 pub use outcome::Precision;
-pub use subject::{
-    ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
-    RefutingDevices, RoundedInstruction, SampledResults, StepResult, StudiedProgram, WorstPlace,
-};
+pub use subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 pub use systems::PaperSystem;
-#[doc(hidden)]
-pub use systems::spread;
 
 impl Study for Precision {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {

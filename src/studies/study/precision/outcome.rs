@@ -1,22 +1,15 @@
 //! Parameters, and the steps of the study.
 
-use refsim::machine::ExecutorKind;
-
 use super::bits::{FormatBits, FormatFamily};
 use super::costs::FormatCosts;
 use super::curve::Curve;
 use super::goal::Goal;
 use super::half::{HalfExpression, half_expressions};
 use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
-use super::refutations::{self, RefutationTrace};
 use super::runs::{RunError, Runs};
-use super::sampled::sample_results;
 use super::search::{MixedFormats, STARTS, search};
-use super::subject::{Measured, PrecisionSubject};
+use super::subject::PrecisionSubject;
 use super::switches::{SwitchRow, sensitivity};
-use super::ulps::ResultRange;
-use crate::names::did_you_mean;
-use crate::report::words::listed;
 use crate::study::{ProgressFn, StudyError};
 
 /// Approximate number of runs per curve.
@@ -51,15 +44,11 @@ pub(super) struct FamilyOutcome {
     pub(super) needs: Vec<InstructionNeeds>,
     /// Cheapest assignment found.
     pub(super) mixed: Option<MixedFormats>,
-    /// Value of the goal's measure with this assignment on the scalar executor.
-    pub(super) checked: Option<f64>,
-    /// Value on the input held back from the search.
+    /// Value of the goal's measure with this assignment on the input held back from the search.
     pub(super) held_back: Option<f64>,
     /// Number of bits to add to the range and to the precision of every instruction so that the held-back input meets
     /// the goal too; `None` if [`MOST_SPARE`] bits are not enough.
     pub(super) spare: Option<u8>,
-    /// Traces of the refuted formats.
-    pub(super) refutations: Vec<RefutationTrace>,
 }
 
 /// Everything that was found.
@@ -74,8 +63,6 @@ pub(super) struct PrecisionOutcome {
     /// Expressions that may be in half precision, for a shader in WGSL.
     pub(super) half: Vec<HalfExpression>,
     pub(super) families: Vec<FamilyOutcome>,
-    /// Ranges of results by instruction; empty if the subject has no traces.
-    pub(super) ranges: Vec<Option<ResultRange>>,
     pub(super) switches: Vec<SwitchRow>,
     /// `true` if the budget was spent before the study ended.
     pub(super) budget_spent: bool,
@@ -92,15 +79,8 @@ impl PrecisionOutcome {
 impl Precision {
     /// Goal of the study. Fails if the subject does not have the goal's measure.
     pub(super) fn goal(&self) -> Result<Goal, StudyError> {
-        let Some(goal) = &self.goal else { return Ok(self.subject.default_goal()) };
         let names: Vec<&str> = self.subject.measures().iter().map(|measure| measure.name).collect();
-        if names.contains(&goal.measure.as_str()) {
-            return Ok(goal.clone());
-        }
-        let shown: String = goal.measure.chars().take(60).collect();
-        let found = format!("expected a goal for {}, found `{shown}`", listed(&names));
-        let help = format!("{}for example `--goal \"{}\"`", did_you_mean(&shown, names), self.subject.default_goal());
-        Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
+        Goal::chosen(self.goal.as_ref(), &names, self.subject.default_goal())
     }
 
     /// Runs of the subject. Fails if no runs are allowed, or no instruction has a format.
@@ -155,13 +135,6 @@ impl Precision {
             outcome.named.push((name, bits, value));
         }
         half_expressions(runs, &mut outcome.half)?;
-        let minima: Vec<FormatBits> = outcome.families.iter().filter_map(|family| family.curve.minimum).collect();
-        let sample = sample_results(&minima, runs)?;
-        outcome.ranges = sample.ranges;
-        let with_minimum = outcome.families.iter_mut().filter(|family| family.curve.minimum.is_some());
-        for (family, errors) in with_minimum.zip(sample.errors) {
-            family.needs.iter_mut().zip(errors).for_each(|(needs, error)| needs.local = error);
-        }
         for family in &mut outcome.families {
             family.run(&self.costs, runs)?;
         }
@@ -195,8 +168,7 @@ impl FamilyOutcome {
     /// Without findings.
     fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
-        let refutations = Vec::new();
-        Self { curve, blamed: None, needs, mixed: None, checked: None, held_back: None, spare: None, refutations }
+        Self { curve, blamed: None, needs, mixed: None, held_back: None, spare: None }
     }
 
     /// Index and share of blame of the most blamed instruction; the first one on a tie.
@@ -205,28 +177,22 @@ impl FamilyOutcome {
         shares.min_by(|a, b| b.1.total_cmp(&a.1))
     }
 
-    /// Runs the mixed formats on the scalar executor and on held-back input, and traces the pixels that refuted
-    /// narrower formats.
+    /// Runs the mixed formats on held-back input.
     fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
         let Some(mixed) = &self.mixed else { return Ok(()) };
-        let value = |measured: Measured| measured.value(&runs.goal.measure);
-        let with_spare = |spare: u8| {
-            let formats: Vec<_> = mixed.formats.iter().map(|bits| Some(bits.wider(spare))).collect();
-            runs.device(runs.subject.profile(), &formats)
-        };
-        if let Some(device) = with_spare(0) {
-            self.checked = Some(value(runs.shown(&device, ExecutorKind::Scalar)?));
-        }
         for spare in 0..=MOST_SPARE {
-            let Some(device) = with_spare(spare) else { continue };
-            let Some(found) = runs.subject.held_back(&device)?.map(value) else { break };
+            let formats: Vec<_> = mixed.formats.iter().map(|bits| Some(bits.wider(spare))).collect();
+            let Some(device) = runs.device(runs.subject.profile(), &formats) else { continue };
+            let Some(found) = runs.subject.held_back(&device)?.map(|measured| measured.value(&runs.goal.measure))
+            else {
+                break;
+            };
             self.held_back.get_or_insert(found);
             if runs.goal.met(found) {
                 self.spare = Some(spare);
                 break;
             }
         }
-        self.refutations = refutations::traces(mixed, runs)?;
         Ok(())
     }
 

@@ -29,12 +29,11 @@ pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Run
     found.table(FoundTable::from(tables::curves(outcome, runs)).csv("curve").field("curve").unprinted());
     half_report::report(&mut found, &outcome.half, runs)?;
     for family in &outcome.families {
-        family_report::per_instruction(&mut found, study, family, outcome, runs);
+        family_report::per_instruction(&mut found, study, family, runs);
     }
     open_switches(&mut found, outcome);
     found.heading("Measures");
-    found.keep_table(FoundTable::from(tables::measures(runs)).field("measures"));
-    found.table(FoundTable::from(tables::measures(runs)).unprinted());
+    found.table(FoundTable::from(tables::measures(runs)).field("measures").unprinted());
     fields(&mut found, outcome, runs);
     if let Some(family) = outcome.cheapest() {
         let programs: Vec<_> = runs.programs.iter().map(|studied| studied.program).collect();
@@ -179,7 +178,6 @@ fn fields(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
             "counterexample": family.curve.scan.counterexample,
             "mixed_cost": family.mixed.as_ref().map(|mixed| mixed.cost),
             "one_minimal": family.mixed.as_ref().map(|mixed| mixed.is_minimal),
-            "scalar": family.checked,
             "held_back": family.held_back,
             "spare": family.spare,
         })

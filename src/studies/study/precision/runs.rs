@@ -4,15 +4,11 @@ use std::collections::BTreeMap;
 
 use refsim::device::Profile;
 use refsim::isa::Program;
-use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 
 use super::bits::{Assignment, FormatBits};
 use super::goal::Goal;
-use super::subject::{
-    InstructionPlace, Measured, PrecisionSubject, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
-    places,
-};
+use super::subject::{InstructionPlace, Measured, PrecisionSubject, StudiedProgram, places};
 use crate::study::{ProgressFn, StudyError};
 
 /// Reason why a search ends.
@@ -41,7 +37,7 @@ pub(super) struct Runs<'a> {
     /// Number of runs made.
     pub(super) made: u64,
     /// Values of the goal's measure, and the location of the largest error.
-    values: BTreeMap<Assignment, (f64, Option<WorstPlace>)>,
+    values: BTreeMap<Assignment, (f64, Option<String>)>,
     /// Number of runs that the study is likely to make, for progress.
     pub(super) expected: u64,
     /// Name of the current step, for progress.
@@ -97,7 +93,7 @@ impl<'a> Runs<'a> {
         let mut formats = vec![BTreeMap::new(); self.programs.len()];
         for (place, bits) in self.places.iter().zip(assignment) {
             let format = bits.map(|bits| bits.format(given.rules.format));
-            formats[place.program].extend(place.instructions().filter_map(|at| Some((at, format?))));
+            formats[place.program].extend(place.instructions.iter().filter_map(|at| Some((*at, format?))));
         }
         let mut device = exact(given, []);
         for (studied, formats) in self.programs.iter().zip(formats) {
@@ -128,7 +124,7 @@ impl<'a> Runs<'a> {
     }
 
     /// Value of a run that was made, and the location of its largest error.
-    pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<WorstPlace>)> {
+    pub(super) fn made_before(&self, assignment: &Assignment) -> Option<(f64, Option<String>)> {
         self.values.get(assignment).cloned()
     }
 
@@ -140,19 +136,12 @@ impl<'a> Runs<'a> {
     /// Measures the goal's measure on any device.
     pub(super) fn measure(&mut self, device: &Profile) -> Result<Measured, RunError> {
         self.spend()?;
-        Ok(self.subject.measure(device, ExecutorKind::Batch, Some(&self.goal.measure))?)
+        Ok(self.subject.measure(device, Some(&self.goal.measure))?)
     }
 
     /// Measures everything for the report, outside of the budget.
-    pub(super) fn shown(&self, device: &Profile, executor: ExecutorKind) -> Result<Measured, StudyError> {
-        self.subject.measure(device, executor, None)
-    }
-
-    /// Results of all instructions in the exact run, and of the rounded instructions: counts as one run.
-    pub(super) fn results(&mut self, rounded: &[RoundedInstruction]) -> Result<SampledResults, RunError> {
-        self.spend()?;
-        let exact = self.uniform_device(self.subject.profile(), None);
-        Ok(self.subject.results(&exact, rounded)?)
+    pub(super) fn shown(&self, device: &Profile) -> Result<Measured, StudyError> {
+        self.subject.measure(device, None)
     }
 
     fn spend(&mut self) -> Result<(), RunError> {

@@ -6,7 +6,6 @@ use super::bits::{Assignment, FormatBits};
 use super::costs::FormatCosts;
 use super::curve::BitScan;
 use super::runs::{RunError, Runs};
-use super::subject::WorstPlace;
 
 /// Bits of precision that a search adds to the smallest uniform format at its start: bits spent on some instructions
 /// may save more on others.
@@ -34,7 +33,7 @@ pub(super) struct RefutedFormat {
     /// Value of the goal's measure.
     pub(super) value: f64,
     /// Location of the largest error.
-    pub(super) worst: Option<WorstPlace>,
+    pub(super) worst: Option<String>,
 }
 
 fn assignment(formats: &[FormatBits]) -> Assignment {

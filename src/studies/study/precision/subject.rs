@@ -4,8 +4,6 @@ use std::collections::BTreeMap;
 
 use refsim::device::{Profile, takes_format};
 use refsim::isa::{Instruction, Opcode, Program};
-use refsim::machine::ExecutorKind;
-use refsim::num::Format;
 
 use super::goal::Goal;
 use crate::picture::RgbImage;
@@ -41,76 +39,10 @@ pub(super) const NOT_FINITE: PrecisionMeasure = PrecisionMeasure {
 pub struct Measured {
     /// Values by the names of their measures.
     pub values: Vec<(&'static str, f64)>,
-    /// Location of the largest error; `None` if nothing differs.
-    pub worst: Option<WorstPlace>,
+    /// Location of the largest error, with the found and the expected value; `None` if nothing differs.
+    pub worst: Option<String>,
     /// Picture of the result.
     pub picture: Option<RgbImage>,
-    /// Error of each pixel.
-    pub errors: Option<ErrorMap>,
-}
-
-/// Place where a run differs most from the expected result.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WorstPlace {
-    /// The location, with the found and the expected value.
-    pub text: String,
-    /// Column and row of its pixel, if [`PrecisionSubject::steps`] can trace it.
-    pub pixel: Option<[u32; 2]>,
-}
-
-/// Error of each pixel, rows from the top.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ErrorMap {
-    /// Width in pixels.
-    pub width: u32,
-    /// Unit of the errors, in the plural.
-    pub unit: &'static str,
-    /// Largest error of a channel, per pixel; infinite if a value is not finite.
-    pub values: Vec<f64>,
-}
-
-/// Result of one component of an executed instruction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepResult {
-    /// Number of the fragment within its trace, from 0.
-    pub fragment: u32,
-    /// Index of the program.
-    pub program: usize,
-    /// Index of the instruction.
-    pub instruction: usize,
-    /// Component, 0 to 3.
-    pub component: u8,
-    /// The result.
-    pub value: f64,
-}
-
-/// Three devices that differ in the formats of instructions.
-#[derive(Clone, Copy, Debug)]
-pub struct RefutingDevices<'a> {
-    /// Device of the exact run.
-    pub exact: &'a Profile,
-    /// Device with the formats that meet the goal.
-    pub mixed: &'a Profile,
-    /// Device with one bit less in one instruction, which misses the goal.
-    pub less: &'a Profile,
-    /// Index of that instruction's program.
-    pub program: usize,
-}
-
-impl<'a> RefutingDevices<'a> {
-    /// The devices, in the order of [`PixelSteps::steps`].
-    pub fn all(self) -> [&'a Profile; 3] {
-        [self.exact, self.mixed, self.less]
-    }
-}
-
-/// Results of all instructions executed for a pixel, fragment by fragment, in order of execution.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PixelSteps {
-    /// Column and row in the target.
-    pub pixel: [u32; 2],
-    /// Results in the exact run, with the mixed formats, and with one bit less.
-    pub steps: [Vec<StepResult>; 3],
 }
 
 impl Measured {
@@ -118,32 +50,6 @@ impl Measured {
     pub fn value(&self, measure: &str) -> f64 {
         self.values.iter().find(|(name, _)| *name == measure).map_or(f64::NAN, |(_, value)| *value)
     }
-}
-
-/// Results of one instruction by fragment number and component: the first result in that fragment.
-pub type FragmentResults = BTreeMap<(u32, u8), f64>;
-
-/// Results of the instructions of one program, by the index of the instruction.
-pub type InstructionResults = BTreeMap<usize, FragmentResults>;
-
-/// Instruction with its own format while all others are exact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RoundedInstruction {
-    /// Index of the program.
-    pub program: usize,
-    /// Index of the instruction.
-    pub instruction: usize,
-    /// Its format.
-    pub format: Format,
-}
-
-/// Results of instructions; all fields have the same fragments.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct SampledResults {
-    /// Results in the exact run, by program.
-    pub exact: Vec<InstructionResults>,
-    /// Results of each rounded instruction, in draws with the input of the exact run.
-    pub rounded: Vec<FragmentResults>,
 }
 
 /// Pixel programs with their input, run on a device repeatedly in different number formats.
@@ -168,7 +74,7 @@ pub trait PrecisionSubject {
 
     /// Runs on a device and measures: one measure, or all of them with the picture if `wanted` is `None`. Fails if the
     /// device cannot run the programs.
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError>;
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError>;
 
     /// Runs another text in place of the only pixel program on the device of the exact run, and measures; `None` if the
     /// subject has several programs.
@@ -193,21 +99,6 @@ pub trait PrecisionSubject {
         Ok(None)
     }
 
-    /// Results in a sample of fragments: of all instructions in the exact run, and of the rounded ones; empty if the
-    /// subject has no traces. Fails if the device cannot run the programs.
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let _ = (exact, rounded);
-        Ok(SampledResults::default())
-    }
-
-    /// Follows a pixel on three devices: `worst`, the pixel of the largest error on the last device, or, if `worst`
-    /// does not run the program, a pixel of an earlier pass or another ray. `None` if the subject has no traces. Fails
-    /// if a device cannot run the programs.
-    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
-        let _ = (devices, worst);
-        Ok(None)
-    }
-
     /// Sentences about the subject for the page.
     fn notes(&self) -> Vec<String> {
         Vec::new()
@@ -222,16 +113,8 @@ const UNROLLED: usize = 8;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct InstructionPlace {
     pub(super) program: usize,
-    /// The first of these instructions.
-    pub(super) at: usize,
-    /// The other instructions.
-    pub(super) alike: Vec<usize>,
-}
-
-impl InstructionPlace {
-    pub(super) fn instructions(&self) -> impl Iterator<Item = usize> + '_ {
-        std::iter::once(self.at).chain(self.alike.iter().copied())
-    }
+    /// In ascending order; at least one.
+    pub(super) instructions: Vec<usize>,
 }
 
 /// Instructions that can have their own format, in the order of the texts.
@@ -260,11 +143,11 @@ fn places_of(program: usize, StudiedProgram { program: studied, text }: StudiedP
         };
         let place = |mut all: Vec<usize>| {
             all.sort_unstable();
-            InstructionPlace { program, at: all[0], alike: all.split_off(1) }
+            InstructionPlace { program, instructions: all }
         };
         together.into_iter().map(place).collect()
     };
     let mut places: Vec<InstructionPlace> = by_text.into_values().flat_map(split).collect();
-    places.sort_by_key(|place| place.at);
+    places.sort_by_key(|place| place.instructions[0]);
     places
 }

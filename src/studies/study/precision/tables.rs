@@ -3,7 +3,6 @@
 use refsim::isa::Span;
 
 use super::bits::FormatBits;
-use super::instructions::InstructionNeeds;
 use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
 use super::runs::Runs;
 use super::search::MixedFormats;
@@ -19,24 +18,17 @@ pub(super) fn number(value: f64) -> String {
 /// Source line of an instruction.
 pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
     let place = &runs.places[place];
-    source_line(place.program, place.at, runs)
-}
-
-fn source_line(program: usize, instruction: usize, runs: &Runs<'_>) -> SourceLine {
-    let studied = &runs.programs[program];
+    let studied = &runs.programs[place.program];
     // Places of a study are instructions of its programs.
-    studied.text.instruction(studied.program, instruction).unwrap_or_else(|| studied.text.line(Span::default()))
+    studied
+        .text
+        .instruction(studied.program, place.instructions[0])
+        .unwrap_or_else(|| studied.text.line(Span::default()))
 }
 
 /// Line number and text of the instruction at a place, with the program's name if there are several programs.
 pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
-    let place = &runs.places[place];
-    line_cells(place.program, place.at, runs)
-}
-
-/// Like [`named_line`], by the indices of program and instruction.
-pub(super) fn line_cells(program: usize, instruction: usize, runs: &Runs<'_>) -> [Cell; 2] {
-    let SourceLine { file, line, text, .. } = source_line(program, instruction, runs);
+    let SourceLine { file, line, text, .. } = line(place, runs);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
     [number.into(), text.into()]
 }
@@ -73,45 +65,27 @@ pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
 }
 
 /// Table with a row per instruction.
-pub(super) fn instructions(
-    family: &FamilyOutcome,
-    minimum: FormatBits,
-    outcome: &PrecisionOutcome,
-    runs: &Runs<'_>,
-) -> Table {
+pub(super) fn instructions(family: &FamilyOutcome, minimum: FormatBits, runs: &Runs<'_>) -> Table {
     let mut table = Table::of(
         format!("Instructions, {}", family.curve.family.digits()),
-        "line instruction alone others_at_minimum mixed exponents median_ulp largest_ulp blame_% regained_% note",
+        "line instruction alone others_at_minimum mixed blame_% regained_% note",
     );
+    let fewest = *minimum.family.digit_bits(minimum.range).start();
     for (place, needs) in family.needs.iter().enumerate() {
         let mixed = family.mixed.as_ref().map(|mixed| mixed.formats[place].to_string());
-        let range = outcome.ranges.get(place).copied().flatten();
-        let exponents = range.and_then(|range| range.exponents).map(|[low, high]| format!("{low} to {high}"));
-        let share = |share: Option<f64>| share.map(|share| Cell::percent(100.0 * share).heated(share));
-        let cells: [Cell; 9] = [
+        let share = |share: Option<f64>| share.map(|share| Cell::percent(100.0 * share));
+        let has_no_effect = needs.blame == Some(0.0) && needs.alone == Some(fewest);
+        let cells: [Cell; 6] = [
             needs.alone.into(),
             needs.in_company.into(),
             mixed.into(),
-            exponents.into(),
-            needs.local.map(|local| Cell::error(local.median)).into(),
-            needs.local.map(|local| Cell::error(local.largest)).into(),
             share(needs.blame).into(),
             share(needs.regained).into(),
-            note(needs, minimum, range.is_some_and(|range| range.not_finite)).into(),
+            has_no_effect.then_some("no effect").into(),
         ];
         table.push(named_line(place, runs).into_iter().chain(cells));
     }
     table
-}
-
-fn note(needs: &InstructionNeeds, minimum: FormatBits, not_finite: bool) -> Option<&'static str> {
-    let fewest = *minimum.family.digit_bits(minimum.range).start();
-    let no_effect = needs.blame == Some(0.0) && needs.alone == Some(fewest);
-    match (no_effect, not_finite) {
-        (true, _) => Some("no effect"),
-        (_, true) => Some("infinite or NaN"),
-        _ => None,
-    }
 }
 
 /// Table of the mixed formats.
@@ -134,7 +108,7 @@ pub(super) fn refuted(mixed: &MixedFormats, runs: &Runs<'_>) -> Table {
             refuted.bits.to_string().into(),
             Cell::error(refuted.value),
             runs.goal.met(refuted.value).into(),
-            refuted.worst.as_ref().map(|worst| worst.text.as_str()).into(),
+            refuted.worst.as_deref().into(),
         ];
         table.push(named_line(refuted.place, runs).into_iter().chain(cells));
     }

@@ -1,7 +1,5 @@
 //! Charts as SVG: axes, labels, and styles of series.
 
-use std::collections::BTreeSet;
-
 use crossbar_studies::report::{Chart, Scale, Series};
 use proptest::prelude::*;
 
@@ -213,51 +211,6 @@ proptest! {
     }
 }
 
-/// The look of each series, from the marks next to its label: color, dashes, marker; rows are relative to the label's.
-fn looks(svg: &str, labels: &[String]) -> Vec<[String; 3]> {
-    let relative = |points: &str, row: f64| -> String {
-        let point = |point: &str| {
-            let (x, y) = point.split_once(',').expect("a place");
-            format!("{x},{} ", y.parse::<f64>().expect("a number") - row)
-        };
-        points.split_whitespace().map(point).collect()
-    };
-    let look = |(label, row): (&String, f64)| {
-        let (before, _) = svg.split_once(&format!(">\n{label}\n")).expect("a label");
-        // The thin line to the label comes first, the text last.
-        let (_, of_series) = before.rsplit_once("opacity=\"0.45\"").expect("a line to the label");
-        let (mut colors, mut dashes, mut marker) = (BTreeSet::new(), String::new(), String::new());
-        for tag in of_series.split('<').skip(1).filter(|tag| !tag.starts_with("text")) {
-            colors.extend(between(tag, "=\"#", "\"").filter(|color| *color != "FCFCFA"));
-            let points: String = between(tag, "points=\"", "\"").map(|points| relative(points, row)).collect();
-            if !points.is_empty() && points.split_whitespace().all(|point| point.ends_with(",0")) {
-                dashes += &points;
-            } else {
-                let open = if tag.contains("fill=\"#FCFCFA\"") { "open" } else { "" };
-                marker += &format!("{} {open} {points};", tag.split(' ').next().unwrap_or_default());
-            }
-        }
-        [colors.into_iter().collect(), dashes, marker]
-    };
-    labels.iter().zip(heights(svg, labels)).map(look).collect()
-}
-
-#[test]
-fn no_two_series_look_the_same() {
-    let (mut chart, mut labels) = lines_to(&[1.0; MAX_SERIES]);
-    chart.printed = vec![(0.5, 0.5)];
-    labels.push("printed".to_owned());
-    let looks = looks(&chart.svg().expect("lines"), &labels);
-    assert_eq!(looks.iter().collect::<BTreeSet<_>>().len(), MAX_SERIES + 1, "{looks:?}");
-    // Neighbors differ in all three, so a reader without color vision can tell them apart; papers' points have their
-    // own marker.
-    for two in looks.windows(2) {
-        assert!((0..3).all(|part| two[0][part] != two[1][part]), "{two:?}");
-    }
-    let (printed, ours) = looks.split_last().expect("looks");
-    assert!(ours.iter().all(|[.., marker]| *marker != printed[2]));
-}
-
 /// Each color of the drawing, with the color that replaces it on a dark page.
 fn dark_forms(svg: &str) -> Vec<(Color, Color)> {
     let rules = between(svg, "[stroke=\"", "}").map(|rule| {
@@ -269,21 +222,18 @@ fn dark_forms(svg: &str) -> Vec<(Color, Color)> {
 
 #[test]
 fn lines_stand_out_from_both_pages() {
-    let (chart, labels) = lines_to(&[1.0; MAX_SERIES]);
+    let (chart, _) = lines_to(&[1.0; MAX_SERIES]);
     let svg = chart.svg().expect("lines");
+    // Paper, ink, quiet text and rules, then the colors of lines.
     let forms = dark_forms(&svg);
-    let of: BTreeSet<String> = looks(&svg, &labels).into_iter().map(|[color, ..]| format!("#{color}")).collect();
-    let paper = between(&svg, "<rect ", ">").next().and_then(|tag| between(tag, "fill=\"", "\"").next());
-    let dark = |light: Color| forms.iter().find(|(of, _)| *of == light).expect("a dark form").1;
-    let paper = color(paper.expect("a background"));
-    let lines: Vec<(Color, Color)> = of.iter().map(|light| (color(light), dark(color(light)))).collect();
+    let ((paper, dark_paper), lines) = (forms[0], &forms[4..]);
     assert_eq!(lines.len(), 6);
-    for (line, on_dark) in &lines {
-        assert!(contrast(*line, paper) >= 3.0 && contrast(*on_dark, dark(paper)) >= 3.0, "{line:?}");
+    for (line, on_dark) in lines {
+        assert!(contrast(*line, paper) >= 3.0 && contrast(*on_dark, dark_paper) >= 3.0, "{line:?}");
         let [r, g, b] = line;
         assert!(svg.contains(&format!("[fill=\"#{r:02X}{g:02X}{b:02X}\"]{{fill:")), "markers have it too");
     }
-    let (light, on_dark): (Vec<Color>, Vec<Color>) = lines.into_iter().unzip();
+    let (light, on_dark): (Vec<Color>, Vec<Color>) = lines.iter().copied().unzip();
     for colors in [light, on_dark] {
         assert!(least_distance(&colors) > 10.0, "{}", least_distance(&colors));
     }

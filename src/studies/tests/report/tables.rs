@@ -32,20 +32,6 @@ fn short_rows_are_filled() {
 }
 
 #[test]
-fn a_fold_keeps_the_first_row_and_names_the_others() {
-    let mut table = Table::of("t", "row leaks");
-    for (name, leaks) in [("a", 3_u32), ("b", 3), ("c", 4), ("d", 3)] {
-        table.push([name.into(), leaks.into()]);
-    }
-    let name = |row: usize| ["a", "b", "c", "d"][row].to_owned();
-    let folded = table.folded(&[0, 0, 2, 0], name, (["row", "rows"], "the same bits"));
-    assert_eq!(folded.rows().len(), 3);
-    assert_eq!(folded.rows()[1][0].text(), "2 rows: the same bits");
-    assert_eq!(folded.notes(), ["The same bits as a: b, d"]);
-    assert_eq!(table.folded(&[0, 1, 2, 3], name, (["row", "rows"], "the same bits")), table);
-}
-
-#[test]
 fn marks_are_named_in_json_and_stand_behind_numbers() {
     let mut table = Table::of("t", "what ours");
     table.push(["a".into(), Cell::percent(23.456).marked("*")]);
@@ -97,20 +83,4 @@ fn verdicts_stand_second_and_rows_have_links() {
     let row = "<tr id=\"figure-7.1\" class=\"bad\"><th scope=\"row\">rate <a class=\"anchor\" href=\"#figure-7.1\"";
     assert!(after(row) < after("<td class=\"said\">missed</td><td class=\"number\">1</td>"));
     assert!(html.contains("<tr><th scope=\"row\">other</th>"), "a row without name or known verdict: {html}");
-}
-
-#[test]
-fn shares_are_colored() {
-    let mut table = Table::of("Rows", "what share other");
-    table.push(["a".into(), Cell::percent(50.0).heated(0.5), Cell::percent(1.0)]);
-    let html = page_of(table);
-    assert!(html.contains("style=\"background:rgb(213 94 0 / 30%)\">50.0</td><td class=\"number\">1.0<"), "{html}");
-}
-
-#[test]
-fn the_fold_of_a_named_row_keeps_its_name() {
-    let mut table = Table::of("Rows", "what");
-    ["a", "b", "c"].into_iter().for_each(|name| table.push_named(name.to_owned(), [name.into()]));
-    let html = page_of(table.folded(&[0, 0, 0], |row| row.to_string(), (["row", "rows"], "the same")));
-    assert!(html.contains("<tr id=\"a\">") && html.contains("<tr class=\"folded\">"), "{html}");
 }

@@ -1,7 +1,5 @@
 //! The page that compares a GPU with the emulator, tested through its data.
 
-use std::fs;
-use std::path::PathBuf;
 use std::sync::LazyLock;
 
 use base64::Engine as _;
@@ -38,30 +36,6 @@ fn words(value: &Value) -> Vec<u32> {
     list(value).iter().map(|word| word.as_u64().expect("a number") as u32).collect()
 }
 
-fn assets(extension: &str) -> Vec<(PathBuf, String)> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("study/page/assets");
-    let files = fs::read_dir(folder).expect("the assets").map(|file| file.expect("a file").path());
-    let files = files.filter(|path| path.extension().is_some_and(|found| found == extension));
-    files.map(|path| (path.clone(), fs::read_to_string(path).expect("text"))).collect()
-}
-
-/// The script loads nothing and does not end its own element.
-#[test]
-fn the_script_stands_alone() {
-    let parts = assets("js");
-    assert!(parts.len() > 10);
-    for word in ["http", "fetch(", "import", "XMLHttp", "WebSocket", "eval", "innerHTML", "</", "<!--"] {
-        assert!(parts.iter().all(|(_, part)| !part.contains(word)), "{word}");
-    }
-}
-
-/// Every color of the sheet is a variable of the reports' sheet, so a dark page uses no color of a light page.
-#[test]
-fn the_sheet_has_no_color_of_its_own() {
-    let [(_, css)] = &assets("css")[..] else { panic!("one sheet") };
-    assert!(!css.contains("rgb(") && !css.contains(": #"));
-}
-
 /// Results of an operation in a format, set by set.
 fn results(operation: &str, format: &str) -> Vec<u32> {
     let arithmetic = &DATA["arithmetic"];
@@ -73,22 +47,6 @@ fn results(operation: &str, format: &str) -> Vec<u32> {
     let bytes = bytes.expect("base64");
     let size = bytes.len() / SETS;
     bytes.chunks(size).map(|word| word.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte))).collect()
-}
-
-#[test]
-fn every_format_is_one_and_every_operation_has_results() {
-    let arithmetic = &DATA["arithmetic"];
-    for (column, entry) in list(&arithmetic["formats"]).iter().enumerate() {
-        let name = text(&entry["name"]);
-        let format: Format = name.parse().expect("a format");
-        assert_eq!(format.to_string(), name, "the canonical name");
-        for (row, operation) in list(&arithmetic["operations"]).iter().enumerate() {
-            let bytes = STANDARD.decode(text(&arithmetic["expected"][row][column])).expect("base64");
-            assert_eq!(bytes.len(), SETS * format.width().div_ceil(8) as usize, "{name} {operation}");
-            assert!(bytes.iter().any(|byte| *byte != 0), "{name} {operation}");
-            assert!(operation["shader"].as_u64() < Some(list(&arithmetic["shaders"]).len() as u64));
-        }
-    }
 }
 
 /// With different operands, the page would call a correct GPU wrong: the results must belong to the operands that the
@@ -131,19 +89,6 @@ fn operands_reach_the_corners_of_a_format() {
     }
 }
 
-/// The text of each shader has its own entry point and none of the other shaders' operations.
-#[test]
-fn shaders_hold_what_they_run() {
-    let shaders = list(&DATA["arithmetic"]["shaders"]);
-    assert_eq!(shaders.len(), 3);
-    for shader in shaders {
-        let (entry, text) = (text(&shader["entry"]), text(&shader["text"]));
-        assert_eq!(text.matches("@compute").count(), 1, "{entry}");
-        assert!(text.contains(&format!("fn {entry}(")));
-        assert_eq!(text.contains("fn n_circle("), entry == "circle_main", "{entry}");
-    }
-}
-
 /// The intersection program of a format in the machine's code.
 fn microcode(format: &str) -> Vec<u32> {
     let profile = Profile::named(&format!("ideal-{format}")).expect("a device");
@@ -177,19 +122,4 @@ fn one_program_serves_all_formats_of_its_kind() {
     let single = microcode("e8m23");
     assert_eq!(conversions(&single), 0);
     assert_eq!(single.len() + 3 * conversions(&code), code.len());
-}
-
-/// 64-bit FNV-1a (Fowler, Noll and Vo) of the bytes that are stored next to each digest.
-#[test]
-fn digests_are_of_the_hits_beside_them() {
-    let fnv = |bytes: &[u8]| {
-        bytes
-            .iter()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(1_099_511_628_211))
-    };
-    let pictures = list(&DATA["teapot"]["views"]).iter().flat_map(|view| list(&view["pictures"]));
-    for picture in pictures {
-        let hits = STANDARD.decode(text(&picture["hits"])).expect("base64");
-        assert_eq!(text(&picture["digest"]), format!("{:016x}", fnv(&hits)));
-    }
 }

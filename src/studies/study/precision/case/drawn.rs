@@ -48,16 +48,6 @@ impl DrawnCase {
         self.targets.iter().flat_map(|target| &target.channels).any(|channel| codes(*channel).is_some())
     }
 
-    /// Unit of errors.
-    pub(super) fn unit(&self) -> &'static str {
-        let all = self.targets.iter().flat_map(|target| &target.channels);
-        match (self.has_codes(), all.clone().all(|channel| codes(*channel).is_some())) {
-            (_, true) => "codes",
-            (true, false) => "codes, or relative to the exact value where a channel has none",
-            (false, _) => "relative to the exact value",
-        }
-    }
-
     /// Target 0 as it appears on a screen.
     pub(super) fn screen(&self, [width, height]: [u32; 2]) -> Result<ScreenPicture, InputError> {
         let plane = |c: usize| Samples::Float(self.targets[0].linear.iter().map(|pixel| pixel[c]).collect());

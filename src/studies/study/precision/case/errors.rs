@@ -36,8 +36,7 @@ pub(super) struct CaseErrors {
     relative: ErrorSums,
     largest_absolute: f64,
     largest_codes: f64,
-    /// Per pixel, the largest badness of a channel; `wrong` holds `true` if a channel is wrong.
-    pub(super) off: Vec<f64>,
+    /// Per pixel, `true` if a channel is wrong.
     wrong: Vec<bool>,
     /// Target, index of the value, and its badness.
     pub(super) worst: Option<(usize, usize, f64)>,
@@ -45,7 +44,7 @@ pub(super) struct CaseErrors {
 
 impl CaseErrors {
     pub(super) fn new(ours: &DrawnCase, exact: &DrawnCase, pixels: usize) -> Self {
-        let mut errors = Self { off: vec![0.0; pixels], wrong: vec![false; pixels], ..Self::default() };
+        let mut errors = Self { wrong: vec![false; pixels], ..Self::default() };
         for (target, (ours, exact)) in ours.targets.iter().zip(&exact.targets).enumerate() {
             for (at, (&value, &right)) in ours.values.iter().zip(&exact.values).enumerate() {
                 let count = exact.channels.len();
@@ -67,7 +66,6 @@ impl CaseErrors {
         self.largest_codes = self.largest_codes.max(off.unwrap_or(0.0));
         self.wrong[pixel] |= off.map_or(relative > WRONG, |off| off > 1.0);
         let badness = off.unwrap_or(relative);
-        self.off[pixel] = self.off[pixel].max(badness);
         if self.worst.is_none_or(|(.., worst)| badness > worst) {
             self.worst = Some((target, at, badness));
         }

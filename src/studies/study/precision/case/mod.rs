@@ -3,36 +3,25 @@
 mod drawn;
 mod errors;
 
-use std::collections::BTreeMap;
-
 use refsim::device::Profile;
-use refsim::isa::{Destination, Instruction, Program, Register, RegisterFile};
-use refsim::machine::ExecutorKind;
+use refsim::machine::{Executor, ExecutorKind};
 
-use super::executors::SubjectExecutors;
-use super::goal::{Goal, GoalRelation};
+use super::goal::Goal;
 use super::runs::exact;
-use super::steps::{first_results, step_results, with_rounded};
-use super::subject::{
-    ErrorMap, FragmentResults, InstructionResults, Measured, PixelSteps, PrecisionMeasure, PrecisionSubject,
-    RefutingDevices, RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
-};
-use crate::case::{CaseError, Loaded, Setup, trace};
+use super::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+use crate::case::{CaseError, Setup};
 use crate::picture::metrics::{DEFAULT_PPD, flip, ssim};
 use crate::shader::ShaderText;
 use crate::study::StudyError;
 use drawn::{DrawnCase, codes};
 use errors::{CaseErrors, FLIP, LARGEST_CODES, MEASURES, SSIM};
 
-/// Maximum number of pixels that are traced.
-const TRACED: usize = 1024;
-
 /// Case whose pixel program is studied. The reference is its exact run.
 #[derive(Debug)]
 pub struct CaseSubject {
     setup: Setup,
     title: String,
-    executors: SubjectExecutors,
+    executor: Executor,
     measures: Vec<PrecisionMeasure>,
     exact: DrawnCase,
     /// Another case with the same pixel program, which tests the mixed formats that were searched on this one.
@@ -43,15 +32,15 @@ impl CaseSubject {
     /// Draws the exact run of a case, whose device is used unchanged. `name` is the title of a case without one. Fails
     /// if the device cannot draw the case.
     pub fn new(setup: Setup, name: &str) -> Result<Self, StudyError> {
-        let executors = SubjectExecutors::new();
-        let exact = DrawnCase::new(&setup, &executors.batch, &exact(&setup.profile, [&*setup.pixel]))?;
+        let executor = ExecutorKind::Batch.into();
+        let exact = DrawnCase::new(&setup, &executor, &exact(&setup.profile, [&*setup.pixel]))?;
         let screen = exact.screen(setup.size)?;
         let perceptual = [(SSIM, ssim(&screen, &screen).is_some()), (FLIP, true)];
         let first = exact.has_codes().then_some(LARGEST_CODES);
         let last = perceptual.into_iter().filter(|(_, has)| *has).map(|(measure, _)| measure);
         let title = setup.title.clone().unwrap_or_else(|| name.to_owned());
         let measures = first.into_iter().chain(MEASURES).chain(last).collect();
-        Ok(Self { title, executors, measures, exact, setup, held_back: None })
+        Ok(Self { title, executor, measures, exact, setup, held_back: None })
     }
 
     /// Holds back a case: formats found on this case are tested on it, on this case's device. `name` says where it
@@ -102,47 +91,23 @@ impl PrecisionSubject for CaseSubject {
     fn default_goal(&self) -> Goal {
         let first = self.measures[0];
         let bound = if first == LARGEST_CODES { 1.0 } else { 0.01 };
-        Goal { measure: first.name.to_owned(), relation: GoalRelation::AtMost, bound }
+        Goal::at_most(first.name, bound)
     }
 
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        self.measured(&self.setup, profile, executor, wanted)
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        self.measured(&self.setup, profile, wanted)
     }
 
     fn measure_text(&self, text: &ShaderText, wanted: &str) -> Result<Option<Measured>, StudyError> {
         let profile = exact(&self.setup.profile, []);
         let pixel = text.assemble().and_then(|program| text.check(program, &profile)).map_err(CaseError::from)?;
         let setup = Setup { pixel, pixel_text: text.clone(), ..self.setup.clone() };
-        Ok(Some(self.measured(&setup, &profile, ExecutorKind::Batch, Some(wanted))?))
+        Ok(Some(self.measured(&setup, &profile, Some(wanted))?))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        let measure = |other: &Self| other.measure(profile, ExecutorKind::Batch, None);
+        let measure = |other: &Self| other.measure(profile, None);
         self.held_back.as_deref().map(measure).transpose()
-    }
-
-    fn steps(&self, devices: RefutingDevices<'_>, pixel: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
-        let mut steps = [const { Vec::new() }; 3];
-        for (steps, device) in steps.iter_mut().zip(devices.all()) {
-            let fragments = trace(&self.setup.on_device(device.clone())?, &self.executors.batch, pixel)?.fragments;
-            let program = (0, &*self.setup.pixel);
-            steps.extend((0..).zip(&fragments).flat_map(|fragment| step_results(device, program, fragment)));
-        }
-        Ok(Some(PixelSteps { pixel, steps }))
-    }
-
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let all = self.sampled(&self.setup, exact, |_| true)?;
-        let of = |rounded: &RoundedInstruction| {
-            let device = with_rounded(exact, &self.setup.pixel, *rounded);
-            let mut found = self.sampled(&self.setup, &device, |instruction| instruction == rounded.instruction)?;
-            Ok(found.remove(&rounded.instruction).unwrap_or_default())
-        };
-        let rounded = match self.rounded_copies(exact, rounded)? {
-            Some(found) => found,
-            None => rounded.iter().map(of).collect::<Result<_, StudyError>>()?,
-        };
-        Ok(SampledResults { exact: vec![all], rounded })
     }
 
     fn notes(&self) -> Vec<String> {
@@ -156,14 +121,8 @@ impl PrecisionSubject for CaseSubject {
 
 impl CaseSubject {
     /// Draws a case of the same size and targets, and measures it against the exact run.
-    fn measured(
-        &self,
-        setup: &Setup,
-        profile: &Profile,
-        executor: ExecutorKind,
-        wanted: Option<&str>,
-    ) -> Result<Measured, StudyError> {
-        let drawn = DrawnCase::new(setup, self.executors.of(executor), profile)?;
+    fn measured(&self, setup: &Setup, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        let drawn = DrawnCase::new(setup, &self.executor, profile)?;
         let [width, height] = self.setup.size;
         let errors = CaseErrors::new(&drawn, &self.exact, width as usize * height as usize);
         let known = errors.values().into_iter().filter(|(name, _)| self.measures.iter().any(|m| m.name == *name));
@@ -173,82 +132,27 @@ impl CaseSubject {
             values.extend(ssim(&ours, &exact).map(|ssim| (SSIM.name, ssim)));
             values.extend(flip(&ours, &exact, DEFAULT_PPD).map(|flip| (FLIP.name, flip.mean)));
         }
-        let is_shown = wanted.is_none();
         Ok(Measured {
             values,
             worst: errors.worst.map(|worst| self.place(worst, &drawn)),
-            picture: is_shown.then(|| drawn.picture(self.setup.size)),
-            errors: is_shown.then(|| ErrorMap { width, unit: self.exact.unit(), values: errors.off }),
+            picture: wanted.is_none().then(|| drawn.picture(self.setup.size)),
         })
     }
 
     /// Describes the location of a value, and the exact value there.
-    fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> WorstPlace {
+    fn place(&self, (target, at, _): (usize, usize, f64), drawn: &DrawnCase) -> String {
         let (ours, exact) = (&drawn.targets[target], &self.exact.targets[target]);
         let (pixel, channel) = (at / exact.channels.len(), exact.channels[at % exact.channels.len()]);
         let width = self.setup.size[0] as usize;
         let name = ["red", "green", "blue", "alpha"].get(usize::from(channel.stored_from)).copied().unwrap_or_default();
         let of = if self.exact.targets.len() > 1 { format!(" of target {target}") } else { String::new() };
         let (x, y) = (pixel % width, pixel / width);
-        let text = match codes(channel) {
+        match codes(channel) {
             Some(codes) => {
                 let [ours, exact] = [ours, exact].map(|target| (target.values[at] * codes).round());
                 format!("{x}, {y}{of}: {name} {ours}, not {exact}")
             }
             None => format!("{x}, {y}{of}: {name} {}, not {}", ours.values[at] as f32, exact.values[at] as f32),
-        };
-        WorstPlace { text, pixel: Some([x as u32, y as u32]) }
-    }
-
-    /// Results of rounded instructions of a translated shader, in one draw per format: before each instruction stands a
-    /// copy that writes to a register that nothing reads. `None` if the program has no such register.
-    fn rounded_copies(
-        &self,
-        exact: &Profile,
-        rounded: &[RoundedInstruction],
-    ) -> Result<Option<Vec<FragmentResults>>, StudyError> {
-        let (program, text) = (&self.setup.pixel, &self.setup.pixel_text);
-        let written = program.instructions.iter().filter_map(|instruction| Some(instruction.destination?.register));
-        let free =
-            written.filter(|register| register.file == RegisterFile::Temp).map(|register| register.index + 1).max();
-        let Some(index) = free.filter(|_| text.is_wgsl()) else { return Ok(None) };
-        let mut found = Vec::new();
-        for group in rounded.chunk_by(|a, b| a.format == b.format) {
-            let (mut instructions, mut copies) = (Vec::new(), BTreeMap::new());
-            for (at, instruction) in program.instructions.iter().enumerate() {
-                if group.iter().any(|rounded| rounded.instruction == at) {
-                    copies.insert(at, instructions.len());
-                    let register = Register::new(RegisterFile::Temp, index);
-                    let destination = instruction.destination.map(|to| Destination { register, ..to });
-                    instructions.push(Instruction { destination, ..instruction.clone() });
-                }
-                instructions.push(instruction.clone());
-            }
-            let copied = Program { instructions, ..(**program).clone() };
-            let Ok(pixel) = text.check(copied, exact) else { return Ok(None) };
-            let mut device = exact.clone();
-            device.set_instruction_formats(&pixel, copies.values().map(|at| (*at, group[0].format)).collect());
-            let setup = Setup { pixel, ..self.setup.clone() };
-            let mut results = self.sampled(&setup, &device, |at| copies.values().any(|copy| *copy == at))?;
-            let of = |rounded: &RoundedInstruction| results.remove(&copies[&rounded.instruction]).unwrap_or_default();
-            found.extend(group.iter().map(of));
         }
-        Ok(Some(found))
-    }
-
-    /// First results of the wanted instructions of a case, in the fragments of evenly spaced pixels.
-    fn sampled(
-        &self,
-        setup: &Setup,
-        device: &Profile,
-        is_wanted: impl Fn(usize) -> bool,
-    ) -> Result<InstructionResults, StudyError> {
-        let setup = setup.on_device(device.clone())?;
-        let [width, height] = self.setup.size;
-        let count = width as usize * height as usize;
-        let step = count.div_ceil(TRACED).max(1);
-        let pixels: Vec<(u32, u32)> = (0..count as u32).step_by(step).map(|at| (at % width, at / width)).collect();
-        let traces = Loaded::new(&setup, &self.executors.batch)?.trace(&pixels)?;
-        Ok(first_results(device, &setup.pixel, (0, traces.iter().flatten()), is_wanted))
     }
 }

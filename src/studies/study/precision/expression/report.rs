@@ -145,9 +145,8 @@ fn error_cells(row: &FormatErrors, goal: &Goal) -> [Cell; 8] {
     let width = arithmetic.width();
     let accuracy = 100.0 * (1.0 - bits.mean / f64::from(width));
     let accuracy = if accuracy.is_nan() { Cell::Empty } else { Cell::percent(accuracy) };
-    let discarded: usize = samples.discarded.iter().sum();
     let [mean, worst, value_cell] = [bits.mean, bits.worst, *value].map(error_cell);
-    [(*name).into(), width.into(), mean, worst, accuracy, discarded.into(), value_cell, goal.met(*value).into()]
+    [(*name).into(), width.into(), mean, worst, accuracy, samples.discarded.into(), value_cell, goal.met(*value).into()]
 }
 
 /// The input with the largest error.

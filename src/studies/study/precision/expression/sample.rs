@@ -34,27 +34,12 @@ pub(super) struct Sample {
     pub(super) value: f64,
 }
 
-/// Why an input that meets the precondition is discarded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Discard {
-    /// There is no real result.
-    Undefined,
-    /// The result is beyond the largest number of the format.
-    TooLarge,
-    /// No precision decides the result.
-    Undecided,
-}
-
-impl Discard {
-    pub(super) const ALL: [Self; 3] = [Self::Undefined, Self::TooLarge, Self::Undecided];
-}
-
 /// Sampled inputs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Samples {
     pub(super) kept: Vec<Sample>,
-    /// Discarded inputs, by [`Discard`].
-    pub(super) discarded: [usize; 3],
+    /// Number of inputs that meet the precondition but have no finite and decided result.
+    pub(super) discarded: usize,
 }
 
 /// Samples `count` inputs that meet the precondition and have a finite result, or fewer if they are rare.
@@ -85,13 +70,12 @@ pub(super) fn sample(
         for sample in drawn.into_iter().flatten() {
             match sample {
                 _ if samples.kept.len() == count => return samples,
-                Ok(sample) => samples.kept.push(sample),
-                Err(reason) => samples.discarded[reason as usize] += 1,
+                Some(sample) => samples.kept.push(sample),
+                None => samples.discarded += 1,
             }
         }
-        let discarded: usize = samples.discarded.iter().sum();
-        let is_missed = samples.kept.is_empty() && discarded == 0 && (row + 1) * count >= MISSES;
-        if samples.kept.len() == count || discarded > DISCARDED * count || is_missed {
+        let is_missed = samples.kept.is_empty() && samples.discarded == 0 && (row + 1) * count >= MISSES;
+        if samples.kept.len() == count || samples.discarded > DISCARDED * count || is_missed {
             break;
         }
     }
@@ -111,20 +95,20 @@ fn meets(precondition: &Graph, reals: &[Real]) -> bool {
 }
 
 /// An input with its result, if that is finite and decided.
-pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>) -> Result<Sample, Discard> {
+pub(super) fn exact(expression: &Expression, arithmetic: Arithmetic, inputs: Vec<u64>) -> Option<Sample> {
     let reals: Vec<Real> = inputs.iter().map(|&bits| arithmetic.real(bits)).collect();
     let decide = |bits| match expression.exact().reals(&reals, bits, None).pop() {
-        Some(Real::Range(range)) => Some(Ok((arithmetic.decided(&range)?, Arithmetic::Double.decided(&range)?))),
-        Some(Real::Undefined) => Some(Err(Discard::Undefined)),
+        Some(Real::Range(range)) => Some(Some((arithmetic.decided(&range)?, Arithmetic::Double.decided(&range)?))),
+        Some(Real::Undefined) => Some(None),
         _ => None,
     };
-    let (exact, double) = PRECISIONS.into_iter().find_map(decide).unwrap_or(Err(Discard::Undecided))?;
+    let (exact, double) = PRECISIONS.into_iter().find_map(decide)??;
     let (value, finite) = (f64::from_bits(double), arithmetic.finite_ordinals());
     // Fixed point has no infinity: its largest number represents all larger ones.
     let [least, largest] = finite.map(|ordinal| arithmetic.value(arithmetic.at_ordinal(ordinal)));
     let is_within = !arithmetic.is_fixed() || (least..=largest).contains(&value);
     let is_finite = (finite[0]..=finite[1]).contains(&arithmetic.ordinal(exact));
-    if is_within && is_finite { Ok(Sample { inputs, exact, value }) } else { Err(Discard::TooLarge) }
+    (is_within && is_finite).then_some(Sample { inputs, exact, value })
 }
 
 impl Arithmetic {

@@ -10,14 +10,13 @@ use super::arithmetic::Arithmetic;
 use super::blame::OperationError;
 use super::errors::{BitErrors, MEASURES};
 use super::graph::Expression;
-use super::sample::{self, Discard, InputDraw, Samples};
+use super::sample::{self, InputDraw, Samples};
 use super::syntax::{self, ExpressionError};
 use super::{blame, errors};
 use crate::io::read_limited;
-use crate::names::did_you_mean;
 use crate::report::SourceText;
 use crate::report::digits::exact;
-use crate::report::words::{counted, listed};
+use crate::report::words::counted;
 use crate::study::StudyError;
 use crate::study::error::library_errors;
 use refsim::num::Format;
@@ -145,23 +144,13 @@ impl ExpressionStudy {
     pub fn results(&self, name: &str, format: Option<Format>, inputs: &[u64]) -> Option<[u64; 2]> {
         let arithmetic = format.map_or(Arithmetic::Double, Arithmetic::Number);
         let expression = self.expressions.iter().find(|expression| expression.name == name)?;
-        let exact = sample::exact(expression, arithmetic, inputs.to_vec()).ok()?.exact;
+        let exact = sample::exact(expression, arithmetic, inputs.to_vec())?.exact;
         let constants = arithmetic.constants(&expression.body);
         Some([exact, arithmetic.values(&expression.body, inputs, &constants).pop()?])
     }
 
     pub(super) fn goal(&self) -> Result<Goal, StudyError> {
-        let default = "mean_relative<=0.01";
-        let Some(goal) = &self.goal else {
-            return default.parse().map_err(|error| StudyError::coded("crossbar::precision::goal", error));
-        };
-        if MEASURES.contains(&goal.measure.as_str()) {
-            return Ok(goal.clone());
-        }
-        let shown: String = goal.measure.chars().take(60).collect();
-        let found = format!("expected a goal for {}, found `{shown}`", listed(&MEASURES));
-        let help = format!("{}for example `--goal \"{default}\"`", did_you_mean(&shown, MEASURES));
-        Err(StudyError::new("crossbar::precision::goal", found).with_help(help))
+        Goal::chosen(self.goal.as_ref(), &MEASURES, Goal::at_most(MEASURES[0], 0.01))
     }
 
     /// Formats whose errors are shown: double precision, and cards' formats of the families.
@@ -236,18 +225,14 @@ fn without_inputs(expression: &Expression, arithmetic: Arithmetic, samples: &Sam
             return failed(&reason, "its bounds contradict each other");
         }
     }
-    let tried: usize = samples.discarded.iter().sum();
-    if tried == 0 {
+    if samples.discarded == 0 {
         return failed("expected inputs that meet the precondition, found none", "give it wider bounds");
     }
-    let (expected, help) = match Discard::ALL.into_iter().max_by_key(|&reason| samples.discarded[reason as usize]) {
-        Some(Discard::TooLarge) => ("a finite result in single precision", "give it inputs with smaller results"),
-        Some(Discard::Undecided) => {
-            ("a result that 12,288 bits decide", "values that are compared must not be equal: leave a distance")
-        }
-        _ => ("a real result", "it divides by zero, or takes a function outside of its domain"),
-    };
-    failed(&format!("expected {expected}, found none at {}", counted(tried as u64, "input", "inputs")), help)
+    let tried = counted(samples.discarded as u64, "input", "inputs");
+    failed(
+        &format!("expected a real, finite result in single precision, found none at {tried}"),
+        "it divides by zero, leaves a function's domain, is too large or compares equal numbers",
+    )
 }
 
 /// A format with the default rules.

@@ -10,9 +10,7 @@ mod programs;
 mod radiosity;
 mod ray_engine;
 mod run;
-mod sampler;
 mod subsurface;
-mod watchers;
 
 use refsim::device::Profile;
 
@@ -20,10 +18,6 @@ use super::subject::PrecisionSubject;
 use crate::study::StudyError;
 use picture_subject::SystemSubject;
 use ray_engine::RayEngineSubject;
-
-// Public for tests: no result of a study shows whether a sample covers everything.
-#[doc(hidden)]
-pub use sampler::spread;
 
 /// System of the papers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumString, strum::IntoStaticStr)]

@@ -1,24 +1,15 @@
 //! Systems whose values are compared with their own exact run.
 
-use std::sync::Arc;
-
 use refsim::device::Profile;
-use refsim::isa::Program;
-use refsim::machine::{DrawWatcher, Executor, ExecutorKind};
+use refsim::machine::{Executor, ExecutorKind};
 
 use super::programs::PixelPrograms;
 use super::run::{SystemInput, SystemRun};
-use super::sampler::ResultSampler;
-use super::watchers::{DifferentTexel, FollowedDraws, FollowedPixel, KeptTargets};
 use crate::picture::metrics::{ErrorSums, relative_error, value_error};
 use crate::picture::{RgbImage, display, rgb8};
 use crate::study::StudyError;
-use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{
-    ErrorMap, Measured, NOT_FINITE, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices,
-    RoundedInstruction, SampledResults, StudiedProgram, WorstPlace,
-};
+use crate::study::precision::subject::{Measured, NOT_FINITE, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 
 const MEASURES: [PrecisionMeasure; 5] = [
     PrecisionMeasure {
@@ -38,7 +29,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
 pub(super) struct SystemSubject {
     run: Box<dyn SystemRun>,
     profile: Profile,
-    executors: SubjectExecutors,
+    executor: Executor,
     programs: PixelPrograms,
     exact: Vec<[f64; 3]>,
     exact_held_back: Vec<[f64; 3]>,
@@ -46,13 +37,12 @@ pub(super) struct SystemSubject {
 
 impl SystemSubject {
     pub(super) fn new(run: Box<dyn SystemRun>, profile: Profile) -> Result<Self, StudyError> {
-        let executors = SubjectExecutors::new();
-        let (programs, [exact, exact_held_back]) =
-            PixelPrograms::of(&profile, &executors.batch, |device, executor| {
-                let values = |input| run.values(input, device, executor);
-                Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
-            })?;
-        Ok(Self { run, profile, executors, programs, exact, exact_held_back })
+        let executor = ExecutorKind::Batch.into();
+        let (programs, [exact, exact_held_back]) = PixelPrograms::of(&profile, &executor, |device, executor| {
+            let values = |input| run.values(input, device, executor);
+            Ok([values(SystemInput::Searched)?, values(SystemInput::HeldBack)?])
+        })?;
+        Ok(Self { run, profile, executor, programs, exact, exact_held_back })
     }
 }
 
@@ -62,8 +52,6 @@ struct SystemErrors {
     values: Vec<(&'static str, f64)>,
     /// Index of the largest error, the first one on a tie; `None` if there are no errors.
     worst: Option<usize>,
-    /// Largest error of a channel per pixel or patch, in 255ths.
-    off: Vec<f64>,
 }
 
 /// Errors of values compared with exact ones.
@@ -89,7 +77,7 @@ fn errors(found: &[[f64; 3]], exact: &[[f64; 3]]) -> SystemErrors {
         ("visible", visible as f64 / count),
         ("not_finite", sums.not_finite as f64),
     ];
-    SystemErrors { values, worst: off.iter().position(|off| *off > 0.0 && *off == most), off }
+    SystemErrors { values, worst: off.iter().position(|off| *off > 0.0 && *off == most) }
 }
 
 impl PrecisionSubject for SystemSubject {
@@ -113,83 +101,30 @@ impl PrecisionSubject for SystemSubject {
         self.run.default_goal()
     }
 
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        let found = self.run.values(SystemInput::Searched, profile, self.executors.of(executor))?;
-        let SystemErrors { values, worst, off } = errors(&found, &self.exact);
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        let found = self.run.values(SystemInput::Searched, profile, &self.executor)?;
+        let SystemErrors { values, worst } = errors(&found, &self.exact);
         let worst = worst.map(|at| {
-            let [width, _] = self.target_size();
-            let pixel = [at as u32 % width, at as u32 / width];
             let place = match self.run.size() {
-                Some(_) => format!("pixel {}, {}", pixel[0], pixel[1]),
+                Some([width, _]) => format!("pixel {}, {}", at as u32 % width, at as u32 / width),
                 None => format!("{} {at}", self.run.unit()),
             };
             let [ours, exact] = [found[at], self.exact[at]].map(|rgb| rgb.map(|value| value as f32));
-            WorstPlace { text: format!("{place}: {ours:?}, not {exact:?}"), pixel: Some(pixel) }
+            format!("{place}: {ours:?}, not {exact:?}")
         });
         let shown = self.run.size().filter(|_| wanted.is_none());
-        let errors = shown.map(|[width, _]| ErrorMap { width, unit: "255ths", values: off });
-        Ok(Measured { values, worst, picture: shown.map(|size| picture(size, &found)), errors })
+        Ok(Measured { values, worst, picture: shown.map(|size| picture(size, &found)) })
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        let found = self.run.values(SystemInput::HeldBack, profile, &self.executors.batch)?;
+        let found = self.run.values(SystemInput::HeldBack, profile, &self.executor)?;
         let values = errors(&found, &self.exact_held_back).values;
         Ok(Some(Measured { values, ..Measured::default() }))
     }
 
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
         let run = |device: &Profile, executor: &Executor| self.run.values(SystemInput::Searched, device, executor);
-        Ok(!PixelPrograms::of(profile, &self.executors.batch, run)?.0.are_among(&self.programs))
-    }
-
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let sampler = ResultSampler::new(&self.programs, exact, rounded)?;
-        self.watched(exact, sampler.clone())?;
-        Ok(sampler.results())
-    }
-
-    /// Follows the worst pixel or patch through the passes into it. If the refuted instruction is in another program,
-    /// follows the texel of that program's targets that changes most with one bit less.
-    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
-        let followed = self.followed(devices, worst, FollowedDraws::IntoTargets(self.target_size()))?;
-        let Some(program) = self.programs.get(devices.program).map(Program::digest) else { return Ok(None) };
-        if followed.steps[2].iter().any(|step| step.program == devices.program) {
-            return Ok(Some(followed));
-        }
-        let kept = |device: &Profile| {
-            let targets = KeptTargets::new(program);
-            self.watched(device, targets.clone()).map(|()| targets)
-        };
-        let [mixed, less] = [kept(devices.mixed)?, kept(devices.less)?];
-        let Some(DifferentTexel { draw, pixel }) = less.most_different(&mixed) else { return Ok(Some(followed)) };
-        self.followed(devices, pixel, FollowedDraws::Draw(program, draw)).map(Some)
-    }
-}
-
-impl SystemSubject {
-    /// Width and height of the target that holds the values: a picture, or one texel per patch.
-    fn target_size(&self) -> [u32; 2] {
-        self.run.size().unwrap_or([self.exact.len() as u32, 1])
-    }
-
-    /// Runs the search's input with a watcher.
-    fn watched(&self, device: &Profile, watcher: Arc<dyn DrawWatcher>) -> Result<(), StudyError> {
-        self.run.values(SystemInput::Searched, device, &self.executors.batch.watched(watcher)).map(|_| ())
-    }
-
-    fn followed(
-        &self,
-        devices: RefutingDevices<'_>,
-        pixel: [u32; 2],
-        draws: FollowedDraws,
-    ) -> Result<PixelSteps, StudyError> {
-        let mut steps = [const { Vec::new() }; 3];
-        for (steps, device) in steps.iter_mut().zip(devices.all()) {
-            let followed = FollowedPixel::new(pixel, draws);
-            self.watched(device, followed.clone())?;
-            *steps = followed.steps(device, &self.programs, |_| true);
-        }
-        Ok(PixelSteps { pixel, steps })
+        Ok(!PixelPrograms::of(profile, &self.executor, run)?.0.are_among(&self.programs))
     }
 }
 

@@ -47,18 +47,10 @@ impl PixelPrograms {
         Ok((Self(programs.collect()), found))
     }
 
-    pub(super) fn of_digest(&self, digest: u64) -> Option<(usize, &Program)> {
-        let mut all = self.0.iter().enumerate().map(|(index, (program, _))| (index, program));
-        all.find(|(_, program)| program.digest() == digest)
-    }
-
-    pub(super) fn get(&self, index: usize) -> Option<&Program> {
-        self.0.get(index).map(|(program, _)| program)
-    }
-
     /// Returns `true` if all programs are among the others.
     pub(super) fn are_among(&self, others: &Self) -> bool {
-        self.0.iter().all(|(program, _)| others.of_digest(program.digest()).is_some())
+        let is_known = |digest: u64| others.0.iter().any(|(program, _)| program.digest() == digest);
+        self.0.iter().all(|(program, _)| is_known(program.digest()))
     }
 
     pub(super) fn list(&self) -> Vec<StudiedProgram<'_>> {

@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
-use super::run::{SystemInput, SystemRun, at_most};
+use super::run::{SystemInput, SystemRun};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::{CardSolver, FormFactors, Patches, Storage, Subdivision, System, rooms};
 use crate::study::StudyError;
@@ -62,6 +62,6 @@ impl SystemRun for CornellBox {
 
     /// Default goal: radiosities within 1 %.
     fn default_goal(&self) -> Goal {
-        at_most("largest_relative", 0.01)
+        Goal::at_most("largest_relative", 0.01)
     }
 }

@@ -1,31 +1,21 @@
 //! The Ray Engine: eye rays on the teapot, judged by exact arithmetic.
 
-use std::sync::Arc;
-
 use glam::{DMat3, DVec3};
 use refsim::device::Profile;
 use refsim::isa::Version;
-use refsim::machine::{DrawWatcher, Executor, ExecutorKind, FragmentTrace};
+use refsim::machine::{Executor, ExecutorKind};
 
 use super::programs::PixelPrograms;
-use super::run::at_most;
-use super::sampler::ResultSampler;
-use super::watchers::{FollowedDraws, FollowedPixel};
-use crate::geom::classify::HitVerdict;
+use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
-use crate::geom::{Hit, Mesh};
 use crate::picture::rgb8;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 use crate::study::StudyError;
 use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
-use crate::study::precision::executors::SubjectExecutors;
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{
-    Measured, PixelSteps, PrecisionMeasure, PrecisionSubject, RefutingDevices, RoundedInstruction, SampledResults,
-    StudiedProgram, WorstPlace,
-};
+use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 
 /// Number of quads per side of a Bezier patch.
 const TESSELLATION: u32 = 4;
@@ -49,7 +39,7 @@ const MEASURES: [PrecisionMeasure; 5] = [
 /// Eye rays on the teapot.
 pub(super) struct RayEngineSubject {
     profile: Profile,
-    executors: SubjectExecutors,
+    executor: Executor,
     mesh: Mesh,
     /// View of the search, and the held-back view.
     views: [(RayBatch, JudgedRays); 2],
@@ -72,9 +62,9 @@ impl RayEngineSubject {
             let judged = JudgedRays::new(&tracer, view.rays().to_vec(), Sides::Front);
             (view, judged)
         });
-        let executors = SubjectExecutors::new();
-        let programs = drawn(&profile, &executors, &mesh, &views[0].0)?;
-        Ok(Self { profile, executors, mesh, views, programs })
+        let executor = ExecutorKind::Batch.into();
+        let programs = drawn(&profile, &executor, &mesh, &views[0].0)?;
+        Ok(Self { profile, executor, mesh, views, programs })
     }
 
     /// Traces a view on a device, and measures its errors.
@@ -82,10 +72,10 @@ impl RayEngineSubject {
         &self,
         (view, judged): &(RayBatch, JudgedRays),
         profile: &Profile,
-        executor: &Executor,
         is_pictured: bool,
     ) -> Result<Measured, StudyError> {
-        let hits = Crossbar::new(profile.clone(), executor.clone()).intersect(&self.mesh, view, Sides::Front)?.hits;
+        let hits =
+            Crossbar::new(profile.clone(), self.executor.clone()).intersect(&self.mesh, view, Sides::Front)?.hits;
         let (verdicts, tally) = judged.judge(&self.mesh, &hits);
         let wrong = tally.leaks + tally.false_hits + tally.wrong_triangle;
         let values = vec![
@@ -99,37 +89,19 @@ impl RayEngineSubject {
         let picture = is_pictured.then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
         let worst = pixels.position(|verdict| verdict.is_error());
         let worst = worst.map(|at| {
-            let [x, y] = pixel_of(at);
-            WorstPlace { text: format!("ray at pixel {x}, {y}"), pixel: Some([x, y]) }
+            let (x, y) = (at as u32 % SIDE, at as u32 / SIDE);
+            format!("ray at pixel {x}, {y}")
         });
-        Ok(Measured { values, worst, picture, errors: None })
-    }
-
-    /// Hits of the rays of the search. With a watcher, one target holds all rays.
-    fn hits(&self, device: &Profile, watcher: Option<Arc<dyn DrawWatcher>>) -> Result<Vec<Option<Hit>>, StudyError> {
-        let batch = &self.executors.batch;
-        let executor = watcher.clone().map_or_else(|| batch.clone(), |watcher| batch.watched(watcher));
-        let crossbar = Crossbar::new(device.clone(), executor).all_pairs(watcher.is_some());
-        Ok(crossbar.intersect(&self.mesh, &self.views[0].0, Sides::Front)?.hits)
+        Ok(Measured { values, worst, picture })
     }
 }
 
 /// Programs that find the hits of a view.
-fn drawn(
-    profile: &Profile,
-    executors: &SubjectExecutors,
-    mesh: &Mesh,
-    view: &RayBatch,
-) -> Result<PixelPrograms, StudyError> {
-    let (programs, _) = PixelPrograms::of(profile, &executors.batch, |device, executor| {
+fn drawn(profile: &Profile, executor: &Executor, mesh: &Mesh, view: &RayBatch) -> Result<PixelPrograms, StudyError> {
+    let (programs, _) = PixelPrograms::of(profile, executor, |device, executor| {
         Ok(Crossbar::new(device.clone(), executor.clone()).intersect(mesh, view, Sides::Front)?)
     })?;
     Ok(programs)
-}
-
-/// Column and row of a ray.
-fn pixel_of(at: usize) -> [u32; 2] {
-    [at as u32 % SIDE, at as u32 / SIDE]
 }
 
 impl PrecisionSubject for RayEngineSubject {
@@ -152,48 +124,18 @@ impl PrecisionSubject for RayEngineSubject {
     /// At most one ray in a thousand is wrong. Leaks alone are no sufficient goal: a format in which every ray hits
     /// something has none.
     fn default_goal(&self) -> Goal {
-        at_most("wrong", 0.001)
+        Goal::at_most("wrong", 0.001)
     }
 
-    fn measure(&self, profile: &Profile, executor: ExecutorKind, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        self.measured(&self.views[0], profile, self.executors.of(executor), wanted.is_none())
+    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
+        self.measured(&self.views[0], profile, wanted.is_none())
     }
 
     fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
-        Ok(!drawn(profile, &self.executors, &self.mesh, &self.views[0].0)?.are_among(&self.programs))
-    }
-
-    fn results(&self, exact: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let sampler = ResultSampler::new(&self.programs, exact, rounded)?;
-        self.hits(exact, Some(sampler.clone()))?;
-        Ok(sampler.results())
-    }
-
-    /// Follows the first ray that becomes wrong with one bit less, otherwise `worst`, on its exact triangle and on the
-    /// triangles that it hits on the three devices.
-    fn steps(&self, devices: RefutingDevices<'_>, worst: [u32; 2]) -> Result<Option<PixelSteps>, StudyError> {
-        let judged = &self.views[0].1;
-        let [exact, mixed, less] = devices.all();
-        let hits = [self.hits(exact, None)?, self.hits(mixed, None)?, self.hits(less, None)?];
-        let [_, before, after] = hits.each_ref().map(|hits| judged.judge(&self.mesh, hits).0);
-        let is_wrong = |verdict: &HitVerdict| *verdict != HitVerdict::Right;
-        let broken = after.iter().zip(&before).position(|(after, before)| is_wrong(after) && !is_wrong(before));
-        let ray = broken.unwrap_or(worst[1] as usize * SIDE as usize + worst[0] as usize);
-        let found = hits.iter().map(|hits| hits.get(ray).copied().flatten().map(|hit| hit.triangle));
-        let triangles: Vec<u32> = found.chain([judged.exact_triangle(ray)]).flatten().collect();
-        let mut steps = [const { Vec::new() }; 3];
-        let (pixel, size) = (pixel_of(ray), FollowedDraws::IntoTargets([SIDE; 2]));
-        for (steps, device) in steps.iter_mut().zip(devices.all()) {
-            let followed = FollowedPixel::new(pixel, size);
-            self.hits(device, Some(followed.clone()))?;
-            // One instance per triangle, in order.
-            let is_near = |fragment: &FragmentTrace| triangles.contains(&(fragment.instance as u32));
-            *steps = followed.steps(device, &self.programs, is_near);
-        }
-        Ok(Some(PixelSteps { pixel, steps }))
+        Ok(!drawn(profile, &self.executor, &self.mesh, &self.views[0].0)?.are_among(&self.programs))
     }
 
     fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        self.measured(&self.views[1], profile, &self.executors.batch, false).map(Some)
+        self.measured(&self.views[1], profile, false).map(Some)
     }
 }

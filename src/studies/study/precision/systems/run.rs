@@ -11,7 +11,7 @@ use crate::geom::vector::{narrow, wide};
 use crate::scene::Camera;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::StudyError;
-use crate::study::precision::goal::{Goal, GoalRelation};
+use crate::study::precision::goal::Goal;
 
 /// Number of pixels per side of the pictures.
 const PICTURE: u32 = 64;
@@ -46,12 +46,8 @@ pub(super) trait SystemRun: fmt::Debug {
 
     /// Default goal: the error in 8-bit codes is at most one.
     fn default_goal(&self) -> Goal {
-        at_most("largest_255ths", 1.0)
+        Goal::at_most("largest_255ths", 1.0)
     }
-}
-
-pub(super) fn at_most(measure: &str, bound: f64) -> Goal {
-    Goal { measure: measure.to_owned(), relation: GoalRelation::AtMost, bound }
 }
 
 /// Stanford bunny with few vertices.

@@ -52,7 +52,7 @@ pub(super) fn decoded(text: &str) -> Option<Cell> {
             let decimals = || Some(Quantity::Decimals(kind.strip_prefix("decimals")?.parse().ok()?));
             let quantity = known().or_else(decimals)?;
             let mark = MARKS.into_iter().find(|known| *known == mark)?;
-            Cell::Real(Figure { value: value.parse().ok()?, quantity, mark, heat: 0.0 })
+            Cell::Real(Figure { value: value.parse().ok()?, quantity, mark })
         }
     })
 }

@@ -14,7 +14,6 @@ use crossbar_studies::report::Verdict;
 use crossbar_studies::study::Study as _;
 use crossbar_studies::study::precision::{CaseSubject, FormatCosts, FormatFamily, Precision, PrecisionSubject};
 use refsim::device::{Profile, takes_format};
-use refsim::machine::ExecutorKind;
 use refsim::num::Format;
 use serde_json::Value;
 
@@ -186,19 +185,6 @@ fn a_dead_instruction_has_no_blame() {
     assert_eq!(needs("note")[1], "no effect");
 }
 
-/// Ranges are the exact results' ranges, and a local error is the error of one operation on exact operands.
-#[test]
-fn ranges_and_local_errors_are_those_of_the_results() {
-    let body = "mul r0, c0, c0\nmul r0, r0, c1";
-    let constants = "c0 = [3, 3, 3, 3]\nc1 = [0.125, 0.125, 0.125, 0.125]";
-    let document = document(&study(&case(body, constants), "largest_relative<=0.2", &[FormatFamily::Float]));
-    let needs = |key: &str| column(&document, "instructions_float", key);
-    assert_eq!(needs("exponents"), ["3 to 3", "0 to 0", "0 to 0"]);
-    assert_eq!(digits(&document["families"][0]["minimum"]), Some(1));
-    // 9 rounds to 8 in steps of 4, and 9/8 rounds to 1 in steps of 1/2.
-    assert_eq!([needs("median_ulp"), needs("largest_ulp")].concat(), [0.25; 6]);
-}
-
 const POLYNOMIAL: &str = "mov r0, t0\nmad r1, r0, c0, c1\nmad r1, r1, r0, c2\nmul r0, r1, r0\nmad r0, r0, c3, r0";
 
 /// Case whose instructions need different formats, and whose pixels have different values.
@@ -213,9 +199,9 @@ fn polynomial() -> String {
 fn a_mixed_assignment_meets_the_goal_and_one_bit_less_does_not() {
     let study = study(&polynomial(), "largest_codes<=1", &[FormatFamily::Float, FormatFamily::Fixed]);
     let document = document(&study);
-    let scalar = |formats: &[String]| {
+    let largest = |formats: &[String]| {
         let device = device_with(&*study.subject, formats);
-        study.subject.measure(&device, ExecutorKind::Scalar, None).expect("it runs").value("largest_codes")
+        study.subject.measure(&device, None).expect("it runs").value("largest_codes")
     };
     for (number, family) in ["float", "fixed"].into_iter().enumerate() {
         let found = &document["families"][number];
@@ -223,14 +209,13 @@ fn a_mixed_assignment_meets_the_goal_and_one_bit_less_does_not() {
         let mixed = texts(&document, &format!("mixed_{family}"), "format");
         let cost = found["mixed_cost"].as_f64().expect("a cost");
         assert!(found["one_minimal"] == true && cost <= f64::from(minimum.width()) * mixed.len() as f64);
-        assert!(scalar(&mixed) <= 1.0, "{mixed:?}");
-        assert_eq!(found["scalar"], scalar(&mixed));
+        assert!(largest(&mixed) <= 1.0, "{mixed:?}");
         let mut refuted = Vec::new();
         for (place, format) in mixed.iter().enumerate() {
             for less in Layout::of(format).narrower() {
                 let mut formats = mixed.clone();
                 formats[place].clone_from(&less);
-                assert!(scalar(&formats) > 1.0, "{less} for {format} at {place}");
+                assert!(largest(&formats) > 1.0, "{less} for {format} at {place}");
                 refuted.push(less);
             }
         }
@@ -241,12 +226,10 @@ fn a_mixed_assignment_meets_the_goal_and_one_bit_less_does_not() {
 #[test]
 fn the_mixed_device_draws_what_was_found() {
     let study = study(&polynomial(), "largest_codes<=1", &[FormatFamily::Fixed]);
-    let document = document(&study);
     assert_eq!(findings(&study).verdict(), Verdict::Done);
     let device = mixed_device(&study);
     assert_eq!(device.instruction_formats().iter().map(|(_, formats)| formats.len()).sum::<usize>(), 6);
-    let value = study.subject.measure(&device, ExecutorKind::Scalar, None).expect("it runs").value("largest_codes");
-    assert_eq!(document["families"][0]["scalar"], value);
+    assert!(study.subject.measure(&device, None).expect("it runs").value("largest_codes") <= 1.0);
 }
 
 /// The device file, written by a study, with its cheapest mixed formats.

@@ -1,4 +1,4 @@
-//! Bits that a format and an instruction need, for a subject with given values and results.
+//! Bits that a format and an instruction need, for a subject with given values.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -6,9 +6,7 @@ use std::rc::Rc;
 
 use crossbar_base::elementary::pow;
 use crossbar_studies::study::StudyError;
-use crossbar_studies::study::precision::{
-    FragmentResults, Goal, Measured, PrecisionMeasure, RoundedInstruction, SampledResults, StudiedProgram,
-};
+use crossbar_studies::study::precision::{Goal, Measured, PrecisionMeasure, StudiedProgram};
 use proptest::prelude::*;
 
 use super::*;
@@ -18,14 +16,12 @@ const MEASURE: &str = "largest_absolute";
 /// Values of the measure by the formats of the two instructions; `None` is the exact format.
 type Values = Box<dyn Fn([Option<Layout>; 2]) -> f64>;
 
-/// Case of two moves with given values and results.
+/// Case of two moves with given values.
 pub(super) struct Told {
     case: CaseSubject,
     goal: String,
     family: FormatFamily,
     values: Values,
-    /// Results of each instruction: first the exact ones, then the results in any other format.
-    results: [Vec<f64>; 2],
     /// Formats of all runs so far.
     seen: Rc<RefCell<BTreeSet<[Option<String>; 2]>>>,
 }
@@ -37,7 +33,6 @@ impl Told {
             goal: format!("{MEASURE}{goal}"),
             family,
             values: Box::new(values),
-            results: [Vec::new(), Vec::new()],
             seen: Rc::default(),
         }
     }
@@ -97,7 +92,7 @@ impl PrecisionSubject for Told {
         self.case.default_goal()
     }
 
-    fn measure(&self, profile: &Profile, _: ExecutorKind, _: Option<&str>) -> Result<Measured, StudyError> {
+    fn measure(&self, profile: &Profile, _: Option<&str>) -> Result<Measured, StudyError> {
         let formats: Vec<_> = profile.instruction_formats().iter().flat_map(|(_, formats)| formats).collect();
         let text = |at: usize| {
             let (_, format) = formats.iter().find(|(index, _)| **index == at)?;
@@ -107,14 +102,6 @@ impl PrecisionSubject for Told {
         let value = (self.values)(texts.each_ref().map(|text| text.as_deref().map(Layout::of)));
         self.seen.borrow_mut().insert(texts);
         Ok(Measured { values: vec![(MEASURE, value)], ..Measured::default() })
-    }
-
-    fn results(&self, _: &Profile, rounded: &[RoundedInstruction]) -> Result<SampledResults, StudyError> {
-        let [exact, other] = self.results.each_ref().map(|values| {
-            (0..).zip(values).map(|(fragment, value)| ((fragment, 0), *value)).collect::<FragmentResults>()
-        });
-        let all = (0..2).map(|at| (at, exact.clone())).collect();
-        Ok(SampledResults { exact: vec![all], rounded: vec![other; rounded.len()] })
     }
 }
 
@@ -213,34 +200,6 @@ fn a_rising_error_is_scanned_and_named() {
         values
     };
     assert_eq!(family(&LAST).0, None);
-}
-
-#[test]
-fn ranges_are_binary_exponents() {
-    let least = f64::from(f32::from_bits(1));
-    let told = Told { results: [vec![0.0, -0.75, 8.0, 15.9, f64::NAN, least], Vec::new()], ..Told::minimum("e8m3") };
-    let found = document(&told.study());
-    assert_eq!(column(&found, "instructions_float", "exponents"), ["-149 to 3"; 2]);
-    assert_eq!(column(&found, "instructions_float", "note"), ["infinite or NaN"; 2]);
-    let found = document(&Told { results: [vec![0.0], Vec::new()], ..Told::minimum("e8m3") }.study());
-    assert_eq!(column(&found, "instructions_float", "exponents"), [&Value::Null; 2]);
-    assert_eq!(column(&found, "instructions_float", "note"), [&Value::Null; 2]);
-}
-
-#[test]
-fn errors_are_in_units_of_the_format() {
-    let error = |minimum: &str, exact: &[f64], rounded: &[f64]| {
-        let told = Told { results: [exact.to_vec(), rounded.to_vec()], ..Told::minimum(minimum) };
-        let document = document(&told.study());
-        let table = if minimum.starts_with('e') { "instructions_float" } else { "instructions_fixed" };
-        ["median_ulp", "largest_ulp"].map(|key| column(&document, table, key)[0].clone())
-    };
-    assert_eq!(error("e8m2", &[1.0, 1.125, 8.0], &[1.0, 1.25, 12.0]), [0.5, 2.0]);
-    assert_eq!(error("s3.4", &[1.0, 7.5], &[1.0, 7.96875]), [0.0, 7.5]);
-    // e4m3 has exponents from -6, and the distance from 0 to its neighbors is 2^-9, as from 2^-6.
-    assert_eq!(error("e4m3", &[0.0], &[1.0 / 512.0]), [1.0, 1.0]);
-    assert_eq!(error("e8m2", &[f64::INFINITY], &[2.0]), ["inf"; 2]);
-    assert_eq!(error("e8m2", &[], &[]), [Value::Null, Value::Null]);
 }
 
 /// Losses are relative to the exact run, and shares are relative to the loss of both instructions together.
