@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::step_budget::StepBudget;
-use super::trace_layout::{PixelJob, TraceLayout, VideoMemory, job_words, near};
+use super::trace_layout::{TraceLayout, VideoMemory, job_words};
 use super::{DrawCall, Machine, MachineError, PixelState, validate};
 use crate::exec::wgsl::follow::FollowDispatch;
 use crate::exec::wgsl::kernel::{COUNT_WORDS, EXTRA_ROWS};
@@ -17,7 +17,7 @@ const PASSES: u32 = 16_000;
 
 /// A trace of pixels, as the contents of the trace kernel's buffers by binding. A dispatch with one workgroup per pixel
 /// runs [`crate::exec::wgsl::follow::ENTRY`] of [`crate::exec::wgsl::follow::module`], reduced to
-/// [`TraceBuffers::parts`]. Then `video` holds a record per pixel ([`crate::exec::wgsl::follow::Record`]). While a
+/// [`TraceBuffers::parts`]. Then `video` holds a record per pixel ([`crate::exec::wgsl::follow`] describes it). While a
 /// record is unfinished, repeat the dispatch on the same buffers with 1 in word [`crate::exec::wgsl::kernel::RESUMES`]
 /// of `draw`.
 #[derive(Clone, Debug)]
@@ -98,24 +98,17 @@ impl Machine {
         })?;
         let mut packed = Vec::with_capacity(setups.len() * layout.words.setup_words());
         setups.iter().for_each(|setup| layout.words.setup(setup, &mut packed));
-        let lists: Vec<Vec<u32>> = pixels.iter().map(|&pixel| near(&setups, pixel)).collect();
-        let jobs: Vec<PixelJob<'_>> = (0..)
-            .zip(pixels.iter().zip(&lists))
-            .map(|(column, (&pixel, triangles))| PixelJob { pixel, column, triangles })
-            .collect();
         let dispatch = FollowDispatch {
             jobs: pixels.len(),
             registers: encoded.code.slots,
-            resumes: false,
             passes: PASSES,
             records: layout.records,
             room: layout.room,
-            skipped: 0,
         };
         Ok(TraceBuffers {
             draw: layout.words.follow(&dispatch).to_vec(),
             setups: packed,
-            tiles: job_words(&jobs),
+            tiles: job_words(pixels, &setups),
             samplers: encoded.samplers,
             video: video.words,
             record_words: dispatch.record_words(),

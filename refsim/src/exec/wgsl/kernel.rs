@@ -68,8 +68,8 @@ const FIELDS: [(&str, usize); 22] = [
     ("D_COST", 1),
     // Two numbers that are multiplied by repeated addition, to detect drivers that terminate loops.
     ("D_PROOF", 2),
-    // Offset of records in `video`, words per record, number of step words stored, and first one stored.
-    ("D_FOLLOW", 4),
+    // Offset of records in `video`, words per record, number of step words stored.
+    ("D_FOLLOW", 3),
     // Step budget per fragment.
     ("D_STEP_BUDGET", 1),
     ("D_TARGETS", 4 * target::WORDS),

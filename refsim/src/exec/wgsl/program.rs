@@ -11,7 +11,6 @@ mod lower;
 mod microcode;
 mod microcode_flow;
 pub(super) mod operations;
-mod trace;
 
 use crate::device::Rules;
 use crate::exec::{CheckedProgram, PixelBindings, program};
@@ -20,7 +19,6 @@ pub use interpolate::Interpolation;
 pub(crate) use interpolate::PLANES;
 use lower::Lowered;
 pub use microcode::{Microcode, ProgramError};
-pub use trace::{TRACE_WORDS, trace_delivered, trace_steps};
 
 /// Definition of `trace_put`, which records a word of a trace, for modules without traces.
 pub const NO_TRACE: &str = "fn trace_put(at: u32, word: u32) {\n}\n";
@@ -40,7 +38,7 @@ pub struct PixelShader {
 
 impl PixelShader {
     /// Prepares a pixel program to run under `rules` with `bindings`. If `traced`, the results of every instruction are
-    /// recorded ([`trace_steps`]).
+    /// recorded ([`super::follow`]).
     pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, traced: bool) -> Self {
         Self { lowered: Lowered::pixel(program(checked), rules, bindings, traced) }
     }

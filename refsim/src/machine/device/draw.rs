@@ -1,6 +1,6 @@
 //! Draws on the GPU: vertices, assembly and set-up on the host, then the kernel over the tiles.
 
-use super::shader::{DRAW, load};
+use super::shader::load;
 use super::{Card, batches};
 use crate::device::Profile;
 use crate::event::{DrawEvents, FragmentCounts};
@@ -91,7 +91,7 @@ impl Machine {
     }
 
     /// The error if the GPU reported an exceeded step budget, but the host finds none.
-    pub(in crate::machine) fn disagreement(&self) -> MachineError {
+    fn disagreement(&self) -> MachineError {
         let name = |card: &Card| card.board.gpu().adapter().name.clone();
         let adapter = self.memory.card.as_ref().map_or_else(|| "the best there is".to_owned(), name);
         let reason = "it counts other steps of a program than the host, which is a fault of this program".to_owned();
@@ -120,7 +120,7 @@ impl Card {
         let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, batch), needed);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let mut words = self.place(memory, profile, call, step_budget)?;
-        let (program, samplers) = load(self, memory, profile, call, &mut words, &DRAW)?;
+        let (program, samplers) = load(self, memory, profile, call, &mut words)?;
         self.board.start(&program, &samplers, COUNT_WORDS)?;
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
@@ -146,7 +146,7 @@ impl Card {
     }
 
     /// Reads the counts; returns an error if the driver terminated a loop.
-    pub(super) fn uncut(&self) -> Result<Vec<u32>, MachineError> {
+    fn uncut(&self) -> Result<Vec<u32>, MachineError> {
         let found = self.board.counts(COUNT_WORDS)?;
         if found.get(CUT).is_some_and(|&n| n != 0) {
             let adapter = self.board.gpu().adapter().name.clone();
@@ -229,7 +229,7 @@ impl Card {
 }
 
 /// Maximum loop iterations per invocation and dispatch.
-pub(super) fn passes(gpu: &Gpu) -> u32 {
+fn passes(gpu: &Gpu) -> u32 {
     match gpu.adapter().kind {
         AdapterKind::Software => SOFTWARE_PASSES,
         _ => PASSES,
