@@ -22,15 +22,6 @@ impl SamplerBinding<'_> {
         let levels = self.state.mip != MipFilter::None && self.image.levels().len() > 1;
         levels || self.state.min != self.state.mag
     }
-
-    /// Returns `true` if every read takes the nearest texel of level 0, so that [`crate::texture::fetch_nearest`]
-    /// applies.
-    pub fn is_plain(&self) -> bool {
-        let nearest = self.state.min == Filter::Nearest && self.state.mag == Filter::Nearest;
-        let single =
-            self.image.levels().len() == 1 || (self.state.mip == MipFilter::None && self.state.max_mip_level == 0);
-        nearest && single
-    }
 }
 
 /// Bump mapping state of a texture stage, single precision patterns (`D3DTSS_BUMPENV*`). All zero by default.

@@ -30,7 +30,7 @@ pub use lod::{Lod, lod_from_derivatives};
 pub use mipmap::MipmapRules;
 pub(crate) use mipmap::texels_under;
 pub use pixels::ImagePixel;
-pub use sample::{Filter, MipFilter, SamplerState, fetch_nearest, sample, touched, unbound};
+pub use sample::{Filter, MipFilter, SamplerState, sample, touched, unbound};
 pub use sampled::SampleRules;
 pub(crate) use sampled::{SampledComponent, SampledSource};
 pub(crate) use texel::denominator;
