@@ -71,6 +71,11 @@ impl Formats {
         &self.0
     }
 
+    /// Returns `true` if a vertex unit of a card computes in one of the formats.
+    pub(crate) fn has_vertex_unit(&self) -> bool {
+        self.0.iter().any(|format| format.unit.is_vertex_unit())
+    }
+
     /// Converts a bit pattern to a raw value.
     pub(crate) fn decode(&self, arith: Arith, bits: u32) -> u32 {
         AnyLane::new(self.format(arith)).decode(bits)

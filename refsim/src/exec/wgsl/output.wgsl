@@ -151,9 +151,8 @@ fn o_alpha_passes(alpha: u32) -> bool {
     let bound = select(o_key(reference), i32(reference), integers);
     let unordered = !integers && (o_is_nan(alpha) || o_is_nan(reference));
     if (HAS_UNITS) {
-        let unit = draw[8u * MAIN + 6u];
-        if unit > 1u && !unordered {
-            return o_holds(comparison, u_less(unit, alpha, reference), u_less(unit, reference, alpha));
+        if draw[8u * MAIN + 6u] > 1u && !unordered {
+            return o_holds(comparison, u_less(alpha, reference), u_less(reference, alpha));
         }
     }
     return select(o_holds(comparison, (value < bound), (value > bound)), (comparison >> 3u) == 1u, unordered);

@@ -13,6 +13,7 @@ mod microcode_flow;
 pub(super) mod operations;
 
 use crate::device::Rules;
+use crate::exec::lower::Formats;
 use crate::exec::{CheckedProgram, PixelBindings, program};
 pub(crate) use assembler::IN_OUT_ROWS;
 pub use interpolate::Interpolation;
@@ -28,6 +29,11 @@ pub fn machine() -> String {
     let names = (0..).zip(operations::NAMES);
     let constants = names.map(|(number, name)| format!("const {}: u32 = {number}u;\n", operations::constant(name)));
     constants.collect::<String>() + include_str!("program/vm.wgsl")
+}
+
+/// Returns `true` if shaders compute in all formats of a pixel program: they lack the vertex units of cards.
+pub fn supports(checked: &CheckedProgram, rules: &Rules) -> bool {
+    !Formats::pixel(program(checked), rules).has_vertex_unit()
 }
 
 /// A pixel program, ready to be encoded.

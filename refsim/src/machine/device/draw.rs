@@ -10,6 +10,7 @@ use crate::exec::gpu::{AdapterKind, Gpu, GpuError, LoadedProgram};
 use crate::exec::wgsl::kernel::{
     COUNT_WORDS, CUT, DepthPlace, DrawDispatch, DrawWords, EXTRA_ROWS, INVOCATIONS, OVERRUN, UNFINISHED,
 };
+use crate::exec::wgsl::program::supports;
 use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::{FlowMap, ResolvedConstants, inputs_read, program};
 use crate::isa::Stage;
@@ -50,6 +51,8 @@ impl Machine {
 
     /// Executes a validated call on the given GPU, or on the best adapter of the host.
     ///
+    /// The batch executor draws with pixel programs in a vertex unit, which shaders lack.
+    ///
     /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU only reports that some
     /// fragment exceeded the budget; the batch executor then finds that fragment.
     pub(in crate::machine) fn draw_on_gpu(
@@ -62,6 +65,10 @@ impl Machine {
             StepBudget::Enforced(budget) => Some(budget),
             StepBudget::NeverExceeded => None,
         };
+        if !supports(call.pixel_program, &self.profile.rules) {
+            self.memory.download_newer(&call.targets, call.depth_buffer)?;
+            return self.draw_on_host(ExecutorKind::Batch, call, plan);
+        }
         let may_fail = budget.is_some() || self.vertices_may_fail(call);
         if may_fail {
             self.memory.download_newer(&call.targets, call.depth_buffer)?;

@@ -31,6 +31,9 @@ pub enum ProgramError {
         /// Number of constants.
         constants: usize,
     },
+    /// A vertex unit of a card computes in a format of the program.
+    #[error("the program computes in a vertex unit of a card, which shaders lack; use another executor")]
+    VertexUnit,
     /// More number formats of instructions, storages, sums and products than the shader's table holds.
     #[error("the program has {formats} number formats, the table of shaders holds {most}; use another executor")]
     TooManyFormats {
@@ -60,6 +63,9 @@ pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>)
     let formats = program.formats.own().len();
     if formats > MAX_PROGRAM_FORMATS {
         return Err(ProgramError::TooManyFormats { formats, most: MAX_PROGRAM_FORMATS });
+    }
+    if program.formats.has_vertex_unit() {
+        return Err(ProgramError::VertexUnit);
     }
     let first = match &program.body {
         Body::Straight { .. } => Slot::from(ACTIVE_SLOT + 1),

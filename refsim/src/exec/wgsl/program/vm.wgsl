@@ -328,9 +328,6 @@ fn vm_prepare(op: u32, word: u32, at: u32) {
     }
     var left: array<vec4<u32>, 4>;
     var right: array<vec4<u32>, 4>;
-    if (HAS_VERTEX_UNIT) {
-        u_thirds = vm_row(vm_operand(at + 1u, 3u));
-    }
     for (var k = 0u; k < terms; k += 1u) {
         left[k] = vm_row(vm_operand(at + 1u, 2u * k + 1u));
         right[k] = vm_row(vm_operand(at + 1u, 2u * k + 2u));
@@ -339,9 +336,6 @@ fn vm_prepare(op: u32, word: u32, at: u32) {
         let a = vec4<u32>(left[0][lane], left[1][lane], left[2][lane], left[3][lane]);
         let b = vec4<u32>(right[0][lane], right[1][lane], right[2][lane], right[3][lane]);
         var exact: Real;
-        if (HAS_VERTEX_UNIT) {
-            u_third = u_thirds[lane];
-        }
         switch op {
             case VM_DOT: { exact = n_dot(f, operation, a, b); }
             default: { exact = n_long(operation, f, a.x, b.x); }
