@@ -20,7 +20,7 @@ use refsim::exec::wgsl::kernel::RESUMES;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DepthId, DrawCall, ExecutorKind, Machine, TextureId, VertexSource};
 use refsim::num::Format;
-use refsim::output::{BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState};
+use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{Primitive, Vertex};
 use refsim::texture::{Filter, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 use running::{bits, checked, ideal};
@@ -272,12 +272,8 @@ fn buffers_of_a_trace_run_elsewhere(gpu: &Arc<Gpu>) {
             .filter(|step| step[0] < count)
             .map(|step| (step[0] as usize, step[1] & 15, std::array::from_fn(|c| step[2 + c] * (step[1] >> c & 1))))
             .collect();
-        let expected: Vec<_> = fragment
-            .shading
-            .steps
-            .iter()
-            .map(|step| (step.instruction, u32::from(step.mask.0), step.value))
-            .collect();
+        let expected: Vec<_> =
+            fragment.shading.steps.iter().map(|step| (step.instruction, u32::from(step.mask.0), step.value)).collect();
         assert_eq!(found, expected, "{x}, {y}");
     }
     assert!((1..pixels.len()).contains(&covered), "{covered}");

@@ -2,7 +2,7 @@
 
 use super::Constants;
 use crate::event::SAMPLERS;
-use crate::texture::{Filter, Image, MipFilter, SamplerState};
+use crate::texture::{Image, MipFilter, SamplerState};
 
 /// Number of texture stages with bump state (ps_1_x).
 pub const BUMP_STAGES: usize = 8;

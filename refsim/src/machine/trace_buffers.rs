@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::step_budget::StepBudget;
 use super::trace_layout::{TraceLayout, VideoMemory, job_words};
 use super::{DrawCall, Machine, MachineError, PixelState, validate};
 use crate::exec::wgsl::follow::FollowDispatch;
@@ -72,7 +71,7 @@ impl VideoMemory for WordMemory {
 
 impl Machine {
     /// Encodes a trace of pixels, each up to the first triangle that covers it ([`Machine::trace_pixels`] traces all
-    /// triangles). Records of programs with flow control have at most 256 steps.
+    /// triangles).
     ///
     /// # Errors
     /// As [`Machine::trace`], and [`MachineError::GpuProgram`].
@@ -80,12 +79,8 @@ impl Machine {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let states = pixels.iter().map(|&pixel| Ok(PixelState::of(&self.start(call, pixel)?.tile)));
         let states = states.collect::<Result<Vec<_>, MachineError>>()?;
-        let budget = match self.step_budget(call) {
-            StepBudget::Enforced(budget) => Some(budget),
-            StepBudget::Exceeded | StepBudget::NeverExceeded => None,
-        };
         let mut video = WordMemory::default();
-        let (mut layout, encoded) = TraceLayout::new(&mut video, self, call, pixels.len(), budget)?;
+        let (mut layout, encoded) = TraceLayout::new(&mut video, self, call, pixels.len())?;
         for (base, words) in layout.contents(&states) {
             video.words[base..base + words.len()].copy_from_slice(&words);
         }

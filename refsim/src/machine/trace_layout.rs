@@ -11,13 +11,10 @@ use crate::exec::wgsl::program::{Microcode, PixelShader};
 use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::wgsl::texture;
 use crate::exec::{PixelBindings, SamplerBinding, colors_written, inputs_read, program};
-use crate::isa::OpcodeClass;
 use crate::output::{MAX_TARGETS, OutputRules};
 use crate::raster::TriangleSetup;
 use crate::texture::{Image, Region, SampleRules, TextureKind};
 
-/// Capacity of a record, in steps, for programs with flow control, whose number of steps is unbounded.
-const FLOW_STEPS: usize = 256;
 /// Maximum number of input registers recorded before the steps.
 const INPUTS: usize = 12;
 
@@ -36,7 +33,6 @@ pub(super) fn draw_words(
     call: &DrawCall<'_>,
     targets: [Option<TargetPlace>; MAX_TARGETS],
     depth: Option<DepthPlace>,
-    step_budget: Option<u32>,
 ) -> DrawWords {
     let source = program(call.pixel_program);
     DrawWords::new(&DrawState {
@@ -48,7 +44,6 @@ pub(super) fn draw_words(
         written: colors_written(source),
         targets,
         depth,
-        step_budget,
     })
 }
 
@@ -83,7 +78,7 @@ impl EncodedProgram {
             }
             samplers.extend(texture::sampler_words(slot.as_ref(), &rules, first as u32));
         }
-        let shader = PixelShader::new(call.pixel_program, &profile.rules, &bindings, traced);
+        let shader = PixelShader::new(call.pixel_program, &profile.rules, &bindings, traced)?;
         let code = shader.microcode(Some(words.interpolation()))?;
         let mut parts = words.parts_with(&code);
         for &sampler in &code.samplers {
@@ -112,7 +107,6 @@ impl TraceLayout {
         machine: &Machine,
         call: &DrawCall<'_>,
         pixels: usize,
-        step_budget: Option<u32>,
     ) -> Result<(Self, EncodedProgram), MachineError> {
         let (memory, profile) = (&machine.memory, &machine.profile);
         let width = pixels as u32;
@@ -129,12 +123,8 @@ impl TraceLayout {
             let base = video.allocate(width as usize)?;
             depth = Some(DepthPlace { format: memory.depth(id)?.format(), base: base as u32, width });
         }
-        let source = program(call.pixel_program);
-        let room = match source.instructions.iter().any(|i| i.opcode.info().class == OpcodeClass::Flow) {
-            true => FLOW_STEPS,
-            false => source.instructions.len() + INPUTS,
-        };
-        let mut words = draw_words(profile, call, targets, depth, step_budget);
+        let room = program(call.pixel_program).instructions.len() + INPUTS;
+        let mut words = draw_words(profile, call, targets, depth);
         let encoded = EncodedProgram::new(video, memory, profile, call, &mut words, true)?;
         let records = video.allocate(pixels * (HEAD + STEP_WORDS * room))?;
         let depth = depth.map(|place| place.base as usize);

@@ -81,11 +81,6 @@ impl Formats {
         AnyLane::new(self.format(arith)).decode(bits)
     }
 
-    /// Converts a raw value to a bit pattern.
-    pub(crate) fn encode(&self, arith: Arith, raw: u32) -> u32 {
-        AnyLane::new(self.format(arith)).encode(raw)
-    }
-
     /// Evaluates the comparison `operation` (`a < b`, `a <= b` or `a == b`) on raw values.
     pub(crate) fn compares(&self, arith: Arith, operation: Op, a: u32, b: u32) -> bool {
         let format = self.format(arith);

@@ -29,7 +29,6 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
     q_stride = draw[D_STRIDE];
     q_rows = draw[D_ROWS];
     q_save = q_rows + IN_OUT_ROWS;
-    q_step_budget = draw[D_STEP_BUDGET];
     let record = draw[D_FOLLOW] + job * draw[D_FOLLOW + 1u];
     f_steps = record + FOLLOW_HEAD;
     let state_at = (q_save + SAVED_ROWS - 1u) * q_stride + q_invocation;
@@ -62,9 +61,6 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
         q_passes = passes_left - draw[D_COST];
         shade();
         status = select(FOLLOW_FRAGMENT, FOLLOW_UNFINISHED, q_suspended);
-        if (!q_suspended && any(q_covered & q_cut)) {
-            atomicAdd(&counts[COUNT_OVERRUN], 1u);
-        }
         break;
     }
     video[record] = status;

@@ -11,7 +11,7 @@ use crate::num::{Encoding, Format, NumberOperation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws other than operations. In the text, each feature guards blocks with an `if`.
-const FEATURES: [&str; 25] = [
+const FEATURES: [&str; 24] = [
     // Numbers: fixed-point registers; normalized registers; floats without infinity; formats other than single
     // precision with default rules.
     "HAS_FIXED",
@@ -21,9 +21,8 @@ const FEATURES: [&str; 25] = [
     // Square roots and their reciprocals; sums of products, rounded once.
     "HAS_ROOTS",
     "HAS_DOTS",
-    // Programs: may exceed one dispatch; steps are counted.
+    // Programs: may exceed one dispatch.
     "HAS_SUSPENSION",
-    "HAS_STEP_BUDGET",
     // Textures: arithmetic before the read; cube maps; level selection; linear filtering; repeated or mirrored images;
     // fixed-point texels; float texels; filtered float texels; filtered bytes; filtered float texels or bytes.
     "HAS_TEXTURE_DETAIL",
@@ -65,12 +64,7 @@ const COSTLY: [&[NumberOperation]; 5] = [
         NumberOperation::SplitByte,
         NumberOperation::SplitSignedByte,
     ],
-    &[
-        NumberOperation::SetLess,
-        NumberOperation::SetLessEqual,
-        NumberOperation::SetEqual,
-        NumberOperation::SetNotEqual,
-    ],
+    &[NumberOperation::SetLess, NumberOperation::SetLessEqual, NumberOperation::SetEqual, NumberOperation::SetNotEqual],
 ];
 /// Arms for cube maps.
 const CUBES: [&str; 12] = [

@@ -9,11 +9,9 @@ mod assembler;
 mod interpolate;
 mod lower;
 mod microcode;
-mod microcode_flow;
 pub(super) mod operations;
 
 use crate::device::Rules;
-use crate::exec::lower::Formats;
 use crate::exec::{CheckedProgram, PixelBindings, program};
 pub(crate) use assembler::IN_OUT_ROWS;
 pub use interpolate::Interpolation;
@@ -31,9 +29,9 @@ pub fn machine() -> String {
     constants.collect::<String>() + include_str!("program/vm.wgsl")
 }
 
-/// Returns `true` if shaders compute in all formats of a pixel program: they lack the vertex units of cards.
+/// Returns `true` if shaders run a pixel program: they have no flow control, and none of the vertex units of cards.
 pub fn supports(checked: &CheckedProgram, rules: &Rules) -> bool {
-    !Formats::pixel(program(checked), rules).has_vertex_unit()
+    lower::supports(program(checked), rules)
 }
 
 /// A pixel program, ready to be encoded.
@@ -45,8 +43,16 @@ pub struct PixelShader {
 impl PixelShader {
     /// Prepares a pixel program to run under `rules` with `bindings`. If `traced`, the results of every instruction are
     /// recorded ([`super::follow`]).
-    pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, traced: bool) -> Self {
-        Self { lowered: Lowered::pixel(program(checked), rules, bindings, traced) }
+    ///
+    /// # Errors
+    /// [`ProgramError::Unsupported`] unless [`supports`].
+    pub fn new(
+        checked: &CheckedProgram,
+        rules: &Rules,
+        bindings: &PixelBindings<'_>,
+        traced: bool,
+    ) -> Result<Self, ProgramError> {
+        Ok(Self { lowered: Lowered::pixel(program(checked), rules, bindings, traced)? })
     }
 
     /// Encodes the program for [`machine`], preceded by interpolation if given.

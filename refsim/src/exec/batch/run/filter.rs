@@ -16,9 +16,7 @@ use crate::exec::SamplerBinding;
 use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::FetchStep;
 use crate::exec::lower::Arith;
-use crate::texture::{
-    AddressMode, Filter, Image, MipFilter, SampleRules, SampledComponent, SamplerState, TextureKind,
-};
+use crate::texture::{AddressMode, Filter, Image, MipFilter, SampleRules, SampledComponent, SamplerState, TextureKind};
 
 /// Maximum number of texels of a level with a table: 4 MiB. Texels of larger levels are decoded on each read.
 const MAX_TABLE_TEXELS: usize = 1 << 18;
@@ -76,12 +74,7 @@ impl FilteredLevel {
     }
 
     /// Prepares a level.
-    pub(super) fn of_level(
-        binding: &SamplerBinding<'_>,
-        number: usize,
-        rules: &SampleRules,
-        lane: &AnyLane,
-    ) -> Self {
+    pub(super) fn of_level(binding: &SamplerBinding<'_>, number: usize, rules: &SampleRules, lane: &AnyLane) -> Self {
         let SamplerBinding { image, state } = binding;
         let (sources, border) = (rules.sources(image.format()), rules.border(image.format(), state.border));
         let mut components = [FilteredComponent::Constant(0); 4];

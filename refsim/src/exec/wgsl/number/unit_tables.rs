@@ -6,9 +6,8 @@ use refsim_lanes::num::unit::tables as data;
 
 /// A function that returns row `i` of a table.
 fn function(name: &str, rows: &[[i64; 3]]) -> String {
-    let row = |&[base, slope, curve]: &[i64; 3]| {
-        format!("vec2<u32>({}u, {}u)", word(base), word(slope) | word(curve) << 16)
-    };
+    let row =
+        |&[base, slope, curve]: &[i64; 3]| format!("vec2<u32>({}u, {}u)", word(base), word(slope) | word(curve) << 16);
     let rows: Vec<String> = rows.iter().map(row).collect();
     let mut text = format!("\nfn {name}(i: u32) -> vec2<u32> {{\n");
     // Writing to a string cannot fail.
