@@ -33,5 +33,5 @@ pub use pixels::ImagePixel;
 pub use sample::{Filter, MipFilter, SamplerState, sample, touched, unbound};
 pub use sampled::SampleRules;
 pub(crate) use sampled::{SampledComponent, SampledSource};
-pub(crate) use texel::denominator;
 pub use texel::{ChannelValue, Texel, decode, decode_channel, encode, encode_channel};
+pub(crate) use texel::{denominator, encode_ratio};
