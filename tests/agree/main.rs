@@ -54,9 +54,7 @@ fn main() -> std::process::ExitCode {
         radiosity::every_luminance_pass_is_the_hosts,
         radiosity::full_blocks_are_the_hosts,
         steps::executors_run_out_of_steps_at_the_same_place,
-        traces::the_trace_is_what_the_batch_executor_draws,
+        traces::the_trace_is_what_the_executors_draw,
     ]);
-    #[cfg(feature = "wgpu")]
-    trials.extend(adapter::trials![on_host: traces::the_gpu_trace_is_the_scalar_trace]);
     adapter::run(trials)
 }

@@ -1,20 +1,10 @@
-//! Traces: for random programs and draws, a GPU's trace of every pixel equals the scalar executor's, step by step, and
-//! the last fragment of a trace is what every executor draws.
+//! Traces: for random programs and draws, the last fragment of the trace of every pixel is what every executor draws.
 
 use crate::environment::seeds;
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Programs};
 use crate::suite;
 use refsim::machine::FragmentTrace;
-use refsim::num::Flags;
-
-/// Removes flags, which a GPU does not compute.
-fn without_flags(mut traces: Vec<Vec<FragmentTrace>>) -> Vec<Vec<FragmentTrace>> {
-    for step in traces.iter_mut().flatten().flat_map(|trace| &mut trace.shading.steps) {
-        step.flags = Flags::empty();
-    }
-    traces
-}
 
 /// Case number `n`: the suites of random pixel programs in turn, each case drawn once.
 fn case(n: u64) -> Case {
@@ -27,58 +17,20 @@ fn case(n: u64) -> Case {
     case
 }
 
-/// Compares the traces of one case; returns the numbers of steps and fragments.
-fn same(seed: u64, case: &Case, other: &Executor) -> (usize, usize) {
+pub(crate) fn the_trace_is_what_the_executors_draw() {
     let (mut steps, mut fragments) = (0, 0);
-    let text = case.pixel.join("\n");
-    let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
-    let traces = |executor: &Executor| {
-        let traced = case.scene.traces(executor, &programs);
-        without_flags(traced.unwrap_or_else(|e| panic!("seed {seed}, {}: {e}", executor.name)))
-    };
-    let (a, b) = (traces(&REFERENCE), traces(other));
-    for (pixel, (a, b)) in a.iter().zip(&b).enumerate() {
-        let place = format!("seed {seed}, {}, pixel {pixel}", other.name);
-        assert_eq!(a.len(), b.len(), "{place}: triangles\n{text}");
-        for (a, b) in a.iter().zip(b) {
-            for (k, (a, b)) in a.shading.steps.iter().zip(&b.shading.steps).enumerate() {
-                assert_eq!(a, b, "{place}, step {k}\n{text}");
-            }
-            assert_eq!(a, b, "{place}\n{text}");
-            steps += a.shading.steps.len();
-            fragments += 1;
-        }
-    }
-    follows_the_draw(case, other, &programs, &a, seed);
-    (steps, fragments)
-}
-
-pub(crate) fn the_trace_is_what_the_batch_executor_draws() {
-    let (mut steps, mut fragments) = (0, 0);
-    let batch = EXECUTORS.iter().find(|e| e.name.starts_with("batch")).unwrap_or_else(|| panic!("a batch executor"));
     let seeds = seeds(75, 60);
     for seed in seeds.clone() {
-        let found = same(seed, &case(seed), batch);
-        steps += found.0;
-        fragments += found.1;
+        let case = case(seed);
+        let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        let traces = case.scene.traces(&REFERENCE, &programs).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
+        for executor in EXECUTORS.iter().filter(|executor| executor.draws(seed)) {
+            follows_the_draw(&case, executor, &programs, &traces, seed);
+        }
+        steps += traces.iter().flatten().map(|trace| trace.shading.steps.len()).sum::<usize>();
+        fragments += traces.iter().flatten().count();
     }
     assert!(seeds.count() == 1 || (steps > 50_000 && fragments > 5_000), "{steps} {fragments}");
-}
-
-#[cfg(feature = "wgpu")]
-pub(crate) fn the_gpu_trace_is_the_scalar_trace() {
-    for executor in EXECUTORS.iter().filter(|e| e.name.starts_with("wgpu")) {
-        let (mut steps, mut fragments) = (0, 0);
-        let seeds = seeds(8, 60);
-        for seed in seeds.clone() {
-            let mut case = case(seed);
-            case.scene.size = case.scene.size.map(|side| side.min(9));
-            let found = same(seed, &case, executor);
-            steps += found.0;
-            fragments += found.1;
-        }
-        assert!(seeds.count() == 1 || (steps > 1_000 && fragments > 100), "{steps} {fragments}");
-    }
 }
 
 /// Checks that the last fragment of every pixel leaves the targets as the draw does, and that the numbers of fragments

@@ -2,7 +2,7 @@
 
 use super::Constants;
 use crate::event::SAMPLERS;
-use crate::texture::{Filter, Image, MipFilter, SamplerState};
+use crate::texture::{Image, MipFilter, SamplerState};
 
 /// Number of texture stages with bump state (ps_1_x).
 pub const BUMP_STAGES: usize = 8;
@@ -21,15 +21,6 @@ impl SamplerBinding<'_> {
     pub fn needs_detail(&self) -> bool {
         let levels = self.state.mip != MipFilter::None && self.image.levels().len() > 1;
         levels || self.state.min != self.state.mag
-    }
-
-    /// Returns `true` if every read takes the nearest texel of level 0, so that [`crate::texture::fetch_nearest`]
-    /// applies.
-    pub fn is_plain(&self) -> bool {
-        let nearest = self.state.min == Filter::Nearest && self.state.mag == Filter::Nearest;
-        let single =
-            self.image.levels().len() == 1 || (self.state.mip == MipFilter::None && self.state.max_mip_level == 0);
-        nearest && single
     }
 }
 

@@ -1,8 +1,8 @@
 //! Per-pixel execution traces.
 //!
 //! Traces are recorded separately from draws, so drawing costs nothing extra: the machine finds the triangles that
-//! cover the pixel, and the scalar executor or a GPU shades each into the pixel's targets. The batch executor has no
-//! tracer: its values equal the scalar executor's.
+//! cover the pixel, and the scalar executor shades each into the pixel's targets. The other executors have no tracer:
+//! their values equal the scalar executor's.
 
 use super::{FragmentResult, Step};
 use crate::isa::{Instruction, Mask, OpcodeClass, Program, Register, RegisterFile};
@@ -18,7 +18,7 @@ pub struct Shading {
     /// Input registers with interpolated values as read by instructions, in the register format.
     pub delivered: Vec<(Register, [u32; 4])>,
     /// The executed instructions that write registers, read texels, kill or write depth, in order. Components outside a
-    /// step's mask are zero; `oDepth` has only the lowest component of its mask. Steps from a GPU have no flags.
+    /// step's mask are zero; `oDepth` has only the lowest component of its mask.
     pub steps: Vec<Step>,
     /// Output of the program.
     pub output: FragmentResult,

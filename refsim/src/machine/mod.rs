@@ -24,7 +24,6 @@ mod record;
 mod recorder;
 mod resources;
 mod state;
-mod step_budget;
 mod tiles;
 mod trace;
 mod trace_buffers;

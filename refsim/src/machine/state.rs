@@ -42,29 +42,22 @@ impl DrawState {
     /// Replaces the state by the state of a call; returns the number of state groups and of float constants that
     /// differ. Before the first draw all groups are unset and constants are 0.
     pub(super) fn update(state: &mut Option<Self>, call: &DrawCall<'_>) -> (u32, u32) {
-        match state {
-            Some(state) => {
-                let constants = state.new_constants(call);
-                (state.take(call), constants)
-            }
+        let none = Constants::default();
+        let (pixel, vertex) = match state {
+            Some(state) => (&state.pixel_constants, state.vertex_constants.as_ref().unwrap_or(&none)),
+            None => (&none, &none),
+        };
+        let constants = differing(pixel, call.pixel_constants)
+            + differing_state(pixel, call)
+            + vertex_stage(call).1.map_or(0, |new| differing(vertex, new));
+        let pieces = match state {
+            Some(state) => state.take(call),
             None => {
                 *state = Some(Self::of(call));
-                let (_, vertex_constants, _) = vertex_stage(call);
-                let all = [Some(call.pixel_constants), vertex_constants].into_iter().flatten();
-                let counts = all.map(|new| differing(&Constants::default(), new)).sum::<u32>();
-                (PIECES, counts + differing_state(&Constants::default(), call))
+                PIECES
             }
-        }
-    }
-
-    /// Number of float constants of a call that differ from the current constants.
-    fn new_constants(&self, call: &DrawCall<'_>) -> u32 {
-        let none = Constants::default();
-        let (_, vertex_constants, _) = vertex_stage(call);
-        let kept = self.vertex_constants.as_ref().unwrap_or(&none);
-        differing(&self.pixel_constants, call.pixel_constants)
-            + differing_state(&self.pixel_constants, call)
-            + vertex_constants.map_or(0, |new| differing(kept, new))
+        };
+        (pieces, constants)
     }
 
     fn of(call: &DrawCall<'_>) -> Self {

@@ -1,9 +1,5 @@
-//! Traces of pixels through a draw.
+//! Traces of pixels through a draw. The scalar executor makes all traces; a draw on any executor gives the same values.
 
-#[cfg(feature = "wgpu")]
-use super::device::GpuTracer;
-#[cfg(feature = "wgpu")]
-use super::step_budget::StepBudget;
 use super::tiles::tile_draw;
 use super::validate::{Plan, ROUND};
 use super::vertices::VertexStage;
@@ -17,10 +13,6 @@ use crate::output::TargetTile;
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
 use rayon::prelude::*;
-
-/// Number of pixels that a GPU traces together.
-#[cfg(feature = "wgpu")]
-const ON_GPU: usize = 512;
 
 /// A fragment of a traced pixel: its triangle, the execution of the program, and the targets before and after.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,20 +52,6 @@ impl Machine {
     ) -> Result<Vec<Vec<FragmentTrace>>, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let mut traced = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
-        #[cfg(feature = "wgpu")]
-        if self.executor == ExecutorKind::Wgpu && self.step_budget(call) != StepBudget::Exceeded {
-            let mut overrun = false;
-            for some in traced.chunks_mut(ON_GPU) {
-                overrun |= self.trace_on_gpu(call, &plan, some)?;
-            }
-            if overrun {
-                // The scalar executor then finds the fragment that exceeded the step budget.
-                traced = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
-                self.trace_on_host(call, &plan, &mut traced)?;
-                return Err(self.disagreement());
-            }
-            return Ok(traced.into_iter().map(|pixel| pixel.fragments).collect());
-        }
         let mut work = || self.trace_on_host(call, &plan, &mut traced);
         match &self.pool {
             Some(pool) => pool.install(work),
@@ -162,29 +140,6 @@ impl Machine {
             ExecutorKind::Wgpu => (ExecutorKind::Batch, &self.batch),
             kind => (kind, &self.batch),
         }
-    }
-
-    /// Traces pixels on the GPU; returns `true` if a fragment exceeded the step budget.
-    #[cfg(feature = "wgpu")]
-    fn trace_on_gpu(&self, call: &DrawCall<'_>, plan: &Plan, pixels: &mut [TracedPixel]) -> Result<bool, MachineError> {
-        let places: Vec<(u32, u32)> = pixels.iter().map(|p| (p.tile.region.x, p.tile.region.y)).collect();
-        let states = pixels.iter().map(|p| PixelState::of(&p.tile)).collect();
-        let budget = match self.step_budget(call) {
-            StepBudget::Enforced(budget) => Some(budget),
-            _ => None,
-        };
-        let mut gpu_tracer = GpuTracer::new(self, call, &places, states, budget)?;
-        self.rounds(call, plan, |placed| {
-            let setups: Vec<&TriangleSetup> = placed.iter().map(|(.., setup)| setup).collect();
-            for (pixel, found) in pixels.iter_mut().zip(gpu_tracer.pass(&setups)?) {
-                pixel.fragments.extend(found.into_iter().map(|f| {
-                    let (instance, triangle, part, _) = placed[f.triangle];
-                    FragmentTrace { instance, triangle, part, before: f.before, shading: f.shading, after: f.after }
-                }));
-            }
-            Ok(())
-        })?;
-        Ok(gpu_tracer.overrun)
     }
 }
 

@@ -2,8 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::step_budget::StepBudget;
-use super::trace_layout::{PixelJob, TraceLayout, VideoMemory, job_words, near};
+use super::trace_layout::{TraceLayout, VideoMemory, job_words};
 use super::{DrawCall, Machine, MachineError, PixelState, validate};
 use crate::exec::wgsl::follow::FollowDispatch;
 use crate::exec::wgsl::kernel::{COUNT_WORDS, EXTRA_ROWS};
@@ -17,7 +16,7 @@ const PASSES: u32 = 16_000;
 
 /// A trace of pixels, as the contents of the trace kernel's buffers by binding. A dispatch with one workgroup per pixel
 /// runs [`crate::exec::wgsl::follow::ENTRY`] of [`crate::exec::wgsl::follow::module`], reduced to
-/// [`TraceBuffers::parts`]. Then `video` holds a record per pixel ([`crate::exec::wgsl::follow::Record`]). While a
+/// [`TraceBuffers::parts`]. Then `video` holds a record per pixel ([`crate::exec::wgsl::follow`] describes it). While a
 /// record is unfinished, repeat the dispatch on the same buffers with 1 in word [`crate::exec::wgsl::kernel::RESUMES`]
 /// of `draw`.
 #[derive(Clone, Debug)]
@@ -72,7 +71,7 @@ impl VideoMemory for WordMemory {
 
 impl Machine {
     /// Encodes a trace of pixels, each up to the first triangle that covers it ([`Machine::trace_pixels`] traces all
-    /// triangles). Records of programs with flow control have at most 256 steps.
+    /// triangles).
     ///
     /// # Errors
     /// As [`Machine::trace`], and [`MachineError::GpuProgram`].
@@ -80,12 +79,8 @@ impl Machine {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let states = pixels.iter().map(|&pixel| Ok(PixelState::of(&self.start(call, pixel)?.tile)));
         let states = states.collect::<Result<Vec<_>, MachineError>>()?;
-        let budget = match self.step_budget(call) {
-            StepBudget::Enforced(budget) => Some(budget),
-            StepBudget::Exceeded | StepBudget::NeverExceeded => None,
-        };
         let mut video = WordMemory::default();
-        let (mut layout, encoded) = TraceLayout::new(&mut video, self, call, pixels.len(), budget)?;
+        let (mut layout, encoded) = TraceLayout::new(&mut video, self, call, pixels.len())?;
         for (base, words) in layout.contents(&states) {
             video.words[base..base + words.len()].copy_from_slice(&words);
         }
@@ -98,24 +93,17 @@ impl Machine {
         })?;
         let mut packed = Vec::with_capacity(setups.len() * layout.words.setup_words());
         setups.iter().for_each(|setup| layout.words.setup(setup, &mut packed));
-        let lists: Vec<Vec<u32>> = pixels.iter().map(|&pixel| near(&setups, pixel)).collect();
-        let jobs: Vec<PixelJob<'_>> = (0..)
-            .zip(pixels.iter().zip(&lists))
-            .map(|(column, (&pixel, triangles))| PixelJob { pixel, column, triangles })
-            .collect();
         let dispatch = FollowDispatch {
             jobs: pixels.len(),
             registers: encoded.code.slots,
-            resumes: false,
             passes: PASSES,
             records: layout.records,
             room: layout.room,
-            skipped: 0,
         };
         Ok(TraceBuffers {
             draw: layout.words.follow(&dispatch).to_vec(),
             setups: packed,
-            tiles: job_words(&jobs),
+            tiles: job_words(pixels, &setups),
             samplers: encoded.samplers,
             video: video.words,
             record_words: dispatch.record_words(),

@@ -1,25 +1,20 @@
 //! Layout of the trace kernel's data: textures, copies of the pixels' targets, and records.
 
-use std::ops::Range;
-
 use super::memory::Memory;
 use super::{DrawCall, Machine, MachineError, PixelState};
 use crate::device::Profile;
 use crate::event::SAMPLERS;
-use crate::exec::wgsl::follow::{HEAD, JOB_WORDS};
+use crate::exec::wgsl::follow::{HEAD, JOB_WORDS, STEP_WORDS};
 use crate::exec::wgsl::kernel::{DepthPlace, DrawState, DrawWords};
 use crate::exec::wgsl::parts::Parts;
-use crate::exec::wgsl::program::{Microcode, PixelShader, TRACE_WORDS};
+use crate::exec::wgsl::program::{Microcode, PixelShader};
 use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::wgsl::texture;
 use crate::exec::{PixelBindings, SamplerBinding, colors_written, inputs_read, program};
-use crate::isa::OpcodeClass;
 use crate::output::{MAX_TARGETS, OutputRules};
 use crate::raster::TriangleSetup;
-use crate::texture::{Image, SampleRules, TextureKind};
+use crate::texture::{Image, Region, SampleRules, TextureKind};
 
-/// Capacity of a record, in steps, for programs with flow control, whose number of steps is unbounded.
-const FLOW_STEPS: usize = 256;
 /// Maximum number of input registers recorded before the steps.
 const INPUTS: usize = 12;
 
@@ -38,7 +33,6 @@ pub(super) fn draw_words(
     call: &DrawCall<'_>,
     targets: [Option<TargetPlace>; MAX_TARGETS],
     depth: Option<DepthPlace>,
-    step_budget: Option<u32>,
 ) -> DrawWords {
     let source = program(call.pixel_program);
     DrawWords::new(&DrawState {
@@ -50,7 +44,6 @@ pub(super) fn draw_words(
         written: colors_written(source),
         targets,
         depth,
-        step_budget,
     })
 }
 
@@ -85,7 +78,7 @@ impl EncodedProgram {
             }
             samplers.extend(texture::sampler_words(slot.as_ref(), &rules, first as u32));
         }
-        let shader = PixelShader::new(call.pixel_program, &profile.rules, &bindings, traced);
+        let shader = PixelShader::new(call.pixel_program, &profile.rules, &bindings, traced)?;
         let code = shader.microcode(Some(words.interpolation()))?;
         let mut parts = words.parts_with(&code);
         for &sampler in &code.samplers {
@@ -97,10 +90,10 @@ impl EncodedProgram {
 
 pub(super) struct TraceLayout {
     pub(super) words: DrawWords,
-    /// Copies of the targets with one row: one column per traced pixel, plus one column for re-execution.
-    pub(super) colors: Vec<(usize, Image)>,
+    /// Copies of the targets with one row: one column per traced pixel.
+    colors: Vec<(usize, Image)>,
     /// First word of the copy of the depth buffer.
-    pub(super) depth: Option<usize>,
+    depth: Option<usize>,
     /// First word of the records.
     pub(super) records: usize,
     /// Capacity of a record, in steps.
@@ -114,10 +107,9 @@ impl TraceLayout {
         machine: &Machine,
         call: &DrawCall<'_>,
         pixels: usize,
-        step_budget: Option<u32>,
     ) -> Result<(Self, EncodedProgram), MachineError> {
         let (memory, profile) = (&machine.memory, &machine.profile);
-        let width = pixels as u32 + 1;
+        let width = pixels as u32;
         let (mut targets, mut colors) = ([None; MAX_TARGETS], Vec::new());
         for (slot, &id) in targets.iter_mut().zip(&call.targets) {
             let format = memory.texture(id)?.format();
@@ -131,14 +123,10 @@ impl TraceLayout {
             let base = video.allocate(width as usize)?;
             depth = Some(DepthPlace { format: memory.depth(id)?.format(), base: base as u32, width });
         }
-        let source = program(call.pixel_program);
-        let room = match source.instructions.iter().any(|i| i.opcode.info().class == OpcodeClass::Flow) {
-            true => FLOW_STEPS,
-            false => source.instructions.len() + INPUTS,
-        };
-        let mut words = draw_words(profile, call, targets, depth, step_budget);
+        let room = program(call.pixel_program).instructions.len() + INPUTS;
+        let mut words = draw_words(profile, call, targets, depth);
         let encoded = EncodedProgram::new(video, memory, profile, call, &mut words, true)?;
-        let records = video.allocate(pixels * (HEAD + TRACE_WORDS * room))?;
+        let records = video.allocate(pixels * (HEAD + STEP_WORDS * room))?;
         let depth = depth.map(|place| place.base as usize);
         Ok((Self { words, colors, depth, records, room }, encoded))
     }
@@ -160,31 +148,18 @@ impl TraceLayout {
     }
 }
 
-/// A pixel to be traced: its position, its column in the copies of the targets, and its triangles.
-pub(super) struct PixelJob<'t> {
-    pub(super) pixel: (u32, u32),
-    pub(super) column: usize,
-    pub(super) triangles: &'t [u32],
-}
-
-/// The words of `tiles` for pixels.
-pub(super) fn job_words(jobs: &[PixelJob<'_>]) -> Vec<u32> {
+/// The words of `tiles` for pixels, each with its triangles.
+pub(super) fn job_words(pixels: &[(u32, u32)], setups: &[TriangleSetup]) -> Vec<u32> {
     let (mut told, mut lists) = (Vec::new(), Vec::new());
-    for PixelJob { pixel: (x, y), column, triangles } in jobs {
-        let first = JOB_WORDS * jobs.len() + lists.len();
-        told.extend([*x, *y, first as u32, triangles.len() as u32, *column as u32]);
-        lists.extend_from_slice(triangles);
+    for &(x, y) in pixels {
+        let near = (0u32..).zip(setups).filter(|(_, setup)| {
+            let inside = setup.bounds.intersect(Region { x, y, width: 1, height: 1 });
+            inside.width > 0 && inside.height > 0
+        });
+        let first = lists.len();
+        lists.extend(near.map(|(index, _)| index));
+        told.extend([x, y, (JOB_WORDS * pixels.len() + first) as u32, (lists.len() - first) as u32]);
     }
     told.append(&mut lists);
     told
-}
-
-/// Triangles whose bounds contain a pixel.
-pub(super) fn near<'s>(setups: impl IntoIterator<Item = &'s TriangleSetup>, (x, y): (u32, u32)) -> Vec<u32> {
-    let range = |first: u32, count: u32| -> Range<u32> { first..first + count };
-    let holds = |setup: &TriangleSetup| {
-        let b = &setup.bounds;
-        range(b.x, b.width).contains(&x) && range(b.y, b.height).contains(&y)
-    };
-    (0u32..).zip(setups).filter(|(_, setup)| holds(setup)).map(|(i, _)| i).collect()
 }

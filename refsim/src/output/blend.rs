@@ -10,7 +10,7 @@ use strum::VariantArray;
 use crate::num::{self, Format};
 use crate::texture::{
     Channel, ChannelClass, ChannelValue, SignedTexelMinimum, TargetRounding, TexelFormat, decode, decode_channel,
-    encode, encode_channel, value,
+    encode_channel, encode_ratio, value,
 };
 
 /// Blend factor of a colour.
@@ -124,7 +124,8 @@ pub fn blend_texel(
     let d = stored.0.map(Ratio::of);
     record.stored().iter().fold(0, |raw, channel| {
         let result = blend(equation(channel.stored_from), s, d, usize::from(channel.stored_from));
-        raw | u128::from(result.encode(*channel, rounding)) << channel.shift
+        raw | u128::from(encode_ratio(*channel, result.numerator, result.denominator.unsigned_abs(), rounding))
+            << channel.shift
     })
 }
 
@@ -133,17 +134,12 @@ pub fn blend_texel(
 fn quantised_source(format: TexelFormat, from: Format, source: [u32; 4], rounding: TargetRounding) -> [Ratio; 4] {
     let record = format.record();
     let bits = record.stored().iter().map(|c| c.bits).max().unwrap_or(8);
-    let mut out = [0, 1, 2, 3].map(|i: u8| {
-        let channel = Channel { shift: 0, bits, class: ChannelClass::Unorm, stored_from: i };
+    [0, 1, 2, 3].map(|i: u8| {
+        let unstored = Channel { shift: 0, bits, class: ChannelClass::Unorm, stored_from: i };
+        let channel = record.stored().iter().copied().find(|c| c.stored_from == i).unwrap_or(unstored);
         let code = encode_channel(channel, from, source[usize::from(i)], rounding);
         Ratio::of(decode_channel(channel, code, SignedTexelMinimum::Clamp))
-    });
-    let raw = encode(format, from, source, rounding);
-    for channel in record.stored() {
-        let code = (raw >> channel.shift) as u32;
-        out[usize::from(channel.stored_from)] = Ratio::of(decode_channel(*channel, code, SignedTexelMinimum::Clamp));
-    }
-    out
+    })
 }
 
 /// Arithmetic of a blender: FP32 for float targets, exact fractions for fixed-point targets.
@@ -241,27 +237,6 @@ impl Ratio {
             // Unreachable: fixed-point targets have no float channels.
             ChannelValue::Float { .. } => Self::ZERO,
         }
-    }
-
-    /// Encodes the fraction for a channel: clamped to its range and rounded.
-    fn encode(self, channel: Channel, rounding: TargetRounding) -> u32 {
-        let one = value::ONE;
-        let negative = self.numerator < 0;
-        let size = self.numerator.unsigned_abs();
-        let denominator = self.denominator.unsigned_abs();
-        if size >= denominator {
-            let extreme = if negative { one | 0x8000_0000 } else { one };
-            return encode_channel(channel, Format::FP32, extreme, rounding);
-        }
-        let whole = match channel.class {
-            ChannelClass::Unorm if negative => return 0,
-            ChannelClass::Unorm => u32::MAX >> (32 - channel.bits),
-            ChannelClass::SplitSnorm if negative => 16,
-            _ => (u32::MAX >> (32 - channel.bits)) >> 1,
-        };
-        let half = if rounding == TargetRounding::Nearest { denominator } else { 0 };
-        let code = ((2 * size * u128::from(whole) + half) / (2 * denominator)) as u32;
-        if negative { code.wrapping_neg() & (u32::MAX >> (32 - channel.bits)) } else { code }
     }
 }
 

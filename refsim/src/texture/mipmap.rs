@@ -86,7 +86,7 @@ fn mean(channel: Channel, taps: &[u128], rules: MipmapRules) -> u32 {
             ChannelValue::Float { .. } => sum,
         }
     });
-    encode_ratio(channel, sum, u64::from(denominator(channel)) * taps.len() as u64, rules.rounding)
+    encode_ratio(channel, sum.into(), u128::from(denominator(channel)) * taps.len() as u128, rules.rounding)
 }
 
 /// Combines pairs along x, then y, then z, in the order of the taps.

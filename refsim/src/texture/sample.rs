@@ -104,11 +104,6 @@ pub fn sample(
     }
 }
 
-/// Nearest read of level 0; equivalent to [`sample`] with nearest filters and no mip levels, but faster.
-pub fn fetch_nearest(image: &Image, state: &SamplerState, rules: &SampleRules, coordinates: [u32; 4]) -> [u32; 4] {
-    SamplePlace::new(image, state, coordinates).nearest_value(rules, 0)
-}
-
 /// Calls `each` with the level, slice, row and column of every texel to which [`sample`] gives a weight above 0, in a
 /// fixed order. The border is skipped.
 pub fn touched(

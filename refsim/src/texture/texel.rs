@@ -128,10 +128,13 @@ pub fn encode_channel(channel: Channel, from: Format, bits: u32, rounding: Targe
 }
 
 /// [`encode_channel`] of `numerator / denominator` into a normalised channel.
-pub(crate) fn encode_ratio(channel: Channel, numerator: i64, denominator: u64, rounding: TargetRounding) -> u32 {
+pub(crate) fn encode_ratio(channel: Channel, numerator: i128, denominator: u128, rounding: TargetRounding) -> u32 {
     let negative = numerator < 0;
+    if negative && channel.class == ChannelClass::Unorm {
+        return 0;
+    }
     let scale = steps(channel, negative);
-    let (product, divisor) = (u128::from(numerator.unsigned_abs()) * u128::from(scale), u128::from(denominator.max(1)));
+    let (product, divisor) = (numerator.unsigned_abs() * u128::from(scale), denominator.max(1));
     let quotient = match rounding {
         TargetRounding::Nearest => (2 * product + divisor) / (2 * divisor),
         TargetRounding::Truncate => product / divisor,

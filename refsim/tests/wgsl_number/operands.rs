@@ -1,7 +1,7 @@
 //! Formats and operands: edges, patterns near them, and pseudo-random ones.
 
 use crate::random::Random;
-use refsim::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials, Unit};
+use refsim::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
 impl Random {
     /// An integer within `-reach..=reach`.
@@ -47,9 +47,10 @@ pub(crate) fn pattern(words: &mut Random, format: &Format, edges: &[u32]) -> u32
     bits & format.mask()
 }
 
+/// The units of cards in which shaders compute.
 pub(crate) fn cards() -> Vec<Format> {
-    let names = Unit::CARDS.iter().map(|(name, _)| *name).chain(["gt200:rtz", "gt200-zero-wins:rtz"]);
-    names.map(|name| format!("e8m23:{name}").parse().expect("a format")).collect()
+    let names = ["gt200", "gt200-zero-wins", "gt200:rtz", "gt200-zero-wins:rtz"];
+    names.map(|name| format!("e8m23:{name}").parse().expect("a format")).to_vec()
 }
 
 /// Every rule on a few layouts, many layouts, and the units of cards.

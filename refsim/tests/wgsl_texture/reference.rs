@@ -3,8 +3,7 @@
 use super::cases::{Case, Read};
 use refsim::num::{Format, ops};
 use refsim::texture::{
-    Image, Lod, SampleRules, SamplerState, TexelFormat, TextureKind, fetch_nearest, lod_from_derivatives, sample,
-    unbound,
+    Image, Lod, SampleRules, SamplerState, TexelFormat, TextureKind, lod_from_derivatives, sample, unbound,
 };
 
 /// Components of one lane, as raw values of the shader.
@@ -31,7 +30,7 @@ pub(crate) fn texel(case: &Case, read: &Read, lane: usize) -> [u32; 4] {
 pub(crate) fn stored(format: TexelFormat, raw: u128, rules: &SampleRules) -> [u32; 4] {
     let bytes = raw.to_le_bytes()[..format.bytes()].to_vec();
     let image = Image::from_bytes(format, TextureKind::D2, [1, 1, 1], 1, bytes).expect("one texel");
-    fetch_nearest(&image, &SamplerState::NEAREST_CLAMP, rules, [0; 4])
+    sample(Some(&image), &SamplerState::NEAREST_CLAMP, rules, [0; 4], Lod::Base)
 }
 
 /// Converts a bit pattern to the shader's raw value.

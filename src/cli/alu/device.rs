@@ -75,7 +75,7 @@ pub(super) fn refuse_lacking(operation: AluOperation, format: Format) -> Result<
 
 /// Rejects operations of vertex units if the format belongs to another unit.
 pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<(), Problem> {
-    let vertex = matches!(format.unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x);
+    let vertex = format.unit.is_vertex_unit();
     let theirs = matches!(
         operation,
         AluOperation::Table(Op::Sign) | AluOperation::Rcc | AluOperation::Expp | AluOperation::Logp | AluOperation::Lit

@@ -14,8 +14,7 @@ use super::unpack::{Unpacked, nan_bits, unpack, zero};
 /// infinity it overflows as finite numbers do.
 ///
 /// Single floats are converted to the format of a card's unit unchanged; from it, subnormals become zeros. A NaN of
-/// GT200 becomes the canonical NaN of the other format ([`super::unit::gt200_conversions::to_half`] gives the card's
-/// NaN).
+/// GT200 becomes the canonical NaN of the other format.
 pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     let to = to.into();
     // Including NaN and subnormals.

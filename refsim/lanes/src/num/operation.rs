@@ -176,6 +176,12 @@ impl NumberOperation {
         self as u32 >= Self::ExpFloor as u32
     }
 
+    /// Returns `true` if only vertex units of cards have this operation.
+    pub const fn is_of_vertex_units(self) -> bool {
+        let number = self as u32;
+        matches!(self, Self::Sign) || number >= Self::ExpFloor as u32 && number <= Self::LitSpecular as u32
+    }
+
     /// Returns `true` if the operation is bitwise, the same in every format.
     pub const fn is_of_masks(self) -> bool {
         matches!(self, Self::Select | Self::And | Self::Or | Self::AndNot)

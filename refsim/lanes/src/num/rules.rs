@@ -134,6 +134,11 @@ impl Unit {
         !matches!(self, Self::Ideal)
     }
 
+    /// Returns `true` for vertex units, whose instructions combine several steps of others.
+    pub const fn is_vertex_unit(self) -> bool {
+        matches!(self, Self::Nv2x | Self::Nv3xLegacy | Self::Nv3x)
+    }
+
     /// The name in format strings, without colon; `None` for the ideal unit.
     pub fn name(self) -> Option<&'static str> {
         Self::CARDS.iter().find(|(_, unit)| *unit == self).map(|(name, _)| *name)

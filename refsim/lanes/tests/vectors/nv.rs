@@ -1,6 +1,6 @@
 //! Vertex units of NV20 to NV35.
 
-use refsim_lanes::num::unit::{nv, nv_functions};
+use refsim_lanes::num::unit::nv_functions;
 use refsim_lanes::num::{DotOrder, Format, NumberOperation as Op, Unit, ops};
 
 use super::table::{Row, check, columns, digits, evaluate, format, unary};
@@ -216,20 +216,4 @@ fn fractions_and_signs() {
         ],
     );
     assert_eq!(rows, 5143);
-}
-
-#[test]
-fn attributes() {
-    let float = |row: &Row<'_>| {
-        let code: i32 = row.cell("code").parse().expect("an integer");
-        let (byte, short) = (u8::try_from(code), i16::try_from(code).expect("16 bits"));
-        digits(match row.cell("kind") {
-            "ubyte" => nv::from_unsigned_byte(byte.expect("8 bits")),
-            "short" => nv::from_short(short),
-            "nshort" => nv::from_normalized_short(short),
-            other => panic!("kind {other}"),
-        })
-    };
-    let rows = check(include_str!("nv_attributes.csv"), 2, &[("float", &float)]);
-    assert_eq!(rows, 3388);
 }

@@ -71,14 +71,14 @@ impl Formats {
         &self.0
     }
 
+    /// Returns `true` if a vertex unit of a card computes in one of the formats.
+    pub(crate) fn has_vertex_unit(&self) -> bool {
+        self.0.iter().any(|format| format.unit.is_vertex_unit())
+    }
+
     /// Converts a bit pattern to a raw value.
     pub(crate) fn decode(&self, arith: Arith, bits: u32) -> u32 {
         AnyLane::new(self.format(arith)).decode(bits)
-    }
-
-    /// Converts a raw value to a bit pattern.
-    pub(crate) fn encode(&self, arith: Arith, raw: u32) -> u32 {
-        AnyLane::new(self.format(arith)).encode(raw)
     }
 
     /// Evaluates the comparison `operation` (`a < b`, `a <= b` or `a == b`) on raw values.

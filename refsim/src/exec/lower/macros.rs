@@ -4,7 +4,7 @@ use super::arith::{GraphBuilder, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
 use crate::device::Rules;
 use crate::isa::{Opcode, Version};
-use crate::num::{self, NumberOperation as Op, Unit};
+use crate::num::{self, NumberOperation as Op};
 
 impl GraphBuilder<'_> {
     /// The result of an arithmetic instruction in a version's language; missing operands are zeros.
@@ -130,7 +130,7 @@ impl GraphBuilder<'_> {
 
     /// Returns `true` for a vertex unit, whose instructions combine several of these steps.
     fn is_vertex_unit(&self, k: Arith) -> bool {
-        matches!(self.formats.format(k).unit, Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x)
+        self.formats.format(k).unit.is_vertex_unit()
     }
 
     fn bem(&mut self, k: Arith, base: &NodeVector, offset: &NodeVector, m: &NodeVector) -> NodeVector {

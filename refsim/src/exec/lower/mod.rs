@@ -15,9 +15,8 @@ mod program;
 mod translate;
 mod translate_texture;
 
-pub(super) use flow::{ACTIVE, COUNTER, DECIDED, KILLED, MaskedInstruction, MaskedProgram};
+pub(super) use flow::{ACTIVE, COUNTER, DECIDED, KILLED, MaskedProgram};
 pub(super) use formats::Formats;
-pub(super) use fragment::of_file;
 pub(super) use graph::{Arith, Detail, Graph, NodeId, NodeKind};
 pub(super) use program::{Ends, has_flow, translate_straight, translate_straight_vertex};
 pub(super) use refsim_lanes::{Slot, TRUE};

@@ -1,27 +1,17 @@
 // Following pixels: an invocation takes one pixel through its triangles, up to the first that covers it, and tells in
-// its record what the rasteriser gave there, what every instruction wrote, what the program left and what became of it.
-// One invocation a workgroup: lanes that go different ways would spend each other's loop passes.
+// its record what every instruction wrote and what became of the fragment. One invocation a workgroup: lanes that go
+// different ways would spend each other's loop passes.
 //
-// `tiles` holds five words a pixel: column, row, first triangle of its list, how many, column in the targets.
+// `tiles` holds four words a pixel: column, row, first triangle of its list, how many. Pixel k has column k of the copies
+// of the targets.
 
 // Where the steps of the record begin.
 var<private> f_steps: u32;
 
 fn trace_put(at: u32, word: u32) {
-    // Words before the window wrap to numbers past it.
-    let place = at - draw[D_FOLLOW + 3u];
-    if (place < draw[D_FOLLOW + 2u]) {
-        video[f_steps + place] = word;
+    if (at < draw[D_FOLLOW + 2u]) {
+        video[f_steps + at] = word;
     }
-}
-
-// The results of a lane, after its program.
-fn f_results(record: u32, lane: u32, place: u32) {
-    for (var i = 0u; i < 19u; i++) {
-        video[record + FOLLOW_RESULTS + i] = scratch[q_row(ROW_COLORS + i)][lane];
-    }
-    video[record + 2u] = o_merge(lane, place, 0u);
-    video[record + 3u] = q_traced;
 }
 
 @compute @workgroup_size(1)
@@ -30,16 +20,15 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
     if (job >= draw[D_TILES]) {
         return;
     }
-    let x = tiles[5u * job];
-    let y = tiles[5u * job + 1u];
-    let first = tiles[5u * job + 2u];
-    let count = tiles[5u * job + 3u];
+    let x = tiles[4u * job];
+    let y = tiles[4u * job + 1u];
+    let first = tiles[4u * job + 2u];
+    let count = tiles[4u * job + 3u];
     let lane = (x & 1u) | ((y & 1u) << 1u);
     q_invocation = job;
     q_stride = draw[D_STRIDE];
     q_rows = draw[D_ROWS];
     q_save = q_rows + IN_OUT_ROWS;
-    q_step_budget = draw[D_STEP_BUDGET];
     let record = draw[D_FOLLOW] + job * draw[D_FOLLOW + 1u];
     f_steps = record + FOLLOW_HEAD;
     let state_at = (q_save + SAVED_ROWS - 1u) * q_stride + q_invocation;
@@ -71,19 +60,13 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
         q_trace = lane + 1u;
         q_passes = passes_left - draw[D_COST];
         shade();
-        for (var c = 0u; c < 45u; c++) {
-            video[record + FOLLOW_INPUT + c] = scratch[q_row(0xff00u + c)][lane];
-        }
         status = select(FOLLOW_FRAGMENT, FOLLOW_UNFINISHED, q_suspended);
-        if (!q_suspended && any(q_covered & q_cut)) {
-            atomicAdd(&counts[COUNT_OVERRUN], 1u);
-        }
         break;
     }
     video[record] = status;
-    video[record + 1u] = i;
     if (status == FOLLOW_FRAGMENT) {
-        f_results(record, lane, tiles[5u * job + 4u]);
+        video[record + 1u] = o_merge(lane, job, 0u);
+        video[record + 2u] = q_traced;
     }
     let ended = select(1u, 0u, status == FOLLOW_UNFINISHED);
     scratch[state_at] = vec4<u32>(i, select(0u, 1u, q_suspended), q_traced, ended);

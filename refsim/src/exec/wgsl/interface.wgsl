@@ -68,9 +68,6 @@ var<private> q_covered: vec4<bool>;
 // called again, it goes on.
 var<private> q_passes: u32;
 var<private> q_suspended: bool;
-// How many steps a lane may make, and which lanes were cut off in front of one more.
-var<private> q_step_budget: u32;
-var<private> q_cut: vec4<bool>;
 // Where the program's words begin in `code`.
 var<private> q_code: u32;
 // The lane that is followed, counted from 1; 0 for none. And how many words were put down about it.

@@ -28,21 +28,18 @@ const DEPTH_FLOAT24: u32 = 4;
 pub const ENTRY: &str = "pixel_main";
 /// Invocations per workgroup.
 pub const INVOCATIONS: usize = 64;
-/// Words of `counts`: outcomes of fragments and reads per sampler, two words each; then [`UNFINISHED`], [`CUT`] and
-/// [`OVERRUN`].
-pub const COUNT_WORDS: usize = 47;
+/// Words of `counts`: outcomes of fragments and reads per sampler, two words each; then [`UNFINISHED`] and [`CUT`].
+pub const COUNT_WORDS: usize = 46;
 /// Index in `counts` of the invocations with work left: if any, the dispatch must be repeated.
 pub const UNFINISHED: usize = 44;
 /// Index in `counts` of the invocations whose loops the driver terminated: if any, the results are invalid.
 pub const CUT: usize = 45;
-/// Index in `counts` of the quads with a fragment that exceeded its step budget.
-pub const OVERRUN: usize = 46;
 /// Rows of `scratch` after the program's registers: inputs, outputs, and saved state of an invocation.
 pub const EXTRA_ROWS: usize = IN_OUT_ROWS + SAVED_ROWS;
-const SAVED_ROWS: usize = 4;
+const SAVED_ROWS: usize = 2;
 
 /// Fields of `draw`, in order, and their sizes in words.
-const FIELDS: [(&str, usize); 22] = [
+const FIELDS: [(&str, usize); 21] = [
     ("D_FORMATS", 8 * (11 + MAX_PROGRAM_FORMATS)),
     ("D_STRIDE", 1),
     ("D_SETUP_WORDS", 1),
@@ -68,10 +65,8 @@ const FIELDS: [(&str, usize); 22] = [
     ("D_COST", 1),
     // Two numbers that are multiplied by repeated addition, to detect drivers that terminate loops.
     ("D_PROOF", 2),
-    // Offset of records in `video`, words per record, number of step words stored, and first one stored.
-    ("D_FOLLOW", 4),
-    // Step budget per fragment.
-    ("D_STEP_BUDGET", 1),
+    // Offset of records in `video`, words per record, number of step words stored.
+    ("D_FOLLOW", 3),
     ("D_TARGETS", 4 * target::WORDS),
 ];
 
@@ -122,7 +117,6 @@ pub(super) fn with_entry(entry: &str) -> String {
         ("SAVED_ROWS", SAVED_ROWS),
         ("COUNT_UNFINISHED", UNFINISHED),
         ("COUNT_CUT", CUT),
-        ("COUNT_OVERRUN", OVERRUN),
         ("DEPTH_FLOAT32", DEPTH_FLOAT32 as usize),
         ("DEPTH_FLOAT24", DEPTH_FLOAT24 as usize),
     ];
@@ -161,8 +155,6 @@ pub struct DrawState<'a> {
     pub targets: [Option<target::TargetPlace>; 4],
     /// The depth buffer.
     pub depth: Option<DepthPlace>,
-    /// Step budget per fragment, if the program may exceed it.
-    pub step_budget: Option<u32>,
 }
 
 /// Parameters of a dispatch.
@@ -218,8 +210,6 @@ impl DrawWords {
         for (k, format) in formats.iter().chain(own.own()).enumerate() {
             words.put(8 * k, &format_words(format));
         }
-        words.set("D_STEP_BUDGET", &[state.step_budget.unwrap_or(u32::MAX)]);
-        words.parts.add_if(state.step_budget.is_some(), "HAS_STEP_BUDGET");
         words.tests(state);
         words.blend(state);
         words.set("D_SETUP_WORDS", &[words.setup_words() as u32]);

@@ -31,7 +31,6 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     q_stride = draw[D_STRIDE];
     q_rows = draw[D_ROWS];
     q_save = q_rows + IN_OUT_ROWS;
-    q_step_budget = draw[D_STEP_BUDGET];
     let passes_left = draw[D_PASSES];
     let cost = draw[D_COST];
     let eight = place >> 3u;
@@ -66,11 +65,6 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
         atomicAdd(&k_spent[eight], max(used, most) - most);
         if (q_suspended) {
             break;
-        }
-        if (HAS_STEP_BUDGET) {
-            if (any(q_covered & q_cut)) {
-                atomicAdd(&counts[COUNT_OVERRUN], 1u);
-            }
         }
         for (var lane = 0u; lane < 4u; lane++) {
             if (q_covered[lane]) {

@@ -11,7 +11,7 @@ use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overf
 /// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
 /// rounding, overflow, denormals, special values, and the denominator of a normalized format, else 0. Shaders treat a
 /// normalized format as fixed point without fraction bits, and divide its numbers by the denominator. The field of
-/// special values encodes units of cards, from 2 on.
+/// special values encodes the unit of GT200, from 2 on; no shader computes in the vertex units of cards.
 ///
 /// Rules that do not apply to the kind are replaced by its default, as in [`Format`].
 pub fn format_words(format: &Format) -> [u32; 8] {
@@ -37,12 +37,9 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     };
     let flush = u32::from(format.denormals == Denormals::Flush);
     let special = match format.unit {
-        Unit::Ideal => u32::from(format.specials == Specials::Nv),
-        Unit::Nv2x => 2,
-        Unit::Nv3xLegacy => 3,
-        Unit::Nv3x => 4,
-        Unit::Gt200 => 5,
-        Unit::Gt200ZeroWins => 6,
+        Unit::Gt200 => 2,
+        Unit::Gt200ZeroWins => 3,
+        _ => u32::from(format.specials == Specials::Nv),
     };
     [kind, upper.into(), frac.into(), rounding, overflow, flush, special, denominator_word(format)]
 }
@@ -67,19 +64,18 @@ pub fn source_word(format: &Format) -> u32 {
         FormatKind::Fixed { frac_bits, .. } => 1 + u32::from(frac_bits),
         FormatKind::Normalized { .. } => 1 | denominator_word(format) << 8,
         FormatKind::Float { .. } => match format.unit {
-            Unit::Ideal => 0,
-            Unit::Nv2x | Unit::Nv3xLegacy | Unit::Nv3x => 1 << 31,
-            Unit::Gt200 | Unit::Gt200ZeroWins => 3 << 30,
+            Unit::Gt200 | Unit::Gt200ZeroWins => 1 << 31,
+            _ => 0,
         },
     }
 }
 
 /// The text of the number library: `struct Format`, functions `n_...` for any format and `s_...` for single precision.
 ///
-/// The text of units of cards is in separate sections ([`super::parts`]).
+/// The text of GT200's unit is in a separate section ([`super::parts`]).
 pub fn library() -> String {
     let constants = |of_units: bool| -> String {
-        let operations = NumberOperation::ALL.into_iter().filter(|operation| operation.is_of_units() == of_units);
+        let operations = operations().filter(|operation| operation.is_of_units() == of_units);
         operations.map(|operation| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word())).collect()
     };
     let parts = [
@@ -91,10 +87,11 @@ pub fn library() -> String {
         concat!(include_str!("number/dot.wgsl"), include_str!("number/aligned.wgsl")),
         include_str!("number/single.wgsl"),
     ];
-    let units = [
-        section("HAS_UNITS", &(constants(true) + include_str!("number/unit.wgsl"))),
-        section("HAS_VERTEX_UNIT", &(include_str!("number/unit_vertex.wgsl").to_owned() + &unit_tables::vertex())),
-        section("HAS_GT200", &(include_str!("number/unit_gt200.wgsl").to_owned() + &unit_tables::gt200())),
-    ];
-    constants(false) + &parts.join("\n") + &units.concat()
+    let gt200 = concat!(include_str!("number/unit.wgsl"), include_str!("number/unit_gt200.wgsl"));
+    constants(false) + &parts.join("\n") + &section("HAS_UNITS", &(constants(true) + gt200 + &unit_tables::gt200()))
+}
+
+/// The operations of shaders.
+pub(super) fn operations() -> impl Iterator<Item = NumberOperation> {
+    NumberOperation::ALL.into_iter().filter(|operation| !operation.is_of_vertex_units())
 }

@@ -52,7 +52,7 @@ fn o_exact(raw: u32, fixed_point: bool) -> Exact {
 
 // The size of a number times `scale` as an integer, at most `scale`: halves away from zero, or cut off.
 fn o_scaled(number: Exact, scale: u32, nearest: bool) -> u32 {
-    let product = k_mul(number.significand, scale);
+    let product = n_mul32(number.significand, scale).yx;
     // Below one, the exponent is below zero. In halves: all but the last bit are the whole.
     let shift = u32(-number.exponent) - 1u;
     let halves = select(vec2<u32>(0u), k_shr(product, min(shift, 63u)), shift < 64u);
@@ -124,18 +124,8 @@ fn o_depth(raw: u32, in_main: bool) -> u32 {
     return pattern;
 }
 
-// Single precision patterns by their order, both zeros alike; no NaN.
-fn o_key(bits: u32) -> i32 {
-    let size = i32(bits & 0x7fffffffu);
-    return select(size, -size, (bits >> 31u) == 1u);
-}
-
-fn o_is_nan(bits: u32) -> bool {
-    return (bits & 0x7fffffffu) > 0x7f800000u;
-}
-
 fn o_is_below(a: u32, b: u32) -> bool {
-    return !o_is_nan(a) && !o_is_nan(b) && o_key(a) < o_key(b);
+    return !s_is_nan(a) && !s_is_nan(b) && s_key(a) < s_key(b);
 }
 
 // A comparison is the set of orders it holds for: below, equal, above, unordered.
@@ -147,13 +137,12 @@ fn o_alpha_passes(alpha: u32) -> bool {
     let comparison = draw[D_ALPHA];
     let reference = draw[D_ALPHA + 1u];
     let integers = o_main_is_fixed();
-    let value = select(o_key(alpha), i32(alpha), integers);
-    let bound = select(o_key(reference), i32(reference), integers);
-    let unordered = !integers && (o_is_nan(alpha) || o_is_nan(reference));
+    let value = select(s_key(alpha), i32(alpha), integers);
+    let bound = select(s_key(reference), i32(reference), integers);
+    let unordered = !integers && (s_is_nan(alpha) || s_is_nan(reference));
     if (HAS_UNITS) {
-        let unit = draw[8u * MAIN + 6u];
-        if unit > 1u && !unordered {
-            return o_holds(comparison, u_less(unit, alpha, reference), u_less(unit, reference, alpha));
+        if draw[8u * MAIN + 6u] > 1u && !unordered {
+            return o_holds(comparison, u_less(alpha, reference), u_less(reference, alpha));
         }
     }
     return select(o_holds(comparison, (value < bound), (value > bound)), (comparison >> 3u) == 1u, unordered);
@@ -268,7 +257,7 @@ fn o_blend_integer(channel: Channel, values: Blend, alpha_denominator: u32, equa
         total = vec2<u32>(chosen, select(0u, 0xffffffffu, i32(chosen) < 0));
         denominator = vec2<u32>(d, 0u);
     } else {
-        denominator = k_mul(d * d, select(a, 1u, same));
+        denominator = n_mul32(d * d, select(a, 1u, same)).yx;
         for (var k = 0u; k < 2u; k++) {
             let factor = draw[equation + k];
             let value = i32(select(values.source, values.destination, k == 1u));
@@ -287,7 +276,7 @@ fn o_blend_integer(channel: Channel, values: Blend, alpha_denominator: u32, equa
                 }
                 rest = select(select(a, d, of_alpha), 1u, same);
             }
-            var term = k_mul(u32(abs(value)) * u32(abs(by)), rest);
+            var term = n_mul32(u32(abs(value)) * u32(abs(by)), rest).yx;
             // source - destination, or destination - source
             let turned = (op == 1u && k == 1u) || (op == 2u && k == 0u);
             if (((value < 0) != (by < 0)) != turned) {

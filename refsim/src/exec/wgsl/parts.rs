@@ -3,14 +3,15 @@
 //! Drivers inline every function and compile unreachable code, so compiling the complete machine takes minutes.
 //! Therefore unused parts are first removed from the text. The text is valid WGSL before and after. Parts are arms of
 //! switches (`case VM_DOT: {`) labelled with names of parts, blocks under `if (HAS_CUBES) {`, and functions that become
-//! unreachable. Sections between `// begin HAS_GT200` and `// end HAS_GT200` are removed as a whole.
+//! unreachable. Sections between `// begin HAS_UNITS` and `// end HAS_UNITS` are removed as a whole.
 
+use super::number;
 use super::program::operations;
-use crate::num::{Encoding, Format, NumberOperation, Unit};
+use crate::num::{Encoding, Format, NumberOperation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws other than operations. In the text, each feature guards blocks with an `if`.
-const FEATURES: [&str; 25] = [
+const FEATURES: [&str; 24] = [
     // Numbers: fixed-point registers; normalized registers; floats without infinity; formats other than single
     // precision with default rules.
     "HAS_FIXED",
@@ -20,9 +21,8 @@ const FEATURES: [&str; 25] = [
     // Square roots and their reciprocals; sums of products, rounded once.
     "HAS_ROOTS",
     "HAS_DOTS",
-    // Programs: may exceed one dispatch; steps are counted.
+    // Programs: may exceed one dispatch.
     "HAS_SUSPENSION",
-    "HAS_STEP_BUDGET",
     // Textures: arithmetic before the read; cube maps; level selection; linear filtering; repeated or mirrored images;
     // fixed-point texels; float texels; filtered float texels; filtered bytes; filtered float texels or bytes.
     "HAS_TEXTURE_DETAIL",
@@ -43,11 +43,11 @@ const FEATURES: [&str; 25] = [
     "HAS_FLOAT_BLENDING",
     "HAS_INTEGER_BLENDING",
 ];
-/// Features of draws that use units of cards. The text of each is a section, which also defines the feature's constant.
-const UNITS: [&str; 3] = ["HAS_UNITS", "HAS_VERTEX_UNIT", "HAS_GT200"];
+/// Feature of draws that use the unit of a card. Its text is a section, which also defines the feature's constant.
+const UNITS: &str = "HAS_UNITS";
 /// Operations that are expensive to compile, in groups that are included together. All other operations are always
 /// included, so that programs that differ only in these share a text.
-const COSTLY: [&[NumberOperation]; 6] = [
+const COSTLY: [&[NumberOperation]; 5] = [
     &[NumberOperation::Exp2, NumberOperation::Log2],
     &[NumberOperation::Sin, NumberOperation::Cos],
     &[NumberOperation::Floor, NumberOperation::Frc, NumberOperation::AddressFloor, NumberOperation::AddressNearest],
@@ -64,23 +64,7 @@ const COSTLY: [&[NumberOperation]; 6] = [
         NumberOperation::SplitByte,
         NumberOperation::SplitSignedByte,
     ],
-    &[
-        NumberOperation::SetLess,
-        NumberOperation::SetLessEqual,
-        NumberOperation::SetEqual,
-        NumberOperation::SetNotEqual,
-        NumberOperation::Sign,
-    ],
-    &[
-        NumberOperation::ExpFloor,
-        NumberOperation::ExpFraction,
-        NumberOperation::ExpPower,
-        NumberOperation::LogExponent,
-        NumberOperation::LogMantissa,
-        NumberOperation::LogPower,
-        NumberOperation::LitDiffuse,
-        NumberOperation::LitSpecular,
-    ],
+    &[NumberOperation::SetLess, NumberOperation::SetLessEqual, NumberOperation::SetEqual, NumberOperation::SetNotEqual],
 ];
 /// Arms for cube maps.
 const CUBES: [&str; 12] = [
@@ -106,7 +90,7 @@ impl Default for Parts {
     /// The parts that every draw needs.
     fn default() -> Self {
         let costly: Vec<NumberOperation> = COSTLY.concat();
-        let plain = NumberOperation::ALL.into_iter().filter(|operation| !costly.contains(operation));
+        let plain = number::operations().filter(|operation| !costly.contains(operation));
         Self(plain.map(NumberOperation::constant).chain(operations::plain()).collect())
     }
 }
@@ -114,20 +98,19 @@ impl Default for Parts {
 impl Parts {
     /// All parts.
     pub fn all() -> Self {
-        let features = FEATURES.iter().chain(&CUBES).chain(&UNITS).map(|&name| name.to_owned());
-        let operations = NumberOperation::ALL.into_iter().map(NumberOperation::constant);
-        Self(features.chain(operations).chain(operations::all()).collect())
+        let features = FEATURES.iter().chain(&CUBES).chain([&UNITS]).map(|&name| name.to_owned());
+        let numbers = number::operations().map(NumberOperation::constant);
+        Self(features.chain(numbers).chain(operations::all()).collect())
     }
 
-    /// All parts, except parts of units of cards that are not in the set.
+    /// All parts, except those of units of cards unless they are in the set.
     pub fn grown(&self) -> Self {
         let mut all = Self::all();
-        if !self.contains("HAS_UNITS") {
-            let of_units = NumberOperation::ALL.into_iter().filter(|operation| operation.is_of_units());
+        if !self.contains(UNITS) {
+            let of_units = number::operations().filter(|operation| operation.is_of_units());
             let of_units: BTreeSet<String> = of_units.map(NumberOperation::constant).collect();
-            all.0.retain(|name| !of_units.contains(name));
+            all.0.retain(|name| name != UNITS && !of_units.contains(name));
         }
-        all.0.retain(|name| !UNITS.contains(&name.as_str()) || self.contains(name));
         all
     }
 
@@ -153,10 +136,7 @@ impl Parts {
         self.add_if(format.is_fixed(), "HAS_FIXED");
         self.add_if(format.denominator() != 1, "HAS_NORMALIZED");
         self.add_if(format.encoding != Encoding::Ieee, "HAS_FINITE");
-        let gt200 = matches!(format.unit, Unit::Gt200 | Unit::Gt200ZeroWins);
-        self.add_if(format.unit.is_card(), "HAS_UNITS");
-        self.add_if(format.unit.is_card() && !gt200, "HAS_VERTEX_UNIT");
-        self.add_if(gt200, "HAS_GT200");
+        self.add_if(format.unit.is_card(), UNITS);
     }
 
     /// Adds a number operation, with its group.
@@ -251,7 +231,7 @@ impl Parts {
 const BEGIN: &str = "// begin ";
 const END: &str = "// end ";
 
-/// Wraps a text into a section that is removed unless the draw uses this feature of [`UNITS`].
+/// Wraps a text into a section that is removed unless the draw uses this feature.
 pub(super) fn section(feature: &str, text: &str) -> String {
     format!("{BEGIN}{feature}\nconst {feature}: bool = true;\n{text}{END}{feature}\n")
 }

@@ -9,9 +9,7 @@ mod assembler;
 mod interpolate;
 mod lower;
 mod microcode;
-mod microcode_flow;
 pub(super) mod operations;
-mod trace;
 
 use crate::device::Rules;
 use crate::exec::{CheckedProgram, PixelBindings, program};
@@ -20,7 +18,6 @@ pub use interpolate::Interpolation;
 pub(crate) use interpolate::PLANES;
 use lower::Lowered;
 pub use microcode::{Microcode, ProgramError};
-pub use trace::{TRACE_WORDS, trace_delivered, trace_steps};
 
 /// Definition of `trace_put`, which records a word of a trace, for modules without traces.
 pub const NO_TRACE: &str = "fn trace_put(at: u32, word: u32) {\n}\n";
@@ -32,6 +29,11 @@ pub fn machine() -> String {
     constants.collect::<String>() + include_str!("program/vm.wgsl")
 }
 
+/// Returns `true` if shaders run a pixel program: they have no flow control, and none of the vertex units of cards.
+pub fn supports(checked: &CheckedProgram, rules: &Rules) -> bool {
+    lower::supports(program(checked), rules)
+}
+
 /// A pixel program, ready to be encoded.
 #[derive(Clone, Debug)]
 pub struct PixelShader {
@@ -40,9 +42,17 @@ pub struct PixelShader {
 
 impl PixelShader {
     /// Prepares a pixel program to run under `rules` with `bindings`. If `traced`, the results of every instruction are
-    /// recorded ([`trace_steps`]).
-    pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, traced: bool) -> Self {
-        Self { lowered: Lowered::pixel(program(checked), rules, bindings, traced) }
+    /// recorded ([`super::follow`]).
+    ///
+    /// # Errors
+    /// [`ProgramError::Unsupported`] unless [`supports`].
+    pub fn new(
+        checked: &CheckedProgram,
+        rules: &Rules,
+        bindings: &PixelBindings<'_>,
+        traced: bool,
+    ) -> Result<Self, ProgramError> {
+        Ok(Self { lowered: Lowered::pixel(program(checked), rules, bindings, traced)? })
     }
 
     /// Encodes the program for [`machine`], preceded by interpolation if given.

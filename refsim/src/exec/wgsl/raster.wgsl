@@ -7,8 +7,6 @@ const S_FLAGS: u32 = 26u;
 // Set: centres of pixels lie between their corners.
 const S_HALF: u32 = 8u;
 
-
-
 fn r_inside(edge: vec2<u32>, bias: u32) -> bool {
     return (edge.y >> 31u) == 0u && (bias == 0u || (edge.x | edge.y) != 0u);
 }

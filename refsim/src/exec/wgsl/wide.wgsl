@@ -14,21 +14,9 @@ fn k_less(a: vec2<u32>, b: vec2<u32>) -> bool {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
 
-// The whole product.
-fn k_mul(a: u32, b: u32) -> vec2<u32> {
-    let al = a & 0xffffu;
-    let ah = a >> 16u;
-    let bl = b & 0xffffu;
-    let bh = b >> 16u;
-    let low = al * bl;
-    let middle = ah * bl + (low >> 16u);
-    let other = al * bh + (middle & 0xffffu);
-    return vec2<u32>((other << 16u) | (low & 0xffffu), ah * bh + (middle >> 16u) + (other >> 16u));
-}
-
 // a * b modulo 2^64: right for signed a too.
 fn k_scale(a: vec2<u32>, b: u32) -> vec2<u32> {
-    let low = k_mul(a.x, b);
+    let low = n_mul32(a.x, b).yx;
     return vec2<u32>(low.x, low.y + a.y * b);
 }
 

@@ -1,26 +1,26 @@
 //! Draws on the GPU: vertices, assembly and set-up on the host, then the kernel over the tiles.
 
-use super::shader::{DRAW, load};
+use super::shader::load;
 use super::{Card, batches};
 use crate::device::Profile;
 use crate::event::{DrawEvents, FragmentCounts};
 use crate::exec::batch::BatchExecutor;
-use crate::exec::budget::enforced;
+use crate::exec::budget::{enforced, straight_exceeds};
 use crate::exec::gpu::{AdapterKind, Gpu, GpuError, LoadedProgram};
 use crate::exec::wgsl::kernel::{
-    COUNT_WORDS, CUT, DepthPlace, DrawDispatch, DrawWords, EXTRA_ROWS, INVOCATIONS, OVERRUN, UNFINISHED,
+    COUNT_WORDS, CUT, DepthPlace, DrawDispatch, DrawWords, EXTRA_ROWS, INVOCATIONS, UNFINISHED,
 };
+use crate::exec::wgsl::program::supports;
 use crate::exec::wgsl::target::TargetPlace;
 use crate::exec::{FlowMap, ResolvedConstants, inputs_read, program};
 use crate::isa::Stage;
 use crate::machine::memory::Memory;
-use crate::machine::step_budget::StepBudget;
 use crate::machine::trace_layout::draw_words;
 use crate::machine::validate::Plan;
 use crate::machine::validate::ROUND;
 use crate::machine::vertices::{VertexStage, set_up};
 use crate::machine::walk::bytes;
-use crate::machine::{DrawCall, ExecutorKind, Machine, MachineError, VertexSource, executor, tile_draw, walk};
+use crate::machine::{DrawCall, ExecutorKind, Machine, MachineError, VertexSource};
 use crate::output::MAX_TARGETS;
 use crate::raster::TriangleSetup;
 use std::sync::Arc;
@@ -50,19 +50,19 @@ impl Machine {
 
     /// Executes a validated call on the given GPU, or on the best adapter of the host.
     ///
-    /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU only reports that some
-    /// fragment exceeded the budget; the batch executor then finds that fragment.
+    /// The batch executor draws with the pixel programs that shaders do not run, or that exceed the step budget.
     pub(in crate::machine) fn draw_on_gpu(
         &mut self,
         call: &DrawCall<'_>,
         plan: &Plan,
     ) -> Result<DrawEvents, MachineError> {
-        let budget = match self.step_budget(call) {
-            StepBudget::Exceeded => return self.draw_on_host(ExecutorKind::Scalar, call, plan),
-            StepBudget::Enforced(budget) => Some(budget),
-            StepBudget::NeverExceeded => None,
-        };
-        let may_fail = budget.is_some() || self.vertices_may_fail(call);
+        let budget = self.profile.limits.step_budget(Stage::Pixel);
+        let fits = !straight_exceeds(program(call.pixel_program), budget);
+        if !(fits && supports(call.pixel_program, &self.profile.rules)) {
+            self.memory.download_newer(&call.targets, call.depth_buffer)?;
+            return self.draw_on_host(ExecutorKind::Batch, call, plan);
+        }
+        let may_fail = self.vertices_may_fail(call);
         if may_fail {
             self.memory.download_newer(&call.targets, call.depth_buffer)?;
         }
@@ -70,32 +70,12 @@ impl Machine {
             Some(card) => card,
             None => Card::new(Arc::new(Gpu::open(None)?))?,
         };
-        let drawn = card.draw((&self.memory, &self.profile), &self.batch, call, plan, budget);
+        let drawn = card.draw((&self.memory, &self.profile), &self.batch, call, plan);
         self.memory.card = Some(card);
-        match drawn {
-            Ok(Some(events)) => return Ok(events),
-            Ok(None) => {}
-            Err(error) => {
-                if may_fail {
-                    self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
-                }
-                return Err(error);
-            }
+        if drawn.is_err() && may_fail {
+            self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
         }
-        self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
-        // The GPU found an overrun, but not the first one; the host repeats the draw to find and report it.
-        let kind = (ExecutorKind::Batch, &self.batch);
-        let tiles = executor(kind, &tile_draw(&self.profile, &self.memory, call));
-        walk::draw(&self.memory, &self.profile, call, plan, kind, &tiles)?;
-        Err(self.disagreement())
-    }
-
-    /// The error if the GPU reported an exceeded step budget, but the host finds none.
-    pub(in crate::machine) fn disagreement(&self) -> MachineError {
-        let name = |card: &Card| card.board.gpu().adapter().name.clone();
-        let adapter = self.memory.card.as_ref().map_or_else(|| "the best there is".to_owned(), name);
-        let reason = "it counts other steps of a program than the host, which is a fault of this program".to_owned();
-        GpuError::Device { adapter, reason }.into()
+        drawn
     }
 
     fn vertices_may_fail(&self, call: &DrawCall<'_>) -> bool {
@@ -107,20 +87,18 @@ impl Machine {
 }
 
 impl Card {
-    /// Draws on the GPU; returns `None` if a fragment exceeded the step budget.
     fn draw(
         &mut self,
         (memory, profile): (&Memory, &Profile),
         batch: &BatchExecutor,
         call: &DrawCall<'_>,
         plan: &Plan,
-        step_budget: Option<u32>,
-    ) -> Result<Option<DrawEvents>, MachineError> {
+    ) -> Result<DrawEvents, MachineError> {
         let needed = inputs_read(program(call.pixel_program));
         let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, batch), needed);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
-        let mut words = self.place(memory, profile, call, step_budget)?;
-        let (program, samplers) = load(self, memory, profile, call, &mut words, &DRAW)?;
+        let mut words = self.place(memory, profile, call)?;
+        let (program, samplers) = load(self, memory, profile, call, &mut words)?;
         self.board.start(&program, &samplers, COUNT_WORDS)?;
         let round = (ROUND / plan.triangles.len().max(1)).max(1);
         let mut first = 0;
@@ -136,17 +114,13 @@ impl Card {
             }
             first += count;
         }
-        let found = self.uncut()?;
-        if found.get(OVERRUN).is_some_and(|&n| n != 0) {
-            return Ok(None);
-        }
-        events.fragments = counts(&found);
+        events.fragments = counts(&self.uncut()?);
         events.bytes = bytes(memory, call, &stage, &events);
-        Ok(Some(events))
+        Ok(events)
     }
 
     /// Reads the counts; returns an error if the driver terminated a loop.
-    pub(super) fn uncut(&self) -> Result<Vec<u32>, MachineError> {
+    fn uncut(&self) -> Result<Vec<u32>, MachineError> {
         let found = self.board.counts(COUNT_WORDS)?;
         if found.get(CUT).is_some_and(|&n| n != 0) {
             let adapter = self.board.gpu().adapter().name.clone();
@@ -157,13 +131,7 @@ impl Card {
     }
 
     /// Ensures that targets are on the GPU; returns the draw parameters of the kernel.
-    fn place(
-        &mut self,
-        memory: &Memory,
-        profile: &Profile,
-        call: &DrawCall<'_>,
-        step_budget: Option<u32>,
-    ) -> Result<DrawWords, MachineError> {
+    fn place(&mut self, memory: &Memory, profile: &Profile, call: &DrawCall<'_>) -> Result<DrawWords, MachineError> {
         let mut targets = [None; MAX_TARGETS];
         for (slot, &id) in targets.iter_mut().zip(&call.targets) {
             let image = memory.texture(id)?;
@@ -182,7 +150,7 @@ impl Card {
                 held.drawn_into();
             }
         }
-        Ok(draw_words(profile, call, targets, depth, step_budget))
+        Ok(draw_words(profile, call, targets, depth))
     }
 
     /// Draws a group of triangles into the tiles.
@@ -229,7 +197,7 @@ impl Card {
 }
 
 /// Maximum loop iterations per invocation and dispatch.
-pub(super) fn passes(gpu: &Gpu) -> u32 {
+fn passes(gpu: &Gpu) -> u32 {
     match gpu.adapter().kind {
         AdapterKind::Software => SOFTWARE_PASSES,
         _ => PASSES,

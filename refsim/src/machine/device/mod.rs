@@ -5,10 +5,7 @@
 
 mod batches;
 mod draw;
-mod follow;
 mod shader;
-
-pub(super) use follow::GpuTracer;
 
 use super::MachineError;
 use crate::exec::gpu::{Board, Gpu, GpuError};

@@ -2,22 +2,19 @@
 
 use super::Card;
 use crate::device::Profile;
-use crate::exec::gpu::{BINDINGS, Gpu, Kernel, LoadedProgram};
+use crate::exec::gpu::{BINDINGS, Kernel, LoadedProgram};
 use crate::exec::wgsl::kernel::DrawWords;
-use crate::exec::wgsl::{follow, kernel, program, texture};
+use crate::exec::wgsl::{kernel, program, texture};
 use crate::machine::memory::Memory;
 use crate::machine::trace_layout::{EncodedProgram, VideoMemory};
 use crate::machine::{DrawCall, MachineError};
 use crate::texture::Image;
 
-pub(super) const DRAW: Kernel = Kernel {
+const DRAW: Kernel = Kernel {
     entry: kernel::ENTRY,
     text: || kernel::text() + &program::machine() + program::NO_TRACE + &texture::library(),
     bindings: &BINDINGS,
 };
-
-/// Kernel that traces pixels.
-pub(super) const FOLLOW: Kernel = Kernel { entry: follow::ENTRY, text: follow::module, bindings: &BINDINGS };
 
 impl VideoMemory for Card {
     fn allocate(&mut self, words: usize) -> Result<usize, MachineError> {
@@ -29,24 +26,17 @@ impl VideoMemory for Card {
     }
 }
 
-/// Encodes and uploads the program and the samplers of a draw, and the textures they read.
+/// Encodes the program of a draw, places the textures that it reads, and compiles the kernel that executes it; also
+/// returns the sampler table.
 pub(super) fn load(
     card: &mut Card,
     memory: &Memory,
     profile: &Profile,
     call: &DrawCall<'_>,
     words: &mut DrawWords,
-    kernel: &Kernel,
 ) -> Result<(LoadedProgram, Vec<u32>), MachineError> {
     let encoded = EncodedProgram::new(card, memory, profile, call, words, false)?;
-    encoded.load(card.board.gpu(), kernel)
-}
-
-impl EncodedProgram {
-    /// Compiles the kernel that executes the program; also returns the sampler table.
-    pub(super) fn load(self, gpu: &Gpu, kernel: &Kernel) -> Result<(LoadedProgram, Vec<u32>), MachineError> {
-        let pipeline = gpu.kernel(kernel, &self.parts)?;
-        let program = LoadedProgram { pipeline, code: self.code.words, registers: self.code.slots };
-        Ok((program, self.samplers))
-    }
+    let pipeline = card.board.gpu().kernel(&DRAW, &encoded.parts)?;
+    let program = LoadedProgram { pipeline, code: encoded.code.words, registers: encoded.code.slots };
+    Ok((program, encoded.samplers))
 }

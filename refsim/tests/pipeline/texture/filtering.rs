@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{
     AddressMode, ChannelValue, Filter, Image, Lod, MipFilter, SampleRules, SamplerState, SignedTexelMinimum,
-    TargetRounding, TexelFormat, TextureKind, fetch_nearest, sample, unbound,
+    TargetRounding, TexelFormat, TextureKind, sample, unbound,
 };
 
 fn rules(format: Format) -> SampleRules {
@@ -76,14 +76,6 @@ proptest! {
         let lerp = |a: f32, b: f32, w: i64| if w == 0 { a } else { a + w as f32 / 256.0 * (b - a) };
         let want = lerp(lerp(at(x, y), at(x + 1, y), wx), lerp(at(x, y + 1), at(x + 1, y + 1), wx), wy);
         prop_assert_eq!(found[0], want.to_bits());
-    }
-
-    #[test]
-    fn fetch_nearest_is_sample(data in prop::collection::vec(any::<u8>(), 6 * 3 * 4), u in any::<u32>(), v in any::<u32>(), mode in 0usize..4) {
-        let image = Image::from_bytes(TexelFormat::Bgra8, TextureKind::D2, [6, 3, 1], 1, data).unwrap();
-        let state = SamplerState { address_u: MODES[mode], address_v: MODES[mode], ..SamplerState::NEAREST_CLAMP };
-        let r = rules(Format::S3_12);
-        prop_assert_eq!(fetch_nearest(&image, &state, &r, [u, v, 0, 0]), sample(Some(&image), &state, &r, [u, v, 0, 0], Lod::Base));
     }
 }
 

@@ -144,7 +144,7 @@ impl PagePrograms {
             side: SIDE,
             shaders: [exact.of(&follow::module(), follow::ENTRY), native.of(&native_module(), follow::ENTRY)],
             entry: follow::ENTRY,
-            record: [follow::HEAD as u32, program::TRACE_WORDS as u32, follow::FRAGMENT, follow::UNFINISHED],
+            record: [follow::HEAD as u32, follow::STEP_WORDS as u32, follow::FRAGMENT, follow::UNFINISHED],
             resumes: kernel::RESUMES,
             buffers: buffers.all,
             programs,

@@ -155,7 +155,7 @@ fn microcode(format: &str, depth_scale: f32) -> Result<(&'static str, Microcode)
     let image = Image::new_2d(TexelFormat::Rg16Snorm, 1, 1).map_err(|error| refused(&error))?;
     let mut bindings = PixelBindings::new(&constants);
     bindings.samplers[..SAMPLERS].fill(Some(SamplerBinding { image: &image, state: SamplerState::NEAREST_CLAMP }));
-    let shader = PixelShader::new(&kernel.pixel, &profile.rules, &bindings, false);
+    let shader = PixelShader::new(&kernel.pixel, &profile.rules, &bindings, false).map_err(|error| refused(&error))?;
     let code = shader.microcode(None).map_err(|error| refused(&error))?;
     Ok((kernel.name, code))
 }

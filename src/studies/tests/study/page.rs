@@ -97,7 +97,8 @@ fn microcode(format: &str) -> Vec<u32> {
     let image = Image::new_2d(TexelFormat::Rg16Snorm, 1, 1).expect("a texture");
     let mut bindings = PixelBindings::new(&constants);
     bindings.samplers[..3].fill(Some(SamplerBinding { image: &image, state: SamplerState::NEAREST_CLAMP }));
-    PixelShader::new(&kernel.pixel, &profile.rules, &bindings, false).microcode(None).expect("it fits").words
+    let shader = PixelShader::new(&kernel.pixel, &profile.rules, &bindings, false).expect("no flow control");
+    shader.microcode(None).expect("it fits").words
 }
 
 /// If the visitor chooses another format, the page changes only these words: all others are equal in the code of all

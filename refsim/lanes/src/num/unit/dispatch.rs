@@ -2,7 +2,7 @@
 
 use super::operation::UnitOperation;
 use super::word::{NAN, ONE, SIGN, Word};
-use super::{gt200, gt200_conversions, gt200_functions, nv, nv_functions};
+use super::{gt200, gt200_functions, nv, nv_functions};
 use crate::num::flags::{Flags, Outcome};
 use crate::num::format::Format;
 use crate::num::rules::{Rounding, Unit};
@@ -109,9 +109,9 @@ fn gt200(unit: Unit, rounding: Rounding, operation: UnitOperation, [a, b, c]: [u
         Op::Mad | Op::FusedMad => gt200::mad(unit, a, b, c),
         Op::Min => gt200::min(a, b),
         Op::Max => gt200::max(a, b),
-        Op::Floor => gt200_conversions::round_to_int(Rounding::Down, a),
+        Op::Floor => gt200::floor(a),
         // Drivers subtract, because the chip has no such instruction.
-        Op::Frc => gt200::add(rounding, a, gt200_conversions::round_to_int(Rounding::Down, a) ^ SIGN),
+        Op::Frc => gt200::add(rounding, a, gt200::floor(a) ^ SIGN),
         Op::Rcp => gt200_functions::rcp(a),
         Op::Rsq => gt200_functions::rsq(a),
         Op::Exp2 => gt200_functions::ex2(a),

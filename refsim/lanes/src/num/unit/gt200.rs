@@ -216,3 +216,25 @@ pub fn saturate(x: u32) -> u32 {
         _ => flushed(x),
     }
 }
+
+/// The largest integer not above `x`; zeros keep their sign.
+pub fn floor(x: u32) -> u32 {
+    let word = Word::of(x);
+    match word.field {
+        _ if word.is_nan() => NAN,
+        0 => x & SIGN,
+        150.. => x,
+        field => {
+            let drop = (150 - field).min(63);
+            let whole = word.significand() >> drop;
+            let rest = whole << drop != word.significand();
+            match whole + u64::from(word.negative && rest) {
+                0 => x & SIGN,
+                magnitude => {
+                    let (place, mantissa) = top24(magnitude);
+                    assemble(word.negative, 127 + place, mantissa)
+                }
+            }
+        }
+    }
+}

@@ -9,11 +9,10 @@
 //! | `word.rs` | single floats as words; truncation to 24 bits |
 //! | `dispatch.rs` | maps each [`super::NumberOperation`] to a function |
 //! | `tables.rs` | the tables of the chips, `tables/*.csv` |
-//! | [`nv`] | vertex units: product, aligned sum, comparisons, floor, attributes from bytes and shorts |
+//! | [`nv`] | vertex units: product, aligned sum, comparisons, floor |
 //! | [`nv_functions`] | vertex units: RCP RCC RSQ EXP LOG LIT, and LG2 EX2 SIN COS of NV3x |
-//! | [`gt200`] | GT200: sums, products, MAD with its truncated product, comparisons |
+//! | [`gt200`] | GT200: sums, products, MAD with its truncated product, comparisons, floor |
 //! | [`gt200_functions`] | GT200: RCP RSQRT LG2, PRESIN SIN COS, PREEX2 EX2 |
-//! | [`gt200_conversions`] | GT200: to and from half floats and integers, rounding to integers |
 //!
 //! Operands and results are 32-bit words. A NaN result is [`NAN`]; an instruction that copies an operand keeps its
 //! word, including NaN and subnormals. [`super::ops`] dispatches to the units by [`super::Format::unit`]. Operations of
@@ -21,7 +20,6 @@
 
 mod dispatch;
 pub mod gt200;
-pub mod gt200_conversions;
 pub mod gt200_functions;
 pub mod nv;
 pub mod nv_functions;

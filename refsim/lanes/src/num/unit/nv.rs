@@ -11,7 +11,7 @@
 
 use std::cmp::Ordering;
 
-use super::word::{INFINITY, LARGEST, NAN, ONE, SIGN, Word, assemble, cut, signed, top24};
+use super::word::{INFINITY, LARGEST, NAN, ONE, SIGN, Word, assemble, signed, top24};
 use crate::num::aligned::{Addend, Alignment, aligned};
 use crate::num::rules::Unit;
 
@@ -153,26 +153,4 @@ pub fn floor(x: u32) -> u32 {
 /// FRC: `x - floor(x)`, rounded by the adder: the result can be 1.0, and is NaN for infinities.
 pub fn frc(unit: Unit, x: u32) -> u32 {
     add(unit, x, floor(x) ^ SIGN)
-}
-
-/// An unsigned byte as an attribute: `v / 255` truncated to 24 fraction bits; 255 gives 1.
-pub fn from_unsigned_byte(v: u8) -> u32 {
-    if v == 255 { ONE } else { cut(false, u64::from(v) * 65793, 24) }
-}
-
-/// A signed short as a normalized attribute: `(2 v + 1) / 65535` truncated to 24 bits; both ends are exact.
-pub fn from_normalized_short(v: i16) -> u32 {
-    match v {
-        i16::MIN => ONE | SIGN,
-        i16::MAX => ONE,
-        _ => {
-            let numerator = 2 * i64::from(v) + 1;
-            cut(numerator < 0, numerator.unsigned_abs() * 65537, 32)
-        }
-    }
-}
-
-/// A signed short as an attribute, exact.
-pub fn from_short(v: i16) -> u32 {
-    cut(v < 0, v.unsigned_abs().into(), 0)
 }

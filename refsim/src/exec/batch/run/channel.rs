@@ -22,18 +22,6 @@ pub(crate) fn ratios(lane: &AnyLane, simd: SimdLevel, values: &[f64; LANES], div
     lane.round_row(simd, &quotients, out);
 }
 
-/// Converts a half-precision pattern to single precision; exact, including subnormals.
-///
-/// Exponent and fraction, shifted to their positions in a single, represent the number times 2^-112. Multiplying by a
-/// power of two is exact if the result is normal or zero.
-#[inline(always)]
-pub(crate) fn half_to_single(bits: u32) -> u32 {
-    let (sign, rest) = ((bits & 0x8000) << 16, bits & 0x7fff);
-    let finite = (f32::from_bits(rest << 13) * f32::from_bits(0x7780_0000)).to_bits();
-    let special = rest << 13 | 0x7f80_0000;
-    sign | if rest & 0x7c00 == 0x7c00 { special } else { finite }
-}
-
 /// Returns `true` if decoding every code of a channel is less work than decoding this number of texels.
 pub(super) const fn pays_by_code(channel: Channel, texels: usize) -> bool {
     channel.bits <= 8 && texels > 1024

@@ -8,16 +8,13 @@ use crate::texture::{
     AddressMode, Channel, ChannelValue, FilterArithmetic, SampleRules, SampledComponent, SampledSource, SamplerState,
 };
 
-/// Maximum width of fixed-point channels whose weighted sums are exact: weights along three axes have 36 bits, and a
-/// double 53.
-const WIDEST: u8 = 16;
-
 /// Source of a result component.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum FilteredComponent {
     /// A raw value that is the same for texels and the border.
     Constant(u32),
-    /// A sum of numerators, and its denominator.
+    /// A sum of numerators, and its denominator. Exact: weights along three axes have 36 bits, the fixed-point channels of
+    /// all formats 16 at most, and a double 53.
     Ratio(SampledSource, f64),
     /// An interpolated byte; the flag is `true` if the byte is signed.
     Byte(SampledSource, bool),
@@ -30,26 +27,19 @@ impl FilteredComponent {
         state: &SamplerState,
         rules: &SampleRules,
         lane: &AnyLane,
-    ) -> Option<Self> {
+    ) -> Self {
         let component = source.read(rules, |_| 0);
         let value = component.value(rules);
-        let width = match source {
-            SampledSource::Stored(channel) => channel.bits,
-            SampledSource::Missing(_) => 8,
-        };
         let bordered = [state.address_u, state.address_v, state.address_w].contains(&AddressMode::Border);
         match (source, component, value) {
             (SampledSource::Missing(_), ..) if !bordered || component == border => {
-                Some(Self::Constant(channel_in_slot(value, rules.format, lane)))
+                Self::Constant(channel_in_slot(value, rules.format, lane))
             }
             (_, SampledComponent::Byte { signed, .. }, _) if rules.filter_arithmetic == FilterArithmetic::ByteLerps => {
-                Some(Self::Byte(source, signed))
+                Self::Byte(source, signed)
             }
-            (.., ChannelValue::Ratio { denominator, .. }) if width <= WIDEST => {
-                Some(Self::Ratio(source, denominator.into()))
-            }
-            (.., ChannelValue::Float { .. }) => Some(Self::Single(source)),
-            _ => None,
+            (.., ChannelValue::Ratio { denominator, .. }) => Self::Ratio(source, denominator.into()),
+            (.., ChannelValue::Float { .. }) => Self::Single(source),
         }
     }
 
@@ -79,6 +69,14 @@ impl FilteredComponent {
             Self::Ratio(source, _) | Self::Byte(source, _) | Self::Single(source) => {
                 self.kept(source.read(rules, bits), rules)
             }
+        }
+    }
+
+    /// The number that [`Self::kept`] encodes.
+    pub(super) fn number(self, kept: u32) -> f64 {
+        match self {
+            Self::Single(_) => f64::from(f32::from_bits(kept)),
+            _ => f64::from(kept.cast_signed()),
         }
     }
 

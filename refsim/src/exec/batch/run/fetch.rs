@@ -1,5 +1,5 @@
 //! Texture reads of a batch: in whole rows where that is exact, else lane by lane by [`crate::texture`] (level of
-//! detail on cube maps, channels of more than 16 bits, three axes with the finest weights).
+//! detail on cube maps, three axes with the finest weights).
 
 use std::sync::Arc;
 
@@ -7,8 +7,6 @@ use refsim_lanes::{AnyLane, LANES, LaneRow, Slots};
 
 use super::filter::FilteredLevel;
 use super::leveled::LeveledTexture;
-use super::stored::Stored;
-use super::table::TexelTable;
 use crate::exec::SamplerBinding;
 use crate::exec::batch::cache::Cache;
 use crate::exec::batch::formats::LaneFormats;
@@ -34,7 +32,6 @@ pub(crate) type TextureTables = Cache<TableKey, TextureTable>;
 /// Data of a texture that is read in rows.
 #[derive(Debug)]
 pub(crate) enum TextureTable {
-    Nearest(TexelTable),
     Filtered(FilteredLevel),
     Leveled(LeveledTexture),
 }
@@ -42,19 +39,15 @@ pub(crate) enum TextureTable {
 impl TextureTable {
     /// Prepares a binding; `None` if it must be read lane by lane.
     fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
-        if TexelTable::fits(binding) {
-            return Some(Self::Nearest(TexelTable::new(binding, rules, lane)));
+        match binding.needs_detail() {
+            true => LeveledTexture::new(binding, rules, lane).map(Self::Leveled),
+            false => Some(Self::Filtered(FilteredLevel::new(binding, rules, lane))),
         }
-        if binding.needs_detail() {
-            return LeveledTexture::new(binding, rules, lane).map(Self::Leveled);
-        }
-        FilteredLevel::new(binding, rules, lane).map(Self::Filtered)
     }
 
     /// Returns `true` if the table is small enough to be cached.
     fn is_small(&self) -> bool {
         match self {
-            Self::Nearest(table) => !table.large,
             Self::Filtered(level) => !level.is_large(),
             // A leveled texture contains only tables of small levels, built on first use.
             Self::Leveled(_) => true,
@@ -80,24 +73,6 @@ impl<'a> BatchTexture<'a> {
     /// Reads texels into the slots of the step, for the lanes enabled in `run`.
     pub(crate) fn read(&self, step: &FetchStep, formats: &LaneFormats, run: &LaneRow, slots: &mut Slots) {
         match self.table.as_deref() {
-            Some(TextureTable::Nearest(table)) => {
-                let mut index = [0u32; LANES];
-                let (u, v) = (slots.row(step.coordinates[0]), slots.row(step.coordinates[1]));
-                formats.simd().run(
-                    #[inline(always)]
-                    || table.indices(u, v, &mut index),
-                );
-                if table.large {
-                    let stored = Stored::new(self.binding.image, &self.rules);
-                    return stored.read(&index, &table.texels, step, formats, (run, slots));
-                }
-                for (c, to) in step.to.iter().enumerate() {
-                    let Some(to) = *to else { continue };
-                    for (value, &i) in slots.row_mut(to).iter_mut().zip(&index) {
-                        *value = table.texels.get(i as usize).map_or(0, |t| t[c]);
-                    }
-                }
-            }
             Some(TextureTable::Filtered(level)) => {
                 level.read((self.binding.image, &self.binding.state), &self.rules, step, formats, (run, slots));
             }

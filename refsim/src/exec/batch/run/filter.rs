@@ -8,18 +8,18 @@ use std::sync::OnceLock;
 
 use refsim_lanes::{AnyLane, LANES, LaneRow, SimdLevel, Slots};
 
-use super::address::{AxisTaps, TexelAxis, Weights, cube, linear};
+use super::address::{AxisTaps, TexelAxis, Weights, cube, linear, nearest};
 use super::channel::{channel_in_slot, channel_of, pays_by_code, ratios};
 use super::component::FilteredComponent;
 use super::corners::{BORDER, add_weighted, combine, combine_bytes, corner_numbers, corner_weights};
-use super::table::MAX_TABLE_TEXELS;
 use crate::exec::SamplerBinding;
 use crate::exec::batch::formats::LaneFormats;
 use crate::exec::batch::schedule::FetchStep;
 use crate::exec::lower::Arith;
-use crate::texture::{
-    AddressMode, ChannelClass, Filter, Image, MipFilter, SampleRules, SampledComponent, SamplerState, TextureKind,
-};
+use crate::texture::{AddressMode, Filter, Image, MipFilter, SampleRules, SampledComponent, SamplerState, TextureKind};
+
+/// Maximum number of texels of a level with a table: 4 MiB. Texels of larger levels are decoded on each read.
+const MAX_TABLE_TEXELS: usize = 1 << 18;
 
 /// A level that is read in rows.
 #[derive(Debug)]
@@ -35,6 +35,8 @@ pub(crate) struct FilteredLevel {
     /// levels.
     texels: OnceLock<Vec<[u32; 4]>>,
     border: [u32; 4],
+    /// For reads without a filter: the raw values by texel and component, and the border's. Built as `texels` are.
+    raw: OnceLock<Vec<[u32; 4]>>,
     codes: Box<DecodedCodes>,
     /// Byte offset of the level, and its number of texels.
     start: usize,
@@ -62,12 +64,9 @@ pub(super) struct TexelSource<'t> {
 }
 
 impl FilteredLevel {
-    /// Prepares the only level that a binding reads; `None` if it depends on the level of detail.
-    pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
+    /// Prepares the only level that a binding reads, which does not depend on the level of detail.
+    pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Self {
         let SamplerBinding { image, state } = binding;
-        if binding.needs_detail() {
-            return None;
-        }
         // With a mip filter, the texture has a single level: other such textures need a level of detail.
         let last = image.levels().len() - 1;
         let number = if state.mip == MipFilter::None { usize::from(state.max_mip_level).min(last) } else { 0 };
@@ -75,22 +74,12 @@ impl FilteredLevel {
     }
 
     /// Prepares a level.
-    pub(super) fn of_level(
-        binding: &SamplerBinding<'_>,
-        number: usize,
-        rules: &SampleRules,
-        lane: &AnyLane,
-    ) -> Option<Self> {
+    pub(super) fn of_level(binding: &SamplerBinding<'_>, number: usize, rules: &SampleRules, lane: &AnyLane) -> Self {
         let SamplerBinding { image, state } = binding;
-        let record = image.format().record();
         let (sources, border) = (rules.sources(image.format()), rules.border(image.format(), state.border));
         let mut components = [FilteredComponent::Constant(0); 4];
         for (component, source) in components.iter_mut().zip(sources.into_iter().zip(border)) {
-            *component = FilteredComponent::new(source, state, rules, lane)?;
-        }
-        let mixed = record.stored().iter().any(|c| matches!(c.class, ChannelClass::Float(_))) != record.is_float();
-        if mixed {
-            return None;
+            *component = FilteredComponent::new(source, state, rules, lane);
         }
         let level = image.levels()[number];
         let axis = |size: u32, asked| match image.kind() {
@@ -101,7 +90,7 @@ impl FilteredLevel {
             TextureKind::Rectangle => TexelAxis { size, scale: 1.0, mode: asked },
             _ => TexelAxis { size, scale: size.into(), mode: asked },
         };
-        Some(Self {
+        Self {
             kind: image.kind(),
             axes: [
                 axis(level.width, state.address_u),
@@ -112,11 +101,12 @@ impl FilteredLevel {
             weights: Weights { bits: rules.filter_fraction_bits.min(12), rounding: rules.filter_weight_rounding },
             components,
             texels: OnceLock::new(),
+            raw: OnceLock::new(),
             border: std::array::from_fn(|c| components[c].kept(border[c], rules)),
             codes: Box::default(),
             start: level.offset,
             count: level.width as usize * level.height as usize * level.slices as usize,
-        })
+        }
     }
 
     /// Returns `true` if texels are decoded on each read instead of being cached.
@@ -126,15 +116,42 @@ impl FilteredLevel {
 
     /// The decoded texels of the level, slice by slice, row by row; `None` for a large level.
     fn texels(&self, source: TexelSource<'_>) -> Option<&[[u32; 4]]> {
-        if self.is_large() {
+        (!self.is_large()).then(|| self.texels.get_or_init(|| self.decoded(source)).as_slice())
+    }
+
+    fn decoded(&self, source: TexelSource<'_>) -> Vec<[u32; 4]> {
+        let stored = source.image.bytes()[self.start..].chunks_exact(source.image.format().bytes()).take(self.count);
+        let decoders = std::array::from_fn::<_, 4, _>(|component| self.decoder(component, source.rules));
+        stored.map(|texel| decoders.each_ref().map(|decode| decode(texel))).collect()
+    }
+
+    /// The raw values of the texels, and at the end of the border; `None` for a large level, or if reads combine texels.
+    fn raw_texels(&self, filter: Filter, source: TexelSource<'_>, formats: &LaneFormats) -> Option<&[[u32; 4]]> {
+        if self.is_large() || self.is_linear(filter) {
             return None;
         }
-        let stored = || source.image.bytes()[self.start..].chunks_exact(source.image.format().bytes()).take(self.count);
-        let decoded = || {
-            let decoders = std::array::from_fn::<_, 4, _>(|component| self.decoder(component, source.rules));
-            stored().map(|texel| decoders.each_ref().map(|decode| decode(texel))).collect()
+        let rounded = || {
+            let mut kept = self.decoded(source);
+            kept.push(self.border);
+            let mut raw = Vec::with_capacity(kept.len());
+            for texels in kept.chunks(LANES) {
+                let mut rows = [[0; LANES]; 4];
+                for (c, row) in rows.iter_mut().enumerate() {
+                    let mut numbers = [0.0; LANES];
+                    for (number, texel) in numbers.iter_mut().zip(texels) {
+                        *number = self.components[c].number(texel[c]);
+                    }
+                    self.round_component(c, &numbers, (source.rules, formats), row);
+                }
+                raw.extend((0..texels.len()).map(|i| rows.each_ref().map(|row| row[i])));
+            }
+            raw
         };
-        Some(self.texels.get_or_init(decoded))
+        Some(self.raw.get_or_init(rounded))
+    }
+
+    fn is_linear(&self, filter: Filter) -> bool {
+        filter == Filter::Linear && self.weights.bits > 0
     }
 
     /// Decodes a component of a stored texel, by a table of codes if there are fewer codes than texels.
@@ -158,9 +175,33 @@ impl FilteredLevel {
         formats: &LaneFormats,
         (run, slots): (&LaneRow, &mut Slots),
     ) {
+        let source = TexelSource { image, rules, run };
+        if let Some(texels) = self.raw_texels(state.min, source, formats) {
+            let from = (&*slots, formats.simd());
+            let numbers = match self.kind {
+                TextureKind::D1 => self.nearest_numbers::<1>(step, from),
+                TextureKind::Volume => self.nearest_numbers::<3>(step, from),
+                _ => self.nearest_numbers::<2>(step, from),
+            };
+            let border = texels.last().copied().unwrap_or_default();
+            for (c, to) in step.to.iter().enumerate() {
+                let Some(to) = *to else { continue };
+                for (value, &number) in slots.row_mut(to).iter_mut().zip(&numbers) {
+                    *value = texels.get(number as usize).unwrap_or(&border)[c];
+                }
+            }
+            return;
+        }
         let mut rows = [[0.0; LANES]; 4];
-        self.add_up(state.min, TexelSource { image, rules, run }, step, (slots, formats.simd()), &mut rows);
+        self.add_up(state.min, source, step, (slots, formats.simd()), &mut rows);
         self.round(&rows, step, (rules, formats), slots);
+    }
+
+    /// Indices of the nearest texels.
+    fn nearest_numbers<const AXES: usize>(&self, step: &FetchStep, (slots, simd): (&Slots, SimdLevel)) -> LaneRow {
+        let (mut taps, mut numbers) = ([AxisTaps::ZERO; AXES], [[0; LANES]; 1]);
+        self.place(step.coordinates.map(|slot| slots.row(slot)), (simd, self.weights), &mut taps, &mut numbers);
+        numbers[0]
     }
 
     /// Computes the unrounded results of a step, for the components that it needs.
@@ -172,8 +213,7 @@ impl FilteredLevel {
         from: (&Slots, SimdLevel),
         rows: &mut FilteredRows,
     ) {
-        let linear = filter == Filter::Linear && self.weights.bits > 0;
-        match (linear, self.kind) {
+        match (self.is_linear(filter), self.kind) {
             (false, TextureKind::D1) => self.read_axes::<1, 1>(source, step, from, rows),
             (false, TextureKind::Volume) => self.read_axes::<3, 1>(source, step, from, rows),
             (false, _) => self.read_axes::<2, 1>(source, step, from, rows),
@@ -191,25 +231,31 @@ impl FilteredLevel {
         (rules, formats): (&SampleRules, &LaneFormats),
         slots: &mut Slots,
     ) {
-        let (simd, lane) = (formats.simd(), formats.lane(Arith::Main));
         for (c, to) in step.to.iter().enumerate() {
-            let Some(to) = *to else { continue };
-            let divisor = match self.components[c] {
-                FilteredComponent::Constant(raw) => {
-                    slots.row_mut(to).fill(raw);
-                    continue;
+            if let Some(to) = *to {
+                self.round_component(c, &rows[c], (rules, formats), slots.row_mut(to));
+            }
+        }
+    }
+
+    fn round_component(
+        &self,
+        component: usize,
+        row: &[f64; LANES],
+        (rules, formats): (&SampleRules, &LaneFormats),
+        out: &mut LaneRow,
+    ) {
+        let (simd, lane) = (formats.simd(), formats.lane(Arith::Main));
+        match self.components[component] {
+            FilteredComponent::Constant(raw) => out.fill(raw),
+            FilteredComponent::Byte(_, signed) => {
+                let raw = self.raw_bytes(signed, rules, lane);
+                for (out, &byte) in out.iter_mut().zip(row) {
+                    *out = raw[usize::from(byte as i32 as u8)];
                 }
-                FilteredComponent::Byte(_, signed) => {
-                    let raw = self.raw_bytes(signed, rules, lane);
-                    for (out, &byte) in slots.row_mut(to).iter_mut().zip(&rows[c]) {
-                        *out = raw[usize::from(byte as i32 as u8)];
-                    }
-                    continue;
-                }
-                FilteredComponent::Ratio(_, denominator) => denominator,
-                FilteredComponent::Single(_) => 1.0,
-            };
-            ratios(lane, simd, &rows[c], divisor, slots.row_mut(to));
+            }
+            FilteredComponent::Ratio(_, denominator) => ratios(lane, simd, row, denominator, out),
+            FilteredComponent::Single(_) => ratios(lane, simd, row, 1.0, out),
         }
     }
 
@@ -238,8 +284,8 @@ impl FilteredLevel {
         let bits = if CORNERS == 1 { 0 } else { self.weights.bits };
         let mut taps = [AxisTaps::ZERO; AXES];
         let mut numbers = [[0; LANES]; CORNERS];
-        let at = Weights { bits, ..self.weights };
-        self.place(step.coordinates.map(|slot| slots.row(slot)), (simd, at), &mut taps, &mut numbers);
+        let at = step.coordinates.map(|slot| slots.row(slot));
+        self.place(at, (simd, self.weights), &mut taps, &mut numbers);
         // Unit of the product of all axes' weights; it and its reciprocal are powers of two.
         let unit = 1.0 / (1u64 << (usize::from(bits) * AXES)) as f64;
         let mut weights = [[1.0; LANES]; CORNERS];
@@ -304,7 +350,10 @@ impl FilteredLevel {
             #[inline(always)]
             || {
                 for ((taps, axis), coordinate) in taps.iter_mut().zip(self.axes).zip(coordinates) {
-                    linear(coordinate, axis, weights, taps);
+                    match CORNERS {
+                        1 => nearest(coordinate, axis, &mut taps.texels[0]),
+                        _ => linear(coordinate, axis, weights, taps),
+                    }
                 }
                 let strides = [1, self.axes[0].size, self.slice];
                 corner_numbers(taps, strides, (&face, self.slice), numbers);

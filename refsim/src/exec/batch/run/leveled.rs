@@ -37,8 +37,7 @@ impl LeveledTexture {
             return None;
         }
         let level = |number| FilteredLevel::of_level(binding, number, rules, lane);
-        let levels = (0..image.levels().len()).map(level).collect::<Option<_>>()?;
-        Some(Self { choice, levels })
+        Some(Self { choice, levels: (0..image.levels().len()).map(level).collect() })
     }
 
     /// Reads texels into the slots of the step; from a large level only for enabled lanes.

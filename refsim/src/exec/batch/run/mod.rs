@@ -1,9 +1,9 @@
 //! Execution of scheduled steps, 256 lanes at a time.
 //!
 //! - `steps`: execution of blocks.
-//! - Texture reads: `fetch`: entry point; `table`, `stored`: nearest; `filter`: one level; `detail`, `log_table`: level
-//!   selection; `leveled`: several levels; `address`: coordinates to texels; `corners`: weighted sums and
-//!   interpolation; `component`: sources of components; `channel`: texel values.
+//! - Texture reads: `fetch`: entry point; `filter`: one level; `detail`, `log_table`: level selection; `leveled`: several
+//!   levels; `address`: coordinates to texels; `corners`: weighted sums and interpolation; `component`: sources of
+//!   components; `channel`: texel values.
 //! - `flow`: programs with flow control.
 
 mod address;
@@ -17,8 +17,6 @@ mod flow;
 mod leveled;
 mod log_table;
 mod steps;
-mod stored;
-mod table;
 
 pub(crate) use fetch::{BatchTexture, TextureTables};
 pub(crate) use flow::{FlowRun, fill_plan, first_lanes};

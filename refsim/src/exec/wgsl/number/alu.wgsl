@@ -118,7 +118,7 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
             x = u_normal(n_unpack(N_FLOAT, 23u, a));
             divisor = 1u;
             // GT200 makes no half float of what is below 2^-33, whatever the rounding.
-            if b >= 0xc0000000u && f.upper == 5u && f.frac == 10u && f.kind == 1u && x.kind == 0u && x.exp < -64 {
+            if f.upper == 5u && f.frac == 10u && f.kind == 1u && x.kind == 0u && x.exp < -64 {
                 x = Number(0u, x.sign, -N_FAR, 0u);
             }
         } else if op != N_CONVERT && f.special > 1u {
@@ -185,7 +185,7 @@ fn n_long(op: u32, f: Format, a: u32, b: u32) -> Real {
     var y = n_unpack(f.kind, f.frac, b);
     if (HAS_UNITS) {
         if f.special > 1u {
-            let own = u_long(op, f, a, b);
+            let own = u_long(op, a);
             if own.known {
                 return own;
             }
@@ -323,15 +323,9 @@ fn n_result(op: u32, f: Format, exact: Real) -> u32 {
 // Any operation but N_MAD, which is a product and then a sum.
 fn n_alu(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
     var exact: Real;
-    if (HAS_UNITS) {
-        u_third = c;
-    }
     switch op {
         case N_DIV, N_RCP, N_SQRT, N_RSQ, N_STEPS, N_EXP2, N_LOG2, N_SIN, N_COS: { exact = n_long(op, f, a, b); }
         case N_SPLIT_SHORT, N_SPLIT_BYTE, N_SPLIT_SIGNED_BYTE: { exact = n_long(op, f, a, b); }
-        case N_EXP_FLOOR, N_EXP_FRACTION, N_EXP_POWER: { exact = n_long(op, f, a, b); }
-        case N_LOG_EXPONENT, N_LOG_MANTISSA, N_LOG_POWER: { exact = n_long(op, f, a, b); }
-        case N_LIT_DIFFUSE, N_LIT_SPECULAR: { exact = n_long(op, f, a, b); }
         default: { exact = n_short(op, f, a, b, c); }
     }
     return n_result(op, f, exact);

@@ -41,6 +41,7 @@ fn n_term(op: u32, f: Format, kind: u32, fraction: u32, over: u32, a: u32, b: u3
     return w;
 }
 
+// Single precision patterns by their order, both zeros alike; no NaN.
 fn s_key(a: u32) -> i32 {
     let magnitude = i32(a & 0x7fffffffu);
     return select(magnitude, -magnitude, (a >> 31u) == 1u);

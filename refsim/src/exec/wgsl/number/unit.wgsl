@@ -1,17 +1,12 @@
 
-// Units of cards. The `special` of a format in which one computes is 2 for NV20 and NV25, 3 for NV30 and NV35 in their
-// legacy mode, 4 in their modern one, 5 for GT200, 6 for GT200 where 0 times anything is 0. Raw values are then plain
-// words: no NaN but that of results is the same as another, and subnormal numbers stay.
+// The unit of GT200: the `special` of a format is 2, or 3 where 0 times anything is 0. Raw values are then plain words:
+// no NaN but that of results is the same as another, and subnormal numbers stay.
 //
 // Integers of 64 bits are vec2, the first word the high one; in two's complement where they are signed.
 
 const U_NAN: u32 = 0x7fffffffu;
 const U_ONE: u32 = 0x3f800000u;
 const U_SIGN: u32 = 0x80000000u;
-
-// The third operand of a long operation, in this lane and in all.
-var<private> u_third: u32;
-var<private> u_thirds: vec4<u32>;
 
 fn u_is_nan(word: u32) -> bool {
     return (word & 0x7fffffffu) > N_INFINITY;
@@ -52,11 +47,6 @@ fn u_minus(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
     return vec2<u32>(a.x - b.x - select(0u, 1u, a.y < b.y), a.y - b.y);
 }
 
-fn u_times(a: vec2<u32>, b: u32) -> vec2<u32> {
-    let low = n_mul32(a.y, b);
-    return vec2<u32>(low.x + a.x * b, low.y);
-}
-
 // a >> n of a signed integer, n from 1 to 31.
 fn u_right(a: vec2<u32>, n: u32) -> vec2<u32> {
     return vec2<u32>(u32(i32(a.x) >> n), (a.y >> n) | (a.x << (32u - n)));
@@ -85,28 +75,31 @@ fn u_cut_signed(value: vec2<u32>, fraction: i32) -> u32 {
     return u_cut(negative, select(value, ~value, negative), fraction);
 }
 
-// What orders words. Legacy vertex units know signs and magnitudes; others have one zero.
-fn u_key(unit: u32, word: u32) -> i32 {
-    let magnitude = word & 0x7fffffffu;
-    let key = select(i32(word), ~i32(magnitude), word > 0x7fffffffu);
-    return select(key, 0, unit > 3u && u_is_zero(word));
+// What orders words as sign and magnitude, -0 below +0.
+fn u_order(word: u32) -> i32 {
+    return select(i32(word), ~i32(word & 0x7fffffffu), word > 0x7fffffffu);
 }
 
-fn u_less(unit: u32, a: u32, b: u32) -> bool {
-    return u_key(unit, a) < u_key(unit, b);
+// What orders numbers; there is one zero.
+fn u_key(word: u32) -> i32 {
+    return select(u_order(word), 0, u_is_zero(word));
 }
 
-// Comparisons, and what hands words on.
-fn u_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
-    let unit = f.special;
-    let unordered = unit > 3u && (u_is_nan(a) || u_is_nan(b));
-    let first = u_key(unit, a);
-    let second = u_key(unit, b);
+fn u_less(a: u32, b: u32) -> bool {
+    return u_key(a) < u_key(b);
+}
+
+// What the unit makes of an operation that is not long; known is false if the ideal unit computes it.
+fn u_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
+    let unordered = u_is_nan(a) || u_is_nan(b);
+    let first = u_key(a);
+    let second = u_key(b);
     let less = first < second && !unordered;
     let equal = first == second && !unordered;
     var known = true;
     var raw = 0u;
     switch op {
+        case N_ADD, N_SUB, N_MUL, N_FUSED_MAD, N_SCALE: { raw = g_sum(op, f, a, b, c); }
         case N_NEG: { raw = a ^ U_SIGN; }
         case N_ABS: { raw = a & 0x7fffffffu; }
         case N_LESS: { raw = n_mask(less); }
@@ -116,94 +109,26 @@ fn u_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         case N_SET_LESS_EQUAL: { raw = select(0u, U_ONE, less || equal); }
         case N_SET_EQUAL: { raw = select(0u, U_ONE, equal); }
         case N_SET_NOT_EQUAL: { raw = select(U_ONE, 0u, equal); }
-        case N_SELECT_NON_NEGATIVE: { raw = n_select(first >= 0 && !(unit > 3u && u_is_nan(a)), b, c); }
-        case N_SELECT_ABOVE_HALF: { raw = n_select(first > 0x3f000000 && !(unit > 3u && u_is_nan(a)), b, c); }
-        case N_MIN, N_MAX: {
-            raw = select(select(b, a, less), U_NAN, unordered);
-            if op == N_MAX {
-                raw = select(select(a, b, less), U_NAN, unordered);
-            }
-            if (HAS_GT200) {
-                if unit > 4u {
-                    raw = g_choose(a, b, op == N_MAX);
-                }
-            }
-        }
+        case N_SELECT_NON_NEGATIVE: { raw = n_select(first >= 0 && !u_is_nan(a), b, c); }
+        case N_SELECT_ABOVE_HALF: { raw = n_select(first > 0x3f000000 && !u_is_nan(a), b, c); }
+        case N_MIN, N_MAX: { raw = g_choose(a, b, op == N_MAX); }
         case N_SATURATE: {
             raw = select(select(u_flushed(a), U_ONE, u_field(a) > 126), 0u, a > 0x7fffffffu);
-            raw = select(raw, select(0u, U_NAN, unit > 4u), u_is_nan(a));
+            raw = select(raw, U_NAN, u_is_nan(a));
         }
         case N_DECODE, N_ENCODE: { raw = a; }
         default: { known = false; }
     }
-    if (HAS_VERTEX_UNIT) {
-        switch op {
-            case N_SET_LESS, N_SET_LESS_EQUAL, N_SET_EQUAL, N_SET_NOT_EQUAL: {
-                raw = select(raw, U_NAN, unordered && unit == 4u);
-            }
-            case N_SIGN: {
-                raw = select(select(0u, U_ONE, first > 0), U_ONE | U_SIGN, first < 0);
-                raw = select(raw, U_NAN, unit == 4u && u_is_nan(a));
-                known = true;
-            }
-            default: {}
-        }
-    }
     return Real(known, raw, 0u, 0, vec3<u32>());
 }
 
-// What the unit makes of an operation that is not long; known is false if the ideal unit computes it.
-fn u_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
-    var own = u_simple(op, f, a, b, c);
-    if (HAS_VERTEX_UNIT) {
-        if f.special < 5u && !own.known {
-            own = v_short(op, f.special, a, b, c);
-        }
-    }
-    if (HAS_GT200) {
-        if f.special > 4u && !own.known {
-            own = g_short(op, f, a, b, c);
-        }
-    }
-    return own;
-}
-
-// The same of a long operation.
-fn u_long(op: u32, f: Format, a: u32, b: u32) -> Real {
-    var own = Real(false, 0u, 0u, 0, vec3<u32>());
-    if (HAS_VERTEX_UNIT) {
-        if f.special < 5u {
-            own = v_long(op, f.special, a, b);
-        }
-    }
-    if (HAS_GT200) {
-        if f.special > 4u {
-            own = g_long(op, a);
-        }
-    }
-    return own;
-}
-
-// The sum of so many products, at most 4, as the unit makes it.
+// The sum of so many products, at most 4, as drivers make it: a product, and a MAD for every further term.
 fn u_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> u32 {
     var left = a;
     var right = b;
-    var products: vec4<u32>;
     var sum = 0u;
     for (var k = 0u; k < min(terms, 4u); k++) {
-        if (HAS_VERTEX_UNIT) {
-            products[k] = v_mul(f.special, left[k], right[k]);
-        }
-        if (HAS_GT200) {
-            if f.special > 4u {
-                sum = g_sum(select(N_FUSED_MAD, N_MUL, k == 0u), f, left[k], right[k], sum);
-            }
-        }
-    }
-    if (HAS_VERTEX_UNIT) {
-        if f.special < 5u {
-            sum = v_sum(f.special, products);
-        }
+        sum = g_sum(select(N_FUSED_MAD, N_MUL, k == 0u), f, left[k], right[k], sum);
     }
     return sum;
 }

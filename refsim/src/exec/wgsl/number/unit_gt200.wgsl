@@ -29,7 +29,7 @@ fn g_round(zero: bool, mad: bool, x: Real) -> u32 {
 // N_ADD, N_SUB, N_MUL, N_FUSED_MAD, N_SCALE (b the power). The product of a MAD is cut to 24 bits, unless a number is
 // zero.
 fn g_sum(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
-    let wins = f.special == 6u && (u_is_zero(a) || u_is_zero(b));
+    let wins = f.special == 3u && (u_is_zero(a) || u_is_zero(b));
     var x = u_normal(n_unpack(N_FLOAT, 23u, a));
     var y = u_normal(n_unpack(N_FLOAT, 23u, b));
     var z = u_normal(n_unpack(N_FLOAT, 23u, c));
@@ -84,19 +84,8 @@ fn g_sum(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
 fn g_choose(a: u32, b: u32, greater: bool) -> u32 {
     let x = u_flushed(a);
     let y = u_flushed(b);
-    // Legacy vertex units tell zeros apart.
-    let first = (u_less(2u, y, x) == greater || u_is_nan(b)) && !u_is_nan(a);
+    let first = ((u_order(y) < u_order(x)) == greater || u_is_nan(b)) && !u_is_nan(a);
     return select(select(y, x, first), U_NAN, u_is_nan(a) && u_is_nan(b));
-}
-
-fn g_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
-    var raw = 0u;
-    var known = true;
-    switch op {
-        case N_ADD, N_SUB, N_MUL, N_FUSED_MAD, N_SCALE: { raw = g_sum(op, f, a, b, c); }
-        default: { known = false; }
-    }
-    return Real(known, raw, 0u, 0, vec3<u32>());
 }
 
 // The square of 17 bits y in units of 2^17, from partial products that are cut one by one.
@@ -233,7 +222,8 @@ fn g_function(op: u32, x: u32) -> u32 {
     return select(raw, U_NAN, nan);
 }
 
-fn g_long(op: u32, a: u32) -> Real {
+// What the unit makes of a long operation; known is false if the ideal unit computes it.
+fn u_long(op: u32, a: u32) -> Real {
     var raw = 0u;
     var known = true;
     switch op {

@@ -1,13 +1,12 @@
-//! Assembler for the virtual machine of `vm.wgsl`: works block by block, assigns slots to values and encodes
-//! operations.
+//! Assembler for the virtual machine of `vm.wgsl`: assigns slots to values and encodes operations.
 
 use super::lower::{Sink, SinkKind};
 use super::operations as op;
-use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind, Slot};
+use crate::exec::lower::{Arith, Detail, Formats, Graph, NodeId, NodeKind};
 use crate::exec::wgsl::number::source_word;
 use crate::exec::wgsl::parts::Parts;
 use crate::num::{Format, NumberOperation};
-use refsim_lanes::RowSum;
+use refsim_lanes::{RowSum, TRUE};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// First operand of each range. Slots are numbered from 0; then come constants, words of a triangle's set-up, input
@@ -34,8 +33,6 @@ pub(super) struct Assembler<'g> {
     pub(super) words: Vec<u32>,
     /// Constants and their indices.
     pub(super) pool: BTreeMap<u32, usize>,
-    /// First slot after the registers.
-    pub(super) first: Slot,
     /// Number of slots used.
     pub(super) next: usize,
     pub(super) parts: Parts,
@@ -43,8 +40,8 @@ pub(super) struct Assembler<'g> {
     pub(super) passes: u32,
 }
 
-/// Slots of the values of one block.
-pub(super) struct Places {
+/// Slots of the values.
+struct Places {
     at: BTreeMap<NodeId, u16>,
     /// Number of remaining reads of each value.
     left: BTreeMap<NodeId, u32>,
@@ -61,7 +58,7 @@ impl Places {
         })
     }
 
-    pub(super) fn of(&self, node: NodeId) -> u16 {
+    fn of(&self, node: NodeId) -> u16 {
         self.at.get(&node).copied().unwrap_or(NONE)
     }
 }
@@ -76,8 +73,8 @@ impl Assembler<'_> {
 
     /// Appends the first word of an instruction.
     pub(super) fn push(&mut self, operation: u32, rest: u32) {
-        for name in op::with(operation) {
-            self.parts.add(&op::constant(name));
+        if let Some(part) = op::part(operation) {
+            self.parts.add(&part);
         }
         self.words.push(operation | rest);
     }
@@ -98,12 +95,11 @@ impl Assembler<'_> {
     }
 
     /// Computes the values that the sinks need, and emits each sink as soon as its values are available.
-    pub(super) fn block(&mut self, sinks: &[Sink]) -> Places {
+    pub(super) fn program(&mut self, sinks: &[Sink]) {
         let live = self.graph.live(sinks.iter().flat_map(|s| s.nodes.iter().copied()));
         let needed: Vec<NodeId> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| NodeId(i)).collect();
-        let next = usize::from(self.first);
         let mut places =
-            Places { at: BTreeMap::new(), left: BTreeMap::new(), free: Vec::new(), next, texels: BTreeMap::new() };
+            Places { at: BTreeMap::new(), left: BTreeMap::new(), free: Vec::new(), next: 0, texels: BTreeMap::new() };
         let mut reads = |n: NodeId| *places.left.entry(n).or_default() += 1;
         for &node in &needed {
             self.graph.kind(node).needs(&mut reads);
@@ -115,19 +111,15 @@ impl Assembler<'_> {
             }
             self.leaf(node, &mut places);
         }
-        // A sink is emitted after the last of its values; merges come last, in order.
+        // A sink is emitted after the last of its values.
         let mut order: Vec<(Option<NodeId>, &Sink)> = Vec::with_capacity(sinks.len());
         let mut traced = None;
         for sink in sinks {
             let mut last = sink.nodes.iter().copied().max();
-            match sink.what {
-                SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition => last = Some(NodeId(u32::MAX)),
-                // Trace records must keep the order of the program.
-                SinkKind::Trace(..) => {
-                    last = last.max(traced);
-                    traced = last;
-                }
-                _ => {}
+            // Trace records must keep the order of the program.
+            if let SinkKind::Trace(..) = sink.what {
+                last = last.max(traced);
+                traced = last;
             }
             order.push((last, sink));
         }
@@ -141,21 +133,15 @@ impl Assembler<'_> {
                 self.sink(sink, &mut places);
             }
         }
-        let (last, early): (Vec<&Sink>, Vec<&Sink>) = waiting
-            .map(|(_, sink)| sink)
-            .partition(|s| matches!(s.what, SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition));
-        for sink in early {
+        for (_, sink) in waiting {
             self.sink(sink, &mut places);
         }
-        self.merge(&last, &mut places);
         self.next = self.next.max(places.next);
-        places
     }
 
     fn leaf(&mut self, node: NodeId, places: &mut Places) {
         let at = match self.graph.kind(node) {
             NodeKind::Constant(raw) => self.constant(raw),
-            NodeKind::Held(slot) => slot,
             NodeKind::Input(component) => INPUT + component,
             _ => return,
         };
@@ -167,10 +153,8 @@ impl Assembler<'_> {
         for node in nodes {
             let Some(left) = places.left.get_mut(node) else { continue };
             *left = left.saturating_sub(1);
-            let kept = matches!(
-                self.graph.kind(*node),
-                NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) | NodeKind::Fetch(..)
-            );
+            let kept =
+                matches!(self.graph.kind(*node), NodeKind::Constant(_) | NodeKind::Input(_) | NodeKind::Fetch(..));
             if *left == 0 && !kept && places.of(*node) != NONE {
                 places.free.push(places.of(*node));
             }
@@ -255,18 +239,14 @@ impl Assembler<'_> {
                 let steps = self.constant(steps);
                 self.alu(node, Arith::Main, NumberOperation::Steps, [places.of(a), steps, steps], places);
             }
-            NodeKind::Relative(base, component, a) => {
-                let a = places.of(a);
-                let to = self.result(node, places);
-                self.push_costly(op::RELATIVE, u32::from(component) << 16, PASSES[0]);
-                self.words.extend([pair(to, a), base.cast_unsigned()]);
-            }
             NodeKind::Fetch(sampler, coordinates, detail) => self.fetch(node, sampler, coordinates, detail, places),
             NodeKind::Circle(k, sine, a) => {
                 let a = places.of(a);
                 self.alu(node, k, if sine { NumberOperation::Sin } else { NumberOperation::Cos }, [a; 3], places);
             }
-            NodeKind::Texel(..) | NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) => {}
+            NodeKind::Texel(..) | NodeKind::Constant(_) | NodeKind::Input(_) => {}
+            // Only of programs with flow control, and of vertex programs.
+            NodeKind::Held(_) | NodeKind::Relative(..) => {}
         }
     }
 
@@ -345,56 +325,22 @@ impl Assembler<'_> {
             SinkKind::Color(target, c) => self.emit(op::COPY, 0, COLORS + 4 * target + c, [first; 3]),
             SinkKind::Killed => self.emit(op::COPY, 0, KILLED, [first; 3]),
             SinkKind::Depth(arith) => {
-                let decided = operands.get(1).copied().unwrap_or(first);
-                self.emit(op::SELECT, 0, DEPTH, [decided, first, DEPTH]);
+                self.emit(op::COPY, 0, DEPTH, [first; 3]);
                 if arith == Arith::Main {
-                    self.emit(op::COPY, 0, DEPTH_IS_MAIN, [decided; 3]);
+                    let all = self.constant(TRUE);
+                    self.emit(op::COPY, 0, DEPTH_IS_MAIN, [all; 3]);
                 }
             }
             SinkKind::Trace(at, mask) => {
-                let (mut values, mut masks) = ([NONE; 4], [NONE; 4]);
-                let half = operands.len() / 2;
-                for (i, c) in mask.components().enumerate() {
-                    values[c] = operands.get(i).copied().unwrap_or(NONE);
-                    masks[c] = operands.get(half + i).copied().unwrap_or(NONE);
+                let mut values = [NONE; 4];
+                for (c, &operand) in mask.components().zip(&operands) {
+                    values[c] = operand;
                 }
-                self.push_costly(op::TRACE, 0, PASSES[0]);
-                self.words.push(at as u32);
-                self.words.extend([values, masks].iter().flat_map(|o| [pair(o[0], o[1]), pair(o[2], o[3])]));
+                self.push_costly(op::TRACE, u32::from(mask.0) << 16, PASSES[0]);
+                self.words.extend([at as u32, pair(values[0], values[1]), pair(values[2], values[3])]);
             }
-            SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition => {}
         }
         self.release(&sink.nodes, places);
-    }
-
-    /// Writes registers. A register that a later write reads is copied first.
-    fn merge(&mut self, sinks: &[&Sink], places: &mut Places) {
-        let target = |sink: &Sink| match sink.what {
-            SinkKind::Merge(to) | SinkKind::Move(to) => Some(to),
-            _ => None,
-        };
-        let mut operands: Vec<Vec<u16>> =
-            sinks.iter().map(|s| s.nodes.iter().map(|&n| places.of(n)).collect()).collect();
-        let mut kept: BTreeMap<u16, u16> = BTreeMap::new();
-        for i in 0..sinks.len() {
-            for j in 0..operands[i].len() {
-                let from = operands[i][j];
-                if sinks[..i].iter().any(|s| target(s) == Some(from)) {
-                    operands[i][j] = *kept.entry(from).or_insert_with(|| {
-                        let copy = places.fresh();
-                        self.emit(op::COPY, 0, copy, [from; 3]);
-                        copy
-                    });
-                }
-            }
-        }
-        for (sink, operands) in sinks.iter().zip(&operands) {
-            match (sink.what, operands.as_slice()) {
-                (SinkKind::Merge(to), &[value, mask]) => self.emit(op::SELECT, 0, to, [mask, value, to]),
-                (SinkKind::Move(to), &[value]) => self.emit(op::COPY, 0, to, [value; 3]),
-                _ => {}
-            }
-        }
     }
 }
 
@@ -409,8 +355,6 @@ fn passes(operation: u32) -> u32 {
         Some(Op::Exp2 | Op::Log2) => 1000,
         Some(Op::Div | Op::Rcp | Op::Rsq | Op::Sqrt | Op::Steps | Op::Sin | Op::Cos) => 600,
         Some(Op::SplitShort | Op::SplitByte | Op::SplitSignedByte) => 600,
-        Some(Op::ExpFloor | Op::ExpFraction | Op::ExpPower | Op::LitDiffuse | Op::LitSpecular) => 600,
-        Some(Op::LogExponent | Op::LogMantissa | Op::LogPower) => 600,
         _ => PASSES[0],
     }
 }

@@ -2,19 +2,18 @@
 
 use super::Interpolation;
 use super::assembler::{Assembler, COLORS, DEPTH, DEPTH_IS_MAIN, FIRST_CONSTANT, INPUT, SETUP};
-use super::lower::{ACTIVE_SLOT, Body, Lowered};
+use super::lower::Lowered;
 use super::operations as op;
 use crate::device::MAX_PROGRAM_FORMATS;
-use crate::exec::lower::{Arith, Slot};
+use crate::exec::lower::Arith;
 use crate::exec::wgsl::parts::Parts;
 use crate::raster::POSITION_COMPONENT;
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
 /// Words before the first instruction.
-const HEADER: usize = 8;
-/// Maximum loop iterations of a program without flow control that runs in one dispatch; lavapipe terminates all loops
-/// after 65,535.
+const HEADER: usize = 3;
+/// Maximum loop iterations of a program that runs in one dispatch; lavapipe terminates all loops after 65,535.
 const MAX_PASSES: u32 = 40_000;
 
 /// Error of encoding a program for GPUs.
@@ -31,6 +30,11 @@ pub enum ProgramError {
         /// Number of constants.
         constants: usize,
     },
+    /// The program has flow control, or a format in which a vertex unit of a card computes.
+    #[error(
+        "the program has flow control, or computes in a card's vertex unit, which shaders lack; use another executor"
+    )]
+    Unsupported,
     /// More number formats of instructions, storages, sums and products than the shader's table holds.
     #[error("the program has {formats} number formats, the table of shaders holds {most}; use another executor")]
     TooManyFormats {
@@ -61,81 +65,54 @@ pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>)
     if formats > MAX_PROGRAM_FORMATS {
         return Err(ProgramError::TooManyFormats { formats, most: MAX_PROGRAM_FORMATS });
     }
-    let first = match &program.body {
-        Body::Straight { .. } => Slot::from(ACTIVE_SLOT + 1),
-        Body::Flow { first_free, .. } => *first_free,
-    };
     let mut maker = Assembler {
         graph: &program.graph,
         formats: &program.formats,
         words: vec![0; HEADER],
         pool: BTreeMap::new(),
-        first,
-        next: first.into(),
+        next: 0,
         parts: Parts::default(),
         samplers: BTreeSet::new(),
         passes: 0,
     };
-    let mut frames = 0;
     maker.words[0] = HEADER as u32;
     maker.format(Arith::Main);
     maker.push(op::ZERO, 0);
     maker.words.extend([COLORS, DEPTH_IS_MAIN - COLORS + 1].map(u32::from));
     maker.emit(op::COPY, 0, DEPTH, [INPUT + POSITION_COMPONENT as u16 + 2; 3]);
-    match &program.body {
-        Body::Straight { sinks, fetches } => {
-            maker.block(sinks);
-            let mut counts: BTreeMap<usize, u32> = BTreeMap::new();
-            for &sampler in fetches {
-                *counts.entry(sampler).or_default() += 1;
-            }
-            for (sampler, count) in counts {
-                maker.push(op::FETCHED, (sampler as u32) << 16);
-                maker.words.push(count);
-            }
-        }
-        Body::Flow { start, steps, first_free, end } => {
-            // Slot 0 is reserved for the machine.
-            maker.push(op::ZERO, 0);
-            maker.words.extend([1, u32::from(*first_free) - 1]);
-            maker.block(start);
-            maker.steps(steps);
-            maker.words[1] = maker.words.len() as u32;
-            maker.block(end);
-            frames = 2 * super::microcode_flow::deepest(steps);
-            maker.parts.add("HAS_SUSPENSION");
-        }
+    maker.program(&program.sinks);
+    let mut counts: BTreeMap<usize, u32> = BTreeMap::new();
+    for &sampler in &program.fetches {
+        *counts.entry(sampler).or_default() += 1;
+    }
+    for (sampler, count) in counts {
+        maker.push(op::FETCHED, (sampler as u32) << 16);
+        maker.words.push(count);
     }
     maker.push(op::END, 0);
     let passes = maker.passes;
-    maker.words[7] = maker.words.len() as u32;
+    maker.words[2] = maker.words.len() as u32;
     if let Some(interpolation) = interpolation {
         maker.interpolate(interpolation);
     }
     maker.push(op::ENTER, 0);
-    maker.finish(frames, &program.table, passes)
+    maker.finish(passes)
 }
 
 impl Assembler<'_> {
-    fn finish(mut self, frames: usize, table: &[[u32; 4]], passes: u32) -> Result<Microcode, ProgramError> {
-        let constants = self.pool.len();
-        let slots = self.next + frames;
+    fn finish(mut self, passes: u32) -> Result<Microcode, ProgramError> {
+        let (slots, constants) = (self.next, self.pool.len());
         if slots > FIRST_CONSTANT || constants > usize::from(SETUP) - FIRST_CONSTANT {
             return Err(ProgramError::TooLarge { slots, constants });
         }
-        self.words[2] = self.words.len() as u32;
+        self.words[1] = self.words.len() as u32;
         let mut pool = vec![0; constants];
         for (raw, i) in self.pool {
             pool[i] = raw;
         }
         self.words.extend(pool);
-        self.words[3] = self.words.len() as u32;
-        self.words[4] = table.len() as u32;
-        self.words.extend(table.iter().flatten());
-        self.words[5] = self.next as u32;
-        self.words[6] = slots as u32;
         self.parts.add_if(passes > MAX_PASSES, "HAS_SUSPENSION");
-        let passes = if self.parts.contains("HAS_SUSPENSION") { 0 } else { passes };
+        let passes = if passes > MAX_PASSES { 0 } else { passes };
         Ok(Microcode { words: self.words, slots, parts: self.parts, samplers: self.samplers, passes })
     }
 }

@@ -13,15 +13,11 @@ macro_rules! operations {
 
 operations! {
     END ENTER UNLESS ZERO ALU LONG COPY AND OR AND_NOT SELECT FETCHED
-    DOT RELATIVE FETCH TRACE
-    STEP IF ELSE END_IF LOOP END_LOOP BREAK CALL RET LABEL
-    SUM
+    DOT FETCH TRACE SUM
 }
 
 /// Operations with lower numbers are always included: they are cheap to compile.
 const FIRST_COSTLY: u32 = DOT;
-/// Operations from here on, except [`SUM`], are included together.
-const FIRST_FLOW: u32 = STEP;
 
 /// Names of the constants of operations that are always included.
 pub(in crate::exec::wgsl) fn plain() -> impl Iterator<Item = String> {
@@ -33,14 +29,9 @@ pub(in crate::exec::wgsl) fn all() -> impl Iterator<Item = String> {
     NAMES.iter().map(|name| constant(name))
 }
 
-/// Operations that must be included together with `operation`.
-pub(super) fn with(operation: u32) -> &'static [&'static str] {
-    match operation {
-        SUM => &NAMES[SUM as usize..],
-        FIRST_FLOW.. => &NAMES[FIRST_FLOW as usize..SUM as usize],
-        FIRST_COSTLY.. => &NAMES[operation as usize..=operation as usize],
-        _ => &[],
-    }
+/// Name of the part of an operation that is not always included.
+pub(super) fn part(operation: u32) -> Option<String> {
+    (operation >= FIRST_COSTLY).then(|| constant(NAMES[operation as usize]))
 }
 
 /// Name of an operation's constant in the shader.

@@ -45,11 +45,11 @@ const traceOn = async (device, pipeline, job) => {
   return Array.from({ length: PIXELS }, (_, pixel) => {
     const record = found.subarray(pixel * job.record_words, (pixel + 1) * job.record_words);
     if (record[0] !== RECORD_FRAGMENT) { return { outcome: 0, entries: [] }; }
-    const entries = Array.from({ length: record[3] / STEP_WORDS }, (__, k) => {
+    const entries = Array.from({ length: record[2] / STEP_WORDS }, (__, k) => {
       const [instruction, mask, ...raw] = record.subarray(RECORD_HEAD + STEP_WORDS * k, RECORD_HEAD + STEP_WORDS * (k + 1));
       return { instruction, mask, raw: raw.filter((___, c) => (mask >> c) & 1) };
     });
-    return { outcome: record[2], entries };
+    return { outcome: record[1], entries };
   });
 };
 
