@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use crossbar::all_frequency::factor::{FactorSampling, Lobe};
 use crossbar::geom::{Mesh, teapot};
+use crossbar::io::scenes;
 use crossbar::io::{scene_files, write_matrix_market, write_obj};
 use crossbar::ray_engine::kernels;
-use crossbar::scene::built;
 use glam::DVec3;
 
 use crate::crossbar;
@@ -90,7 +90,7 @@ fn examples_are_what_the_library_makes() {
         ("reflectance.csv".to_owned(), reflectance().into_bytes()),
         ("intersect.psa".to_owned(), kernels::ONE_ORIGIN_SIGNED.text.as_bytes().to_vec()),
     ];
-    files.extend(scene_files(&built::build("cornell-box").expect("a scene"), "room").expect("files"));
+    files.extend(scene_files(&scenes::named("cornell-box").expect("a scene"), "room").expect("files"));
     for (name, bytes) in files {
         hold_bytes(&folder().join(&name), &bytes);
     }

@@ -6,11 +6,11 @@ use refsim::machine::{Executor, ExecutorKind};
 use super::{EntryFindings, RunResult, Shared, StudyError, number, paragraph};
 use crate::card::RasterizedEyes;
 use crate::geom::exact::Sides;
+use crate::io::scenes;
 use crate::ray_engine::engine::{EngineParameters, RayEngine};
 use crate::renderer::environment::{self, EnvironmentCard};
 use crate::renderer::{RenderedPicture, Settings, whitted};
 use crate::report::{Cell, Table};
-use crate::scene::built;
 use crate::tracer::HostTracer;
 use crate::tracer::offset::unit_roundoff;
 
@@ -28,7 +28,7 @@ const HOW: &str = "Our own scene in {} x {} pixels, one ray per pixel: a boat, p
     casts reflected rays and shadow rays: a renderer that rasterizes, augmented by the engine. Differences are of linear color, over the pixels of water. The paper prints no figure.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let scene = built::build("harbour").ok_or("no scene `harbour`").on(DRAWS)?;
+    let scene = scenes::named("harbour").ok_or("no scene `harbour`").on(DRAWS)?;
     let view = scene.views.first().ok_or("no view").on(DRAWS)?;
     let camera = view.camera(SIZE[0], SIZE[1]).on(DRAWS)?;
     let (settings, profile) = (Settings::default(), Profile::named(DRAWS)?);
