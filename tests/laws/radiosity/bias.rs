@@ -15,7 +15,7 @@ use super::cornell;
 /// returns the measured and the predicted value.
 fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
     let system = cornell(patches);
-    let truth = system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity();
+    let truth = system.solve(Solver::Direct, &Default::default()).expect("a solution").radiosity();
     let mut nv35 = profile("nv35");
     nv35.set_switch("rounding", rounding).expect("a value of the switch");
     let format = nv35.rules.partial.expect("half floats");

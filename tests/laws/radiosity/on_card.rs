@@ -3,7 +3,7 @@
 use crate::support::profile;
 use approx::abs_diff_eq;
 use crossbar::card::CardError;
-use crossbar::radiosity::card_order::CardSystem;
+use crossbar::radiosity::card_system::CardSystem;
 use crossbar::radiosity::on_card::{CardOptions, CardSolver, Storage};
 use crossbar::radiosity::packing::Packing;
 use crossbar::radiosity::solve::Solver;
@@ -18,15 +18,6 @@ fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
     CardSolver::new(profile("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
 }
 
-fn direct(system: &System) -> Vec<[f64; 3]> {
-    system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity()
-}
-
-/// The largest absolute difference in each channel.
-fn off(found: &[[f32; 3]], truth: &[[f64; 3]]) -> [f64; 3] {
-    [0, 1, 2].map(|c| found.iter().zip(truth).map(|(f, t)| (f64::from(f[c]) - t[c]).abs()).fold(0.0, f64::max))
-}
-
 #[test]
 fn a_solution_is_reached_and_its_history_is_the_residuals() {
     let system = cornell(120);
@@ -38,7 +29,7 @@ fn a_solution_is_reached_and_its_history_is_the_residuals() {
         assert!(solution.converged && solution.cycle.is_none());
         assert_eq!(solution.history, seen);
         assert_eq!(solution.iterations() as usize + 1, seen.len());
-        let host = system.solve_channel(0, Solver::Jacobi, &crossbar::radiosity::solve::Options::default(), None);
+        let host = system.solve_channel(0, Solver::Jacobi, &crossbar::radiosity::solve::Options::default());
         for ((_, found), expected) in seen.iter().zip(host.expect("a solution").history) {
             assert!(
                 abs_diff_eq!(found[0], expected, epsilon = 1e-3 * expected),
@@ -72,14 +63,6 @@ fn relighting_goes_on_from_the_last_solution() {
         other.load(&before).expect("radiosities");
         (0..warm.iterations()).try_for_each(|_| other.iterate()).expect("iterations");
         assert_eq!(other.read().expect("radiosities"), warm.radiosity);
-
-        let darker: Vec<[f64; 3]> = system.reflectance().iter().map(|r| r.map(|x| 0.9 * x)).collect();
-        system.set_reflectance(darker).expect("reflectances");
-        card.set_system(&system).expect("uploaded");
-        let repainted = card.solve(&system, &options, &mut |_| ()).expect("a solution");
-        let truth = direct(&system);
-        let reach = truth.iter().flatten().fold(0.0, |m: f64, x| m.max(*x));
-        assert!(off(&repainted.radiosity, &truth).iter().all(|&e| e < 1e-3 * reach));
     }
 }
 

@@ -27,7 +27,7 @@ fn the_cornell_box_is_as_bright_as_paths_say() {
     let parameters = VisibilityParameters { side: 2, ..VisibilityParameters::default() };
     let factors = FormFactors::with_visibility(&patches, &mut tracer, parameters, &mut |_, _| ()).expect("factors");
     let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
-    let b = system.solve(Solver::GaussSeidel, &Options::default(), None).expect("a solution").radiosity();
+    let b = system.solve(Solver::GaussSeidel, &Options::default()).expect("a solution").radiosity();
     let eye = [2.75, 0.3, 2.75];
     let white = [0.725_f64, 0.71, 0.68];
     let points = [
@@ -62,7 +62,7 @@ fn the_built_furnace_has_the_radiance_that_it_says() {
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
     factors.enforce_closure().expect("closed");
     let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
-    let b = system.solve(Solver::Direct, &Options::default(), None).expect("a solution").radiosity();
+    let b = system.solve(Solver::Direct, &Options::default()).expect("a solution").radiosity();
     assert!(b.iter().flatten().all(|b| abs_diff_eq!(b / PI, 1.0, epsilon = 1e-12)), "radiance 1");
 }
 

@@ -92,7 +92,7 @@ impl<'a> Sweep<'a> {
         }
         let factors = room::find(&patches, self.parameters, self.parameters.caster(), progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
-        let reference = system.solve(Solver::Direct, &self.parameters.options.stopping(), None)?.radiosity();
+        let reference = system.solve(Solver::Direct, &self.parameters.options.stopping())?.radiosity();
         Ok((system, reference))
     }
 }

@@ -7,7 +7,7 @@ use refsim::output::WriteMask;
 use super::Storage;
 use super::programs::{BlockPass, Programs};
 use crate::card::{CardError, FullScreenPass, PingPong, Texels, nearest, new_target};
-use crate::radiosity::card_order::CardSystem;
+use crate::radiosity::card_system::CardSystem;
 use crate::radiosity::packing::Packing;
 
 /// Packing and sizes of a system's textures.
@@ -72,7 +72,7 @@ impl Layer {
         Ok(texels.update(machine, into, self.storage.format())?)
     }
 
-    pub(super) fn target(&self, pass: usize) -> TextureId {
+    fn target(&self, pass: usize) -> TextureId {
         self.partial.written_by(pass)
     }
 
