@@ -55,20 +55,16 @@ impl Layer {
         Ok(Self { layout, storage, matrix, emittance, radiosity, partial })
     }
 
-    pub(super) fn set_matrix(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.update(machine, self.matrix, self.layout.rows, texels)
-    }
-
     pub(super) fn set_emittance(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.update(machine, self.emittance, 1, texels)
+        self.update(machine, self.emittance, texels)
     }
 
     pub(super) fn load(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.update(machine, self.radiosity, 1, texels)
+        self.update(machine, self.radiosity, texels)
     }
 
-    fn update(&self, machine: &mut Machine, into: TextureId, rows: usize, texels: &Texels) -> Result<(), CardError> {
-        CardError::check_size("texels, as the card has", self.layout.width * rows, texels.texels.len())?;
+    fn update(&self, machine: &mut Machine, into: TextureId, texels: &Texels) -> Result<(), CardError> {
+        CardError::check_size("texels, as the card has", self.layout.width, texels.texels.len())?;
         Ok(texels.update(machine, into, self.storage.format())?)
     }
 
