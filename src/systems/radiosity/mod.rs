@@ -46,7 +46,7 @@ mod subdivide;
 pub use crate::scene::built::rooms;
 pub use draw::DrawError;
 pub use form_factor::FormFactors;
-pub use on_card::{CardOptions, CardSolution, CardSolver, Storage};
+pub use on_card::{CardSolution, CardSolver, Storage};
 pub use paper::{RgbSolution, System};
 pub use patch::Patch;
 pub use patches::{MAX_PATCHES, Patches, Subdivision};

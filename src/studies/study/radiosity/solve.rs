@@ -5,7 +5,7 @@ use super::no_card;
 use super::parameters::Parameters;
 use crate::card::CardError;
 use crate::radiosity::System;
-use crate::radiosity::on_card::{CardOptions, CardSolver, to_f64};
+use crate::radiosity::on_card::{CardSolver, to_f64};
 use crate::radiosity::solve::{Options, Solver, mean_square};
 use crate::study::StudyError;
 
@@ -64,8 +64,7 @@ fn on_host(solver: Solver, system: &System, options: &Options) -> Result<Solved,
 fn on_card(how: CardMethod, system: &System, parameters: &Parameters) -> Result<Solved, CardError> {
     let executor = parameters.executor.clone();
     let mut card = CardSolver::new(parameters.profile.clone(), executor, system, how.packing, how.storage)?;
-    let Options { tolerance, most_iterations } = parameters.options.stopping();
-    let options = CardOptions { tolerance, most_iterations, check_every: 1 };
+    let options = parameters.options.stopping();
     let mut recorded = Vec::new();
     let found = card.solve(system, &options, &mut |at| {
         if parameters.options.frames.contains(&at.number) {

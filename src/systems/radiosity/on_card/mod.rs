@@ -20,7 +20,7 @@ use refsim::machine::{Executor, Machine, TextureId};
 pub use cycle::Cycle;
 pub use fit::{Fit, Storage};
 pub use programs::PassProgram;
-pub use solve::{CardOptions, CardSolution, Iteration, to_f64};
+pub use solve::{CardSolution, Iteration, to_f64};
 
 use super::System;
 use super::card_system::{CardSystem, emittances};
