@@ -1,7 +1,8 @@
 //! Test scenes: rooms of the paper's sizes, seen from within.
 
 use crossbar::geom::{Mesh, Ray, Sides};
-use crossbar::scene::{Scene, built};
+use crossbar::io::scenes;
+use crossbar::scene::Scene;
 use crossbar::tracer::HostTracer;
 
 /// Width and height of the image, in pixels.
@@ -20,7 +21,7 @@ pub(crate) struct Room {
 }
 
 pub(crate) fn all() -> Vec<Room> {
-    ["teapot-room", "office"].into_iter().filter_map(|name| Some(room(name, &built::build(name)?))).collect()
+    ["teapot-room", "office"].into_iter().filter_map(|name| Some(room(name, &scenes::named(name)?))).collect()
 }
 
 fn room(name: &'static str, scene: &Scene) -> Room {

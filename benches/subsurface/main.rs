@@ -46,7 +46,7 @@ fn links(criterion: &mut Criterion, surface: &SurfaceMoments) {
         [("16 fixed", LinkChoice::Fixed { level: LEVEL }), ("16 adaptive", LinkChoice::Adaptive { count: 16 })]
     {
         group.bench_function(BenchmarkId::new(name, SIDE), |bencher| {
-            bencher.iter(|| black_box(Links::with(&factors, choice, &|_, _| ()).expect("links")));
+            bencher.iter(|| black_box(Links::with(&factors, choice).expect("links")));
         });
     }
     group.throughput(Throughput::Elements(texels / STEP as u64));
@@ -78,7 +78,7 @@ fn plain_gather(links: &Links, means: &[[f32; 4]]) -> Vec<[f32; 4]> {
 
 fn gathers(criterion: &mut Criterion, atlas: &Atlas, surface: &SurfaceMoments) {
     let choice = LinkChoice::Fixed { level: LEVEL };
-    let links = Links::new(surface, &[medium()], choice, TOLERANCE, &|_, _| ()).expect("links");
+    let links = Links::new(surface, &[medium()], choice, TOLERANCE).expect("links");
     let textures = LinkTextures::new(&links, surface, MeanWeighting::Count);
     let options = SubsurfaceCardOptions {
         light: LightStage::Vertices,

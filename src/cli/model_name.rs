@@ -4,8 +4,9 @@ use std::path::Path;
 
 use super::{given, model_file, scene_name};
 use crate::geom::Mesh;
+use crate::io::scenes;
 use crate::scene::built::flat_models::MaterialMesh;
-use crate::scene::built::{self, meshes};
+use crate::scene::built::meshes;
 use crate::scene::{Material, Scene};
 
 /// The material of models that have none: reflectance 0.5.
@@ -57,10 +58,10 @@ pub(super) fn model(path: &Path) -> miette::Result<Model> {
         model_file::refuse_options(name)?;
         return Ok(Model { mesh, materials, material_of });
     }
-    if let Some(scene) = built::build(name) {
+    if let Some(scene) = scenes::named(name) {
         model_file::refuse_options(name)?;
         return Ok(Model::of(&scene));
     }
-    given::require_file(path, "model", &meshes::names().chain(built::names()).collect::<Vec<_>>(), "obj")?;
+    given::require_file(path, "model", &meshes::names().chain(scenes::names()).collect::<Vec<_>>(), "obj")?;
     Ok(Model::of(&model_file::scene(path)?))
 }

@@ -16,8 +16,6 @@ Examples:
       the paper's scene on an emulated GeForce FX 5900 Ultra, Gauss-Seidel and the direct solution beside it, as one page
   crossbar radiosity cornell-room-blocks --packing rgb --packing luminance --storage fp32 --storage fp16 --picture-after 1,2,4,8
       both packings in both precisions, and pictures of the room after some iterations
-  crossbar radiosity cornell-room --emit light=4,12,17 --paint red=0.1,0.1,0.6
-      solve, then change the light and the left wall, and go on from the solution
   crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
       a scene of your own, on the host alone
   crossbar radiosity cornell-room-blocks --patches 300 --solver direct --caster engine --caster-format s3.12 --caster-format fp16

@@ -6,11 +6,10 @@ use serde_json::{Value, json};
 
 use super::words::counted;
 use super::{Out, Problem, study};
-use crate::io::scene_files;
-use crate::io::write_files;
+use crate::io::{scene_files, scenes, write_files};
 use crate::names::did_you_mean;
 use crate::report::{Findings, Table, Verdict};
-use crate::scene::{Scene, built};
+use crate::scene::Scene;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -44,8 +43,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
 /// All scenes, one per line.
 fn all(out: &mut Out) -> miette::Result<Verdict> {
     let mut table = Table::new("Scenes", &["scene", "triangles", "views", "what"]);
-    for name in built::names() {
-        let (Some(what), Some(scene)) = (built::description(name), built::build(name)) else { continue };
+    for name in scenes::names() {
+        let (Some(what), Some(scene)) = (scenes::description(name), scenes::named(name)) else { continue };
         table.push([name.into(), scene.mesh().len().into(), views(&scene).into(), what.into()]);
     }
     if out.json() {
@@ -58,8 +57,8 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
 
 /// Findings of one scene; writes its files if a folder is named.
 fn one(name: &str, folder: Option<&PathBuf>) -> miette::Result<Findings> {
-    let (Some(scene), Some(what)) = (built::build(name), built::description(name)) else {
-        let names: Vec<&str> = built::names().collect();
+    let (Some(scene), Some(what)) = (scenes::named(name), scenes::description(name)) else {
+        let names: Vec<&str> = scenes::names().collect();
         let what = format!("expected the name of a scene, found `{name}`");
         let meant = did_you_mean(name, names.iter().copied());
         return Err(Problem::usage(what, format!("{meant}there are {}", names.join(", "))).into());

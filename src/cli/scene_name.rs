@@ -6,16 +6,16 @@ use miette::IntoDiagnostic as _;
 
 use super::{Problem, given, model_file, view};
 use crate::geom::Mesh;
-use crate::io::ModelOptions;
+use crate::io::{ModelOptions, scenes};
 use crate::names::did_you_mean;
 use crate::options::Size;
 use crate::options::number;
-use crate::scene::{Camera, Scene, built};
+use crate::scene::{Camera, Scene};
 
 /// A scene of the project, if the path is its name; `None` for a file.
 pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
     let name = path.to_str().unwrap_or_default();
-    if let Some(scene) = built::build(name) {
+    if let Some(scene) = scenes::named(name) {
         model_file::refuse_options(name)?;
         return Ok(Some(scene));
     }
@@ -25,12 +25,12 @@ pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
 
 /// Refuses a word that is neither a file nor the name of a scene.
 fn require_file(path: &Path) -> Result<(), Problem> {
-    given::require_file(path, "scene", &built::names().collect::<Vec<_>>(), "obj")
+    given::require_file(path, "scene", &scenes::names().collect::<Vec<_>>(), "obj")
 }
 
 /// The scene around a model, which has lights for it. The options of models say how the model is read, not this.
 pub(super) fn surroundings(path: &Path) -> miette::Result<Scene> {
-    if let Some(scene) = built::build(path.to_str().unwrap_or_default()) {
+    if let Some(scene) = scenes::named(path.to_str().unwrap_or_default()) {
         return Ok(scene);
     }
     require_file(path)?;
@@ -39,7 +39,7 @@ pub(super) fn surroundings(path: &Path) -> miette::Result<Scene> {
 
 /// The path, unless it is the name of a scene of the project.
 pub(super) fn named_file(path: &Path) -> Vec<&Path> {
-    if built::names().any(|name| path == Path::new(name)) { Vec::new() } else { vec![path] }
+    if scenes::names().any(|name| path == Path::new(name)) { Vec::new() } else { vec![path] }
 }
 
 /// A scene of the project by its name, or from a scene file or an OBJ, PLY, STL or glTF file.

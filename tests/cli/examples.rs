@@ -5,9 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crossbar::geom::teapot;
-use crossbar::io::{scene_files, write_obj};
+use crossbar::io::{scene_files, scenes, write_obj};
 use crossbar::ray_engine::kernels;
-use crossbar::scene::built;
 
 use crate::crossbar;
 use crate::generated::hold_bytes;
@@ -24,7 +23,7 @@ fn examples_are_what_the_library_makes() {
         ("teapot.obj".to_owned(), mesh),
         ("intersect.psa".to_owned(), kernels::ONE_ORIGIN_SIGNED.text.as_bytes().to_vec()),
     ];
-    files.extend(scene_files(&built::build("cornell-box").expect("a scene"), "room").expect("files"));
+    files.extend(scene_files(&scenes::named("cornell-box").expect("a scene"), "room").expect("files"));
     for (name, bytes) in files {
         hold_bytes(&folder().join(&name), &bytes);
     }

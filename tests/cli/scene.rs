@@ -22,7 +22,7 @@ fn files_are_written_together() {
     let ran = crossbar_in(folder.path(), &["scene", "cornell-box", "--out", "made"], "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let scene = crossbar::io::scene_file::load(&folder.path().join("made/cornell_box.toml")).expect("the scene");
-    assert_eq!(Some(scene), crossbar::scene::built::build("cornell-box"));
+    assert_eq!(Some(scene), crossbar::io::scenes::named("cornell-box"));
 }
 
 /// Snapshots of the messages about faulty scene files.

@@ -20,7 +20,6 @@ mod radiosity;
 mod ray_engine;
 mod renderer;
 mod report;
-mod scene;
 mod sphere;
 mod subsurface;
 mod support;

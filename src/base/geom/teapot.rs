@@ -33,32 +33,6 @@ use crate::error::{InputError, ensure};
 /// Maximum rate of tessellation: 4 million triangles. Beyond it, slivers at the poles approach f32 resolution.
 pub const MAX_RATE: u32 = 256;
 
-/// Part of the teapot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum TeapotPart {
-    /// Lip and wall: patches 0 to 11.
-    Body,
-    /// Patches 12 to 15.
-    Handle,
-    /// Patches 16 to 19.
-    Spout,
-    /// Lid with its knob: patches 20 to 27.
-    Lid,
-    /// Patches 28 to 31, joined to the body.
-    Bottom,
-}
-
-/// Returns the part that a patch (0 to 31) belongs to.
-pub fn part_of_patch(patch: u32) -> TeapotPart {
-    match patch {
-        0..=11 => TeapotPart::Body,
-        12..=15 => TeapotPart::Handle,
-        16..=19 => TeapotPart::Spout,
-        20..=27 => TeapotPart::Lid,
-        _ => TeapotPart::Bottom,
-    }
-}
-
 /// Tessellated teapot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Teapot {

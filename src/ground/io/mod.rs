@@ -1,5 +1,5 @@
 //! Input and output of files: models, scenes, pictures, rays and hits; writing is atomic, so that no file is left
-//! partial.
+//! partial. [`scenes`] are the project's own.
 
 mod atomic;
 pub mod cube_map;
@@ -22,6 +22,7 @@ pub mod ply;
 pub mod rays;
 pub mod scene_file;
 pub mod scene_obj;
+pub mod scenes;
 pub mod stl;
 
 pub use crate::error::FilePlace;

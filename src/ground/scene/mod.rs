@@ -1,6 +1,6 @@
 //! Scenes and cameras.
 //!
-//! - [`built`]: scenes built by the project, by name;
+//! - [`built`]: models built by the project, by name;
 //! - [`camera`]: pinhole cameras, whose rays have the same bits everywhere;
 //! - [`material`]: scattering and emission of surfaces;
 //! - [`model`]: triangles with materials, lights and views.

@@ -103,12 +103,3 @@ pub fn order_of(coefficients: &[f64]) -> usize {
 pub fn order_with(functions: usize) -> Option<usize> {
     (1..=MAX_ORDER).find(|&order| function_count(order) == functions)
 }
-
-/// Converts coefficients to D3DX's functions, or back; they have the Condon-Shortley sign (-1)^m.
-pub fn swap_d3dx_signs(coefficients: &mut [f64]) {
-    for (index, coefficient) in coefficients.iter_mut().enumerate() {
-        if function_band(index).1 % 2 != 0 {
-            *coefficient = -*coefficient;
-        }
-    }
-}

@@ -30,7 +30,6 @@ pub use environment::EnvironmentPicture;
 pub use extremes::Extremes;
 pub use harmonics::{
     MAX_ORDER, evaluate, function_band, function_count, function_index, harmonics, order_of, order_with,
-    swap_d3dx_signs,
 };
 pub use hemisphere::Hemisphere;
 pub use layout::EnvironmentLayout;

@@ -44,7 +44,7 @@ impl MarbleModel {
         let dipoles = [dipole(red)?, dipole(green)?, dipole(blue)?];
         let surface = SurfaceMoments::new(atlas, mm_per_unit)?;
         let of_links = if rgb { &dipoles[..] } else { &dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] };
-        let links = Links::new(&surface, of_links, choice, TOLERANCE, &|_, _| {})?;
+        let links = Links::new(&surface, of_links, choice, TOLERANCE)?;
         let textures = LinkTextures::new(&links, &surface, MeanWeighting::Area);
         Ok(Self { model: CardModel::new(atlas), textures, eta: material.eta })
     }

@@ -111,8 +111,7 @@ pub fn predicted(system: &System, exact: &[[f64; 3]], how: Accumulator) -> Resul
             how.row(exact[i][c] + system.emittance()[i][c] / diagonal, &terms) * diagonal
         };
         let lost: Vec<f64> = (0..exact.len()).map(row).collect();
-        let problem =
-            solve::Problem { matrix: &matrix, right_hand_side: &lost, areas: system.factors().areas(), start: None };
+        let problem = solve::Problem { matrix: &matrix, right_hand_side: &lost, areas: system.factors().areas() };
         let found = solve::solve(Solver::GaussSeidel, &problem, &Options { tolerance: 1e-6, most_iterations: 1000 })?;
         off.iter_mut().zip(found.radiosity).for_each(|(off, x)| off[c] = x);
     }

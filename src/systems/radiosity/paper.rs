@@ -36,23 +36,15 @@ impl System {
     /// Creates a system with one reflectance, in [0, 1), and one emittance per patch.
     pub fn new(factors: FormFactors, reflectance: PerPatch, emittance: PerPatch) -> Result<Self, InputError> {
         ensure!(!factors.is_empty(), "radiosity::system" => "expected patches, found none");
-        let mut system = Self { factors, reflectance: Vec::new(), emittance: Vec::new() };
-        system.set_reflectance(reflectance)?;
-        system.set_emittance(emittance)?;
-        Ok(system)
-    }
-
-    /// Replaces the reflectances. The matrix changes, the form factors do not. Fails with [`InputError`]; the system is
-    /// then unchanged.
-    pub fn set_reflectance(&mut self, reflectance: PerPatch) -> Result<(), InputError> {
-        self.count("reflectances", &reflectance)?;
-        if let Some((patch, value)) = first(&reflectance, |value| !(0.0..1.0).contains(&value)) {
+        let mut system = Self { factors, reflectance, emittance: Vec::new() };
+        system.count("reflectances", &system.reflectance)?;
+        if let Some((patch, value)) = first(&system.reflectance, |value| !(0.0..1.0).contains(&value)) {
             return Err(input_error!("radiosity::system" =>
                 "expected reflectances of at least 0 and below 1, found {value} for patch {patch} (counted from 0); \
                  a surface that absorbs nothing has no solution"));
         }
-        self.reflectance = reflectance;
-        Ok(())
+        system.set_emittance(emittance)?;
+        Ok(system)
     }
 
     /// Replaces the emittances. The matrix does not change. Fails with [`InputError`]; the system is then unchanged.
@@ -104,37 +96,19 @@ impl System {
         matrix
     }
 
-    /// Solves one channel. `start` is the initial guess, for example the solution before a change of light.
-    pub fn solve_channel(
-        &self,
-        channel: usize,
-        solver: Solver,
-        options: &Options,
-        start: Option<&[f64]>,
-    ) -> Result<Solution, InputError> {
+    /// Solves one channel.
+    pub fn solve_channel(&self, channel: usize, solver: Solver, options: &Options) -> Result<Solution, InputError> {
         let right_hand_side = &self.right_hand_side(channel);
-        solve::solve(
-            solver,
-            &solve::Problem { matrix: &self.matrix(channel), right_hand_side, areas: self.factors.areas(), start },
-            options,
-        )
+        let problem = solve::Problem { matrix: &self.matrix(channel), right_hand_side, areas: self.factors.areas() };
+        solve::solve(solver, &problem, options)
     }
 
-    /// Solves all three channels; equal channels are solved only once. `start` is the initial guess: the radiosities of
-    /// an earlier solution. Fails with [`InputError`].
-    pub fn solve(
-        &self,
-        solver: Solver,
-        options: &Options,
-        start: Option<&[[f64; 3]]>,
-    ) -> Result<RgbSolution, InputError> {
-        let channel = |c: usize| {
-            let start: Option<Vec<f64>> = start.map(|all| all.iter().map(|b| b[c]).collect());
-            self.solve_channel(c, solver, options, start.as_deref())
-        };
+    /// Solves all three channels; equal channels are solved only once. Fails with [`InputError`].
+    pub fn solve(&self, solver: Solver, options: &Options) -> Result<RgbSolution, InputError> {
+        let channel = |c: usize| self.solve_channel(c, solver, options);
         let alike = |c: usize, d: usize| {
             let same = |values: &[[f64; 3]]| values.iter().all(|value| value[c].to_bits() == value[d].to_bits());
-            same(&self.reflectance) && same(&self.emittance) && start.is_none_or(same)
+            same(&self.reflectance) && same(&self.emittance)
         };
         let red = channel(0)?;
         let green = if alike(1, 0) { red.clone() } else { channel(1)? };

@@ -9,7 +9,7 @@ use refsim::timing::cache::TextureCaches;
 use refsim::timing::{Bottleneck, Level, Model, Picoseconds, TimingError};
 use thiserror::Error;
 
-use super::card_order::CardSystem;
+use super::card_system::CardSystem;
 use super::model;
 use super::on_card::{CardSolver, Fit, Storage};
 use super::packing::Packing;

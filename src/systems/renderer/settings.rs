@@ -32,23 +32,11 @@ pub struct Settings {
     pub lens: Option<Lens>,
     /// Radiance of rays that hit nothing.
     pub background: Color,
-    /// Ambient radiance of Whitted's model, which diffuse surfaces multiply by their albedo (his constant term); other
-    /// renderers ignore it.
-    pub ambient: Color,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            samples: 1,
-            depth: 8,
-            seed: 1,
-            bundle: 1 << 16,
-            rounding: SINGLE,
-            lens: None,
-            background: [0.0; 3],
-            ambient: [0.0; 3],
-        }
+        Self { samples: 1, depth: 8, seed: 1, bundle: 1 << 16, rounding: SINGLE, lens: None, background: [0.0; 3] }
     }
 }
 
@@ -73,10 +61,8 @@ impl Settings {
                 return refuse("the distance of focus", focus.to_string(), "a number above 0");
             }
         }
-        for (what, color) in [("the background", self.background), ("the ambient light", self.ambient)] {
-            if let Some(wrong) = color.iter().find(|channel| !(channel.is_finite() && **channel >= 0.0)) {
-                return refuse(what, wrong.to_string(), "numbers not below 0");
-            }
+        if let Some(wrong) = self.background.iter().find(|channel| !(channel.is_finite() && **channel >= 0.0)) {
+            return refuse("the background", wrong.to_string(), "numbers not below 0");
         }
         Ok(())
     }

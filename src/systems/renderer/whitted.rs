@@ -10,15 +10,14 @@ use super::lobes::{Lobes, specular_rays};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use crate::error::InputError;
-use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
 /// Minimum weight of a branch of the ray tree (Hall's adaptive depth): half a step of an 8-bit display.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
-/// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray, and
-/// by `settings.ambient`; mirrors and glass send further rays, at most `settings.depth` in sequence. Emitters are
+/// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray;
+/// mirrors and glass send further rays, at most `settings.depth` in sequence. Emitters are
 /// visible, directly and in mirrors, but do not illuminate. Fails with [`InputError`] if a setting is out of range or
 /// the caster fails.
 pub fn render<'a>(
@@ -44,10 +43,7 @@ impl Shade for Whitted<'_> {
     fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter {
         let mut scatter = Scatter::of(flight.weight * Lights::emitted(surfel));
         match Lobes::of(&surfel.material.surface) {
-            Some(lobes) => {
-                scatter.light += flight.weight * (lobes.albedo * wide(self.settings.ambient));
-                direct(&self.lights, flight, surfel, &lobes, &mut scatter);
-            }
+            Some(lobes) => direct(&self.lights, flight, surfel, &lobes, &mut scatter),
             None if flight.depth < self.settings.depth => continue_specular(flight, surfel, &mut scatter),
             None => {}
         }

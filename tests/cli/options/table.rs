@@ -118,7 +118,7 @@ pub(super) const TABLE: &[Tried] = &[
     Tried {
         bases: &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --iterations 3 --out OUT",
-            "radiosity odd.obj --emit m=1,1,1 --patches 8 --size 8x8 --iterations 3 --out OUT",
+            "radiosity odd.obj --patches 8 --size 8x8 --iterations 3 --out OUT",
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
             "radiosity docs/examples/room.toml --patches 60 --size 8x8 --solver direct --caster engine --caster-device r300 \
              --out OUT",
@@ -126,7 +126,7 @@ pub(super) const TABLE: &[Tried] = &[
         options: concat!(
             "--patches=12 --factors=unoccluded@0 same:--factors=unoccluded@1 --enforce-closure --solver=gauss-seidel \
                   --packing=luminance --storage=fp16 --device=nv30 --switch=rounding=rtz same:--executor=scalar \
-                  --tolerance=0.5 --iterations=2 --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --picture-after=1,2 \
+                  --tolerance=0.5 --iterations=2 --picture-after=1,2 \
                   --sweep-patches=12,30 same:--view=front@0,2 --view=front@1 --out=other --model-up=y \
                   --strict@1 --size=9x7",
             caster!("3")

@@ -1,5 +1,6 @@
 //! Readers and writers of files: written files can be read back, and no bytes cause a panic.
 
+mod built_scenes;
 mod cases;
 mod foreign_obj;
 mod gltf;

@@ -1,16 +1,14 @@
-//! Scene files: writing and reading back yields the same bits, the fixtures equal the built scenes, and no bytes cause
-//! a panic.
+//! Scene files: writing and reading back yields the same bits, and no bytes cause a panic.
 
-use crate::environment::writes_files;
 use std::io;
 use std::path::Path;
 
 use crossbar::geom::Mesh;
 use crossbar::io::{
-    ModelOptions, UpAxis, load_mesh_with, load_scene_with, parse_mtl, parse_scene, scene_file, scene_files, write_mtl,
-    write_scene,
+    ModelOptions, UpAxis, load_mesh_with, load_scene_with, parse_mtl, parse_scene, scene_file, scene_files, scenes,
+    write_mtl, write_scene,
 };
-use crossbar::scene::{Material, Scene, Surface, built};
+use crossbar::scene::{Material, Scene, Surface};
 use proptest::prelude::*;
 
 use super::mutation::mutated;
@@ -69,38 +67,13 @@ fn the_good_scene_is_good() {
 
 #[test]
 fn built_scenes_read_back_whole() {
-    for name in built::names() {
-        let scene = built::build(name).expect("a scene");
+    for name in scenes::names() {
+        let scene = scenes::named(name).expect("a scene");
         let mut back = round_trip(&scene);
         let files = scene_files(&scene, "a").expect("files");
         let text = std::str::from_utf8(&files[0].1).expect("text");
         (_, back.views, back.point_lights) = scene_file::parse(text, Path::new("a.toml")).expect("a scene file");
         assert_eq!(back, scene, "{name}");
-    }
-}
-
-/// The scene files equal the generators' output byte for byte, so that a changed generator is noticed on any computer.
-#[test]
-fn fixtures_are_the_scenes() {
-    let folder = file("fixtures/scenes");
-    for name in ["cornell-box", "office", "office-floor", "teapot-room"] {
-        let scene = built::build(name).expect("a scene");
-        for (file, bytes) in scene_files(&scene, &name.replace('-', "_")).expect("files") {
-            let path = folder.join(file);
-            if writes_files() {
-                std::fs::create_dir_all(&folder).expect("a folder");
-                std::fs::write(&path, &bytes).expect("written");
-            }
-            assert!(bytes.len() < 2_500_000, "{} has {} bytes", path.display(), bytes.len());
-            let fixture = std::fs::read(&path).expect("the fixture");
-            assert!(
-                fixture == bytes,
-                "run with INSTA_UPDATE=always to write {}, if the scene is to change",
-                path.display()
-            );
-        }
-        let path = folder.join(name.replace('-', "_")).with_extension("toml");
-        assert_eq!(scene_file::load(&path).expect("the scene"), scene, "{name}");
     }
 }
 

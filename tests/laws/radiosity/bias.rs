@@ -4,9 +4,9 @@
 use crate::support::profile;
 use approx::abs_diff_eq;
 use crossbar::radiosity::bias::{Accumulator, predicted};
-use crossbar::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
+use crossbar::radiosity::on_card::{CardSolver, Fit, Storage};
 use crossbar::radiosity::packing::Packing;
-use crossbar::radiosity::solve::Solver;
+use crossbar::radiosity::solve::{Options, Solver};
 use refsim::machine::ExecutorKind;
 
 use super::cornell;
@@ -15,7 +15,7 @@ use super::cornell;
 /// returns the measured and the predicted value.
 fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
     let system = cornell(patches);
-    let truth = system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity();
+    let truth = system.solve(Solver::Direct, &Default::default()).expect("a solution").radiosity();
     let mut nv35 = profile("nv35");
     nv35.set_switch("rounding", rounding).expect("a value of the switch");
     let format = nv35.rules.partial.expect("half floats");
@@ -23,7 +23,7 @@ fn darkness(patches: usize, packing: Packing, rounding: &str) -> [f64; 2] {
     let accumulator = Accumulator::of(&format, packing, block).expect("a float");
     let expected = predicted(&system, &truth, accumulator).expect("a prediction");
     let mut card = CardSolver::new(nv35, ExecutorKind::Batch, &system, packing, Storage::Fp16).expect("a card");
-    let options = CardOptions { tolerance: 0.0, most_iterations: 60, check_every: 1 };
+    let options = Options { tolerance: 0.0, most_iterations: 60 };
     let found = card.solve(&system, &options, &mut |_| ()).expect("a solution").radiosity;
     let grey = |i: &usize| system.emittance()[*i] == [0.0; 3];
     let mean = |off: &dyn Fn(usize, usize) -> f64| {

@@ -26,7 +26,7 @@ fn factors(scene: &Scene, patches: &Patches) -> FormFactors {
 fn solved(patches: &Patches, factors: &FormFactors) -> Vec<[f64; 3]> {
     let system = System::new(factors.clone(), patches.reflectances(), patches.emittances()).expect("a system");
     let options = Options { tolerance: 1e-9, most_iterations: 500 };
-    system.solve(Solver::GaussSeidel, &options, None).expect("a solution").radiosity()
+    system.solve(Solver::GaussSeidel, &options).expect("a solution").radiosity()
 }
 
 #[test]

@@ -1,16 +1,16 @@
 //! The end of an iteration on a card: a fixed point, a cycle, or the maximum number of iterations.
 
 use crate::support::profile;
-use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::on_card::{CardOptions, CardSolution, CardSolver, Cycle, Storage};
-use crossbar::radiosity::packing::{self, Packing};
+use crossbar::radiosity::on_card::{CardSolution, CardSolver, Cycle, Storage};
+use crossbar::radiosity::packing::Packing;
+use crossbar::radiosity::solve::Options;
 use crossbar::radiosity::{FormFactors, System};
 use refsim::machine::ExecutorKind;
 
 use super::{cornell, random_system};
 
 /// Options with a tolerance of 0, which no iteration meets unless it reaches a fixed point.
-const ENDLESS: CardOptions = CardOptions { tolerance: 0.0, most_iterations: 400, check_every: 1 };
+const ENDLESS: Options = Options { tolerance: 0.0, most_iterations: 400 };
 
 fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
     CardSolver::new(profile("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
@@ -31,18 +31,16 @@ fn small(size: usize, seed: u64) -> System {
     System::new(factors, vec![[0.9, 0.7, 0.3]; size], emittance).expect("a system")
 }
 
-/// All states of the host's loop, in the order of the card's passes, up to the first repetition; and the iteration at
-/// which the repeated state first occurred.
-fn orbit(system: &System) -> (Vec<Vec<[f32; 3]>>, usize) {
-    let host = CardSystem::rgb(system, 254, 4096).expect("it fits");
-    let (mut state, mut states) = (host.zero(), Vec::<Vec<[f32; 3]>>::new());
+/// All states of a card, up to the first repetition; and the iteration at which the repeated state first occurred.
+fn orbit(mut card: CardSolver) -> (Vec<Vec<[f32; 3]>>, usize) {
+    let mut states = Vec::<Vec<[f32; 3]>>::new();
     loop {
-        let here = packing::from_rgb_vector(&state);
+        let here = card.read().expect("radiosities");
         if let Some(first) = states.iter().position(|earlier| bits(earlier) == bits(&here)) {
             return (states, first);
         }
         states.push(here);
-        state = host.step(&state);
+        card.iterate().expect("an iteration");
     }
 }
 
@@ -65,64 +63,36 @@ fn by_hand((states, entered): &(Vec<Vec<[f32; 3]>>, usize)) -> Cycle {
 }
 
 #[test]
-fn cycles_and_fixed_points_are_those_of_the_hosts_loop() {
+fn cycles_and_fixed_points_are_found() {
     let mut periods = std::collections::BTreeMap::new();
-    for size in 1..=6 {
-        for seed in 0..12 {
-            let system = small(size, 100 * size as u64 + seed);
-            let expected = by_hand(&orbit(&system));
-            let found = card(&system, Packing::Rgb, Storage::Fp32).solve(&system, &ENDLESS, &mut |_| ());
-            let found = found.expect("a solution");
-            if found.converged {
-                // At a fixed point the residual is exactly 0.
-                assert_eq!(found.history.last().map(|last| last.1), Some([0.0; 3]));
-                continue;
-            }
-            assert_eq!(found.cycle, Some(expected), "{size} patches, seed {seed}");
-            assert_eq!(found.iterations(), expected.entered + expected.period, "the first state that comes back");
-            assert_eq!(expected.is_fixed_point(), expected.changing == 0);
-            *periods.entry(expected.period).or_insert(0) += 1;
+    let small = (1..=6).flat_map(|size| (0..12).map(move |seed| small(size, 100 * size as u64 + seed)));
+    let single = small.map(|system| (system, Packing::Rgb, Storage::Fp32));
+    let half = [(Packing::Rgb, 40), (Packing::Luminance, 40), (Packing::Rgb, 90)];
+    let half = half.map(|(packing, patches)| (cornell(patches), packing, Storage::Fp16));
+    for (number, (system, packing, storage)) in single.chain(half).enumerate() {
+        let expected = by_hand(&orbit(card(&system, packing, storage)));
+        let found = card(&system, packing, storage).solve(&system, &ENDLESS, &mut |_| ()).expect("a solution");
+        if found.converged {
+            // At a fixed point the residual is exactly 0.
+            assert_eq!(found.history.last().map(|last| last.1), Some([0.0; 3]));
+            continue;
         }
+        assert_eq!(found.cycle, Some(expected), "system {number}");
+        assert_eq!(found.iterations(), expected.entered + expected.period, "the first state that comes back");
+        assert_eq!(expected.is_fixed_point(), expected.changing == 0);
+        *periods.entry((storage == Storage::Fp16, expected.period)).or_insert(0) += 1;
     }
-    assert!(periods[&1] > 0 && periods.keys().any(|&period| period > 1), "both kinds occur: {periods:?}");
-}
-
-/// For half floats the host's loop is not a reference, so the card's own states are compared with each other.
-#[test]
-fn half_floats_go_round_too() {
-    let mut longest = 0;
-    for (packing, patches) in [(Packing::Rgb, 40), (Packing::Luminance, 40), (Packing::Rgb, 90)] {
-        let system = cornell(patches);
-        let solution = card(&system, packing, Storage::Fp16).solve(&system, &ENDLESS, &mut |_| ()).expect("a solution");
-        let Some(cycle) = solution.cycle else { panic!("{packing:?}, {patches} patches: {}", solution.iterations()) };
-        let mut other = card(&system, packing, Storage::Fp16);
-        let mut states = vec![other.read().expect("zeros")];
-        for _ in 0..solution.iterations() {
-            other.iterate().expect("an iteration");
-            states.push(other.read().expect("radiosities"));
-        }
-        let last = states.pop().expect("the state that comes back");
-        assert_eq!(bits(&last), bits(&solution.radiosity));
-        assert_eq!(states.iter().position(|state| bits(state) == bits(&last)), Some(cycle.entered as usize));
-        assert_eq!(by_hand(&(states, cycle.entered as usize)), cycle, "{packing:?}, {patches} patches");
-        longest = longest.max(cycle.period);
-    }
-    assert!(longest > 1, "one of them goes round");
+    let longer = |is_half: bool| periods.keys().any(|&(of, period)| of == is_half && period > 1);
+    assert!(longer(false) && longer(true) && periods.contains_key(&(false, 1)), "both kinds occur: {periods:?}");
 }
 
 #[test]
-fn rare_looks_find_the_same_period_and_few_iterations_none() {
+fn few_iterations_find_no_cycle() {
     let system = cornell(40);
-    let solve = |options: CardOptions| -> CardSolution {
+    let solve = |options: Options| -> CardSolution {
         card(&system, Packing::Luminance, Storage::Fp16).solve(&system, &options, &mut |_| ()).expect("a solution")
     };
-    let often = solve(ENDLESS).cycle.expect("a cycle");
-    let rarely = solve(CardOptions { check_every: 7, ..ENDLESS }).cycle.expect("a cycle");
-    assert_eq!(
-        (rarely.period, rarely.changing, rarely.largest_change),
-        (often.period, often.changing, often.largest_change)
-    );
-    assert!(rarely.entered >= often.entered && rarely.entered.is_multiple_of(7));
-    let few = solve(CardOptions { most_iterations: often.entered, ..ENDLESS });
-    assert_eq!((few.cycle, few.converged, few.iterations()), (None, false, often.entered));
+    let entered = solve(ENDLESS).cycle.expect("a cycle").entered;
+    let few = solve(Options { most_iterations: entered, ..ENDLESS });
+    assert_eq!((few.cycle, few.converged, few.iterations()), (None, false, entered));
 }

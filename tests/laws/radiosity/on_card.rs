@@ -3,10 +3,10 @@
 use crate::support::profile;
 use approx::abs_diff_eq;
 use crossbar::card::CardError;
-use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::on_card::{CardOptions, CardSolver, Storage};
+use crossbar::radiosity::card_system::CardSystem;
+use crossbar::radiosity::on_card::{CardSolver, Storage};
 use crossbar::radiosity::packing::Packing;
-use crossbar::radiosity::solve::Solver;
+use crossbar::radiosity::solve::{Options, Solver};
 use crossbar::radiosity::{System, kernels, model};
 use refsim::asm::assemble;
 use refsim::check::{RuleId, check};
@@ -18,27 +18,18 @@ fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
     CardSolver::new(profile("nv35"), ExecutorKind::Batch, system, packing, storage).expect("a card")
 }
 
-fn direct(system: &System) -> Vec<[f64; 3]> {
-    system.solve(Solver::Direct, &Default::default(), None).expect("a solution").radiosity()
-}
-
-/// The largest absolute difference in each channel.
-fn off(found: &[[f32; 3]], truth: &[[f64; 3]]) -> [f64; 3] {
-    [0, 1, 2].map(|c| found.iter().zip(truth).map(|(f, t)| (f64::from(f[c]) - t[c]).abs()).fold(0.0, f64::max))
-}
-
 #[test]
 fn a_solution_is_reached_and_its_history_is_the_residuals() {
     let system = cornell(120);
     for packing in [Packing::Rgb, Packing::Luminance] {
         let mut card = card(&system, packing, Storage::Fp32);
-        let options = CardOptions { tolerance: 1e-4, ..CardOptions::default() };
+        let options = Options { tolerance: 1e-4, ..Options::default() };
         let mut seen = Vec::new();
         let solution = card.solve(&system, &options, &mut |i| seen.push((i.number, i.residual))).expect("a solution");
         assert!(solution.converged && solution.cycle.is_none());
         assert_eq!(solution.history, seen);
         assert_eq!(solution.iterations() as usize + 1, seen.len());
-        let host = system.solve_channel(0, Solver::Jacobi, &crossbar::radiosity::solve::Options::default(), None);
+        let host = system.solve_channel(0, Solver::Jacobi, &Options::default());
         for ((_, found), expected) in seen.iter().zip(host.expect("a solution").history) {
             assert!(
                 abs_diff_eq!(found[0], expected, epsilon = 1e-3 * expected),
@@ -46,17 +37,13 @@ fn a_solution_is_reached_and_its_history_is_the_residuals() {
                 found[0]
             );
         }
-        let every = CardOptions { check_every: 7, ..options };
-        card.load(&vec![[0.0; 3]; card.len()]).expect("zeros");
-        let rarely = card.solve(&system, &every, &mut |_| ()).expect("a solution");
-        assert_eq!(rarely.iterations(), solution.iterations().next_multiple_of(7));
     }
 }
 
 #[test]
 fn relighting_goes_on_from_the_last_solution() {
     let mut system = cornell(100);
-    let options = CardOptions { tolerance: 1e-5, ..CardOptions::default() };
+    let options = Options { tolerance: 1e-5, ..Options::default() };
     for packing in [Packing::Rgb, Packing::Luminance] {
         let mut card = card(&system, packing, Storage::Fp32);
         let cold = card.solve(&system, &options, &mut |_| ()).expect("a solution");
@@ -72,14 +59,6 @@ fn relighting_goes_on_from_the_last_solution() {
         other.load(&before).expect("radiosities");
         (0..warm.iterations()).try_for_each(|_| other.iterate()).expect("iterations");
         assert_eq!(other.read().expect("radiosities"), warm.radiosity);
-
-        let darker: Vec<[f64; 3]> = system.reflectance().iter().map(|r| r.map(|x| 0.9 * x)).collect();
-        system.set_reflectance(darker).expect("reflectances");
-        card.set_system(&system).expect("uploaded");
-        let repainted = card.solve(&system, &options, &mut |_| ()).expect("a solution");
-        let truth = direct(&system);
-        let reach = truth.iter().flatten().fold(0.0, |m: f64, x| m.max(*x));
-        assert!(off(&repainted.radiosity, &truth).iter().all(|&e| e < 1e-3 * reach));
     }
 }
 

@@ -4,13 +4,14 @@ use std::f64::consts::PI;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use crossbar::io::parse_obj;
+use crossbar::io::scenes;
 use crossbar::radiosity::form_factor::VisibilityParameters;
 use crossbar::radiosity::rooms::{self, CornellBox};
 use crossbar::radiosity::solve::{Options, Solver};
 use crossbar::radiosity::{FormFactors, Patches, Subdivision, System, gather};
 use crossbar::renderer::Settings;
 use crossbar::renderer::path::{self, Direct};
-use crossbar::scene::{Camera, Material, Scene, built};
+use crossbar::scene::{Camera, Material, Scene};
 use glam::DVec3;
 
 use super::tracer;
@@ -26,7 +27,7 @@ fn the_cornell_box_is_as_bright_as_paths_say() {
     let parameters = VisibilityParameters { side: 2, ..VisibilityParameters::default() };
     let factors = FormFactors::with_visibility(&patches, &mut tracer, parameters, &mut |_, _| ()).expect("factors");
     let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
-    let b = system.solve(Solver::GaussSeidel, &Options::default(), None).expect("a solution").radiosity();
+    let b = system.solve(Solver::GaussSeidel, &Options::default()).expect("a solution").radiosity();
     let eye = [2.75, 0.3, 2.75];
     let white = [0.725_f64, 0.71, 0.68];
     let points = [
@@ -56,21 +57,21 @@ fn the_cornell_box_is_as_bright_as_paths_say() {
 
 #[test]
 fn the_built_furnace_has_the_radiance_that_it_says() {
-    let scene = built::build("white-box").expect("a scene");
+    let scene = scenes::named("white-box").expect("a scene");
     let patches = Patches::new(&scene, Subdivision::PerSide(3)).expect("patches");
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
     factors.enforce_closure().expect("closed");
     let system = System::new(factors, patches.reflectances(), patches.emittances()).expect("a system");
-    let b = system.solve(Solver::Direct, &Options::default(), None).expect("a solution").radiosity();
+    let b = system.solve(Solver::Direct, &Options::default()).expect("a solution").radiosity();
     assert!(b.iter().flatten().all(|b| abs_diff_eq!(b / PI, 1.0, epsilon = 1e-12)), "radiance 1");
 }
 
 #[test]
 fn built_scenes_and_models_of_ones_own_are_cut() {
     let cornell =
-        Patches::new(&built::build("cornell-box").expect("a scene"), Subdivision::AtMost(400)).expect("patches");
+        Patches::new(&scenes::named("cornell-box").expect("a scene"), Subdivision::AtMost(400)).expect("patches");
     assert!((300..=400).contains(&cornell.list().len()), "{}", cornell.list().len());
-    let room = Patches::new(&built::build("teapot-room").expect("a scene"), Subdivision::PerSide(1));
+    let room = Patches::new(&scenes::named("teapot-room").expect("a scene"), Subdivision::PerSide(1));
     let refused = room.expect_err("metal and glass").to_string();
     assert!(refused.contains(", expected a diffuse surface: radiosity supports no other"), "{refused}");
     let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 5 2\n";

@@ -1,13 +1,13 @@
-//! Texture layouts can be read back, and the card's order of operations equals plain loops.
+//! Texture layouts can be read back.
 
 use crossbar::card::Texels;
 use crossbar::linalg::Matrix;
-use crossbar::radiosity::card_order::CardSystem;
-use crossbar::radiosity::packing::{self, Packing};
+use crossbar::radiosity::card_system::CardSystem;
+use crossbar::radiosity::packing;
 use crossbar::radiosity::{FormFactors, System};
 use proptest::prelude::*;
 
-use super::{cornell, random_system};
+use super::random_system;
 
 const LIMIT: usize = 2048;
 
@@ -57,60 +57,6 @@ fn from_rgb_matrix(texels: &Texels, size: usize, channel: usize) -> Vec<Vec<f32>
 
 fn from_luminance_matrix(texels: &Texels, size: usize) -> Vec<Vec<f32>> {
     (0..size).map(|y| texels.row(y).as_flattened()[..size].to_vec()).collect()
-}
-
-fn bits(texels: &Texels) -> Vec<[u32; 4]> {
-    texels.texels.iter().map(|texel| texel.map(f32::to_bits)).collect()
-}
-
-/// The steps equal a single loop over f32, without textures or passes.
-#[test]
-fn rgb_passes_are_one_loop_over_the_row() {
-    let system = cornell(120);
-    let n = system.factors().len();
-    for block in [1, 7, 50, 254] {
-        let card = CardSystem::rgb(&system, block, LIMIT).expect("it fits");
-        assert_eq!((card.passes(), card.packing()), (n.div_ceil(block), Packing::Rgb));
-        let mut b = card.zero();
-        for _ in 0..3 {
-            let mut expected = b.clone();
-            for (i, texel) in expected.texels.iter_mut().enumerate() {
-                for c in 0..3 {
-                    let m: Vec<f32> = card.matrix().row(i).iter().map(|m| m[c]).collect();
-                    let start = b.texels[i][c] + card.emittance().texels[i][c];
-                    texel[c] = m.iter().zip(&b.texels).fold(start, |acc, (m, b)| acc - m * b[c]);
-                }
-            }
-            b = card.step(&b);
-            assert_eq!(bits(&b), bits(&expected), "blocks of {block}");
-        }
-    }
-}
-
-#[test]
-fn luminance_passes_add_four_partial_sums_a_block() {
-    for size in [1, 4, 30, 61] {
-        let (matrix, right) = random_system(size, 0.9, 77);
-        let card = CardSystem::luminance(matrix, &right, 5, LIMIT).expect("it fits");
-        assert_eq!((card.len(), card.passes()), (size, size.div_ceil(20)));
-        let (mut b, mut expected) = (card.zero(), card.zero());
-        for _ in 0..3 {
-            let flat: Vec<f32> = b.texels.as_flattened().to_vec();
-            for i in 0..4 * card.zero().width {
-                let row = card.matrix().row(i).as_flattened();
-                let mut value = flat[i] + card.emittance().texels[i / 4][i % 4];
-                for (m, b) in row.chunks(20).zip(flat.chunks(20)) {
-                    let lane = |c: usize| (c..m.len()).step_by(4).fold(0.0_f32, |acc, j| acc - m[j] * b[j]);
-                    value += ((lane(0) + lane(1)) + lane(2)) + lane(3);
-                }
-                expected.texels[i / 4][i % 4] = value;
-            }
-            b = card.step(&b);
-            assert_eq!(bits(&b), bits(&expected), "{size} rows");
-        }
-        let beyond: Vec<f32> = b.texels.as_flattened()[size..].to_vec();
-        assert!(beyond.iter().all(|&x| x == 0.0), "elements beyond the vector stay 0");
-    }
 }
 
 /// A patch that sees itself has a diagonal other than 1, by which the paper's equation does not divide E, but the card

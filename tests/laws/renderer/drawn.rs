@@ -2,9 +2,10 @@
 
 use crossbar::card::RasterizedEyes;
 use crossbar::geom::exact::Sides;
+use crossbar::io::scenes;
 use crossbar::renderer::environment::{self, EnvironmentCard};
 use crossbar::renderer::{RenderedPicture, Settings, whitted};
-use crossbar::scene::{Camera, Surface, built};
+use crossbar::scene::{Camera, Surface};
 use crossbar::tracer::HostTracer;
 use refsim::machine::{Executor, ExecutorKind};
 
@@ -21,7 +22,7 @@ fn differing(one: &RenderedPicture, other: &RenderedPicture) -> f64 {
 /// before.
 #[test]
 fn drawn_eye_rays_see_what_cast_ones_hit() {
-    let scene = built::build("cornell-box").expect("a scene");
+    let scene = scenes::named("cornell-box").expect("a scene");
     let camera = scene.views[0].camera(48, 48).expect("a camera");
     let settings = Settings::default();
     let cast = by_whitted_rays(&scene, &camera, &settings);

@@ -12,7 +12,7 @@ use super::links_models::{atlas, figure_7, fine_tolerance, medium, sphere, surfa
 /// tolerance, each relative to the factor and 1e-5 of the light that the plane returns.
 fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64 {
     let surface = surface(&atlas(&sphere(6, 0.2), side), mm_per_unit);
-    let links = Links::new(&surface, &[dipole], choice, 0.01, &|_, _| ()).expect("links");
+    let links = Links::new(&surface, &[dipole], choice, 0.01).expect("links");
     let fine = Factors::new(&surface, [dipole], fine_tolerance()).expect("a tolerance");
     let mut receiver = fine.receiver();
     let mut worst: f64 = 0.0;
@@ -52,7 +52,7 @@ fn small_atlases_have_links() {
         let mut receiver = factors.receiver();
         let fixed = (0..surface.level_count().min(4)).map(|level| LinkChoice::Fixed { level });
         for choice in fixed.chain([1, 4, 16].map(|count| LinkChoice::Adaptive { count })) {
-            let links = Links::with(&factors, choice, &|_, _| ()).expect("links");
+            let links = Links::with(&factors, choice).expect("links");
             for texel in texels(side) {
                 for (cluster, found) in links.of(texel).filter(|(_, found)| found[0] > 0.0) {
                     let [exact] = receiver.factor(texel, cluster);

@@ -12,7 +12,7 @@ use super::links_models::{atlas, figure_7, medium, root, sphere, surface, texels
 const SIDE: u32 = 16;
 
 fn links(surface: &SurfaceMoments, dipoles: &[Dipole], choice: LinkChoice) -> Links {
-    Links::new(surface, dipoles, choice, 0.01, &|_, _| ()).expect("links")
+    Links::new(surface, dipoles, choice, 0.01).expect("links")
 }
 
 fn choices() -> Vec<LinkChoice> {
@@ -179,9 +179,8 @@ fn exp2(exponent: i32) -> f32 {
 #[test]
 fn bad_choices_are_refused() {
     let surface = dented();
-    let error = |dipoles: &[Dipole], choice| {
-        Links::new(&surface, dipoles, choice, 0.01, &|_, _| ()).expect_err("no links").to_string()
-    };
+    let error =
+        |dipoles: &[Dipole], choice| Links::new(&surface, dipoles, choice, 0.01).expect_err("no links").to_string();
     let one = [figure_7()];
     assert_eq!(error(&one, LinkChoice::Fixed { level: 5 }), "expected a level below 5, found 5");
     assert_eq!(error(&one, LinkChoice::Adaptive { count: 0 }), "expected at least one link per texel");

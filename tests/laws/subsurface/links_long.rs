@@ -128,7 +128,7 @@ fn models_of_long_texels_have_the_radiosity_of_all_pairs() {
         let atlas = atlas(&mesh, side);
         let surface = surface(&atlas, 1.0);
         let texels = (side * side) as usize;
-        let links = Links::new(&surface, &[marble()], choice, TOLERANCE, &|_, _| ()).expect("links");
+        let links = Links::new(&surface, &[marble()], choice, TOLERANCE).expect("links");
         let ones = IrradianceMeans::new(&surface, &vec![[1.0; 3]; texels], MeanWeighting::Area).expect("one per texel");
         let reference = Reference::new(&atlas, 1.0, &marble()).expect("a scale");
         let rows = 0..by_form(2, side as usize);

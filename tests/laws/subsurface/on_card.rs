@@ -193,7 +193,7 @@ fn the_card_gathers_as_the_host_does() {
         (vec![dipole(2.21)], LinkChoice::Adaptive { count: 16 }),
         (vec![dipole(1.0), dipole(2.0), dipole(3.0)], LinkChoice::Adaptive { count: 16 }),
     ] {
-        let links = Links::new(&surface, &dipoles, choice, 1e-3, &|_, _| {}).expect("links");
+        let links = Links::new(&surface, &dipoles, choice, 1e-3).expect("links");
         let textures = LinkTextures::new(&links, &surface, MeanWeighting::Area);
         for map in [MapFormat::Fp32, MapFormat::Fp16, MapFormat::Unorm8 { scale: 1.0 }] {
             let mut card = card(&atlas, &textures, SubsurfaceCardOptions { map, ..options(LightStage::Vertices) });

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use super::super::Material;
-use super::parts::{grid_triangles, with_attributes};
+use super::grid::{grid_triangles, with_attributes};
 use crate::elementary::on_circle;
 use crate::geom::Mesh;
 use crate::geom::vector::{least_axis, narrow, unit};

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::parts::{grid_triangles, with_attributes};
+use super::grid::{grid_triangles, with_attributes};
 use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::vector::{area_vector, narrow, unit, wide};

@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use super::bodies;
 use super::bunny::bunny;
-use super::parts::{grid_triangles, with_attributes};
+use super::grid::{grid_triangles, with_attributes};
 use super::resample::ClosedSurface;
 use crate::elementary::{acos, atan2};
 use crate::geom::Mesh;

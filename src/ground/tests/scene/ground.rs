@@ -1,4 +1,4 @@
-use crossbar_ground::scene::built;
+use crossbar_ground::io::scenes;
 use crossbar_ground::scene::built::ground::{GROUND_SIDE, ground, ground_of, on_ground};
 use glam::DVec3;
 
@@ -13,7 +13,7 @@ fn the_ground_of_the_paper_has_36_864_vertices_and_looks_up() {
 /// No triangle of a box lies in the plane of its ground, and the gap between them is too small to be visible.
 #[test]
 fn a_flat_base_lies_above_its_ground() {
-    let model = built::build("white-box").expect("a scene").mesh().clone();
+    let model = scenes::named("white-box").expect("a scene").mesh().clone();
     let [low, high] = model.bounds().expect("bounds");
     let [below, _] = ground_of(&model, 4).bounds().expect("bounds");
     assert_eq!(f64::from(low[2] - below[2]), f64::from(high[0] - low[0]) / 1024.0);

@@ -30,7 +30,7 @@ pub(super) fn rows(
     let Some(cast) = &first.cast else { return Ok(Vec::new()) };
     let solve = |factors: &FormFactors| -> Result<Vec<[f64; 3]>, StudyError> {
         let system = System::new(factors.clone(), patches.reflectances(), patches.emittances())?;
-        Ok(system.solve(Solver::Direct, &parameters.options.stopping(), None)?.radiosity())
+        Ok(system.solve(Solver::Direct, &parameters.options.stopping())?.radiosity())
     };
     let host = room::find(patches, parameters, &CasterChoice::Host, progress)?.factors;
     let (reference, emittance) = (solve(&host)?, patches.emittances());

@@ -1,10 +1,8 @@
 //! Study of the radiosity of a scene by several methods: on a card, by a solver on the host, and directly.
 //!
 //! It measures the cost of each method (iterations, passes, time) and its error relative to the direct solution, and
-//! renders the room. After a change of emission or reflectance, it counts the iterations from the previous solution and
-//! from zero.
+//! renders the room.
 
-mod change;
 mod conclusion;
 mod difference;
 mod error;
@@ -83,7 +81,6 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Radiosi
     let room = room::find(&patches, parameters, parameters.caster(), progress)?;
     let leaks = leaks::rows(parameters, &patches, &room, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
-    let changed = change::apply(&parameters.options.changes(), &parameters.scene, &patches, &system)?;
     let mut solved = Vec::new();
     for (at, method) in parameters.methods.iter().enumerate() {
         progress(
@@ -91,7 +88,7 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Radiosi
             at as u64,
             parameters.methods.len() as u64,
         );
-        solved.push(solve::solve(*method, &system, changed.as_ref(), parameters)?);
+        solved.push(solve::solve(*method, &system, parameters)?);
     }
     let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
     let reference = direct.map(|s| s.radiosity.clone());
@@ -133,7 +130,6 @@ fn row(
         radiosity: one.radiosity,
         history: one.history,
         stopped: one.stopped,
-        relit: one.relit,
     })
 }
 

@@ -2,7 +2,6 @@
 
 use std::str::FromStr;
 
-use super::change::Change;
 use super::method::{CardMethod, SolveMethod};
 use crate::error::InputError;
 use crate::options::number;
@@ -12,7 +11,6 @@ use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::{Options, Solver};
-use crate::scene::Color;
 use crate::study::StudyError;
 
 /// Options of the study.
@@ -53,14 +51,6 @@ pub struct RadiosityOptions {
     /// Maximum number of iterations [default: 1000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     iterations: Option<u32>,
-
-    /// New radiance of a material, for a second solution; may be repeated.
-    #[arg(long = "emit", value_name = "MATERIAL=R,G,B", value_parser = light_of)]
-    emissions: Vec<MaterialColor>,
-
-    /// New reflectance of a material, for a second solution; may be repeated.
-    #[arg(long = "paint", value_name = "MATERIAL=R,G,B", value_parser = paint_of)]
-    paints: Vec<MaterialColor>,
 
     /// Pictures of the first method on the card after these numbers of iterations.
     #[arg(long = "picture-after", value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true,
@@ -129,34 +119,6 @@ impl FromStr for SolverChoice {
     }
 }
 
-/// A color for a material.
-#[derive(Clone, Debug, PartialEq)]
-struct MaterialColor {
-    material: String,
-    rgb: Color,
-}
-
-/// `light=17,12,4`
-fn light_of(text: &str) -> Result<MaterialColor, String> {
-    let color = color_of(text)?;
-    let shines = color.rgb.iter().all(|&c| c >= 0.0);
-    if shines { Ok(color) } else { Err(format!("expected radiances of at least 0, found `{text}`")) }
-}
-
-/// `wall=0.7,0.7,0.6`
-fn paint_of(text: &str) -> Result<MaterialColor, String> {
-    let color = color_of(text)?;
-    let reflects = color.rgb.iter().all(|c| (0.0..1.0).contains(c));
-    if reflects { Ok(color) } else { Err(format!("expected reflectances of at least 0 and below 1, found `{text}`")) }
-}
-
-fn color_of(text: &str) -> Result<MaterialColor, String> {
-    let wrong = || format!("expected MATERIAL=R,G,B as in light=17,12,4; found `{text}`");
-    let (material, channels) = text.split_once('=').ok_or_else(wrong)?;
-    let rgb = number::three(channels, "R,G,B")?;
-    Ok(MaterialColor { material: material.to_owned(), rgb })
-}
-
 impl RadiosityOptions {
     /// Fineness of the subdivision into patches.
     pub fn subdivision(&self) -> Subdivision {
@@ -169,14 +131,6 @@ impl RadiosityOptions {
             tolerance: self.tolerance.unwrap_or(if self.iterations.is_some() { 0.0 } else { 1e-4 }),
             most_iterations: self.iterations.unwrap_or(1000),
         }
-    }
-
-    /// Changes after the first solution: lights first, then reflectances.
-    pub(super) fn changes(&self) -> Vec<Change> {
-        let emit = self.emissions.iter().cloned();
-        let emit = emit.map(|c| Change::Emission { material: c.material, radiance: c.rgb });
-        let paint = self.paints.iter().cloned();
-        emit.chain(paint.map(|c| Change::Reflectance { material: c.material, reflectance: c.rgb })).collect()
     }
 
     /// Every solver, without duplicates; solvers on the card with every packing and storage. Fails if an option for

@@ -1,6 +1,5 @@
 //! Results of the study.
 
-use super::change::Relit;
 use super::difference::SolutionError;
 use super::leaks::LeakRow;
 use super::method::{SolveMethod, StopReason};
@@ -30,8 +29,6 @@ pub(super) struct MethodRow {
     pub(super) error: Option<SolutionError>,
     /// Cost on a card; `None` on the host.
     pub(super) card: Option<CardFacts>,
-    /// Solution after the changes, if there are any.
-    pub(super) relit: Option<Relit>,
     /// Pictures of the room.
     pub(super) pictures: Pictures,
 }

@@ -27,8 +27,6 @@ pub(super) struct Pictures {
     pub(super) flat: RgbImage,
     /// Smooth-shaded: interpolated between corners.
     pub(super) smooth: RgbImage,
-    /// Smooth-shaded after the changes.
-    pub(super) relit: Option<RgbImage>,
     /// For a solution on the card: per pixel, the luminance minus the direct solution's luminance, relative to the
     /// latter.
     pub(super) error: Option<Vec<f64>>,
@@ -92,16 +90,15 @@ impl<'a> PictureRenderer<'a> {
         Ok(picture.display(1.0)?)
     }
 
-    /// Draws the pictures of a solution before and after the changes, and measures its cost on its card.
+    /// Draws the pictures of a solution, and measures its cost on its card.
     pub(super) fn show(
         &mut self,
         solved: &mut Solved,
         system: &System,
     ) -> Result<(Pictures, Option<CardFacts>), StudyError> {
-        let relit = solved.relit.as_ref().map(|relit| self.smooth(&relit.radiosity)).transpose()?;
         let Some(card) = &mut solved.card else {
             let (flat, smooth) = (self.flat(&solved.radiosity)?.display(1.0)?, self.smooth(&solved.radiosity)?);
-            return Ok((Pictures { flat, smooth, relit, error: None }, None));
+            return Ok((Pictures { flat, smooth, error: None }, None));
         };
         let (flat, smooth) = match card.radiosity_textures()[..] {
             [all] => {
@@ -118,7 +115,7 @@ impl<'a> PictureRenderer<'a> {
         };
         let error =
             self.reference.as_ref().map(|reference| relative_luminance_differences(reference, &flat)).transpose()?;
-        Ok((Pictures { flat: flat.display(1.0)?, smooth, relit, error }, facts))
+        Ok((Pictures { flat: flat.display(1.0)?, smooth, error }, facts))
     }
 
     /// Draws the room after the recorded iterations.

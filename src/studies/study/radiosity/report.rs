@@ -29,12 +29,12 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         parameters.profile.title,
         Cell::ratio(outcome.exposure).text(),
     );
-    let Tables { room, methods, ends, card, relit, sweep } = tables(parameters, &outcome);
+    let Tables { room, methods, ends, card, sweep } = tables(parameters, &outcome);
     let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
     let errors = errors(parameters, &outcome);
     // The pictures of the least accurate method and of the direct one come first.
     let first = least_accurate(&outcome.rows).or(outcome.rows.first()).map(|row| row.label.clone());
-    let (mut lead, mut pictures, mut relit_pictures) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut lead, mut pictures) = (Vec::new(), Vec::new());
     for row in outcome.rows {
         let leads = row.method == SolveMethod::DIRECT || Some(&row.label) == first.as_ref();
         let (label, drawn) = (row.label, row.pictures);
@@ -43,12 +43,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         };
         pictures.push(picture("flat", drawn.flat, "each patch with its radiosity"));
         let smooth = picture("smooth", drawn.smooth, "resampled to corners");
-        if leads {
-            lead.push(smooth)
-        } else {
-            pictures.push(smooth)
-        }
-        relit_pictures.extend(drawn.relit.map(|image| picture("relit", image, "after the changes")));
+        if leads { lead.push(smooth) } else { pictures.push(smooth) }
     }
     let frames: Vec<NamedPicture> = outcome.frames.into_iter().map(frame).collect();
     found.pictures(lead);
@@ -75,11 +70,6 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         found.heading("On the card");
     }
     found.explained_table(FoundTable::from(card).field("card"), ON_THE_CARD);
-    if !relit_pictures.is_empty() {
-        found.heading("Relit");
-        found.pictures(relit_pictures);
-    }
-    found.table(FoundTable::from(relit).field("relit"));
     if has_rows(&sweep) {
         found.heading("Sweep over numbers of patches and open switches");
         darkness.into_iter().for_each(|chart| found.chart(chart));

@@ -5,8 +5,8 @@ use refsim::device::Profile;
 
 use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card, room};
 use crate::radiosity::bias::{Accumulator, predicted};
-use crate::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
-use crate::radiosity::solve::{Options, Solver};
+use crate::radiosity::on_card::{CardSolver, Fit, Storage};
+use crate::radiosity::solve::Solver;
 use crate::radiosity::{Patches, Subdivision, System};
 use crate::study::StudyError;
 use crate::study::configuration::Configuration;
@@ -92,7 +92,7 @@ impl<'a> Sweep<'a> {
         }
         let factors = room::find(&patches, self.parameters, self.parameters.caster(), progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
-        let reference = system.solve(Solver::Direct, &self.parameters.options.stopping(), None)?.radiosity();
+        let reference = system.solve(Solver::Direct, &self.parameters.options.stopping())?.radiosity();
         Ok((system, reference))
     }
 }
@@ -107,8 +107,7 @@ fn solved(
     let profile = &setting.profile;
     let executor = parameters.executor.clone();
     let card = CardSolver::new(profile.clone(), executor, system, how.packing, how.storage);
-    let Options { tolerance, most_iterations } = parameters.options.stopping();
-    let options = CardOptions { tolerance, most_iterations, check_every: 1 };
+    let options = parameters.options.stopping();
     let solution = card.and_then(|mut card| card.solve(system, &options, &mut |_| ())).map_err(no_card)?;
     let widened: Vec<[f64; 3]> = solution.radiosity.iter().map(|b| b.map(f64::from)).collect();
     let row = SweepRow {

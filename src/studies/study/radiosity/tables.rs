@@ -13,8 +13,6 @@ pub(super) struct Tables {
     pub(super) ends: Table,
     /// One row per method on a card.
     pub(super) card: Table,
-    /// One row per method, after the changes.
-    pub(super) relit: Table,
     /// One row per number of patches, method on a card, and setting of its switches that changes the bits.
     pub(super) sweep: Table,
 }
@@ -26,7 +24,6 @@ pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tab
         methods: methods(outcome),
         ends: ends(parameters, outcome),
         card: card(outcome),
-        relit: relit(outcome),
         sweep: sweep(outcome),
     }
 }
@@ -147,26 +144,6 @@ fn card(outcome: &RadiosityOutcome) -> Table {
             },
         );
         table.push(head.into_iter().chain(time));
-    }
-    table
-}
-
-fn relit(outcome: &RadiosityOutcome) -> Table {
-    let mut table = Table::of(
-        "After the changes: iterations from the previous solution, and from zero",
-        "way from_the_last from_nothing saved_%",
-    );
-    for (row, relit) in outcome.rows.iter().filter_map(|row| Some((row, row.relit.as_ref()?))) {
-        let count = |n: Option<usize>| n.map_or_else(|| Cell::from("not reached"), Cell::from);
-        let saved = match (relit.from_last, relit.from_nothing) {
-            (Some(last), Some(nothing)) if nothing > 0 => {
-                Cell::percent(100.0 * (nothing as f64 - last as f64) / nothing as f64)
-            }
-            _ => Cell::Empty,
-        };
-        if row.method != SolveMethod::DIRECT {
-            table.push([row.label.as_str().into(), count(relit.from_last), count(relit.from_nothing), saved]);
-        }
     }
     table
 }

@@ -95,7 +95,7 @@ pub(super) struct WayRow {
 pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
     progress(&format!("links: {}", way.label(scene.parameters.options.side)), 0, 2);
     let (dipoles, tolerance) = (link_dipoles(scene, way), scene.parameters.options.tolerance);
-    Ok(Links::new(scene.surface, dipoles, way.choice, tolerance, &|_, _| {})?)
+    Ok(Links::new(scene.surface, dipoles, way.choice, tolerance)?)
 }
 
 /// The dipoles of a way's factors: for red, green and blue, or green's for all channels.

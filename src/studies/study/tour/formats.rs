@@ -61,7 +61,7 @@ impl FormatSubject<'_> {
         let Self { scene, patches, bunny, statue, view } = *self;
         let system = |factors: FormFactors| System::new(factors, patches.reflectances(), patches.emittances());
         let direct = |system: &System| -> Result<Vec<[f64; 3]>, StudyError> {
-            Ok(system.solve(Solver::Direct, &Options::default(), None)?.radiosity())
+            Ok(system.solve(Solver::Direct, &Options::default())?.radiosity())
         };
         let host = system(light::factors(patches, &CasterChoice::Host, progress)?.0)?;
         let reference = direct(&host)?;

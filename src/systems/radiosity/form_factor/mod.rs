@@ -3,14 +3,13 @@
 //! - unoccluded: Gauss quadrature for distant patches, a contour integral for near ones, both in f64;
 //! - with visibility: the unoccluded factor times the weighted fraction of unoccluded sample rays;
 //! - for the open parts of patches ([`Patches::open_parts`](super::Patches::open_parts)), which no solid covers;
-//! - in closed form for rectangles ([`rectangles`]), and from a point ([`point_to_polygon`]);
+//! - from a point, in closed form ([`point_to_polygon`]);
 //! - reciprocity and closure (rows of a closed room sum to 1) can be checked and enforced.
 
 mod closure;
 mod contour;
 mod exchange;
 mod polygon;
-pub mod rectangles;
 mod rows;
 mod visibility;
 

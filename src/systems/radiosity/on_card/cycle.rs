@@ -16,8 +16,7 @@ type Radiosities = [[f32; 3]];
 /// Cycle of states that repeats bit for bit: the limit of convergence in the card's number format.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cycle {
-    /// Iterations until the first state of the cycle; if [`super::CardOptions::check_every`] is above 1, until the
-    /// first state of the cycle that was read back.
+    /// Iterations until the first state of the cycle.
     pub entered: u32,
     /// Period: the smallest number of iterations after which every bit is equal; 1 is a fixed point.
     pub period: u32,

@@ -6,7 +6,7 @@ use refsim::texture::TexelFormat;
 
 use crate::card::CardError;
 use crate::error::InputError;
-use crate::radiosity::card_order::CardSystem;
+use crate::radiosity::card_system::CardSystem;
 use crate::radiosity::kernels;
 use crate::radiosity::packing::{self, Packing};
 use crate::radiosity::{System, model};

@@ -7,7 +7,7 @@ use refsim::output::WriteMask;
 use super::Storage;
 use super::programs::{BlockPass, Programs};
 use crate::card::{CardError, FullScreenPass, PingPong, Texels, nearest, new_target};
-use crate::radiosity::card_order::CardSystem;
+use crate::radiosity::card_system::CardSystem;
 use crate::radiosity::packing::Packing;
 
 /// Packing and sizes of a system's textures.
@@ -55,24 +55,20 @@ impl Layer {
         Ok(Self { layout, storage, matrix, emittance, radiosity, partial })
     }
 
-    pub(super) fn set_matrix(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.update(machine, self.matrix, self.layout.rows, texels)
-    }
-
     pub(super) fn set_emittance(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.update(machine, self.emittance, 1, texels)
+        self.update(machine, self.emittance, texels)
     }
 
     pub(super) fn load(&self, machine: &mut Machine, texels: &Texels) -> Result<(), CardError> {
-        self.update(machine, self.radiosity, 1, texels)
+        self.update(machine, self.radiosity, texels)
     }
 
-    fn update(&self, machine: &mut Machine, into: TextureId, rows: usize, texels: &Texels) -> Result<(), CardError> {
-        CardError::check_size("texels, as the card has", self.layout.width * rows, texels.texels.len())?;
+    fn update(&self, machine: &mut Machine, into: TextureId, texels: &Texels) -> Result<(), CardError> {
+        CardError::check_size("texels, as the card has", self.layout.width, texels.texels.len())?;
         Ok(texels.update(machine, into, self.storage.format())?)
     }
 
-    pub(super) fn target(&self, pass: usize) -> TextureId {
+    fn target(&self, pass: usize) -> TextureId {
         self.partial.written_by(pass)
     }
 

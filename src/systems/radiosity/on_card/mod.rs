@@ -20,10 +20,10 @@ use refsim::machine::{Executor, Machine, TextureId};
 pub use cycle::Cycle;
 pub use fit::{Fit, Storage};
 pub use programs::PassProgram;
-pub use solve::{CardOptions, CardSolution, Iteration, to_f64};
+pub use solve::{CardSolution, Iteration, to_f64};
 
 use super::System;
-use super::card_order::{CardSystem, emittances};
+use super::card_system::{CardSystem, emittances};
 use super::kernels;
 use super::packing::Packing;
 use crate::card::{CardError, Texels};
@@ -113,25 +113,9 @@ impl CardSolver {
 
     /// Runs one iteration: all passes of all systems. Fails with [`CardError::Draw`].
     pub fn iterate(&mut self) -> Result<(), CardError> {
-        self.iterate_watched(&mut |_, _, _, _| Ok(()))
-    }
-
-    /// Runs one iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
-    /// Fails with [`CardError::Draw`].
-    pub fn iterate_by_pass(&mut self, each: &mut dyn FnMut(usize, usize, Texels)) -> Result<(), CardError> {
-        self.iterate_watched(&mut |machine, place, layer, pass| {
-            each(place, pass, Texels::read_back(machine, layer.target(pass))?);
-            Ok(())
-        })
-    }
-
-    fn iterate_watched(&mut self, after: &mut PassObserver<'_>) -> Result<(), CardError> {
         let passes = self.passes();
-        for (place, layer) in self.layers.iter_mut().enumerate() {
-            for pass in 0..passes {
-                layer.pass(&mut self.machine, &self.programs, pass)?;
-                after(&self.machine, place, layer, pass)?;
-            }
+        for layer in &mut self.layers {
+            (0..passes).try_for_each(|pass| layer.pass(&mut self.machine, &self.programs, pass))?;
             layer.turn(passes);
         }
         Ok(())
@@ -190,19 +174,6 @@ impl CardSolver {
         self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
     }
 
-    /// Replaces the reflectances: uploads matrix and emittances of a system with the same number of patches.
-    /// Radiosities are kept. Fails with [`CardError::Input`] if it has another number of patches.
-    pub fn set_system(&mut self, system: &System) -> Result<(), CardError> {
-        CardError::check_size(PATCHES, self.len(), system.factors().len())?;
-        let fit = Fit { block: self.layout.block, ..self.fit };
-        let systems = fit.systems(self.machine.profile(), self.layout.packing, system)?;
-        for (layer, system) in self.layers.iter().zip(&systems) {
-            layer.set_matrix(&mut self.machine, system.matrix())?;
-            layer.set_emittance(&mut self.machine, system.emittance())?;
-        }
-        Ok(())
-    }
-
     /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with
     /// four patches per texel. An iteration changes which textures these are.
     pub fn radiosity_textures(&self) -> Vec<TextureId> {
@@ -224,6 +195,3 @@ impl CardSolver {
         self.machine.take_log()
     }
 }
-
-/// Called after each pass with the card, the system's index, the system's textures, and the index of the pass.
-type PassObserver<'a> = dyn FnMut(&Machine, usize, &Layer, usize) -> Result<(), CardError> + 'a;

@@ -3,24 +3,7 @@
 use super::cycle::StateDigests;
 use super::{CardError, CardSolver, Cycle};
 use crate::radiosity::System;
-use crate::radiosity::solve::mean_square;
-
-/// Stopping criteria.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CardOptions {
-    /// Tolerance: norm of the residual relative to the norm of the right-hand side, in each channel.
-    pub tolerance: f64,
-    /// Maximum number of iterations.
-    pub most_iterations: u32,
-    /// Number of iterations between computations of the residual, each of which costs a read-back; at least 1.
-    pub check_every: u32,
-}
-
-impl Default for CardOptions {
-    fn default() -> Self {
-        Self { tolerance: 1e-6, most_iterations: 1000, check_every: 1 }
-    }
-}
+use crate::radiosity::solve::{Options, mean_square};
 
 /// The state of an iteration.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +46,7 @@ impl CardSolver {
     pub fn solve(
         &mut self,
         system: &System,
-        options: &CardOptions,
+        options: &Options,
         each: &mut dyn FnMut(&Iteration<'_>),
     ) -> Result<CardSolution, CardError> {
         CardError::check_size(super::PATCHES, self.len(), system.factors().len())?;
@@ -90,11 +73,8 @@ impl CardSolver {
             if converged || cycle.is_some() || number >= options.most_iterations {
                 return Ok(CardSolution { radiosity, history, converged, cycle });
             }
-            let steps = options.check_every.max(1).min(options.most_iterations - number);
-            for _ in 0..steps {
-                self.iterate()?;
-            }
-            number += steps;
+            self.iterate()?;
+            number += 1;
             radiosity = self.read()?;
         }
     }

@@ -1,16 +1,16 @@
 //! The methods: Jacobi (equations 3 and 4), Gauss-Seidel with over-relaxation, shooting, LU.
 
-use super::problem::{IterationHistory, Options, Problem, Solution, residual, start};
+use super::problem::{IterationHistory, Options, Problem, Solution, residual};
 use crate::error::InputError;
 use crate::linalg::{Lu, dot};
 
-/// Repeats `step` until the stopping criterion holds. A step gets the radiosities and their residual.
+/// Repeats `step` from 0 until the stopping criterion holds. A step gets the radiosities and their residual.
 fn iterate(
     problem: &Problem<'_>,
     options: &Options,
     mut step: impl FnMut(&mut [f64], Vec<f64>),
 ) -> Result<Solution, InputError> {
-    let (mut b, mut history) = (start(problem), IterationHistory::new(problem, options));
+    let (mut b, mut history) = (vec![0.0; problem.matrix.row_count()], IterationHistory::new(problem, options));
     loop {
         let left = residual(problem.matrix, problem.right_hand_side, &b);
         if let Some(converged) = history.note(&left)? {
@@ -74,7 +74,7 @@ pub(super) fn direct(problem: &Problem<'_>, options: &Options) -> Result<Solutio
     let radiosity =
         Lu::new(problem.matrix).map_err(|error| error.coded("radiosity::solve"))?.solve(problem.right_hand_side);
     let mut history = IterationHistory::new(problem, options);
-    history.note(&residual(problem.matrix, problem.right_hand_side, &start(problem)))?;
+    history.note(&residual(problem.matrix, problem.right_hand_side, &vec![0.0; problem.matrix.row_count()]))?;
     let left = residual(problem.matrix, problem.right_hand_side, &radiosity);
     history.note(&left)?;
     let converged = history.errors.last().is_some_and(|&error| error <= history.target);

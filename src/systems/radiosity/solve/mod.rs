@@ -48,16 +48,13 @@ pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result
 fn check(problem: &Problem<'_>) -> Result<(), InputError> {
     let rows = problem.matrix.row_count();
     let counts = [
-        ("columns", Some(problem.matrix.column_count())),
-        ("emittances", Some(problem.right_hand_side.len())),
-        ("areas", Some(problem.areas.len())),
-        ("radiosities", problem.start.map(<[f64]>::len)),
+        ("columns", problem.matrix.column_count()),
+        ("emittances", problem.right_hand_side.len()),
+        ("areas", problem.areas.len()),
     ];
-    for (what, count) in counts {
-        if let Some(found) = count.filter(|&found| found != rows) {
-            return Err(input_error!("radiosity::solve" =>
-                "expected {rows} {what}, one per row of the matrix, found {found}"));
-        }
+    if let Some((what, found)) = counts.into_iter().find(|&(_, found)| found != rows) {
+        return Err(input_error!("radiosity::solve" =>
+            "expected {rows} {what}, one per row of the matrix, found {found}"));
     }
     match problem.matrix.diagonal().iter().position(|&d| d == 0.0) {
         Some(row) => Err(input_error!("radiosity::solve" =>

@@ -27,8 +27,6 @@ pub struct Problem<'a> {
     pub right_hand_side: &'a [f64],
     /// Areas of the patches, by which shooting weights radiosities.
     pub areas: &'a [f64],
-    /// The initial guess; `None` means 0.
-    pub start: Option<&'a [f64]>,
 }
 
 /// A solution with its convergence history.
@@ -85,8 +83,4 @@ pub fn mean_square(values: &[f64]) -> f64 {
 /// The residual, E - M B.
 pub fn residual(matrix: &Matrix, right_hand_side: &[f64], radiosity: &[f64]) -> Vec<f64> {
     matrix.times(radiosity).iter().zip(right_hand_side).map(|(mb, e)| e - mb).collect()
-}
-
-pub(super) fn start(problem: &Problem<'_>) -> Vec<f64> {
-    problem.start.map_or_else(|| vec![0.0; problem.matrix.row_count()], <[f64]>::to_vec)
 }

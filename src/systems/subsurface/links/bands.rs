@@ -1,7 +1,5 @@
 //! Links of bands (rows of texels), which are computed in parallel.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use rayon::prelude::*;
 
 use super::choice::{self, LinkChoice};
@@ -23,35 +21,24 @@ pub(super) struct LinkBands {
 }
 
 impl LinkBands {
-    /// Computes all links with given factors, `per_texel` of them per texel. `done` is called with finished rows of
-    /// texels, and all.
-    pub(super) fn with<const N: usize>(
-        factors: &Factors<'_, N>,
-        choice: LinkChoice,
-        per_texel: usize,
-        done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Self {
+    /// Computes all links with given factors, `per_texel` of them per texel.
+    pub(super) fn with<const N: usize>(factors: &Factors<'_, N>, choice: LinkChoice, per_texel: usize) -> Self {
         let side = factors.surface().side();
         let rows = side as usize;
         let links = rows * rows * per_texel;
         let mut bands = Self { clusters: Vec::new(), factors: vec![0.0; links * N] };
-        let count_of_rows = AtomicUsize::new(0);
-        let band_done = || {
-            let of_band = BAND.min(rows);
-            done(count_of_rows.fetch_add(of_band, Ordering::Relaxed) + of_band, rows);
-        };
         match choice {
-            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level, &band_done),
+            LinkChoice::Fixed { level } => bands.fill_fixed(factors, level),
             LinkChoice::Adaptive { count } => {
                 // An unused link has the factor 0 and points to the root.
                 bands.clusters = vec![PackedCluster::new(root(factors.surface())); links];
-                bands.fill_adaptive(factors, per_texel, count, &band_done);
+                bands.fill_adaptive(factors, per_texel, count);
             }
         }
         bands
     }
 
-    fn fill_fixed<const N: usize>(&mut self, factors: &Factors<'_, N>, level: u32, band_done: &(dyn Fn() + Sync)) {
+    fn fill_fixed<const N: usize>(&mut self, factors: &Factors<'_, N>, level: u32) {
         let side = factors.surface().side();
         let ids: Vec<ClusterId> = fixed_clusters(side, level).collect();
         let per_texel = ids.len();
@@ -66,17 +53,10 @@ impl LinkBands {
                     }
                 });
             }
-            band_done();
         });
     }
 
-    fn fill_adaptive<const N: usize>(
-        &mut self,
-        factors: &Factors<'_, N>,
-        per_texel: usize,
-        count: usize,
-        band_done: &(dyn Fn() + Sync),
-    ) {
+    fn fill_adaptive<const N: usize>(&mut self, factors: &Factors<'_, N>, per_texel: usize, count: usize) {
         let (side, root) = (factors.surface().side(), root(factors.surface()));
         let bands = self.clusters.par_chunks_mut(BAND * side as usize * per_texel);
         let bands = bands.zip(self.factors.par_chunks_mut(BAND * side as usize * per_texel * N));
@@ -94,7 +74,6 @@ impl LinkBands {
                     }
                 });
             }
-            band_done();
         });
     }
 }

@@ -38,8 +38,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Computes the links of every texel, for one dipole (scalar factors) or for red, green and blue. `done` is called
-    /// with the number of finished rows of texels and of all rows, in any order and from any thread. Fails with
+    /// Computes the links of every texel, for one dipole (scalar factors) or for red, green and blue. Fails with
     /// [`InputError`] for another number of dipoles, a level that the atlas does not have, a tolerance out of range, no
     /// links, or more than [`MAX_FACTORS`] factors.
     pub fn new(
@@ -47,24 +46,19 @@ impl Links {
         dipoles: &[Dipole],
         choice: LinkChoice,
         tolerance: f64,
-        done: &(dyn Fn(usize, usize) + Sync),
     ) -> Result<Self, InputError> {
         match *dipoles {
-            [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice, done),
-            [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice, done),
+            [dipole] => Self::with(&Factors::new(surface, [dipole], tolerance)?, choice),
+            [r, g, b] => Self::with(&Factors::new(surface, [r, g, b], tolerance)?, choice),
             // One dipole per channel: one channel, or red, green and blue.
             _ => Err(input_error!("subsurface::links" => "expected one dipole, or three, found {}", dipoles.len())),
         }
     }
 
     /// Computes the links of every texel with given factors. Fails as [`Self::new`] does.
-    pub fn with<const N: usize>(
-        factors: &Factors<'_, N>,
-        choice: LinkChoice,
-        done: &(dyn Fn(usize, usize) + Sync),
-    ) -> Result<Self, InputError> {
+    pub fn with<const N: usize>(factors: &Factors<'_, N>, choice: LinkChoice) -> Result<Self, InputError> {
         let (side, per_texel) = (factors.surface().side(), check(factors.surface(), choice, N)?);
-        let LinkBands { mut clusters, factors } = LinkBands::with(factors, choice, per_texel, done);
+        let LinkBands { mut clusters, factors } = LinkBands::with(factors, choice, per_texel);
         if let LinkChoice::Fixed { level } = choice {
             clusters = fixed_clusters(side, level).map(PackedCluster::new).collect();
         }

@@ -106,7 +106,7 @@ fn closed_box() -> Result<System, StudyError> {
 
 fn solve(system: &System, channel: usize, solver: Solver) -> Result<Solution, StudyError> {
     let options = Options { tolerance: TOLERANCE, most_iterations: 1000 };
-    system.solve_channel(channel, solver, &options, None).on("the host")
+    system.solve_channel(channel, solver, &options).on("the host")
 }
 
 /// Iterations until the residual's norm falls to a fraction of its initial value.

@@ -6,11 +6,11 @@ use refsim::machine::{Executor, ExecutorKind};
 use super::{EntryFindings, RunResult, Shared, StudyError, number, paragraph};
 use crate::card::RasterizedEyes;
 use crate::geom::exact::Sides;
+use crate::io::scenes;
 use crate::ray_engine::engine::{EngineParameters, RayEngine};
 use crate::renderer::environment::{self, EnvironmentCard};
 use crate::renderer::{RenderedPicture, Settings, whitted};
 use crate::report::{Cell, Table};
-use crate::scene::built;
 use crate::tracer::HostTracer;
 use crate::tracer::offset::unit_roundoff;
 
@@ -29,7 +29,7 @@ const HOW: &str = "The scene is our own, in {} x {} pixels with one ray per pixe
     Differences are in linear color, over the water pixels. The paper prints no figure.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let scene = built::build("harbour").ok_or("no scene `harbour`").on(DRAWS)?;
+    let scene = scenes::named("harbour").ok_or("no scene `harbour`").on(DRAWS)?;
     let view = scene.views.first().ok_or("no view").on(DRAWS)?;
     let camera = view.camera(SIZE[0], SIZE[1]).on(DRAWS)?;
     let (settings, profile) = (Settings::default(), Profile::named(DRAWS)?);

@@ -6,9 +6,10 @@ use super::{RunResult, StudyError};
 use crate::error::InputError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
+use crate::io::scenes;
 use crate::renderer::photon::Photons;
 use crate::renderer::{RenderedPicture, Settings, eye, photon, whitted};
-use crate::scene::{Camera, Scene, built};
+use crate::scene::{Camera, Scene};
 use crate::tracer::octree::OctreeParameters;
 use crate::tracer::{self, CastError, Caster, HostTracer};
 
@@ -92,7 +93,7 @@ impl Job {
     }
 
     fn scene_and_camera(&self) -> Result<(Scene, Camera), StudyError> {
-        let scene = built::build(self.scene).ok_or_else(|| format!("no scene `{}`", self.scene)).on(TIMES)?;
+        let scene = scenes::named(self.scene).ok_or_else(|| format!("no scene `{}`", self.scene)).on(TIMES)?;
         let view = match self.view {
             Some(name) => scene.view(name),
             None => scene.views.first(),

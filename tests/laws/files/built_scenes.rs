@@ -4,10 +4,11 @@ use approx::abs_diff_eq;
 use crossbar::geom::Contact;
 use crossbar::geom::exact::{Sides, nearest_all};
 use crossbar::geom::vector::wide;
-use crossbar::scene::{Scene, built};
+use crossbar::io::scenes;
+use crossbar::scene::Scene;
 
 fn scene(name: &str) -> Scene {
-    built::build(name).expect("a scene of that name")
+    scenes::named(name).expect("a scene of that name")
 }
 
 #[test]
@@ -23,12 +24,12 @@ fn counts_are_those_of_the_paper() {
     for (name, triangles) in counts {
         assert_eq!(scene(name).mesh().len(), triangles, "{name}");
     }
-    assert!(built::build("nowhere").is_none());
+    assert!(scenes::named("nowhere").is_none());
 }
 
 #[test]
 fn triangles_have_areas_and_normals_lean_to_the_front() {
-    for name in built::names() {
+    for name in scenes::names() {
         let scene = scene(name);
         assert_eq!(scene.mesh().degenerate_count(), 0, "{name}");
         assert!(!scene.views.is_empty(), "{name} has a view");
@@ -51,7 +52,7 @@ fn triangles_have_areas_and_normals_lean_to_the_front() {
 
 #[test]
 fn views_see_fronts_only() {
-    for name in built::names() {
+    for name in scenes::names() {
         let scene = scene(name);
         for view in &scene.views {
             let rays = view.camera(64, 64).expect("a camera").rays();

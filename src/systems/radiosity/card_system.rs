@@ -1,4 +1,4 @@
-//! Equation 4 in f32, in the order of a card's passes: the reference bits of the fragment programs.
+//! A system in the layout of the card's textures, and equation 4 in the order of the card's passes.
 //!
 //! With `A = diag(M)^-1 M` and `e = diag(M)^-1 E`, both computed in f64 and rounded once, row i of a step is computed
 //! as follows:
@@ -8,16 +8,11 @@
 //! - with four elements per texel, the four partial sums of a block start from 0; at its end they are added from the
 //!   left, and their sum is added to the result of the previous pass.
 
-use rayon::prelude::*;
-
 use super::System;
 use super::packing::{self, Packing};
 use crate::card::Texels;
 use crate::error::InputError;
 use crate::linalg::Matrix;
-
-/// Minimum number of rows of a parallel task.
-const ROWS: usize = 16;
 
 /// A system in the layout of the card's textures.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,58 +97,6 @@ impl CardSystem {
     pub fn passes(&self) -> usize {
         self.matrix.width.div_ceil(self.block)
     }
-
-    /// Returns a texture of zeros, the initial state of an iteration.
-    pub fn zero(&self) -> Texels {
-        Texels::vector(vec![[0.0; 4]; self.emittance.width])
-    }
-
-    /// Computes one pass. `radiosity` is the result of the previous iteration, `partial` the result of the previous
-    /// pass; pass 0 does not read `partial`. Panics if a texture is too small, or there is no such pass.
-    pub fn pass(&self, radiosity: &Texels, partial: &Texels, pass: usize) -> Texels {
-        let from = pass * self.block;
-        let to = (from + self.block).min(self.matrix.width);
-        let row = |i: usize| {
-            let (matrix, b) = (&self.matrix.row(i)[from..to], &radiosity.texels[from..to]);
-            let begin = |pick: &dyn Fn(&Texels) -> [f32; 4]| {
-                let (b, e) = (pick(radiosity), pick(&self.emittance));
-                if pass > 0 { pick(partial) } else { [0, 1, 2, 3].map(|c| b[c] + e[c]) }
-            };
-            match self.packing {
-                Packing::Rgb => rgb_row(begin(&|texels| texels.texels[i]), matrix, b),
-                Packing::Luminance => {
-                    [luminance_row(begin(&|texels| [texels.texels[i / 4][i % 4]; 4])[0], matrix, b); 4]
-                }
-            }
-        };
-        let values: Vec<[f32; 4]> = (0..self.matrix.height).into_par_iter().with_min_len(ROWS).map(row).collect();
-        Texels::vector(match self.packing {
-            Packing::Rgb => values,
-            Packing::Luminance => {
-                values.chunks_exact(4).map(|four| [four[0][0], four[1][0], four[2][0], four[3][0]]).collect()
-            }
-        })
-    }
-
-    /// Computes one iteration: all passes.
-    pub fn step(&self, radiosity: &Texels) -> Texels {
-        (0..self.passes()).fold(self.zero(), |partial, pass| self.pass(radiosity, &partial, pass))
-    }
-}
-
-/// `MAD acc, -m, b, acc` per texel.
-fn rgb_row(mut acc: [f32; 4], matrix: &[[f32; 4]], b: &[[f32; 4]]) -> [f32; 4] {
-    for (m, b) in matrix.iter().zip(b) {
-        let product = [m[0] * b[0], m[1] * b[1], m[2] * b[2], m[3] * b[3]];
-        acc = [acc[0] - product[0], acc[1] - product[1], acc[2] - product[2], acc[3] - product[3]];
-    }
-    acc
-}
-
-/// Accumulates four elements of the row at a time, then adds the four sums from the left (`DP4` with ones) to `begin`.
-fn luminance_row(begin: f32, matrix: &[[f32; 4]], b: &[[f32; 4]]) -> f32 {
-    let [x, y, z, w] = rgb_row([0.0; 4], matrix, b);
-    begin + (((x + y) + z) + w)
 }
 
 /// The right-hand sides divided by the diagonal of the system's matrix: one texture of three channels, or one per

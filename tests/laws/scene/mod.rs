@@ -1,3 +1,0 @@
-//! The scenes that the project builds.
-
-mod built;
