@@ -49,33 +49,6 @@ fn everything() -> Vec<NamedFile> {
     found.take_files(&Provenance::new("crossbar leaky-teapot --size 8x8")).expect("all of it can be encoded")
 }
 
-/// A page without style sheets and without the contents of drawings and pictures.
-fn structure(page: &str) -> String {
-    let cut = |text: &str, from: &str, to: &str| -> String {
-        let mut parts = text.split(from);
-        let first = parts.next().unwrap_or_default().to_owned();
-        parts.fold(first, |out, part| {
-            let (_, rest) = part.split_once(to).expect("an end");
-            format!("{out}{from}...{to}{rest}")
-        })
-    };
-    let page = cut(&cut(page, "<style>", "</style>"), "<script>", "</script>");
-    let page = cut(&page, "<svg", "</svg>");
-    let page = cut(&page, "base64,", "\"").replace(env!("CARGO_PKG_VERSION"), "VERSION");
-    // One line per block.
-    [
-        "<h1", "<h2", "<section", "<nav", "<ul", "<li", "<p", "<div", "<figure", "<img", "<table", "<thead", "<tbody",
-        "<tr", "<dl", "<body", "<main", "<head",
-    ]
-    .into_iter()
-    .fold(page, |page, tag| page.replace(tag, &format!("\n{tag}")))
-}
-
-#[test]
-fn the_structure_of_a_page() {
-    insta::assert_snapshot!("page", structure(&text(&everything(), "index.html")));
-}
-
 /// Tags that have no end tag.
 const VOID: [&str; 4] = ["meta", "img", "wbr", "br"];
 

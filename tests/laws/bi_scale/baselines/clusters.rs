@@ -8,7 +8,7 @@ use crossbar::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, Signal,
 use crossbar::linalg::dot;
 
 use super::{dense_row, light, transfer};
-use crate::support::{cluster_options, in_threads};
+use crate::support::cluster_options;
 
 const FORMS: [CpcaForm; 2] = [CpcaForm::Affine, CpcaForm::Linear];
 
@@ -110,14 +110,6 @@ fn rows_of_low_rank_are_met() {
         let found = clusters(&matrix, &RowClusterOptions { clusters: 1, vectors: 2, ..options(form) });
         assert!(squared_error(&matrix, &found) < 1e-8, "{form:?}: {:?}", found.history);
     }
-}
-
-/// The bits do not depend on the number of threads.
-#[test]
-fn threads_change_nothing() {
-    let matrix = transfer().1;
-    let of = |threads| in_threads(threads, || clusters(&matrix, &options(CpcaForm::Affine)));
-    assert!(of(1) == of(3));
 }
 
 #[test]
