@@ -9,4 +9,3 @@ mod linalg;
 mod pages;
 mod probes;
 mod teapot_study;
-mod timing;
