@@ -60,10 +60,3 @@ fn what_it_writes() {
     let rows = std::fs::read_to_string(folder.path().join("atlas/faces.csv")).expect("text");
     assert_eq!(rows.lines().count(), 1 + whole.1);
 }
-
-#[test]
-fn nothing_is_written_unasked() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    run(folder.path(), &[]);
-    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
-}

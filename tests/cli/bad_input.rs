@@ -1,65 +1,6 @@
-//! Bad input: one clear error, exit code 2, nothing half-written.
+//! Errors for programs that read them, and output that cannot be written.
 
-use std::path::Path;
-
-use crate::answers::listed;
-use crate::{ProgramOutput, crossbar, crossbar_in};
-
-/// Runs in an empty folder, which must stay empty, and expects a single error.
-fn refused(arguments: &[&str], input: &str) -> ProgramOutput {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let ran = crossbar_in(folder.path(), arguments, input);
-    assert_refused(&ran, arguments);
-    assert_eq!(entries(folder.path()), 0, "{arguments:?} left something behind");
-    ran
-}
-
-fn assert_refused(ran: &ProgramOutput, arguments: &[&str]) {
-    assert_eq!(ran.code, Some(2), "{arguments:?}: {}", ran.stderr);
-    assert_eq!(ran.stdout, "", "{arguments:?} found nothing to say on standard output");
-    assert!(!ran.stderr.contains("panicked"), "{arguments:?}: {}", ran.stderr);
-    let errors = ran.stderr.lines().filter(|line| line.to_lowercase().starts_with("error:")).count();
-    assert_eq!(errors, 1, "{arguments:?}: one error, not {errors}:\n{}", ran.stderr);
-}
-
-fn entries(folder: &Path) -> usize {
-    std::fs::read_dir(folder).expect("the folder of the test").count()
-}
-
-#[test]
-fn usage() {
-    for arguments in [
-        &["alu", "add"][..],
-        &["alu", "add", "--format", "fp17"],
-        &["alu", "add", "--format", "s16.16"],
-        &["alu", "add", "--format", "e9m10"],
-        &["alu", "add", "--format", "fp16:wrap"],
-        &["alu", "add", "--format", "fp16:rne:rtz"],
-        &["alu", "adds", "--format", "fp16"],
-        &["alu", "add", "--format", "fp16", "--threads", "0"],
-        &["alu", "add", "--format", "fp16", "--to", "fp32"],
-        &["alu", "convert", "--format", "fp16"],
-        &["devices", "r2000"],
-        &["devices", "ideal-fp17"],
-        &["leaky-teapot", "--size", "4x4", "-d", "r200", "-d", "Radeon 8500"],
-        &["nothing-of-the-kind"],
-    ] {
-        refused(arguments, "");
-    }
-}
-
-#[test]
-fn messages() {
-    let cases: [(&str, &[&str], &str); 5] = [
-        ("bad_format", &["alu", "add", "--format", "fp17"], ""),
-        ("convert_without_to", &["alu", "convert", "--format", "fp16"], ""),
-        ("unknown_device", &["devices", "r2000"], ""),
-        ("bad_ideal_format", &["devices", "ideal-fp17"], ""),
-        ("bad_hex", &["alu", "sqrt", "--format", "fp16"], "0x3C00\n"),
-    ];
-    let said = listed(cases.map(|(name, arguments, input)| (name, refused(arguments, input).stderr)));
-    insta::assert_snapshot!(said);
-}
+use crate::crossbar;
 
 #[test]
 fn errors_for_machines() {

@@ -1,83 +1,19 @@
 //! A strict reader of the trace event format in its JSON object form, as far as Crossbar writes it: complete events,
-//! metadata and flows. Anything that the format does not define, or that viewers drop, is an error. Like Perfetto, it
+//! metadata and flows. It panics at anything that the format does not define, or that viewers drop. Like Perfetto, it
 //! rounds starts and durations to nanoseconds separately, and requires slices that still do not overlap.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use serde::Deserialize;
-use serde_json::{Map, Value};
-
-/// A trace file.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
-pub(crate) struct TraceFile {
-    pub(crate) trace_events: Vec<Event>,
-    pub(crate) display_time_unit: TimeUnit,
-    pub(crate) other_data: Map<String, Value>,
-}
-
-/// The unit in which viewers show times.
-#[derive(Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum TimeUnit {
-    Ms,
-    Ns,
-}
-
-/// An event by its phase, with times in microseconds.
-#[derive(Debug, Deserialize)]
-#[serde(tag = "ph", deny_unknown_fields)]
-pub(crate) enum Event {
-    #[serde(rename = "X")]
-    Complete {
-        name: String,
-        cat: String,
-        ts: f64,
-        dur: f64,
-        pid: u32,
-        tid: u32,
-        #[serde(default)]
-        args: Map<String, Value>,
-    },
-    #[serde(rename = "M")]
-    Metadata { name: MetadataName, pid: u32, tid: u32, args: Map<String, Value> },
-    #[serde(rename = "s")]
-    FlowStart { name: String, cat: String, id: u64, ts: f64, pid: u32, tid: u32 },
-    #[serde(rename = "f")]
-    FlowEnd { name: String, cat: String, id: u64, ts: f64, pid: u32, tid: u32, bp: BindingPoint },
-}
-
-/// Metadata names that the format defines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum MetadataName {
-    ProcessName,
-    ProcessLabels,
-    ProcessSortIndex,
-    ThreadName,
-    ThreadSortIndex,
-}
-
-/// Binding of a flow's end to the enclosing slice, not to the next one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-pub(crate) enum BindingPoint {
-    #[serde(rename = "e")]
-    Enclosing,
-}
+use serde_json::Value;
 
 /// A slice on a thread, in nanoseconds, and its exact end in picoseconds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Slice {
     pub(crate) name: String,
     pub(crate) category: String,
-    pub(crate) start: u64,
-    pub(crate) end: u64,
+    start: u64,
+    end: u64,
     pub(crate) end_ps: u64,
-}
-
-/// Microseconds as a viewer rounds them.
-fn nanoseconds(microseconds: f64) -> u64 {
-    (microseconds * 1e3).round() as u64
 }
 
 /// The trace as a viewer shows it: threads by name, in display order, with their slices.
@@ -86,87 +22,89 @@ pub(crate) struct Shown {
     pub(crate) process: String,
     pub(crate) threads: Vec<(String, Vec<Slice>)>,
     pub(crate) flows: usize,
-    pub(crate) about: Map<String, Value>,
+    pub(crate) about: Value,
+}
+
+/// Asserts that an object has these keys and no others.
+fn has(object: &Value, keys: &str) {
+    let found: BTreeSet<&str> = object.as_object().expect("an object").keys().map(String::as_str).collect();
+    assert_eq!(found, keys.split(' ').collect(), "{object}");
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().unwrap_or_else(|| panic!("expected text, found {value}")).to_owned()
 }
 
 /// Reads a trace and checks the requirements of viewers: one named process, named and ordered threads, slices of each
 /// thread in order without overlap, flows in pairs whose ends lie in slices.
-pub(crate) fn read(text: &str) -> Result<Shown, String> {
-    let file: TraceFile = serde_json::from_str(text).map_err(|error| error.to_string())?;
-    let (mut processes, mut names, mut places) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
-    let mut slices: BTreeMap<u32, Vec<Slice>> = BTreeMap::new();
+pub(crate) fn read(trace: &str) -> Shown {
+    let file: Value = serde_json::from_str(trace).expect("one JSON document");
+    has(&file, "displayTimeUnit otherData traceEvents");
+    assert_eq!(file["displayTimeUnit"], "ns");
+    let (mut processes, mut names, mut places) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+    let mut slices: BTreeMap<u64, Vec<Slice>> = BTreeMap::new();
     let (mut starts, mut ends, mut latest) = (BTreeMap::new(), BTreeMap::new(), 0);
-    let mut pids = BTreeSet::new();
-    for event in file.trace_events {
-        match event {
-            Event::Metadata { name, pid, tid, args } => {
-                pids.insert(pid);
-                let text = || args.get("name").and_then(Value::as_str).map(str::to_owned).ok_or("a name without text");
-                match name {
-                    MetadataName::ProcessName => _ = processes.insert(pid, text()?),
-                    MetadataName::ThreadName => _ = names.insert(tid, text()?),
-                    MetadataName::ThreadSortIndex => {
-                        let place = args.get("sort_index").and_then(Value::as_i64).ok_or("a place without a number")?;
-                        places.insert(tid, place);
-                    }
-                    MetadataName::ProcessLabels | MetadataName::ProcessSortIndex => {}
+    let events = file["traceEvents"].as_array().expect("events");
+    for event in events {
+        assert_eq!(event["pid"], events[0]["pid"], "one process: {event}");
+        let tid = event["tid"].as_u64().expect("a thread");
+        let nanoseconds = |key: &str| (event[key].as_f64().expect(key) * 1e3).round() as u64;
+        let flow = || (event["name"].clone(), event["cat"].clone(), nanoseconds("ts"), tid);
+        let (name, args) = (text(&event["name"]), &event["args"]);
+        match text(&event["ph"]).as_str() {
+            "M" => {
+                has(event, "args name ph pid tid");
+                match name.as_str() {
+                    "process_name" => processes.push(text(&args["name"])),
+                    "thread_name" => _ = names.insert(tid, text(&args["name"])),
+                    "thread_sort_index" => _ = places.insert(tid, args["sort_index"].as_i64().expect("a place")),
+                    "process_labels" | "process_sort_index" => {}
+                    _ => panic!("{event}"),
                 }
             }
-            Event::Complete { name, cat, ts, dur, pid, tid, args } => {
-                pids.insert(pid);
-                let exact =
-                    |key: &str| args.get(key).and_then(Value::as_u64).ok_or(format!("`{name}` without `{key}`"));
-                let (start_ps, duration_ps) = (exact("start_ps")?, exact("duration_ps")?);
-                let (start, duration) = (nanoseconds(ts), nanoseconds(dur));
-                if start < latest || dur < 0.0 || duration_ps == 0 || name.is_empty() || !args.contains_key("command") {
-                    return Err(format!("slice `{name}` at {ts} for {dur} after {latest}"));
-                }
-                let (end, end_ps) = (start + duration, start_ps + duration_ps);
-                if (start, end) != (start_ps / 1000, end_ps / 1000) {
-                    return Err(format!("slice `{name}` at {ts} for {dur}, exactly {start_ps} to {end_ps}"));
-                }
+            "X" => {
+                has(event, "args cat dur name ph pid tid ts");
+                let [start_ps, duration_ps] = ["start_ps", "duration_ps"].map(|key| args[key].as_u64().expect(key));
+                let (start, duration, end_ps) = (nanoseconds("ts"), nanoseconds("dur"), start_ps + duration_ps);
+                let end = start + duration;
+                assert!(
+                    start >= latest && duration_ps > 0 && !name.is_empty() && !args["command"].is_null(),
+                    "{event}"
+                );
+                assert_eq!((start, end), (start_ps / 1000, end_ps / 1000), "{event}");
                 latest = start;
-                slices.entry(tid).or_default().push(Slice { name, category: cat, start, end, end_ps });
+                slices.entry(tid).or_default().push(Slice { name, category: text(&event["cat"]), start, end, end_ps });
             }
-            Event::FlowStart { name, cat, id, ts, pid, tid } => {
-                pids.insert(pid);
-                if starts.insert(id, (name, cat, nanoseconds(ts), tid)).is_some() {
-                    return Err(format!("flow {id} starts twice"));
-                }
+            "s" => {
+                has(event, "cat id name ph pid tid ts");
+                assert!(starts.insert(event["id"].as_u64().expect("a number"), flow()).is_none(), "{event}");
             }
-            Event::FlowEnd { name, cat, id, ts, pid, tid, bp: BindingPoint::Enclosing } => {
-                pids.insert(pid);
-                ends.insert(id, (name, cat, nanoseconds(ts), tid));
+            "f" => {
+                has(event, "bp cat id name ph pid tid ts");
+                assert_eq!(event["bp"], "e", "it binds to the enclosing slice");
+                ends.insert(event["id"].as_u64().expect("a number"), flow());
             }
+            _ => panic!("{event}"),
         }
     }
-    if pids.len() != 1 || processes.len() != 1 || file.display_time_unit != TimeUnit::Ns {
-        return Err(format!("expected one process with a name, found {pids:?} and {processes:?}"));
-    }
-    if !names.keys().eq(places.keys()) || !slices.keys().all(|tid| names.contains_key(tid)) {
-        return Err(format!("expected a name and a place for every thread, found {names:?} and {places:?}"));
-    }
-    for (id, (name, cat, ts, tid)) in &starts {
-        let end = ends.get(id).ok_or_else(|| format!("flow {id} has no end"))?;
+    let [process] = &processes[..] else { panic!("expected one process with a name, found {processes:?}") };
+    assert!(
+        names.keys().eq(places.keys()) && slices.keys().all(|tid| names.contains_key(tid)),
+        "{names:?}, {places:?}"
+    );
+    assert!(starts.keys().eq(ends.keys()), "flows come in pairs");
+    for ((name, cat, from, tid), end) in starts.values().zip(ends.values()) {
         let lies =
-            |tid: &u32, at: u64| slices.get(tid).is_some_and(|all| all.iter().any(|s| s.start <= at && at <= s.end));
-        if (name, cat) != (&end.0, &end.1) || end.2 < *ts || !lies(tid, *ts) || !lies(&end.3, end.2) {
-            return Err(format!("flow {id} from {ts} to {end:?}"));
-        }
+            |tid: &u64, at: u64| slices.get(tid).is_some_and(|all| all.iter().any(|s| s.start <= at && at <= s.end));
+        assert_eq!((name, cat), (&end.0, &end.1));
+        assert!(end.2 >= *from && lies(tid, *from) && lies(&end.3, end.2), "flow from {from} to {end:?}");
     }
-    if starts.len() != ends.len() {
-        return Err("a flow ends that did not start".to_owned());
+    for pair in slices.values().flat_map(|slices| slices.windows(2)) {
+        assert!(pair[1].start >= pair[0].end, "two at a time: {pair:?}");
     }
-    for slices in slices.values() {
-        if let Some(pair) = slices.windows(2).find(|pair| pair[1].start < pair[0].end) {
-            return Err(format!("two at a time: {pair:?}"));
-        }
-    }
-    let mut order: Vec<(i64, u32)> = places.into_iter().map(|(tid, place)| (place, tid)).collect();
+    let mut order: Vec<(i64, u64)> = places.into_iter().map(|(tid, place)| (place, tid)).collect();
     order.sort_unstable();
-    let thread =
-        |(_, tid): (i64, u32)| (names.remove(&tid).unwrap_or_default(), slices.remove(&tid).unwrap_or_default());
+    let thread = |(_, tid)| (names.remove(&tid).unwrap_or_default(), slices.remove(&tid).unwrap_or_default());
     let threads = order.into_iter().map(thread).collect();
-    let process = processes.into_values().next().unwrap_or_default();
-    Ok(Shown { process, threads, flows: starts.len(), about: file.other_data })
+    Shown { process: process.clone(), threads, flows: starts.len(), about: file["otherData"].clone() }
 }
