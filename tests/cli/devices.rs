@@ -1,18 +1,6 @@
 //! `crossbar devices`: every figure is printed with its source.
 
-use crate::answers::document;
 use crate::crossbar;
-
-#[test]
-fn all_devices_are_listed() {
-    let listed = document(&["devices"]);
-    let names: Vec<&str> = listed.as_array().expect("a list").iter().filter_map(|d| d["name"].as_str()).collect();
-    assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "fx5800", "fx5900"]);
-    let text = crossbar(&["devices"], "").stdout;
-    for name in names {
-        assert!(text.contains(&format!("| {name} ")), "{name} stands in the table:\n{text}");
-    }
-}
 
 #[test]
 fn the_text_shows_figures_and_switches() {

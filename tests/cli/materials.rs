@@ -1,6 +1,5 @@
 //! `crossbar materials`: published media with sources, custom media, errors that suggest a name.
 
-use crate::answers::refused;
 use crate::crossbar;
 
 #[test]
@@ -21,14 +20,4 @@ fn the_text_shows_lengths_reflectances_and_sources() {
     }
     let all = crossbar(&["materials"], "").stdout;
     assert!(["Apple", "Wholemilk", "Figure7-marble", "0.8464"].iter().all(|text| all.contains(text)), "{all}");
-}
-
-#[test]
-fn what_is_no_medium_is_refused_with_what_was_meant() {
-    for (arguments, said) in
-        [(&["materials", "chiken1"][..], "did you mean `Chicken1`?"), (&["materials", "butter"], "the media are Apple")]
-    {
-        let text = refused(arguments);
-        assert!(text.contains(said), "{arguments:?}: {text}");
-    }
 }

@@ -246,6 +246,8 @@ fn what_is_wrong_is_said() {
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 64 --links 4 --all-pairs no", "128"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 4097", "power of two"),
         ("atlas stand-in-head --side 4097", "power of two"),
+        ("atlas stand-in-head --side 100", "power of two"),
+        ("materials chiken1", "did you mean `Chicken1`?"),
         (
             "subsurface stand-in-head --mm-per-unit 1 --material marble --eta 4",
             "an index of refraction from 1 to 3, found 4",
