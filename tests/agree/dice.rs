@@ -232,12 +232,7 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
     let kinds = kinds(options, r);
     let textures = textures(&kinds, options, &profile, r);
     let targets = targets(options, &profile, r);
-    let layout = Layout {
-        samplers: kinds,
-        targets: targets.len(),
-        limited: profile.limits.version_limits,
-        sampling: options.sampling,
-    };
+    let layout = Layout { samplers: kinds, targets: targets.len(), sampling: options.sampling };
     let blends = profile.limits.float_blending || targets.iter().all(|t| !t.record().is_float());
     let shape = options.shape.unwrap_or_else(|| shapes::ordinary(r));
     let size = shapes::size(shape, r);

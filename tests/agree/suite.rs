@@ -137,7 +137,7 @@ fn legal(version: Version, layout: &Layout, sizes: usize, profile: &Profile, r: 
     let mut last = String::new();
     for attempt in 0..1000 {
         let size = start.saturating_sub(attempt / 8);
-        let lines = generate::program(version, layout, size, r);
+        let lines = generate::program(version, layout, profile, size, r);
         match build(&lines, profile) {
             Ok(_) => return lines,
             Err(why) => last = format!("{}\n{why}", lines.join("\n")),

@@ -127,21 +127,6 @@ fn a_model_stands_on_a_ground() {
     assert_eq!(other.code, Some(2), "a file that names no model is no ground: {}", other.stderr);
 }
 
-/// Decomposes light: its energy is the sum over kept and dropped coefficients.
-#[test]
-fn light_is_taken_apart() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let table = place(folder.path(), "light.csv");
-    let all = document(&format!("all-frequency lighting --light disk:1,0,2:5 --out {table}"));
-    assert_eq!((&all["kept"], number(&all["kept_energy"])), (&all["nonzero"], 1.0));
-    let again = document(&format!("all-frequency lighting --light {table}"));
-    assert_relative_eq!(number(&again["energy"]), number(&all["energy"]), max_relative = 1e-9);
-    let few = document("all-frequency lighting --light disk:1,0,2:5 --keep 20 --by magnitude --segments 6");
-    let kept = number(&few["kept_energy"]);
-    assert!(kept > 0.5 && kept < 1.0, "{kept}");
-    assert_eq!((&few["kept"], &few["segments"]), (&Value::from(20), &Value::from(6)));
-}
-
 #[test]
 fn what_does_not_go_together_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -168,6 +153,19 @@ fn what_does_not_go_together_is_refused() {
         (
             "all-frequency compress docs/examples/step_all_small.npz --model docs/examples/step.obj --out OUT",
             "expected visibility",
+        ),
+        (
+            "all-frequency card docs/examples/step_small.npz --model docs/examples/step.obj --way colors --out OUT",
+            "`crossbar cpca` takes it",
+        ),
+        (
+            "all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original \
+             docs/examples/step_all_small.npz --out OUT",
+            "expected visibility with the same reflectance",
+        ),
+        (
+            "all-frequency card docs/examples/step_all_small.npz --model white-box --out OUT",
+            "expected transfer of a mesh with",
         ),
     ];
     let out = place(folder.path(), "y.npz");

@@ -9,20 +9,11 @@ use crate::{ProgramOutput, crossbar, crossbar_in};
 
 const TEAPOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/examples/teapot.obj");
 
-fn refused(arguments: &[&str]) -> String {
-    let ran = crossbar(&[&["atlas"], arguments].concat(), "");
-    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}");
-    ran.stderr
-}
-
 #[test]
 fn what_it_says() {
     let ran = crossbar(&["atlas", "stand-in-head", "--side", "128"], "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     insta::assert_snapshot!("atlas_tables", ran.stdout);
-    insta::assert_snapshot!("atlas_too_many_faces", refused(&["stand-in-head", "--side", "64"]));
-    insta::assert_snapshot!("atlas_side", refused(&["stand-in-head", "--side", "100"]));
-    insta::assert_snapshot!("atlas_unknown", refused(&["stand-in-hat"]));
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> ProgramOutput {
@@ -59,11 +50,4 @@ fn what_it_writes() {
     assert!(coordinates.iter().all(|part| (0.0..=1.0).contains(part)));
     let rows = std::fs::read_to_string(folder.path().join("atlas/faces.csv")).expect("text");
     assert_eq!(rows.lines().count(), 1 + whole.1);
-}
-
-#[test]
-fn nothing_is_written_unasked() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    run(folder.path(), &[]);
-    assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
 }

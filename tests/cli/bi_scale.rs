@@ -195,48 +195,6 @@ fn textures_that_do_not_fit_are_refused() {
     }
 }
 
-/// The card's picture equals the host's picture except for the rounding of its target; coarser formats have a larger
-/// error, and other kinds of transfer do not accept them.
-#[test]
-fn the_card_draws_what_the_host_draws() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [matrix, biclusters, out] = ["t.npz", "b.npz", "out"].map(|name| place(folder.path(), name));
-    document(&format!("bi-scale precompute {COURT} --directions 4 --tangents texture --out {matrix}"));
-    document(&format!("bi-scale bicluster {matrix} --out {biclusters}"));
-    let texture = "--texture tiles --texture-size 8 --texture-views 4 --repeat 4";
-    let on_card = |options: &str| {
-        let fixed = format!("--model {COURT} --size 40x30 --light sky:1,-1,1 --exposure 0.5 {texture}");
-        document(&format!("bi-scale card {biclusters} {fixed} {options} --out {out}"))
-    };
-    let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
-    let fine = on_card("--device ideal-fp32");
-    assert!(rms(&fine) < 2.0 && fine["time"].is_null(), "{}", rms(&fine));
-    let with_one = picture(&out, "card");
-    // The floor has its own texture, also in the host's picture.
-    let both = on_card("--texture floor=mail --device ideal-fp32");
-    assert!(rms(&both) < 2.0, "{}", rms(&both));
-    assert!(number(&both["sizes"][4]["number"]) == 2.0, "{}", both["sizes"]);
-    let changed = with_one.iter().zip(picture(&out, "card")).filter(|(a, b)| *a != b).count();
-    let lit = with_one.iter().filter(|color| color.iter().any(|&value| value > 0.0)).count();
-    assert!((50..lit - 50).contains(&changed), "{changed} of {lit}");
-    let bytes = on_card("--sweep");
-    assert!(rms(&bytes) >= rms(&fine) && rms(&bytes) < 2.0, "{}", rms(&bytes));
-    assert!(bytes["time"].as_array().is_some_and(|times| times.len() == 5));
-    let rows = bytes["precision"].as_array().expect("ways");
-    assert_eq!(rows.len(), 10, "one fine, two coarse ones of four things, seams");
-    for (options, said) in [
-        (format!("bi-scale card {matrix} --model {COURT} --texture tiles"), "expected biclusters, found a matrix only"),
-        (format!("bi-scale card {biclusters} --model {COURT}"), "--texture <[MATERIAL=]B.npy>"),
-        (
-            format!("bi-scale card {biclusters} --model {COURT} --texture tiles --way colors"),
-            "unexpected argument '--way'",
-        ),
-    ] {
-        let words = refused_line(&format!("{options} --out {out}"));
-        assert!(words.contains(said), "{options}: {words}");
-    }
-}
-
 /// A crease angle below a right angle separates the vertices of floor and wall; a picture must be drawn with the same
 /// angle.
 #[test]

@@ -90,51 +90,6 @@ fn two_roundings() {
     );
 }
 
-/// Half of full red lies between two codes, a quarter of full depth between two others.
-#[test]
-fn the_output_merge() {
-    let folder = fixtures();
-    let json = |arguments: &[&str]| -> Value {
-        let ran = crossbar_in(&folder, &[&["compare", "--json"], arguments].concat(), "");
-        assert_eq!((ran.code, ran.stderr.as_str()), (Some(1), ""), "{}", ran.stdout);
-        serde_json::from_str(&ran.stdout).expect("one JSON document")
-    };
-    let red = json(&["modulate.toml", "--right-switch", "target-rounding=truncate"]);
-    let found = &red["first"]["difference"];
-    assert_eq!((&found["stage"], &found["values"][0]["name"]), (&json!("merge"), &json!("target 0 red")));
-    assert_eq!((&found["values"][0]["left_bits"], &found["values"][0]["right_bits"]), (&json!("0x80"), &json!("0x7f")));
-    assert_eq!(red["surfaces"][0]["largest"]["ulps"], 1.0);
-    let sides = "two_triangles.toml --left-device r300 --right-device r300 --right-switch depth-rounding=truncate";
-    let depth = json(&sides.split(' ').collect::<Vec<_>>());
-    let found = &depth["first"]["difference"];
-    assert_eq!((&found["stage"], &found["values"][0]["name"]), (&json!("merge"), &json!("depth")));
-    assert_eq!(found["values"][0]["left_bits"], "0x400000");
-    assert_eq!(found["values"][0]["right_bits"], "0x3fffff");
-}
-
-/// An edge at column 3.02: a grid of sixteenths rounds it to 3, so the center of column 3 lies on it, to the right of
-/// the quad; on a grid of 256ths the center lies inside.
-#[test]
-fn the_coverage() {
-    let text = r#"device = "r300"
-[pixel]
-source = "ps_2_0\nmov r0, c0\nmov oC0, r0"
-[constants]
-c0 = [1, 1, 1, 1]
-[geometry]
-primitive = "quads"
-vertices = [{ position = [-1, 1] }, { position = [-0.245, 1] }, { position = [-0.245, -1] }, { position = [-1, -1] }]
-[target]
-size = [8, 8]
-format = "rgba8"
-"#;
-    let first = difference(text, &["--left-switch", "subpixel-bits=4", "--right-switch", "subpixel-bits=8"]);
-    assert_eq!(first["pixel"], json!([3, 0]));
-    let found = &first["difference"];
-    assert_eq!((&found["stage"], &found["left"]), (&json!("coverage"), &Value::Null));
-    assert_eq!(found["right"]["instance"], 0);
-}
-
 #[test]
 fn a_device_without_a_switch_of_the_case() {
     let ran = crossbar_in(&fixtures(), &["compare", "modulate.toml", "--right-device", "r300"], "");

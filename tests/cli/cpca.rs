@@ -4,9 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use crossbar::picture::{Picture, exr};
 use crossbar::transfer::file::load_prt;
-use serde_json::Value;
 
 use crate::answers::{document, number, place, refused, refused_in};
 
@@ -50,37 +48,6 @@ fn what_does_not_go_together_is_refused() {
     }
 }
 
-/// The card's picture equals the host's up to rounding: almost exactly on an ideal device, less exactly on real cards.
-#[test]
-fn a_card_draws_what_the_host_draws() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [model, ..] = STEP;
-    let [transfer, small, out] = ["x.npz", "y.npz", "out"].map(|name| place(folder.path(), name));
-    let glossy = ["--kind", "glossy", "--order", "3", "--brdf", "phong:0.4,0.4,8", "--out", &transfer];
-    document(&[&["cpca", "precompute", model][..], &glossy].concat());
-    document(&["cpca", "compress", &transfer, "--clusters", "6", "--vectors", "3", "--out", &small]);
-    let card = |options: &[&str]| {
-        let fixed = ["cpca", "card", &small, "--model", model, "--size", "48x36", "--out", &out];
-        document(&[&fixed[..], options].concat())
-    };
-    let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
-    let (ideal, radeon) = (card(&["--device", "ideal-fp32"]), card(&[]));
-    assert!(ideal["time"].is_null() && rms(&ideal) < rms(&radeon), "{} {}", rms(&ideal), rms(&radeon));
-    let time = radeon["time"].as_array().expect("times");
-    assert_eq!(time.len(), 6);
-    let sweep = card(&["--sweep"]);
-    let rows = sweep["precision"].as_array().expect("a sweep");
-    assert_eq!(rows.len(), 18);
-    let of = |what: &str, choice: &str| {
-        let row = rows.iter().find(|row| row["what"] == what && row["choice"] == choice);
-        number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms_255ths"])
-    };
-    assert!(of("weights", "unorm16") < of("weights", "unorm8"));
-    assert!(of("map texels", "64 x 64") < of("map texels", "16 x 16"));
-    assert!(of("target", "16 bits, alone") < of("target", "8 bits, alone"));
-    assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
-}
-
 /// Files and formats that a card does not support are refused with advice, and nothing is written.
 #[test]
 fn cards_refuse_what_they_have_no_programs_for() {
@@ -94,34 +61,6 @@ fn cards_refuse_what_they_have_no_programs_for() {
     };
     assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer only"));
     assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
-}
-
-#[test]
-fn pictures_that_are_no_lights_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [model, transfer, _] = STEP.map(|path| place(Path::new(env!("CARGO_MANIFEST_DIR")), path));
-    let mut pixels = [[1.0; 3]; 32];
-    pixels[19] = [1.0, f32::NAN, 1.0];
-    // White scanlines of 8 pixels, one run per channel; the second scanline ends within its second run.
-    let row = [2, 2, 0, 8, 136, 128, 136, 128, 136, 128, 136, 129];
-    let broken = [&b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n"[..], &row, &row[..7], b"\0"].concat();
-    for (name, bytes, words) in [
-        (
-            "nan.exr",
-            exr(&Picture::rgb(8, 4, &pixels)).expect("a file"),
-            "expected finite radiance, found NaN in channel green of the pixel in column 3, row 2",
-        ),
-        ("tall.exr", exr(&Picture::rgb(4, 8, &pixels)).expect("a file"), "found 4x8"),
-        ("cut.hdr", broken, "the Radiance HDR data cannot be read"),
-        ("words.hdr", b"no picture".to_vec(), "6e 6f 20 70"),
-        ("empty.hdr", Vec::new(), "begins with nothing"),
-    ] {
-        let light = place(folder.path(), name);
-        fs::write(&light, bytes).expect("written");
-        let arguments = ["cpca", "render", &transfer, "--model", &model, "--light", &light, "--size", "8x8"];
-        let said = refused_in(folder.path(), &arguments);
-        assert!(said.contains(words) && said.contains(name), "{name}: {said}");
-    }
 }
 
 /// Light at a place in a scene: a lamp has the flux of its solid angle in closed form, and the model's picture depends on
@@ -190,29 +129,6 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
     // A square without texture coordinates is a different mesh and is refused.
     let square = ["cpca", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
     refused(&square);
-}
-
-/// Reclassification draws fewer triangles within its budget; the file records it.
-#[test]
-fn clusters_are_made_coherent_on_their_mesh() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [model, transfer, _] = STEP;
-    let out = place(folder.path(), "out.npz");
-    let compress = |options: &[&str]| {
-        let fixed = ["cpca", "compress", transfer, "--clusters", "12", "--vectors", "2", "--out", &out];
-        document(&[&fixed[..], options].concat())
-    };
-    let plain = compress(&[]);
-    assert!(plain["coherence"].is_null());
-    let moved = compress(&["--model", model, "--reclassify", "0.1"]);
-    let drawn = |made: &Value, after: &str| made["coherence"]["triangles_drawn"][after].as_u64().expect("a count");
-    assert!(drawn(&moved, "reclassified") < drawn(&moved, "clusters"), "{}", moved["coherence"]);
-    let [before, after] = [&plain, &moved].map(|made| number(&made["squared_error"]));
-    assert!(after <= 1.1 * before);
-    let added = number(&moved["coherence"]["added_squared_error"]);
-    assert_relative_eq!(after, before + added, max_relative = 1e-9);
-    let shown = document(&["cpca", "show", &out]);
-    assert_eq!(shown["made"]["reclassify"], "0.1");
 }
 
 /// Options that other options make useless are refused by name.

@@ -1,36 +1,6 @@
 //! `crossbar devices`: every figure is printed with its source.
 
-use refsim::device::Confidence;
-use serde_json::Value;
-
-use crate::answers::document;
 use crate::crossbar;
-
-#[test]
-fn all_devices_are_listed() {
-    let listed = document(&["devices"]);
-    let names: Vec<&str> = listed.as_array().expect("a list").iter().filter_map(|d| d["device"].as_str()).collect();
-    assert_eq!(names, ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "fx5800", "fx5900"]);
-    let text = crossbar(&["devices"], "").stdout;
-    for name in names {
-        assert!(text.contains(&format!("| {name} ")), "{name} stands in the table:\n{text}");
-    }
-}
-
-#[test]
-fn every_figure_has_a_source_and_a_confidence() {
-    for name in ["nv20", "r200", "nv25", "r300", "nv30", "r350", "nv35", "gt200", "fx5800", "fx5900", "ideal-s3.12:rtz"]
-    {
-        let device = document(&["devices", name]);
-        let figures = device["figures"].as_array().expect("a list");
-        assert!(!figures.is_empty(), "{name} has figures");
-        for figure in figures {
-            assert_ne!(figure["source"], "", "{name}: {figure}");
-            let confidence = figure["confidence"].as_str().unwrap_or_default();
-            assert!(Confidence::ALL.iter().any(|word| confidence.starts_with(word.word())), "{name}: {figure}");
-        }
-    }
-}
 
 #[test]
 fn the_text_shows_figures_and_switches() {
@@ -39,16 +9,6 @@ fn the_text_shows_figures_and_switches() {
     {
         assert!(text.contains(expected), "`{expected}` stands in\n{text}");
     }
-}
-
-#[test]
-fn an_ideal_device_has_the_format_of_its_name() {
-    let device = document(&["devices", "ideal-e7m16"]);
-    let format = device["figures"]
-        .as_array()
-        .and_then(|figures| figures.iter().find(|figure| figure["figure"] == "rules.format"))
-        .map(|figure| figure["value"].clone());
-    assert_eq!(format, Some(Value::from("e7m16")));
 }
 
 #[cfg(not(feature = "wgpu"))]

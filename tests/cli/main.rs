@@ -1,17 +1,13 @@
 //! Tests the program as a user runs it: arguments in; text, exit code and files out.
 
 mod all_frequency;
-mod all_frequency_card;
 mod alu;
 mod answers;
-#[path = "../archive.rs"]
-mod archive;
 mod atlas;
 mod bad_input;
 mod bi_scale;
 mod case;
 mod check;
-mod claims;
 mod commands;
 mod compare;
 mod completions;

@@ -51,18 +51,3 @@ fn what_is_no_module_is_refused() {
     assert_eq!(ran.code, Some(2), "{}", ran.stderr);
     assert!(!folder.path().join("page/index.html").exists());
 }
-
-/// Two runs write the same bytes: results and pictures do not depend on threads.
-#[test]
-fn the_page_is_the_same_each_time() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let pages = ["1", "3"].map(|threads| {
-        let ran = crossbar_in(folder.path(), &["page", "--json", "--threads", threads, "--out", threads], "");
-        let said: Value = serde_json::from_str(&ran.stdout).expect("JSON");
-        let page = std::fs::read(folder.path().join(threads).join("index.html")).expect("the page");
-        assert_eq!(said["bytes"], page.len());
-        assert_eq!(said["files"], serde_json::json!([format!("{threads}/index.html")]));
-        page
-    });
-    assert!(pages[0] == pages[1]);
-}

@@ -74,26 +74,6 @@ fn a_flat_scene_has_no_residuals_to_draw() {
 }
 
 #[test]
-fn the_same_bytes_for_every_executor_and_thread_count() {
-    let folders =
-        [&["--executor", "scalar"][..], &["--executor", "batch", "--threads", "1"], &["--threads", "3"]].map(|more| {
-            let mut arguments = SMALL.to_vec();
-            arguments.extend(["--iterations", "5"]);
-            arguments.extend(more);
-            let (ran, folder) = radiosity(&arguments);
-            assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{more:?}");
-            folder
-        });
-    for file in ["nv35-rgb-fp32-flat.png", "nv35-rgb-fp32-smooth.png", "patches.csv", "timeline.json", "index.html"] {
-        let read = |folder: &tempfile::TempDir| {
-            std::fs::read(folder.path().join("out/radiosity").join(file)).expect("written")
-        };
-        let first = read(&folders[0]);
-        assert!(folders.iter().all(|folder| read(folder) == first), "{file}");
-    }
-}
-
-#[test]
 fn a_document_for_machines() {
     let mut arguments = SMALL.to_vec();
     arguments.extend(["--solver", "direct", "--enforce-closure", "--json"]);
@@ -106,50 +86,6 @@ fn a_document_for_machines() {
     assert!(direct["light_unaccounted"].as_f64().expect("a number") < 1e-12, "{direct}");
     assert_eq!(found["card"][0]["passes"], 1);
     assert_eq!(found["provenance"]["profiles"][0], "nv35");
-}
-
-/// Truncation makes half floats darker, and more patches make both settings darker; files for programs have a row per
-/// setting.
-#[test]
-fn a_sweep_over_patches_and_switches() {
-    let run = |switch: &[&str]| {
-        let mut arguments = SMALL.to_vec();
-        arguments.extend(["--storage", "fp16", "--iterations", "60", "--sweep-patches", "30,90", "--json"]);
-        arguments.extend(switch);
-        let (ran, folder) = radiosity(&arguments);
-        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-        let file = |name: &str| folder.path().join("out/radiosity").join(name);
-        assert!(file("sweep.svg").exists());
-        let found = serde_json::from_str::<serde_json::Value>(&ran.stdout).expect("one JSON document");
-        let csv = std::fs::read_to_string(file("sweep.csv")).expect("written");
-        assert_eq!(csv.lines().count(), 1 + found["sweep"].as_array().expect("rows").len());
-        assert!(std::fs::read_to_string(file("index.html")).expect("written").contains("switches: the same bits"));
-        found
-    };
-    let (default, turned) = (run(&[]), run(&["--switch", "rounding=rtz"]));
-    assert_eq!(turned["provenance"]["switches"][0], serde_json::json!(["rounding", "rtz"]));
-    // Patches, settings and darkness of each row.
-    let rows = |found: &serde_json::Value| -> Vec<(u64, String, f64)> {
-        let row = |row: &serde_json::Value| {
-            let setting = row["setting"].as_str().expect("words").to_owned();
-            (row["patches"].as_u64().expect("a count"), setting, -row["mean_relative"].as_f64().expect("a number"))
-        };
-        found["sweep"].as_array().expect("rows").iter().map(row).collect()
-    };
-    let dark = |found: &[(u64, String, f64)], patches: u64, switches: &str| -> f64 {
-        let row = found.iter().find(|row| row.0 == patches && row.1.starts_with(switches));
-        row.unwrap_or_else(|| panic!("{patches}, {switches}: {found:?}")).2
-    };
-    let (default, turned) = (rows(&default), rows(&turned));
-    let sizes: BTreeSet<u64> = default.iter().map(|row| row.0).collect();
-    assert!(sizes.len() == 2 && default.len() > 20, "a row per setting: {default:?}");
-    let [few, many] = sizes.iter().copied().collect::<Vec<_>>()[..] else { panic!("{sizes:?}") };
-    for patches in [few, many] {
-        assert_eq!(dark(&default, patches, "rounding=rtz"), dark(&turned, patches, "as it is"));
-        assert_eq!(dark(&default, patches, "as it is"), dark(&turned, patches, "rounding=rne"));
-        assert!(dark(&turned, patches, "as it is") > 3.0 * dark(&default, patches, "as it is").abs());
-    }
-    assert!(dark(&turned, many, "as it is") > 1.5 * dark(&turned, few, "as it is"), "{turned:?}");
 }
 
 /// An open sheet, a sheet with a triangle without area, a triangle that is too thin, a mirror, and an empty model.

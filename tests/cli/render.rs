@@ -21,25 +21,6 @@ const BROKEN: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\
                       element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n";
 
 #[test]
-fn every_renderer_makes_the_same_picture_twice() {
-    for renderer in ["eye", "whitted", "distributed", "path", "photon"] {
-        let arguments = ["cornell-box", "--renderer", renderer, "--size", "8x8", "--samples", "2"];
-        let (first, one) = render(&arguments);
-        assert_eq!((first.code, first.stderr.as_str()), (Some(0), ""), "{renderer}");
-        let mut again = arguments.to_vec();
-        again.extend(["--threads", "1"]);
-        let (second, two) = render(&again);
-        assert_eq!(first.stdout, second.stdout, "{renderer}");
-        for file in ["picture.png", "layers.exr"] {
-            let read = |folder: &tempfile::TempDir| {
-                std::fs::read(folder.path().join("out/render").join(file)).expect("written")
-            };
-            assert!(read(&one) == read(&two), "{renderer}: {file}");
-        }
-    }
-}
-
-#[test]
 fn what_it_says() {
     let (ran, _folder) = render(&["cornell-box", "--size", "8x8", "--samples", "1"]);
     insta::assert_snapshot!("render_cornell_box", ran.transcript());

@@ -38,15 +38,6 @@ fn the_rows_are_these() {
     insta::assert_snapshot!(file("rows.csv") + &file("tally.csv"));
 }
 
-/// The tables and the conclusion of one entry.
-#[test]
-fn the_text_is_this() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let ran = crossbar_in(folder.path(), &["reproduce", "ray-engine-equation-11", "--out", "found"], "");
-    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-    insta::assert_snapshot!(ran.stdout);
-}
-
 /// Recording continues where it was interrupted: an existing file stays unchanged.
 #[test]
 fn what_is_recorded_stays() {

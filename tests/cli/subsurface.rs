@@ -56,22 +56,6 @@ fn what_it_says_and_writes() {
     assert_eq!(faces.lines().filter(|line| !line.starts_with('#')).count(), 5, "a heading and four faces: {faces}");
 }
 
-#[test]
-fn the_same_bytes_for_every_executor_and_thread_count() {
-    let ways =
-        [&["--executor", "scalar"][..], &["--executor", "batch", "--threads", "1"], &["--threads", "3"]].map(|more| {
-            let (ran, folder) = subsurface(&[&["--map", "8bit", "--map", "fp16", "--all-pairs", "no"], more].concat());
-            assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{more:?}");
-            folder
-        });
-    for file in files(&ways[0]) {
-        let read = |folder: &tempfile::TempDir| {
-            std::fs::read(folder.path().join("out/subsurface").join(&file)).expect("written")
-        };
-        assert!(ways.iter().all(|folder| read(folder) == read(&ways[0])), "{file}");
-    }
-}
-
 /// Rows of one of the study's tables, as cells by heading; comments are skipped.
 fn table(folder: &tempfile::TempDir, name: &str) -> Vec<BTreeMap<String, String>> {
     let text = std::fs::read_to_string(folder.path().join("out/subsurface").join(name)).expect("a table");

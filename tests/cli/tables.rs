@@ -15,41 +15,6 @@ fn printed(folder: &Path, arguments: &[&str], columns: usize) -> String {
     String::from_utf8(output.stdout).expect("the program writes text")
 }
 
-fn fixture(path: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path).display().to_string()
-}
-
-/// No line of any table is wider than the terminal.
-#[test]
-fn tables_fit_the_terminal() {
-    let case = fixture("cases/modulate.toml");
-    let commands: [&[&str]; 13] = [
-        &["leaky-teapot", "--size", "16x16", "--tessellation", "2", "--rays-per-edge", "1"],
-        &["radiosity", "cornell-box", "--patches", "40", "--size", "16x16", "--sweep-patches", "30"],
-        &["reproduce", "--list"],
-        &["reproduce", "ray-engine-equation-11"],
-        &["devices"],
-        &["devices", "r200"],
-        &["materials"],
-        &["materials", "Chicken1"],
-        &["compare", &case, "--right-format", "s3.8"],
-        &["run", &case],
-        &["run", &case, "--trace", "1,1"],
-        &["timeline", "--eye-rays", "12x8", "--device", "r200", "--sensitivity", "--cache"],
-        &["scene"],
-    ];
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    for arguments in commands {
-        for columns in [60, 80, 120] {
-            let text = printed(folder.path(), arguments, columns);
-            assert!(text.lines().count() > 2, "{arguments:?} prints a table:\n{text}");
-            for line in text.lines().filter(|line| line.starts_with('|')) {
-                assert!(line.width() <= columns, "{arguments:?}, {columns} columns: {line}\n{text}");
-            }
-        }
-    }
-}
-
 /// Commands without a page print titled tables, and one line per written file; JSON names the same files.
 #[test]
 fn findings_without_a_page_are_text_or_fields() {

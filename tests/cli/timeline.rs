@@ -69,39 +69,6 @@ fn buckets_follow_one_another_on_one_card() {
     assert_eq!(document(&[RAYS, &["--threads", "3"]].concat()), timed, "the same for any number of threads");
 }
 
-#[test]
-fn guesses_are_halved_and_doubled() {
-    let document = document(&["timeline", "fixtures/cases/modulate.toml", "--sensitivity"]);
-    let model = &document["models"][1];
-    let total = number(&document["totals"][1]["total"]);
-    let rows = model["sensitivity"].as_array().expect("rows");
-    let row = |key: &str| rows.iter().find(|row| row["guess"] == key).unwrap_or_else(|| panic!("no guess {key}"));
-    // With four pixels, the host takes longer to submit the draw than the card to execute it.
-    let draw = row("queue.draw_ps");
-    assert!(number(&draw["halved"]) < total && total < number(&draw["doubled"]), "{draw}");
-    let unused = row("queue.finish_fence_ps");
-    assert_eq!([&unused["halved"], &unused["doubled"]].map(number), [total, total]);
-    assert!(rows.iter().any(|row| row["guess"].as_str().is_some_and(|key| key.starts_with("bus."))));
-}
-
-#[test]
-fn the_texture_cache_on_request() {
-    let estimated = document(RAYS);
-    assert!(estimated["texture_cache"].is_null());
-    let simulated = document(&[RAYS, &["--cache"]].concat());
-    check(&simulated, &["rates", "pipeline"]);
-    let rows = simulated["texture_cache"].as_array().expect("rows");
-    assert!(!rows.is_empty());
-    for row in rows {
-        let figures = ["texels", "misses_half", "misses", "misses_double", "distinct_lines"];
-        let [texels, half, same, double, distinct] = figures.map(|figure| number(&row[figure]));
-        assert!(texels > 0.0 && texels >= half, "{row}");
-        assert!(half >= same && same >= double && double >= distinct && distinct > 0.0, "{row}");
-    }
-    // The work is equal under both models of cache misses.
-    assert_eq!(sum(&estimated["models"][0]["draws"], "fragments"), sum(&simulated["models"][0]["draws"], "fragments"));
-}
-
 fn whole(value: &Value) -> u64 {
     value.as_u64().unwrap_or_else(|| panic!("expected a whole number, found {value}"))
 }

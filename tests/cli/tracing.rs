@@ -10,31 +10,6 @@ fn in_project(path: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path).to_string_lossy().into_owned()
 }
 
-/// Hits of the square's rays, as `intersect` writes them.
-fn hits(arguments: &[&str]) -> String {
-    let folder = tempfile::tempdir().expect("a folder");
-    let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
-    let mut all = vec!["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "hits.csv"];
-    all.extend(arguments);
-    let ran = crossbar_in(folder.path(), &all, "");
-    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-    fs::read_to_string(folder.path().join("hits.csv")).expect("the hits were written")
-}
-
-#[test]
-fn the_host_and_the_engine_cast_rays_of_a_file_too() {
-    let card = hits(&["--device", "ideal-fp32"]);
-    assert_eq!(hits(&["--caster", "host"]), card, "the host computes what a card with fp32 computes");
-    for executor in ["scalar", "batch"] {
-        assert_eq!(hits(&["--caster", "engine", "--executor", executor]), card, "{executor}");
-    }
-    let both = ["--sides", "both"];
-    assert_eq!(
-        hits(&[&both[..], &["--caster", "host"]].concat()),
-        hits(&[&both[..], &["--device", "ideal-fp32"]].concat())
-    );
-}
-
 #[test]
 fn casting_is_timed_apart_from_building() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -112,13 +87,6 @@ fn casters_refuse_what_is_not_for_them() {
         (name, ran.stderr)
     }));
     insta::assert_snapshot!(said);
-}
-
-#[test]
-fn a_named_device_is_asked_without_an_executor() {
-    let card = ["--device", "ideal-e2m1", "--sides", "both"];
-    assert_eq!(hits(&card), hits(&[&card[..], &["--executor", "batch"]].concat()));
-    assert_ne!(hits(&card), hits(&["--sides", "both"]), "without a device the hits are exact");
 }
 
 #[test]

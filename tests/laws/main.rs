@@ -18,6 +18,7 @@ mod oracle;
 mod pages;
 mod radiosity;
 mod ray_engine;
+mod readers;
 mod renderer;
 mod report;
 mod sphere;

@@ -2,14 +2,10 @@
 //! computes whole rows without checks and then repairs infinite results, with the scalar one.
 
 use crate::random::Random;
-use refsim::asm::assemble;
-use refsim::check::check;
+use crate::sums::pixels;
 use refsim::device::Profile;
-use refsim::exec::Constants;
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::machine::{ExecutorKind, Machine};
 use refsim::num::{Format, ops};
-use refsim::raster::{PixelCenter, Primitive, Vertex};
-use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
 /// Side of a square of fragments, whose 256 pixels fill one row of lanes.
 const SIDE: u32 = 16;
@@ -73,27 +69,7 @@ fn drawn(profile: &Profile, kind: ExecutorKind, operation: &str, images: &[Vec<[
         "ps_2_0\ndef c0, 1.5, -3, 0.25, 7\ndcl t0\ndcl_2d s0\ndcl_2d s1\n\
          texld r0, t0, s0\ntexld r1, t0, s1\n{operation}\nmov oC0, r2\n"
     );
-    let program = check(assemble(&text).unwrap(), profile).unwrap();
-    let mut machine = Machine::with_threads(profile.clone(), kind, 1).unwrap();
-    let target = machine.create_target(TexelFormat::Rgba32f, SIDE, SIDE).unwrap();
-    let corner = |x: f32, y: f32| {
-        let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
-        vertex.texcoords[0] = [(x + 1.0) / 2.0, (1.0 - y) / 2.0, 0.0, 1.0].map(f32::to_bits);
-        vertex
-    };
-    let vertices = [corner(-1.0, 1.0), corner(3.0, 1.0), corner(-1.0, -3.0)];
-    let constants = Constants::default();
-    let source = VertexSource::Transformed(&vertices);
-    let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &constants, target);
-    for (stage, texels) in images.iter().enumerate() {
-        let (format, size) = (TexelFormat::Rgba32f, [SIDE, SIDE, 1]);
-        let image =
-            Image::from_values(format, TextureKind::D2, size, Format::FP32, texels, TargetRounding::Nearest).unwrap();
-        call = call.with_texture(stage, machine.create_texture(image).unwrap(), SamplerState::NEAREST_CLAMP);
-    }
-    call.center = PixelCenter::OpenGl;
-    machine.draw(&call).unwrap();
-    machine.read_back(target).unwrap().bytes().to_vec()
+    pixels(&mut Machine::with_threads(profile.clone(), kind, 1).unwrap(), profile, &text, images)
 }
 
 #[test]

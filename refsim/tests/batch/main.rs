@@ -11,3 +11,7 @@ mod log_table;
 mod pieces;
 #[path = "../common/random.rs"]
 mod random;
+#[path = "../common/running.rs"]
+mod running;
+#[path = "../common/sums.rs"]
+mod sums;

@@ -1,4 +1,5 @@
 //! Draws whose pixels multiply and add under rules for products and sums.
+#![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use crate::random::Random;
 use crate::running::{checked, ideal};
@@ -6,7 +7,7 @@ use refsim::device::{AddMode, MadMode, Profile};
 use refsim::exec::Constants;
 use refsim::machine::{DrawCall, Machine, VertexSource};
 use refsim::num::{DotOrder, Format, Rounding};
-use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
 use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
 /// Width and height of the target, in pixels.
@@ -85,12 +86,7 @@ pub(crate) fn pixels(machine: &mut Machine, profile: &Profile, text: &str, textu
     let side = textures[0].len().isqrt() as u32;
     let program = checked(text, profile);
     let target = machine.create_target(TexelFormat::Rgba32f, side, side).unwrap();
-    let corners = [(-1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.0), (1.0, -1.0, 1.0, 1.0), (-1.0, -1.0, 0.0, 1.0)];
-    let vertices = corners.map(|(x, y, u, v)| {
-        let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };
-        vertex.texcoords[0] = [u, v, 0.0, 1.0].map(f32::to_bits);
-        vertex
-    });
+    let vertices = full_screen_quad(|u, v| [[u, v, 0.0, 1.0]]);
     let constants = Constants::default();
     let source = VertexSource::Transformed(&vertices);
     let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);

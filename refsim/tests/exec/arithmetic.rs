@@ -91,12 +91,3 @@ fn relative_addresses_reach_their_constant_and_zero_beyond() {
     let result = run_vertex(nearest, &profile, &constants(&values), &[[3.9, 0.0, 0.0, 1.0]]);
     assert_eq!(f32::from_bits(result.vertex.texcoords[0][0]), 6.0, "mova rounds to nearest");
 }
-
-#[test]
-fn vertex_colors_are_clamped_and_coordinates_are_not() {
-    let profile = ideal("e8m23");
-    let text = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmov oD0, v0\nmov oT3, v0";
-    let vertex = run_vertex(text, &profile, &Constants::default(), &[[-1.0, 0.5, 7.0, 1.0]]).vertex;
-    assert_eq!(vertex.colors[0], bits([0.0, 0.5, 1.0, 1.0]));
-    assert_eq!(vertex.texcoords[3], bits([-1.0, 0.5, 7.0, 1.0]));
-}

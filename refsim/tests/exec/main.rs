@@ -7,7 +7,6 @@ mod flow;
 #[path = "../../../tests/agree/generate/mod.rs"]
 mod generate;
 mod instruction_formats;
-mod laws;
 mod machine;
 #[path = "../common/quads.rs"]
 mod quads;

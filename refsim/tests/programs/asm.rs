@@ -131,19 +131,6 @@ fn displayed_errors_quote_their_lines() {
 // ---- chosen texts ----
 
 #[test]
-fn lexical_freedom_changes_nothing() {
-    let plain = good("ps_1_4\ndef c0, 1, 2, -0.0005, 0\nmul_x2_sat r0.xy, r1, c0.w\n+mov r0.w, r1\n");
-    for text in [
-        "PS.1.4\r\nDEF C0 1.0 2.f -0.5e-3 .0\r\nMUL_SAT_X2 R0.RG R1 C0.A\r\n+ MOV R0.A R1",
-        "\u{feff}\n\n/* a\nb */ ps_1_4 // x\n;;\ndef c0,1,2,\n -5e-4, 0 ; y\n\tmul_x2_sat r0 . xy , r1 , c[0].w +mov r0.w,r1//",
-        "ps_1_4 def c0, +1, 2, -5.0E-04, 0 mul_x2_sat r0.xy, r1, c[0].wwww + mov r0.w, r1.rgba",
-        "ps_1_4\rdef c000, 0x3f800000, 2, -0.0005, 0\rmul_x2_sat r0.xy, r1, c0[0].a\r+mov r0.w, r1",
-    ] {
-        assert_eq!(good(text), plain, "{text}");
-    }
-}
-
-#[test]
 fn spans_point_at_operands() {
     let text = "ps_1_4\n  +add_sat r0.rgb, 1-r1, -r2_bx2.a // c\n";
     let p = good(text);

@@ -1,5 +1,6 @@
 //! Properties of the checker on random programs.
 
+use crate::generate::anything;
 use proptest::prelude::*;
 use refsim::{
     check,
@@ -73,17 +74,17 @@ proptest! {
 
     /// No program of valid shape makes the checker panic, and accepted programs are safe to run.
     #[test]
-    fn any_program_gets_a_verdict(program in crate::programs::program(), device in 0..DEVICES.len()) {
+    fn any_program_gets_a_verdict(seed in any::<u64>(), device in 0..DEVICES.len()) {
         let profile = Profile::named(DEVICES[device]).unwrap();
-        match check::check(program, &profile) {
+        match check::check(anything(seed), &profile) {
             Ok(checked) => prop_assert_eq!(is_safe(&checked, checked.facts()), Ok(())),
             Err(report) => prop_assert!(!report.violations.is_empty()),
         }
     }
 
     #[test]
-    fn ideal_devices_allow_whatever_a_card_allows(program in crate::programs::program(), device in 0..DEVICES.len() - 1) {
-        let card = Profile::named(DEVICES[device]).unwrap();
+    fn ideal_devices_allow_whatever_a_card_allows(seed in any::<u64>(), device in 0..DEVICES.len() - 1) {
+        let (program, card) = (anything(seed), Profile::named(DEVICES[device]).unwrap());
         if check::check(program.clone(), &card).is_ok() {
             prop_assert!(check::check(program, &Profile::named("ideal-fp32").unwrap()).is_ok());
         }

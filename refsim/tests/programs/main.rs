@@ -11,8 +11,6 @@ mod fragment_program;
 #[path = "../../../tests/agree/generate/mod.rs"]
 mod generate;
 mod isa_table;
-#[path = "../common/programs.rs"]
-mod programs;
 #[path = "../common/random.rs"]
 mod random;
 #[path = "../common/running.rs"]

@@ -82,14 +82,9 @@ pub(crate) fn files(profile: &Profile) -> Vec<(String, CheckedProgram)> {
 /// A random legal program of at most size class `size` (0 to 3).
 pub(crate) fn random(version: Version, size: usize, profile: &Profile, r: &mut Random) -> (String, CheckedProgram) {
     let samplers = [TextureKind::D2, TextureKind::Cube, TextureKind::D2, TextureKind::Volume];
-    let layout = Layout {
-        samplers: samplers.into_iter().enumerate().collect(),
-        targets: 4,
-        limited: false,
-        sampling: r.one_in(4),
-    };
+    let layout = Layout { samplers: samplers.into_iter().enumerate().collect(), targets: 4, sampling: r.one_in(4) };
     for _ in 0..4000 {
-        let text = generate::program(version, &layout, r.below(size + 1), r).join("\n");
+        let text = generate::program(version, &layout, profile, r.below(size + 1), r).join("\n");
         if let Some(program) = build(&text, profile) {
             return (text, program);
         }

@@ -61,10 +61,12 @@ struct Writer<'a> {
     constant: String,
 }
 
-pub(super) fn program(version: Version, layout: &Layout, size: usize, r: &mut Random, lines: &mut Vec<String>) {
+/// A program of one of OpenGL's two languages, mostly legal.
+pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Random) -> Vec<String> {
+    let mut lines = vec![version.token().to_owned()];
     let temps = 2 + r.below(4);
     let nv = version == Version::Fp1_0;
-    let mut w = Writer { nv, layout, r, lines, temps, attribute: String::new(), constant: String::new() };
+    let mut w = Writer { nv, layout, r, lines: &mut lines, temps, attribute: String::new(), constant: String::new() };
     w.begin();
     let spellings: Vec<&Spelling> = Spelling::ALL.iter().filter(|s| s.opcode.info().available(version)).collect();
     let count = [3, 8, 16, 28][size.min(3)];
@@ -74,6 +76,7 @@ pub(super) fn program(version: Version, layout: &Layout, size: usize, r: &mut Ra
     }
     w.outputs();
     w.lines.push("END".to_owned());
+    lines
 }
 
 impl Writer<'_> {

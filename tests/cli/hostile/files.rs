@@ -2,7 +2,6 @@
 
 use std::ffi::OsString;
 
-use crossbar::io::NpzWriter;
 use rayon::prelude::*;
 
 use super::{Files, assert_refused};
@@ -62,40 +61,6 @@ fn hostile_files() {
         let stderr = assert_refused(arguments, files);
         assert!(stderr.len() < 4000, "{arguments:?}: a message of {} bytes", stderr.len());
     });
-}
-
-/// Files that claim huge sizes are refused at once, before memory is allocated for them.
-#[test]
-fn claims_of_size() {
-    let mtx = |sizes: &str| format!("%%MatrixMarket matrix coordinate real general\n{sizes}\n1 1 1\n").into_bytes();
-    let prt = biclusters_of_nothing([u32::MAX; 2]);
-    let files: [(&str, &[u8]); 4] = [
-        ("rows.mtx", &mtx("4294967295 1 1")),
-        ("both.mtx", &mtx("4000000000 4000000000 1")),
-        ("columns.mtx", &mtx("1 4294967295 1")),
-        ("claims.npz", &prt),
-    ];
-    for (name, _) in &files {
-        let start = std::time::Instant::now();
-        assert_refused(&["bi-scale", "bicluster", name].map(OsString::from), &files);
-        assert!(start.elapsed() < std::time::Duration::from_secs(10), "{name}: {:?}", start.elapsed());
-    }
-}
-
-/// A bi-scale file without biclusters that claims a matrix of this size.
-fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
-    let metadata = format!(
-        r#"{{"kind":"bi-scale","version":1,"meaning":null,"shape":{{"rows":{rows},"columns":{columns},"fraction_bits":0}},
-        "entries":null,"biclusters":{{"count":0,"rows":0,"columns":0}}}}"#
-    );
-    let mut bytes = Vec::new();
-    let mut arrays = NpzWriter::new(&mut bytes);
-    arrays.bytes("metadata", metadata.as_bytes()).expect("written");
-    for name in ["r", "l", "j", "k", "t"] {
-        arrays.integers(name, &[0], std::iter::empty::<u32>()).expect("written");
-    }
-    arrays.finish().expect("written");
-    bytes
 }
 
 /// Gives every option for an output path every kind of path that cannot be written.

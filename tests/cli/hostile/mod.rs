@@ -191,6 +191,9 @@ fn what_is_wrong_is_said() {
     const LARGE: &str = "too large for a 32-bit float: at most 3.4028235e38";
     let camera = "--renderer path --eye 0,0,0.5 --target 0,1,0.5 --tan-half-height -1";
     let cases = [
+        ("nothing-of-the-kind", "nothing-of-the-kind"),
+        ("leaky-teapot --size 4x4 -d r200 -d R200", ""),
+        ("alu convert --format fp16", "--to"),
         ("render white-box --eye -1e39,0,0", LARGE),
         ("render white-box --eye 1,2", "expected three numbers X,Y,Z, found `1,2`"),
         ("render white-box --tan-half-height 1e39", LARGE),
@@ -225,6 +228,8 @@ fn what_is_wrong_is_said() {
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 64 --links 4 --all-pairs no", "128"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 4097", "power of two"),
         ("atlas stand-in-head --side 4097", "power of two"),
+        ("atlas stand-in-head --side 100", "power of two"),
+        ("materials chiken1", "did you mean `Chicken1`?"),
         (
             "subsurface stand-in-head --mm-per-unit 1 --material marble --eta 4",
             "an index of refraction from 1 to 3, found 4",

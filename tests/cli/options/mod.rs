@@ -29,6 +29,9 @@ use table::{TABLE, Tried};
 /// than the file's, or a precision that the card lacks.
 const NEVER_ACCEPTED: [&str; 6] = ["--emulator", "--model", "--model-up", "--strict", "--crease", "--switch"];
 
+/// Tried on every command line: the number of threads changes nothing.
+const THREADS: TriedOption = TriedOption { name: "--threads", value: Some("1"), only: None, is_same: true };
+
 /// An option of the table.
 #[derive(Clone, Debug)]
 struct TriedOption {
@@ -78,6 +81,7 @@ fn every_option_changes_something_or_is_refused() {
     let lines: Vec<(usize, usize, Vec<TriedOption>)> = lines
         .map(|(row, at)| {
             let mut options = TABLE[row].options();
+            options.push(THREADS);
             options.retain(|option| {
                 pairs += usize::from(option.only.as_ref().is_none_or(|only| only.contains(&at)));
                 option.only.as_ref().is_none_or(|only| only.contains(&at)) && pairs % step == 0

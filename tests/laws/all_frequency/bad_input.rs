@@ -2,8 +2,6 @@
 
 use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::error::InputError;
-use crossbar::geom::random::CounterRng;
-use crossbar::io::{parse_cube_table, parse_light_sources, write_cube_table};
 use crossbar::picture::Picture;
 use crossbar::sphere::{ClearSky, EnvironmentPicture};
 use crossbar::tracer::HostTracer;
@@ -11,8 +9,6 @@ use crossbar::transfer::light::{CubeLight, DiskSource};
 use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 use glam::{DMat3, DVec3};
-use proptest::prelude::*;
-use std::path::Path;
 
 use super::{clutter, trace, vertices};
 
@@ -73,26 +69,4 @@ fn what_is_no_transfer_is_refused() {
     let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 2, response: &response };
     let error = transfer.segments().find_map(Result::err).expect("a NaN");
     assert!(error.to_string().starts_with("expected finite numbers, found NaN in component 0 of point 0"), "{error}");
-}
-
-proptest! {
-    /// Arbitrary bytes, and valid tables with a byte changed, are read or refused without a panic; accepted tables are
-    /// written and read back.
-    #[test]
-    fn tables_of_light_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200), at in 0_usize..200, byte: u8) {
-        let name = Path::new("l.csv");
-        let _ = parse_cube_table(&bytes, name, 1);
-        let _ = parse_light_sources(&bytes, name);
-        let random = CounterRng::new(u64::from(byte));
-        let texels: Vec<[f64; 3]> = (0..6).map(|at| [0, 1, 2].map(|k| random.unit(at, 0, k))).collect();
-        let good = write_cube_table(&texels, 1);
-        prop_assert_eq!(parse_cube_table(good.as_bytes(), name, 1).expect("a map"), texels);
-        let mut bad = good.into_bytes();
-        let place = at % bad.len();
-        bad[place] = byte;
-        if let Ok(read) = parse_cube_table(&bad, name, 1) {
-            let again = parse_cube_table(write_cube_table(&read, 1).as_bytes(), name, 1);
-            prop_assert_eq!(again.expect("what was read"), read);
-        }
-    }
 }

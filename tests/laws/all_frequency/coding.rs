@@ -11,7 +11,7 @@ use crossbar::transfer::light::{CubeLight, HaarLight};
 use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 
-use super::{all, close, clutter, factors, in_threads, trace, vertices};
+use super::{all, close, clutter, factors, trace, vertices};
 
 /// All segments of the transfer of some maps.
 pub(super) fn segments(vertices: &Vertices, maps: &VisibilityMaps, reflectance: &Reflectance) -> Vec<TransferSegment> {
@@ -86,19 +86,4 @@ fn open_diffuse_vertices_under_light_1_give_back_pi() {
         close(green, 2.0 * red, 1e-6, "twice the light");
         assert_eq!(blue, 0.0);
     }
-}
-
-#[test]
-fn bits_of_coded_transfer_do_not_depend_on_threads() {
-    let mesh = clutter(8, 20, 1.0);
-    let vertices = vertices(&mesh);
-    let maps = trace(&mesh, &vertices, &all(&vertices));
-    let coded = |threads| {
-        in_threads(threads, || {
-            let transfer = compressed(&vertices, &maps, &Reflectance::Factored(factors(2)), 3);
-            CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded")
-        })
-    };
-    let one = coded(1);
-    assert!([2, 5].into_iter().all(|threads| coded(threads) == one));
 }

@@ -13,7 +13,7 @@ use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::SegmentCensus;
 use glam::DVec3;
 
-use super::{all, close, clutter, flat, in_threads, observer, trace, vertices};
+use super::{all, close, clutter, flat, observer, trace, vertices};
 
 const WIDTHS: [BasisWidth; 2] = [BasisWidth::OneTexel, BasisWidth::TwoTexels];
 
@@ -141,15 +141,6 @@ fn transfer_times_light_is_the_reference() {
             }
         }
     }
-}
-
-#[test]
-fn bits_do_not_depend_on_threads() {
-    let mesh = clutter(3, 20, 1.0);
-    let vertices = vertices(&mesh);
-    let of = |threads| in_threads(threads, || segments(&vertices, &mesh, BasisWidth::TwoTexels, 3, glossy));
-    let expected = of(1);
-    assert!(of(2) == expected && of(5) == expected);
 }
 
 /// A segment contains the vertices that see any part of it and omits the others; the transform is applied to raw

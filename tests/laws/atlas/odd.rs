@@ -1,6 +1,6 @@
 //! Unusual meshes and sizes, and invariances.
 
-use crate::support::{in_threads, soup};
+use crate::support::soup;
 use crossbar::atlas::{Atlas, AtlasQuality, Census, MAX_SIDE};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
@@ -173,15 +173,5 @@ proptest! {
         let quality = AtlasQuality::of(&atlas);
         prop_assert!(quality.used > 0.0 && quality.deviation.is_finite() && quality.least <= quality.most);
         prop_assert!(quality.levels.iter().all(|level| level.compactness.is_finite() && level.radius.is_finite()));
-    }
-
-    /// The atlas does not depend on the number of threads.
-    #[test]
-    fn threads_do_not_matter((sample, side) in atlases()) {
-        let on = |threads| in_threads(threads, || Atlas::new(&sample.mesh, side).expect("an atlas"));
-        let [one, three] = [1, 3].map(on);
-        prop_assert_eq!(one.tree(), three.tree());
-        prop_assert_eq!(one.texels(), three.texels());
-        prop_assert_eq!(one.clusters(1), three.clusters(1));
     }
 }

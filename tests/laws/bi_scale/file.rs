@@ -8,7 +8,7 @@ use crossbar::bi_scale::file::{
     BiScaleFile, BiScaleMeaning, load_bi_scale, parse_bi_scale, save_bi_scale, write_bi_scale,
 };
 use crossbar::bi_scale::transfer::transfer_matrix;
-use crossbar::io::{load_matrix_market, parse_matrix_market};
+use crossbar::io::load_matrix_market;
 use crossbar::transfer::file::{MeshDigest, parse_prt};
 use crossbar::transfer::visibility::Horizon;
 use proptest::prelude::*;
@@ -140,23 +140,6 @@ proptest! {
     fn files_of_any_numbers_are_read(rows in real_blocks()) {
         let file = small_of_numbers(&rows);
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
-    }
-
-    #[test]
-    fn text_of_any_bytes_never_panics(text in "%%MatrixMarket matrix coordinate (real|pattern) (general|symmetric)\n(% x\n)?[0-4] [0-4] [0-3]\n([0-5] [0-5]( [-0-9.eE]{1,4})?\n){0,4}") {
-        if let Ok(matrix) = parse_matrix_market(text.as_bytes(), Path::new("t.mtx")) {
-            let is_there = |&(row, column, value): &(u32, u32, f64)| {
-                (row as usize) < matrix.rows && (column as usize) < matrix.columns && value.is_finite()
-            };
-            prop_assert!(matrix.entries.iter().all(is_there));
-            prop_assert!(matrix.entries.is_sorted_by(|a, b| (a.0, a.1) < (b.0, b.1)));
-        }
-    }
-
-    #[test]
-    fn bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
-        prop_assert!(parse_matrix_market(&bytes, Path::new("t.mtx")).is_err());
-        prop_assert!(parsed(&bytes).is_err());
     }
 }
 

@@ -5,7 +5,7 @@ mod cases;
 mod foreign_obj;
 mod gltf;
 mod models;
-mod mutation;
+pub(crate) mod mutation;
 mod pictures;
 mod ply;
 mod scenes;

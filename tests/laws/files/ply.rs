@@ -7,7 +7,6 @@ use crossbar::geom::Mesh;
 use crossbar::io::{ModelOptions, load_mesh, load_mesh_with, parse_ply};
 use proptest::prelude::*;
 
-use super::mutation::mutated;
 use crate::support::file;
 
 const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
@@ -149,15 +148,6 @@ fn the_fixture_is_the_square() {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
-
-    #[test]
-    fn mutated_files_do_no_harm(
-        bytes in prop::sample::select(&ENCODINGS[..]).prop_flat_map(|encoding| mutated(encoded(encoding), 1..12)),
-    ) {
-        if let Ok(mesh) = parse(&bytes) {
-            prop_assert!(mesh.len() <= bytes.len());
-        }
-    }
 
     #[test]
     fn arbitrary_data_behind_a_header_does_no_harm(

@@ -1,6 +1,6 @@
 //! Hits do not depend on the engine's schedule.
 
-use crate::support::{bits, in_threads, profile};
+use crate::support::{bits, profile};
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::teapot::teapot;
@@ -83,17 +83,6 @@ fn order_and_bundles_do_not_show() {
         hits[ticket.0 as usize] = hit;
     }
     assert_eq!(forward, bits(&hits));
-}
-
-#[test]
-fn threads_do_not_show() {
-    let (mesh, rays) = (teapot(3).expect("a teapot"), rays(1500));
-    let parameters = EngineParameters { octree: SMALL, rays: 32, record: true, ..EngineParameters::default() };
-    let run = |threads: usize| {
-        let (hits, mut engine) = in_threads(threads, || trace(&mesh, &rays, parameters.clone()));
-        (hits, engine.counts(), engine.take_log())
-    };
-    assert!(run(1) == run(3), "hits, counts and log");
 }
 
 #[test]

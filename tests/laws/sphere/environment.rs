@@ -4,8 +4,6 @@ use crossbar::picture::{NO_COLOR, Picture};
 use crossbar::sphere::{EnvironmentLayout, HarmonicLight};
 use proptest::prelude::*;
 
-use crate::support::in_threads;
-
 fn light(order: usize, picture: &Picture) -> HarmonicLight {
     HarmonicLight::from_picture(order, picture).expect("a light")
 }
@@ -72,11 +70,4 @@ proptest! {
             }
         }
     }
-}
-
-#[test]
-fn threads_change_no_bit() {
-    let picture = gradient(128, 128);
-    let on = |threads| in_threads(threads, || light(7, &picture));
-    assert_eq!(on(1), on(3));
 }

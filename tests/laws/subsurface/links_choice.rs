@@ -1,6 +1,5 @@
 //! Laws of links: they tile the atlas once, gather with their factors, and do not depend on the number of threads.
 
-use crate::support::in_threads;
 use approx::assert_relative_eq;
 use crossbar::subsurface::Dipole;
 use crossbar::subsurface::links::{EncodedLinks, IrradianceMeans, LinkChoice, LinkPlace, Links, MeanWeighting};
@@ -79,15 +78,6 @@ fn uniform_light_gathers_the_row_sum_whatever_the_links() {
 fn uneven(k: usize) -> f64 {
     let k = k as u64;
     ((k * 2_654_435_761 + 12345) % 1000) as f64 / 1000.0
-}
-
-#[test]
-fn bits_do_not_depend_on_the_number_of_threads() {
-    let surface = dented();
-    for choice in [LinkChoice::Fixed { level: 2 }, LinkChoice::Adaptive { count: 16 }] {
-        let found = [1, 3].map(|threads| in_threads(threads, || links(&surface, &[figure_7()], choice)));
-        assert_eq!(found[0], found[1]);
-    }
 }
 
 /// The card's map holds E a / (mean a), so stored factors times its plain means equal factors times area-weighted

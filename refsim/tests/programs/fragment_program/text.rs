@@ -14,9 +14,9 @@ fn program(nv: bool, seed: u64) -> String {
     let mut random = Random::new(seed);
     let kinds = [TextureKind::D2, TextureKind::D1, TextureKind::Volume, TextureKind::Cube, TextureKind::Rectangle];
     let samplers = kinds.into_iter().enumerate().collect();
-    let layout = Layout { samplers, targets: 1, limited: false, sampling: false };
+    let layout = Layout { samplers, targets: 1, sampling: false };
     let (version, size) = (if nv { Version::Fp1_0 } else { Version::ArbFp1_0 }, random.below(4));
-    let lines = generate::program(version, &layout, size, &mut random);
+    let lines = generate::fragment(version, &layout, size, &mut random);
     let gaps = ["\n", "\r\n", " # a comment\n", "\t\n\n"];
     lines.iter().map(|line| line.clone() + random.of(&gaps)).collect()
 }

@@ -106,32 +106,6 @@ fn a_full_queue_stalls_the_host() {
     assert_eq!(usage[Unit::Host.index()].idle, ps(19));
 }
 
-/// Two buckets of rays; the host needs 6 to prepare each, and reads the results at the end.
-fn two_buckets(mode: ReadBackMode, double: bool) -> u64 {
-    let mut queue = Queue::new(free());
-    for second in [false, double] {
-        let [rays, ids] = [RAYS, IDS].map(|copy| ResourceCopy { second, ..copy });
-        queue.host(ps(6), "make rays");
-        queue.upload(rays, ps(3), "rays");
-        queue.clear(ids, ps(1), "ids");
-        queue.draw(&[rays], &[ids], cost(0, 20, 0, 0), "triangles");
-        queue.read_back(ids, ps(5), mode, "ids");
-    }
-    queue.timeline().makespan().0
-}
-
-#[test]
-fn what_asynchrony_and_double_buffers_are_good_for() {
-    // Twice in sequence: 6 rays + 3 upload + 20 fragments + 5 read-back.
-    assert_eq!(two_buckets(ReadBackMode::Synchronous, false), 68);
-    assert_eq!(two_buckets(ReadBackMode::Synchronous, true), 68);
-    // The second upload waits until the first draw has read the rays (29), and overlaps the read-back, which ends at
-    // 34: the target is cleared by 35, then 35 + 20 + 5.
-    assert_eq!(two_buckets(ReadBackMode::Asynchronous, false), 60);
-    // The second draw follows the first, which ends at 9 + 20; its target is cleared by 30, then 30 + 20 + 5.
-    assert_eq!(two_buckets(ReadBackMode::Asynchronous, true), 55);
-}
-
 #[test]
 fn an_asynchronous_read_back_has_a_fence() {
     let mut queue = Queue::new(free());

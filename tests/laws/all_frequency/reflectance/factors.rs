@@ -1,10 +1,8 @@
 //! Properties of the SVD, and of reflectance approximated by few terms.
 
-use crate::environment::by_form;
-use crate::support::in_threads;
 use crossbar::all_frequency::factor::{
-    Denominators, DiscSamples, FactorSampling, Factorization, FresnelForm, Lobe, ProductFunction, ProductSymmetry,
-    ProductTable, Shadowing, Supersamples,
+    Denominators, FactorSampling, Factorization, FresnelForm, Lobe, ProductFunction, ProductSymmetry, ProductTable,
+    Shadowing, Supersamples,
 };
 use crossbar::geom::random::CounterRng;
 use crossbar::io::NumberTable;
@@ -119,26 +117,6 @@ fn reciprocity_makes_a_symmetric_table() {
             assert!((a - b).abs() <= 1e-12 * a.abs().max(1.0), "{a} {b}");
         }
     }
-}
-
-/// Bits do not depend on the number of threads; with `CROSSBAR_FULL=1` at the paper's size.
-#[test]
-fn bits_do_not_depend_on_threads() {
-    let on = |threads: usize| {
-        in_threads(threads, || {
-            let side = by_form(16, FactorSampling::default().side);
-            let sampling = FactorSampling { side, supersamples: Supersamples::NONE, ..FactorSampling::default() };
-            let table = sampling.table(&SCHLICK, &mut |_, _| ()).expect("a table");
-            let found = Factorization::new(&table, 10).expect("terms");
-            let errors = DiscSamples::new(&table).errors(&found.factors(10));
-            let factors = found.factors(10);
-            let texels = (0..side * side).flat_map(|at| [factors.view_texel(at), factors.light_texel(at)]).flatten();
-            let bits: Vec<u64> = texels.chain(found.singular_values()).map(|value| value.to_bits()).collect();
-            (bits, errors.rms.to_bits(), errors.max.to_bits())
-        })
-    };
-    let one = on(1);
-    assert!(on(2) == one && on(5) == one);
 }
 
 /// Singular values of isotropic lobes come in pairs: only a number of terms that splits a pair is reported.

@@ -16,21 +16,6 @@ fn load(bytes: &[u8]) -> Result<[usize; 2], String> {
 }
 
 proptest! {
-    #[test]
-    fn any_text_is_a_table_or_an_error(text in "[-0-9.,eEnaif \r\n\"]{0,200}") {
-        if let Ok([view, light]) = load(text.as_bytes()) {
-            prop_assert!((1..=48).contains(&view) && (1..=48).contains(&light));
-        }
-    }
-
-    #[test]
-    fn any_bytes_are_a_table_or_an_error(bytes in prop::collection::vec(any::<u8>(), 0..200), numpy in any::<bool>()) {
-        let bytes = if numpy { [&b"\x93NUMPY\x01\x00"[..], &bytes].concat() } else { bytes };
-        if let Err(error) = load(&bytes) {
-            prop_assert!(error.contains("q.csv"), "{error}");
-        }
-    }
-
     /// A table is accepted only if its numbers of rows and columns are squares.
     #[test]
     fn squares_are_maps_and_nothing_else(rows in 1..30_usize, columns in 1..30_usize) {

@@ -9,7 +9,6 @@ use crossbar::transfer::{Tangents, Vertices};
 use glam::{DMat3, DVec3};
 
 use super::{close, mixed, step};
-use crate::support::in_threads;
 
 const AXIS: DVec3 = DVec3::new(0.3, 1.0, 0.2);
 
@@ -65,21 +64,4 @@ fn turning_mesh_tangents_and_light_changes_nothing() {
         assert!(1000 * differ < all, "{differ} of {all} rays differ");
     }
     assert!(rays.counts().blocked > 0 && response.basis().len() == 16);
-}
-
-#[test]
-fn threads_change_no_bit() {
-    let mesh = step();
-    let of = |threads| {
-        in_threads(threads, || {
-            let vertices = Vertices::new(&mesh, Tangents::Along(AXIS)).expect("vertices");
-            let (_, rays, response) = transfer(&mesh, AXIS);
-            let transfer = Transfer::new(&vertices, &rays, &[response], 6, 3).expect("M_p");
-            let bits: Vec<u32> = transfer.clone().into_values().into_iter().map(f32::to_bits).collect();
-            (bits, rays.counts().clone(), transfer.bounces)
-        })
-    };
-    let one = of(1);
-    assert_eq!(one, of(3));
-    assert!(!one.2.is_empty() && one.2.last() < one.2.first());
 }

@@ -1,9 +1,11 @@
-//! Files that claim 2^32 elements: every reader refuses them without allocating that much.
-#![cfg(target_os = "linux")]
+//! Every reader of a file without others beside it: no bytes make it panic, and a file that claims 2^32 elements is refused
+//! without allocating that much.
+#![cfg_attr(not(target_os = "linux"), allow(dead_code, reason = "memory is limited by a shell of Linux"))]
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use crossbar::all_frequency::file::parse_all_frequency;
@@ -11,8 +13,10 @@ use crossbar::bi_scale::file::parse_bi_scale;
 use crossbar::io;
 use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
 use crossbar::transfer::file::parse_prt;
+use proptest::prelude::*;
 
 use crate::archive::{members, text_of, with_member, with_metadata};
+use crate::files::mutation::mutated;
 
 /// Environment variable that is set in the process with a limited address space.
 const LIMITED: &str = "CROSSBAR_TEST_LIMITED";
@@ -22,6 +26,7 @@ const HEAD: usize = 320;
 const CLAIM: &str = "4294967295";
 
 /// A valid file, and the reader for it.
+#[derive(Clone, Debug)]
 struct GoodFile {
     name: &'static str,
     bytes: Vec<u8>,
@@ -29,6 +34,7 @@ struct GoodFile {
 }
 
 /// 2^32 of the smallest elements are 4 GiB; the readers have an address space of 1.5 GiB, including the program itself.
+#[cfg(target_os = "linux")]
 #[test]
 fn no_reader_takes_memory_on_the_word_of_a_file() {
     if std::env::var_os(LIMITED).is_some() {
@@ -37,10 +43,35 @@ fn no_reader_takes_memory_on_the_word_of_a_file() {
     }
     let mut command = Command::new("sh");
     command.args(["-c", "ulimit -v 1500000; exec \"$0\" \"$@\""]).arg(std::env::current_exe().expect("this test"));
-    command.args(["--exact", "claims::no_reader_takes_memory_on_the_word_of_a_file", "--nocapture"]);
+    command.args(["--exact", "readers::no_reader_takes_memory_on_the_word_of_a_file", "--nocapture"]);
     let output = command.env(LIMITED, "1").output().expect("a shell");
     let said = [&output.stdout[..], &output.stderr].concat();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&said));
+}
+
+/// The good files, made once.
+static GOOD: LazyLock<Vec<GoodFile>> = LazyLock::new(good_files);
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn arbitrary_bytes_do_no_harm(bytes in prop::collection::vec(any::<u8>(), 0..300), kept in 0_usize..40) {
+        for good in GOOD.iter() {
+            (good.read)(&bytes, Path::new(good.name));
+            (good.read)(&[&good.bytes[..kept.min(good.bytes.len())], &bytes].concat(), Path::new(good.name));
+        }
+    }
+
+    #[test]
+    fn mutated_files_do_no_harm(
+        (name, bytes, read) in prop::sample::select(&GOOD[..])
+            .prop_flat_map(|good| (Just(good.name), mutated(good.bytes, 1..12), Just(good.read))),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        read(&bytes, Path::new(name));
+        read(&bytes[..cut.index(bytes.len() + 1)], Path::new(name));
+    }
 }
 
 fn read_claims(good: &GoodFile) {
@@ -108,7 +139,12 @@ fn good_files() -> Vec<GoodFile> {
     let picture = Picture::rgb(8, 8, &colors).with("id", ChannelUnit::Id, Samples::Uint(vec![1; 64])).expect("ids");
     let mut array = Vec::new();
     io::write_npy_array(&[2, 3], &[0.5; 6], &mut array).expect("an array");
-    let decoded = |bytes: &[u8], _: &Path| drop(Picture::decode(bytes));
+    let decoded = |bytes: &[u8], _: &Path| {
+        if let Ok(picture) = Picture::decode(bytes) {
+            let pixels = picture.width() as usize * picture.height() as usize;
+            assert!(picture.channels().iter().all(|channel| channel.samples.len() == pixels));
+        }
+    };
     let file = |name, bytes: Vec<u8>, read| GoodFile { name, bytes, read };
     vec![
         file("p.png", png(&picture.display(1.0).expect("color")).expect("a file"), decoded),
