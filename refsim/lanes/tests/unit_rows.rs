@@ -60,7 +60,7 @@ impl Random {
                 3 => self.near(251, 8),
                 4 => self.near(64, 126),
                 5 => self.near(8, 14),
-                // What cancels.
+                // Nearly the negative of the other row, so that sums cancel.
                 6 => other[i] ^ 1 << 31 ^ (self.bits() % 4),
                 7 => (other[i] ^ 1 << 31).wrapping_add(1 << (self.bits() % 26)),
                 8 => AWKWARD[self.bits() as usize % 32],

@@ -157,7 +157,7 @@ pub(super) fn is_arithmetic(opcode: Opcode) -> bool {
     opcode.info().class == OpcodeClass::Arithmetic
 }
 
-/// Returns `true` if the file holds numbers for arithmetic.
+/// Returns `true` if registers of the file are numeric operands of arithmetic.
 pub(super) fn is_numeric(file: RegisterFile) -> bool {
     matches!(file, RegisterFile::Temp | RegisterFile::Input | RegisterFile::Texture | RegisterFile::Constant)
 }

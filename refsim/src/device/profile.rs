@@ -120,9 +120,9 @@ impl Profile {
 
     /// Sets a switch.
     ///
-    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with the allowed values;
+    /// Fails with [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with the allowed values; with
     /// [`DeviceError::FormatRule`] or [`DeviceError::NeedsFloats`] if the registers' format cannot have the rule. The
-    /// profile is unchanged.
+    /// profile is then unchanged.
     pub fn set_switch(&mut self, name: &str, value: &str) -> Result<(), DeviceError> {
         let Some(index) = self.switches.iter().position(|s| s.name == name) else {
             let allowed: Vec<&str> = self.switches.iter().map(|s| s.name.as_str()).collect();

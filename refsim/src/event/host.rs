@@ -1,4 +1,4 @@
-//! Work of the host between two calls, by kind.
+//! Kinds of work that the host does between two calls.
 
 use std::fmt;
 

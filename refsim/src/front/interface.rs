@@ -1,9 +1,9 @@
-//! What is found in a fragment shader in WGSL.
+//! Result of translating a fragment shader in WGSL: its program, operations and inputs.
 
 use super::half::WgslOperation;
 use crate::isa::Program;
 
-/// A shader's program, the operations that its text has, and what it takes from outside.
+/// A shader's program, the operations in its text, and its inputs and uniforms.
 pub(super) struct Translation {
     pub(super) program: Program,
     pub(super) operations: Vec<WgslOperation>,

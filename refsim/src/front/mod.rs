@@ -34,7 +34,7 @@ pub fn wgsl_operations(text: &str) -> Result<Vec<WgslOperation>, Refusal> {
     Ok(translated(text)?.operations)
 }
 
-/// As [`translate_wgsl`], with what a GPU must be given to draw the same text.
+/// As [`translate_wgsl`]; also returns the inputs and uniforms that a GPU needs to draw the same text.
 ///
 /// # Errors
 /// As [`translate_wgsl`].

@@ -24,7 +24,7 @@ impl Refusal {
         Self { help: help.into(), ..self }
     }
 
-    /// What to do.
+    /// Advice for correcting the text.
     pub fn help(&self) -> &str {
         &self.help
     }

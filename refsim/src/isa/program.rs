@@ -78,7 +78,7 @@ impl Usage {
     ];
 }
 
-/// A `dcl`.
+/// A register declaration (`dcl`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Declaration {
     /// The usage of the register.

@@ -10,8 +10,8 @@ impl Machine {
     /// the other levels, and samplers and [`Machine::read_back`] see all. `levels` includes level 0; its maximum is
     /// [`Image::most_levels`].
     ///
-    /// As [`Machine::create_target`]; also if the device does not support mip levels of the format, or `levels` is too
-    /// large.
+    /// Fails as [`Machine::create_target`] does; also if the device does not support mip levels of the format, or if
+    /// `levels` is too large.
     pub fn create_target_with_levels(
         &mut self,
         format: TexelFormat,
@@ -26,8 +26,8 @@ impl Machine {
     /// `GENERATE_MIPMAP` does so whenever level 0 changes; here the caller does.) Every executor gives the bits of
     /// [`Image::generate_mipmaps`]. Returns the texels read and written.
     ///
-    /// If the handle is invalid, the texture has one level although it could have more, or the device cannot filter
-    /// textures of the format.
+    /// Fails if the handle is invalid, if the texture has one level although it could have more, or if the device
+    /// cannot filter textures of the format.
     pub fn generate_mipmaps(&mut self, id: TextureId) -> Result<MipmapRecord, MachineError> {
         let rules = MipmapRules::from(&self.profile.rules);
         let record = record(&self.profile, id, self.memory.texture(id)?)?;

@@ -14,8 +14,7 @@ pub enum Level {
     Pipeline,
 }
 
-/// Figures with whose values a log's traffic was observed; a recorded log depends on them, so they cannot be scaled
-/// afterwards.
+/// Figures that determine the traffic stored in a recorded log, so they cannot be scaled afterwards.
 const SPENT: [&str; 5] = [
     "rates.texture_cache_line_bytes",
     "rates.texture_cache_ways",

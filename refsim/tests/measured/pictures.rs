@@ -127,8 +127,8 @@ fn color([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Indices of the shown values: values for which the same answers are right form a group, and each group gets the same
-/// number, evenly chosen.
+/// Indices of the shown values. Values for which the same answers are right form a group; all groups show the same
+/// number of values, evenly spaced.
 fn shown(hypotheses: &[(String, Values)]) -> Vec<usize> {
     let mut alike: BTreeMap<Vec<bool>, Vec<usize>> = BTreeMap::new();
     for i in 0..hypotheses[0].1.all() {

@@ -39,8 +39,8 @@ pub(crate) enum Hypotheses {
     Switch(&'static str),
     /// Names of settings, the cards' own first, and the change that each makes.
     Options(&'static [RuleOption]),
-    /// The name of the cards' own setting, and other hypotheses, which no setting of a device expresses, with their
-    /// results for the values.
+    /// The name of the cards' own setting; and hypotheses that no device setting expresses, each with a function that
+    /// computes its results.
     Computed(&'static str, &'static [(&'static str, Redraw)]),
 }
 

@@ -1,4 +1,4 @@
-//! "Blending": exact fractions in fixed-point targets, singles in float targets.
+//! Tests of the section "Blending": exact fractions in fixed-point targets, singles in float targets.
 
 use super::formats::Words;
 use super::texels::{Channel, Class, component, table};

@@ -1,4 +1,4 @@
-//! "Clipping", "Window" and "The fan": triangle set-up reimplemented in host singles.
+//! Tests of "Clipping", "Window" and "The fan": triangle set-up reimplemented in host singles.
 
 use super::{Random, probes};
 use refsim::device::{SubpixelGrid, SubpixelRounding};

@@ -1,4 +1,4 @@
-//! "Vertex colors": the clamp before interpolation, on both executors of the host.
+//! Tests of the section "Vertex colors": the clamp before interpolation, on both executors of the host.
 
 use super::running::checked;
 use super::{Random, clean, probes};

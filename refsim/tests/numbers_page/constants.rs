@@ -1,4 +1,4 @@
-//! "Constants": the values that a pixel program reads, on both executors of the host.
+//! Tests of "Constants": the values that a pixel program reads, on both executors of the host.
 
 use super::running::{checked, constants};
 use super::{Random, probes};
@@ -13,7 +13,7 @@ fn stored(storage: ConstantStorage, before_2_0: bool, x: f32) -> f32 {
     let magnitude = x.abs().min(1.0);
     let k = match storage {
         ConstantStorage::Register => return x,
-        // The sum is exact in FP64 for every number whose last bit can change k.
+        // The FP64 sum is exact for every number whose last bit can affect k.
         ConstantStorage::Unorm8Expanded => {
             let x = if x.is_nan() { 0.0 } else { f64::from(x).clamp(-1.0, 1.0) };
             return (2.0 * (127.5 * (x + 1.0)).floor() as f32 - 255.0) / 255.0;

@@ -1,4 +1,4 @@
-//! "Formats": the value of every pattern, and rounding once, in exact doubles.
+//! Tests of the section "Formats": the value of every pattern, and single roundings, in exact doubles.
 
 use super::{Random, power, probes};
 use refsim::num::{Flags, Format, ops};

@@ -1,4 +1,4 @@
-//! "Derivatives" and "Level of detail": lanes that form a derivative, and the grid to which a biased level is rounded.
+//! Tests of "Derivatives" and "Level of detail": lanes that form a derivative, and the grid of biased levels.
 
 use super::running::{checked, ideal};
 use super::{Random, probes};

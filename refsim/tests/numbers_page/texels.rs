@@ -1,4 +1,4 @@
-//! "Texels": the channel table parsed from the page, values as fractions, stores.
+//! Tests of the section "Texels": the channel table parsed from the page, values as fractions, stores.
 
 use super::formats::Words;
 use super::{PAGE, Random, probes};

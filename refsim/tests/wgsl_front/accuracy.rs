@@ -6,7 +6,7 @@
 
 use super::drawn::{Inputs, drawn_of, texels};
 
-/// The numbers from the first to the second, both included.
+/// A closed interval: lower and upper bound.
 type Interval = [f64; 2];
 
 /// f32 or f16.

@@ -69,7 +69,7 @@ pub(crate) fn functions_compute_their_formulas() {
 
 pub(crate) fn control_flow_keeps_the_values_of_each_fragment() {
     let rows: [(&str, &str, Value); 9] = [
-        // A quotient by zero is the dividend, a remainder 0, and the magnitude of the least i32 itself.
+        // Division by zero gives the dividend, with remainder 0; the magnitude of the smallest i32 is that i32 itself.
         (
             "fn f() -> f32 { var zero = 0; var least = -2147483647 - 1;\n\
              return f32(7 / zero + 7 % zero + abs(least) / 65536); }",

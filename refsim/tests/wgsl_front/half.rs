@@ -57,8 +57,8 @@ pub(crate) fn rewritten_texts_as_they_are() {
     }
 }
 
-/// Some operations stay f32, as the text could not say the same in f16: those with a constant beyond f16, assignments
-/// whose target calls a function, and all of a text that uses a name of f16 as its own.
+/// Some operations stay f32, because the text cannot state the same in f16: operations with a constant beyond f16,
+/// assignments whose target calls a function, and all operations of a text that redefines a name of f16.
 pub(crate) fn some_operations_stay_single() {
     let found = |before: &str, inside: &str| {
         let text = format!(

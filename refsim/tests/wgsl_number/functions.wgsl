@@ -1,4 +1,4 @@
-// Functions beside n_alu, an item each: which one, two formats, eight operands.
+// Functions other than n_alu, one per item: number of the function, two formats, eight operands.
 @group(0) @binding(0) var<storage, read> formats: array<u32>;
 @group(0) @binding(1) var<storage, read> items: array<u32>;
 @group(0) @binding(2) var<storage, read_write> results: array<u32>;

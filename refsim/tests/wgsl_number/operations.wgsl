@@ -1,4 +1,4 @@
-// One operation an item: number, format (a place in `formats`), three operands as bit patterns.
+// One operation per item: its number, its format (an index into `formats`), three operands as bit patterns.
 @group(0) @binding(0) var<storage, read> formats: array<u32>;
 @group(0) @binding(1) var<storage, read> items: array<u32>;
 @group(0) @binding(2) var<storage, read_write> results: array<u32>;
@@ -18,8 +18,8 @@ fn run_operations(@builtin(global_invocation_id) id: vec3<u32>) {
     let op = items[at];
     let f = format_at(items[at + 1u]);
     var operands = vec3<u32>(items[at + 2u], items[at + 3u], items[at + 4u]);
-    // A conversion's second operand names the format of the first; a scale's is a power, that of steps a count. Words and
-    // what goes into them as steps are as they are.
+    // The second operand of a conversion is the first one's format; a scaling has a power, and steps have a count.
+    // Words, and singles that are packed as steps, are not decoded.
     let first = format_at(select(items[at + 1u], items[at + 4u], op == N_CONVERT));
     let joins = op >= N_JOIN_PATTERN && op <= N_JOIN_SIGNED_BYTE;
     let packs = joins || (op >= N_SPLIT_PATTERN && op <= N_SPLIT_SIGNED_BYTE);

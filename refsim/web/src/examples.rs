@@ -1,4 +1,4 @@
-//! Programs and shaders to begin with.
+//! Example programs and shaders.
 
 use serde::Serialize;
 
@@ -52,7 +52,7 @@ pub(crate) const EXAMPLES: [Example; 3] = [
     },
 ];
 
-/// A shader with values of its uniforms.
+/// A shader and the values of its uniforms.
 #[cfg(feature = "wgsl")]
 #[derive(Debug, Serialize)]
 pub(crate) struct ShaderExample {

@@ -21,8 +21,8 @@ pub extern "C" fn refsim_answer() -> u32 {
     answered(crate::answer)
 }
 
-/// Answers the request as one about a shader in WGSL, in the same way. `crossbar page` knows by this name that the
-/// module takes shaders.
+/// Answers a request about a shader in WGSL, in the same way. From the presence of this export, `crossbar page` knows
+/// that the module takes shaders.
 #[cfg(feature = "wgsl")]
 #[expect(unsafe_code, reason = "an exported name")]
 #[unsafe(no_mangle)]

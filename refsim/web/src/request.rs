@@ -15,9 +15,9 @@ use crate::examples::{EXAMPLES, Example};
 use crate::scene::{SIDE, Scene};
 use crate::shown::{ShownDifference, ShownTrace};
 
-/// Most characters of a program; a page has no longer ones.
+/// Maximum length of a program, in bytes.
 pub(crate) const MAX_TEXT: usize = 1 << 16;
-/// Most instructions that a fragment may execute, so that the page answers.
+/// Step budget of a fragment, so that the page answers in time.
 const STEP_BUDGET: u32 = 10_000;
 
 /// A device, with a register format if it replaces the device's own.
@@ -56,7 +56,7 @@ pub(crate) struct Remark {
     end: usize,
 }
 
-/// The device's verdict on the program.
+/// Result of drawing with the program on one device.
 #[derive(Debug, Serialize)]
 struct Drawn {
     format: String,
@@ -113,7 +113,7 @@ impl Remark {
 }
 
 impl Device {
-    /// The profile of the device, in its format and with a limit of steps.
+    /// The device's profile, with the requested register format and a step budget.
     pub(crate) fn profile(&self) -> Result<Profile, Vec<Remark>> {
         let refused = |error: &dyn std::fmt::Display, help: &str| vec![Remark::about_nothing(error.to_string(), help)];
         let mut profile = Profile::named(&self.device).map_err(|error| refused(&error, "choose another device"))?;

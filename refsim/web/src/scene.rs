@@ -81,7 +81,7 @@ impl Inputs<'_> {
     }
 }
 
-/// The quad over a picture with `side` pixels a side.
+/// The quad over a picture of `side` x `side` pixels.
 pub(crate) fn quad(side: u32) -> [Vertex; 4] {
     let side = side as f32;
     let mut quad = full_screen_quad(|s, t| {

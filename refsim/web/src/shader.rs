@@ -1,4 +1,4 @@
-//! A shader in WGSL: its picture by the emulator, and what a GPU must be given to draw the same text.
+//! A shader in WGSL: its picture by the emulator, and the inputs that a GPU needs to draw the same text.
 //!
 //! Coordinates are those of [`crate::scene`]; uniforms without a value are [`UNSET`] in every component.
 
@@ -23,7 +23,7 @@ use crate::scene::quad;
 
 /// Side of the picture, in pixels.
 const SIDE: u32 = 64;
-/// Value of a uniform's component that the request leaves out.
+/// Value of components of uniforms that the request leaves out.
 const UNSET: f32 = 0.5;
 /// Formats to choose from, each with its name on the page.
 const FORMATS: [(&str, &str); 8] = [
@@ -44,7 +44,7 @@ pub struct ShaderRequest {
     pub text: String,
     /// Format of all numbers, such as `fp16`.
     pub format: String,
-    /// Values of uniforms by their names; 0.5 for those that are missing.
+    /// Values of uniforms by name; missing values are 0.5.
     #[serde(default)]
     pub uniforms: BTreeMap<String, Vec<f32>>,
 }
@@ -91,7 +91,7 @@ struct GpuBuffer {
     bytes: Vec<u8>,
 }
 
-/// Answers a [`ShaderRequest`] in JSON, by JSON. Errors of the shader, and of the request, are in the answer.
+/// Answers a [`ShaderRequest`] in JSON with JSON. Errors in the shader or in the request are part of the answer.
 pub fn shader_answer(request: &str) -> String {
     let mut answer = ShaderAnswer {
         side: SIDE,
@@ -164,7 +164,7 @@ fn refused(text: &str, refusal: &Refusal) -> Remark {
     }
 }
 
-/// Refuses shaders that read textures.
+/// Returns an error for shaders that read textures.
 fn without_textures(text: &str, program: &Checked<Program>) -> Result<(), Vec<Remark>> {
     let reads = program
         .instructions
@@ -239,11 +239,11 @@ mod tests {
             for (format, _) in FORMATS {
                 let found = asked(&json!({ "text": text, "format": format, "uniforms": uniforms }));
                 assert_eq!(found["errors"], json!([]), "{title} in {format}");
-                // Some hash of `noise` is 0 everywhere in the short formats, and a distance in pixels saturates.
+                // In the short formats, a hash in `noise` is 0 everywhere, and a distance in pixels saturates.
                 let (is_wide, colors) = (["fp32", "fp24", "fp16"].contains(&format), colors(&found));
                 assert!(!is_wide || colors.iter().any(|color| *color != colors[0]), "{title} in {format}");
             }
-            // No uniform is left to chance.
+            // Every uniform of the shader has a stated value.
             let names: Vec<&str> = uniforms.keys().copied().collect();
             let found = asked(&json!({ "text": text, "format": "fp32" }));
             let mut asks: Vec<&str> =
@@ -274,11 +274,11 @@ mod tests {
         assert_eq!((single(0), single(16), single(20), single(48), single(60)), (1.0, 2.0, 3.0, 4.0, 7.0));
         assert_eq!((bytes.len(), &bytes[64..68]), (80, &[0x00, 0x48, 0x80, 0x48][..]));
         assert_eq!((&buffers[0]["group"], &buffers[1]["binding"]), (&json!(0), &json!(3)));
-        // Values that are missing.
+        // Missing values.
         assert_eq!(found["uniforms"][1], json!({ "name": "u.m[0]", "values": [0.5, 0.5] }));
     }
 
-    /// The answer that `tests/page` shows where there is no module. If a change is meant, replace it by this one.
+    /// The answer that `tests/page` shows without a module. After an intended change, replace it by this one.
     #[test]
     fn the_stored_answer_is_given() {
         let stored: Value = serde_json::from_str(include_str!("../shader.json")).expect("JSON");

@@ -238,7 +238,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         self.fused_sum_of(1.0 / (1u64 << self.frac) as f32, a, b)
     }
 
-    /// To nearest even, the double rounds like the exact quotient ([`Self::quotient`]), without a correction.
+    /// In nearest-even rounding, the double quotient rounds like the exact one ([`Self::quotient`]).
     #[inline(always)]
     fn fused_div(&self, a: i32, b: i32) -> i32 {
         let exact = f64::from(a.wrapping_shl(self.frac)) / f64::from(b);

@@ -90,7 +90,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
                 (SINGLE, AWAY) => bounded,
                 (SINGLE, ZERO) => format.overflow != Overflow::Nv30,
                 (SINGLE, _) => true,
-                // A product just below the infinite power of two may be rounded up to it before the last rounding.
+                // A product just below the infinite power of two may reach it by the first of two roundings.
                 (_, DOWN) if format.overflow == Overflow::Nv30 => true,
                 _ => exp_bits == 8,
             },
@@ -258,10 +258,10 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         let quotient = match (PATH, R) {
             (HOST, EVEN) => return self.narrow(a / b),
             (SINGLE, EVEN) => self.narrow(a / b),
-            // A rounding, in any direction, depends on how a quotient compares with numbers m of one bit more than the
-            // format, 25 at most. A quotient that is not m differs from m by 2^-49 of itself or more, since a - m b is
-            // a multiple of the unit of m b. The double differs from the quotient by 2^-53 at most, so both compare
-            // alike with m.
+            // A rounding in any direction depends on how the quotient compares with numbers m of one bit more than the
+            // format, at most 25 bits. A quotient other than m differs from m by at least 2^-49 of itself, because a -
+            // m b is a multiple of the unit of m b. The double differs from the quotient by at most 2^-53, so it
+            // compares with m in the same way.
             _ => self.round_f64(f64::from(a) / f64::from(b)),
         };
         let pole = (b == 0.0) & (a.abs() < f32::INFINITY) & (a != 0.0);
@@ -273,8 +273,8 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if PATH == HOST && R == EVEN {
             return a.sqrt();
         }
-        // As for a quotient, m being such a number: a root that is not m differs from it by 2^-51 of itself or more,
-        // since a - m m is a multiple of the unit of m m.
+        // As for a quotient: a root other than m differs from m by at least 2^-51 of itself, because a - m m is a
+        // multiple of the unit of m m.
         self.round_f64(f64::from(a).sqrt())
     }
 

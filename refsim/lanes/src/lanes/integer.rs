@@ -51,7 +51,7 @@ pub(super) fn by_pivot(x: f64) -> f64 {
 pub(super) struct IntegerRounding {
     /// Mask of the bits that are kept: all, or all but the sign.
     sign: u64,
-    /// Thresholds of the difference: below `lower` one is subtracted, from `upper` on one is added.
+    /// Thresholds of the difference: one is subtracted below `lower`, and added from `upper` on.
     pub(super) lower: f64,
     pub(super) upper: f64,
 }
@@ -82,8 +82,8 @@ impl IntegerRounding {
     }
 }
 
-/// Corrections of a quotient's nearest even integer, by the sign of the remainder: `less` subtracts one and `more` adds
-/// one, in ties, or wherever the quotient is inexact if `any` is -1.
+/// Corrections of a quotient rounded to nearest even, by the sign of the remainder: `less` subtracts one and `more`
+/// adds one. They apply to ties, or to every inexact quotient if `any` is -1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside {
     pub(super) less: [i32; 2],

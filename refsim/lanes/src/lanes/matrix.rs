@@ -13,7 +13,7 @@ const WIDTH: usize = 16;
 const CHUNK: usize = 16;
 /// The most bits below the largest exponent that 32-bit sums can keep.
 const MAX_BITS: u32 = 25;
-/// Exponent of zeros: the sum of two is below the exponents of all products, and fits the type.
+/// Exponent of zeros. The sum of two such exponents is below the exponents of all products, and fits the type.
 const ZERO: i16 = -1 << 13;
 
 /// Rows of A or columns of B, each along k.

@@ -184,7 +184,7 @@ fn each<U: CardUnit>(lane: &CardLane<U>, simd: SimdLevel, op: &LaneOp, slots: &m
         LaneCode::Immediate(operation, word) => (operation, Some(i32::from(word).cast_unsigned())),
         code => return apart(lane, simd, code, [0, 1, 2].map(|k| &*rows[usize::from(op.args[k])] as _), wide, out),
     };
-    // The first lane shows whether this is an operation on numbers.
+    // Tests with one lane whether this is an operation on numbers.
     if lane.word(operation, [0; 3]).is_none() {
         let rows = [0, 1, 2].map(|k| -> &LaneRow { &rows[usize::from(op.args[k])] });
         return apart(lane, simd, op.code, rows, wide, out);

@@ -37,7 +37,7 @@ pub enum LaneCode {
     SubOff,
     /// `a b + c` with two roundings.
     MadBy,
-    /// `a`, or the mask of `b < c`.
+    /// Bitwise or of the mask `a` and the mask of `b < c`.
     OrLess,
 }
 

@@ -4,8 +4,8 @@ use super::code::LaneCode;
 use crate::lanes::{LANES, LaneRow, RegisterNumber, SimdLevel, TRUE};
 use crate::num::NumberOperation as Op;
 
-/// Masks of `a < b`, `a <= b`, `a == b`, and of `a` or `b < c`; or `b` if `0 <= a`, else `c`. Comparisons with NaN are
-/// false.
+/// Comparisons: masks of `a < b`, `a <= b` and `a == b`, and the bitwise or of `a` and the mask of `b < c`; also a
+/// selection: `b` if `0 <= a`, else `c`. Comparisons with NaN are false.
 #[inline(never)]
 pub(super) fn compare_numbers<T: RegisterNumber>(
     simd: SimdLevel,

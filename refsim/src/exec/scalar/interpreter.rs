@@ -298,9 +298,9 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         done
     }
 
-    /// The operands of an instruction in one lane, each loaded by `load` from a lane. `dsx` and `dsy` subtract the
-    /// second operand from the first, where the two come from the two lanes of a row or column of the quad: both lanes
-    /// get the same value, and inactive lanes contribute the contents of their registers.
+    /// The operands of an instruction in one lane, each loaded by `load`. For `dsx` and `dsy` the two operands come
+    /// from the two lanes of a row or column of the quad, and the second is subtracted from the first: both lanes get
+    /// the same value, and inactive lanes contribute the contents of their registers.
     pub(super) fn operands(
         &mut self,
         lane: usize,

@@ -1,11 +1,11 @@
-// Following pixels: an invocation takes one pixel through its triangles, up to the first that covers it, and tells in
-// its record what every instruction wrote and what became of the fragment. One invocation a workgroup: lanes that go
-// different ways would spend each other's loop passes.
+// Traces pixels. Each invocation runs one pixel through its triangles up to the first that covers it, and records what
+// every instruction wrote and the fragment's fate. Workgroups have one invocation, because divergent lanes would use up
+// each other's loop iterations.
 //
-// `tiles` holds four words a pixel: column, row, first triangle of its list, how many. Pixel k has column k of the copies
-// of the targets.
+// `tiles` holds four words per pixel: column, row, first triangle of its list, number of triangles. Pixel k uses column
+// k of the copies of the targets.
 
-// Where the steps of the record begin.
+// Index in `video` of the first step of the record.
 var<private> f_steps: u32;
 
 fn trace_put(at: u32, word: u32) {
@@ -70,7 +70,7 @@ fn follow_main(@builtin(workgroup_id) group: vec3<u32>) {
     }
     let ended = select(1u, 0u, status == FOLLOW_UNFINISHED);
     scratch[state_at] = vec4<u32>(i, select(0u, 1u, q_suspended), q_traced, ended);
-    // Had the driver ended loops before their time, this one would end too.
+    // A driver that terminates loops early terminates this loop too, and the sum is wrong.
     var passes = 0u;
     for (var k = 0u; k < draw[D_PROOF]; k++) {
         passes += draw[D_PROOF + 1u];

@@ -1,8 +1,8 @@
-// What the parts of a pixel module share: bindings, number formats, and the variables between kernel and program.
+// Declarations shared by all parts of a pixel module: bindings, number formats, variables of kernel and program.
 //
-// A quad's values are rows of four lanes: (0, 0), (1, 0), (0, 1), (1, 1). A value is "raw": in fixed point the number
-// as a sign-extended integer, in floating point of whatever width the single precision pattern of its exact value, with
-// 0x7fc00000 as the only NaN.
+// A quad's values are rows of four lanes: (0, 0), (1, 0), (0, 1), (1, 1). Values are "raw": a fixed-point number is a
+// sign-extended integer; a float of any format is the single-precision pattern of the same number, and 0x7fc00000 is
+// the only NaN.
 
 @group(0) @binding(0) var<storage, read> draw: array<u32>;
 @group(0) @binding(1) var<storage, read> setups: array<u32>;
@@ -19,8 +19,8 @@ const SINGLE: u32 = 2u;
 const WRAPPED: u32 = 3u;
 const ITERATOR: u32 = 4u;
 
-// The format of an index above; from 5 on those of targets' channels, 9 and 10 the half and fixed precision of OpenGL's
-// programs, from 11 on those of single instructions.
+// The format with an index from above. Indices from 5 on are formats of target channels; 9 and 10 are half and fixed
+// precision of OpenGL's programs; indices from 11 on are formats of single instructions.
 fn format_of_draw(k: u32) -> Format {
     let at = 8u * k;
     return Format(
@@ -29,7 +29,7 @@ fn format_of_draw(k: u32) -> Format {
     );
 }
 
-// A format of the program, which may be one that compilers know.
+// A format of the program. If all are FP32 with default rules, it is a constant, so that compilers can simplify.
 fn format(k: u32) -> Format {
     if (HAS_FORMATS) {
         return format_of_draw(k);
@@ -37,11 +37,11 @@ fn format(k: u32) -> Format {
     return N_FP32;
 }
 
-// Rows of four lanes in `scratch`: those of the program's registers by their slots, then from operand 0xff00 on what
-// goes in and out. In: components in single precision by their number (0 to 31 coordinates, 32 to 39 colours, 40 fog,
-// 41 to 44 window position), edge functions 1 and 2, from which the program interpolates all but columns and rows. Out:
-// colours of four targets in the main format, masks of killed lanes, depth, masks of lanes whose depth is in the main
-// format, not single.
+// Rows of four lanes in `scratch`: the program's registers by slot, then, as operands from 0xff00 on, inputs and
+// outputs. Inputs: components in single precision by number (0 to 31 coordinates, 32 to 39 colours, 40 fog, 41 to 44
+// window position), and edge functions 1 and 2, from which the program interpolates all inputs except column and row.
+// Outputs: colours of four targets in the main format, masks of killed lanes, depth, masks of lanes whose depth is in
+// the main format and not single.
 const ROW_EDGES: u32 = 0xff2du;
 const ROW_COLORS: u32 = 0xff2fu;
 const ROW_KILLED: u32 = 0xff3fu;
@@ -49,7 +49,7 @@ const ROW_DEPTH: u32 = 0xff40u;
 const ROW_DEPTH_IS_MAIN: u32 = 0xff41u;
 var<private> q_invocation: u32;
 var<private> q_stride: u32;
-// Where the second part begins, and where the program puts what it needs to go on.
+// First row of inputs and outputs, and first row of the state that a suspended program saves.
 var<private> q_rows: u32;
 var<private> q_save: u32;
 
@@ -57,24 +57,22 @@ fn q_row(operand: u32) -> u32 {
     return select(operand, q_rows + operand - 0xff00u, operand >= 0xff00u) * q_stride + q_invocation;
 }
 
-// The first word of the triangle's set-up; the lanes that run (a quad with a covered lane runs whole) and those that
-// are fragments.
+// First word of the triangle's set-up; the lanes that run (all four if any is covered); the lanes that are fragments.
 var<private> q_setup: u32;
 var<private> q_run: vec4<bool>;
 var<private> q_covered: vec4<bool>;
-// Loop passes, about, that the invocation may still make in this dispatch: no dispatch shall run for seconds, and
-// lavapipe ends all loops of an invocation after 65,535 passes. A program that runs out of them puts its state down,
-// says so and returns;
-// called again, it goes on.
+// Approximate number of loop iterations left for the invocation in this dispatch: no dispatch may run for seconds, and
+// lavapipe terminates all loops of an invocation after 65,535 iterations. A program that has used them up saves its
+// state, sets `q_suspended` and returns; the next call resumes it.
 var<private> q_passes: u32;
 var<private> q_suspended: bool;
-// Where the program's words begin in `code`.
+// Index in `code` of the program's first word.
 var<private> q_code: u32;
-// The lane that is followed, counted from 1; 0 for none. And how many words were put down about it.
+// The traced lane, counted from 1, or 0 for none; and the number of words recorded for it.
 var<private> q_trace: u32;
 var<private> q_traced: u32;
 
-// The word of the texture read at work.
+// Index in `code` of the texture read being executed.
 var<private> q_read: u32;
-// Texture reads of covered lanes by sampler; the kernel clears and adds up.
+// Texture reads of covered lanes by sampler; the kernel clears these counts and sums them.
 var<private> q_fetched: array<u32, 16>;

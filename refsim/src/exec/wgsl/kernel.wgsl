@@ -1,6 +1,6 @@
-// A workgroup draws a tile of 16 x 16 pixels: each invocation a quad, through the tile's triangles in order.
+// A workgroup draws a tile of 16 x 16 pixels. Each invocation draws a quad: all triangles of the tile, in order.
 
-// How many fragments had each fate but that of being shaded.
+// Number of fragments by fate: killed, failed the alpha test, failed the depth test, passed.
 var<private> k_fates: vec4<u32>;
 
 fn k_count(word: u32, more: u32) {
@@ -10,9 +10,9 @@ fn k_count(word: u32, more: u32) {
     }
 }
 
-// Loop passes of eight invocations at a time: lavapipe runs so many in step, and counts the passes that any of them
-// makes.
-// How many there were, the triangle (from 1) last charged for, and what its program cost at most.
+// Loop iterations per group of eight invocations: lavapipe runs eight in lockstep, and counts an iteration if any of
+// them makes it. The arrays hold the iterations so far, the triangle (from 1) last charged for, and the most iterations
+// that the program used for this triangle.
 var<workgroup> k_spent: array<atomic<u32>, 8>;
 var<workgroup> k_last: array<atomic<u32>, 8>;
 var<workgroup> k_most: array<atomic<u32>, 8>;
@@ -77,7 +77,7 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     if (i < count) {
         atomicAdd(&counts[COUNT_UNFINISHED], 1u);
     }
-    // Had the driver ended loops before their time, this one would end too.
+    // A driver that terminates loops early terminates this loop too, and the sum is wrong.
     var passes = 0u;
     for (var k = 0u; k < draw[D_PROOF]; k++) {
         passes += draw[D_PROOF + 1u];
@@ -85,8 +85,8 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     if (passes != draw[D_PROOF] * draw[D_PROOF + 1u]) {
         atomicAdd(&counts[COUNT_CUT], 1u);
     }
-    // Each pair of words is a number: shaded, none, then the fates, then texture reads by sampler. Drivers make long
-    // text of an atomic operation, hence one place for all.
+    // Each pair of words is one count: shaded fragments, unused, the four fates, texture reads by sampler. The atomic
+    // operation is at one place only, because drivers compile it to long code.
     for (var k = 0u; k < 22u; k++) {
         var more = 0u;
         if (k == 0u) {

@@ -1,7 +1,7 @@
-// The way of one fragment into the targets: tests, blending, rounding into texels, masked write.
+// Output stage of one fragment: tests, blending, rounding into texels, masked write.
 
-// A number: significand * 2^exponent / over, with its sign; a NaN is zero, an infinity 1. Over 1, but for normalized
-// numbers, which have exponent 0.
+// A number: significand * 2^exponent / over, with its sign; NaN is stored as 0, infinity as 1. `over` is 1, except for
+// normalized numbers, whose exponent is 0.
 struct Exact {
     negative: bool,
     significand: u32,
@@ -9,12 +9,12 @@ struct Exact {
     over: u32,
 }
 
-// What the program left in a lane.
+// An output of the program in a lane.
 fn o_given(operand: u32, lane: u32) -> u32 {
     return scratch[q_row(operand)][lane];
 }
 
-// Whether registers are in fixed point.
+// Returns true if registers are in fixed point.
 fn o_main_is_fixed() -> bool {
     if (HAS_FIXED) {
         return draw[8u * MAIN] == 0u;
@@ -22,7 +22,7 @@ fn o_main_is_fixed() -> bool {
     return false;
 }
 
-// What numbers of the main format are divided by if it is normalized, else 0.
+// Denominator of the main format if it is normalized, else 0.
 fn o_main_over() -> u32 {
     if (HAS_NORMALIZED) {
         return draw[8u * MAIN + 7u];
@@ -30,7 +30,7 @@ fn o_main_over() -> u32 {
     return 0u;
 }
 
-// The number behind a raw value of the main format in fixed point, or of floating point.
+// Decodes a raw value: a fixed-point number of the main format, or a float.
 fn o_exact(raw: u32, fixed_point: bool) -> Exact {
     let negative = (raw >> 31u) == 1u;
     let size = raw & 0x7fffffffu;
@@ -50,10 +50,10 @@ fn o_exact(raw: u32, fixed_point: bool) -> Exact {
     return number;
 }
 
-// The size of a number times `scale` as an integer, at most `scale`: halves away from zero, or cut off.
+// Magnitude of a number times `scale`, as an integer of at most `scale`: nearest, halves away from zero, or truncated.
 fn o_scaled(number: Exact, scale: u32, nearest: bool) -> u32 {
     let product = n_mul32(number.significand, scale).yx;
-    // Below one, the exponent is below zero. In halves: all but the last bit are the whole.
+    // Numbers below 1 have a negative exponent. `halves` counts halves of a unit: its last bit is the half.
     let shift = u32(-number.exponent) - 1u;
     let halves = select(vec2<u32>(0u), k_shr(product, min(shift, 63u)), shift < 64u);
     var cut = ((halves.x >> 1u) | (halves.y << 31u)) + select(0u, halves.x & 1u, nearest);
@@ -67,7 +67,7 @@ fn o_scaled(number: Exact, scale: u32, nearest: bool) -> u32 {
     return select(select(cut, scale, above), 0u, number.significand == 0u);
 }
 
-// product / over, of at most 32 bits, for a divisor of 8: halves away from zero, or cut off.
+// product / over, at most 32 bits, for a divisor of 8 bits: nearest, halves away from zero, or truncated.
 fn o_quotient(product: vec2<u32>, over: u32, nearest: bool) -> u32 {
     var rest = product.y;
     var quotient = 0u;
@@ -79,12 +79,12 @@ fn o_quotient(product: vec2<u32>, over: u32, nearest: bool) -> u32 {
     return quotient + select(0u, 1u, nearest && 2u * rest > over);
 }
 
-// A depth as an unsigned float of so many mantissa bits; numbers from 1 on give 1.
+// Encodes a depth as an unsigned float with `mantissa` mantissa bits; depths of 1 and more give 1.
 fn o_depth_float(given: Exact, bias: i32, mantissa: u32) -> u32 {
     var number = given;
     if (HAS_NORMALIZED) {
         if (given.over != 1u) {
-            // The quotient as far as it is looked at, the rest jammed; below one, but for what gives 1.
+            // The leading bits of the quotient, the rest jammed. It is below 1, except for depths that give 1.
             let size = min(given.significand, given.over);
             let quotient = n_divided(vec3<u32>(size << 16u, 0u, 0u), given.over).xy;
             number = Exact(given.negative, (quotient.x << 15u) | (quotient.y >> 17u), -31, 1u);
@@ -102,7 +102,7 @@ fn o_depth_float(given: Exact, bias: i32, mantissa: u32) -> u32 {
     return select(pattern, 0u, number.significand == 0u);
 }
 
-// The pattern of a depth in the draw's depth buffer; below zero and NaN give 0.
+// Pattern of a depth in the draw's depth buffer; 0 for negative numbers and NaN.
 fn o_depth(raw: u32, in_main: bool) -> u32 {
     var number = o_exact(raw, in_main && o_main_is_fixed());
     if (number.negative) {
@@ -128,7 +128,7 @@ fn o_is_below(a: u32, b: u32) -> bool {
     return !s_is_nan(a) && !s_is_nan(b) && s_key(a) < s_key(b);
 }
 
-// A comparison is the set of orders it holds for: below, equal, above, unordered.
+// Evaluates a comparison, given as the set of orders that pass: bit 0 below, 1 equal, 2 above, 3 unordered.
 fn o_holds(comparison: u32, below: bool, above: bool) -> bool {
     return ((comparison >> select(select(1u, 2u, above), 0u, below)) & 1u) == 1u;
 }
@@ -168,7 +168,7 @@ fn o_low_bits(n: u32) -> u32 {
     return 0xffffffffu >> (32u - n);
 }
 
-// The bits of a channel of integers for a raw value of the main format.
+// Encodes a raw value of the main format for an integer channel.
 fn o_encode(channel: Channel, raw: u32) -> u32 {
     let number = o_exact(raw, o_main_is_fixed());
     let scaled = o_scaled(number, o_whole(channel, number.negative), draw[D_NEAREST] == 1u);
@@ -176,13 +176,13 @@ fn o_encode(channel: Channel, raw: u32) -> u32 {
     return select(size, 0u - size, number.negative) & o_low_bits(channel.bits);
 }
 
-// The largest code on one side of zero.
+// Largest magnitude of a channel's codes with this sign.
 fn o_whole(channel: Channel, negative: bool) -> u32 {
     let largest = o_low_bits(channel.bits);
     return select((largest >> 1u) + select(0u, 1u, channel.kind == 2u && negative), largest, channel.kind == 0u);
 }
 
-// The numerator of a channel's bits over its denominator.
+// Numerator of a channel's value, over the channel's denominator.
 fn o_numerator(channel: Channel, bits: u32) -> i32 {
     if (channel.kind == 0u) {
         return i32(bits);
@@ -195,7 +195,7 @@ fn o_numerator(channel: Channel, bits: u32) -> i32 {
     return max(number, -i32(channel.denominator));
 }
 
-// Source, destination and their alphas for the blender: numerators, or single precision patterns.
+// Inputs of the blender: source, destination and their alphas, as numerators or single-precision patterns.
 struct Blend {
     source: u32,
     destination: u32,
@@ -203,7 +203,7 @@ struct Blend {
     destination_alpha: u32,
 }
 
-// Which of them a factor from 2 to 9 takes; odd factors are one less that.
+// The value that a blend factor from 2 to 9 selects; odd factors are 1 minus that value.
 fn o_factor(values: Blend, factor: u32) -> u32 {
     switch factor >> 1u {
         case 1u: {
@@ -221,7 +221,7 @@ fn o_factor(values: Blend, factor: u32) -> u32 {
     }
 }
 
-// size / denominator, below 1, as a code of a channel whose end is `whole`.
+// size / denominator, below 1, as a code of a channel whose code for 1 is `whole`.
 fn o_divide(size: vec2<u32>, denominator: vec2<u32>, whole: u32, nearest: bool) -> u32 {
     let divisor = k_add(denominator, denominator);
     var rest = k_scale(k_add(size, size), whole);
@@ -240,10 +240,10 @@ fn o_divide(size: vec2<u32>, denominator: vec2<u32>, whole: u32, nearest: bool) 
     return code;
 }
 
-// Blends over channels of integers: exact fractions, rounded once.
+// Blends in an integer channel: exact fractions, rounded once.
 //
-// Every term is a product of a numerator over the channel's denominator D and a factor over 1, D or the alpha's
-// denominator A, so D D A (or D D, where A is D) is a denominator for all.
+// Every term is a product of two fractions: a numerator over the channel's denominator D, and a factor over 1, D or the
+// alpha's denominator A. So D D A is a common denominator (D D, if A equals D).
 fn o_blend_integer(channel: Channel, values: Blend, alpha_denominator: u32, equation: u32) -> u32 {
     let op = draw[equation + 2u];
     let d = channel.denominator;
@@ -298,15 +298,15 @@ fn o_blend_integer(channel: Channel, values: Blend, alpha_denominator: u32, equa
     return select(code, 0u - code, negative) & o_low_bits(channel.bits);
 }
 
-// The bits of a channel of floats for a raw value of the main format.
+// Encodes a raw value of the main format for a float channel.
 fn o_float(channel: Channel, raw: u32) -> u32 {
     let into = format_of_draw(channel.format);
     let kind = select(N_FLOAT, N_FIXED, o_main_is_fixed());
     return n_encode(into, n_finish(into, n_term(N_CONVERT, into, kind, draw[8u * MAIN + 2u], o_main_over(), raw, 0u)));
 }
 
-// The same, blended in single precision. All roundings happen at one place, since each place costs a copy of the
-// arithmetic.
+// As above, but blended in single precision. All roundings are at one place, because drivers compile a copy of the
+// arithmetic for each place.
 fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u32, equation: u32) -> u32 {
     let is_alpha = channel.component == 3u;
     let op = draw[equation + 2u];
@@ -319,7 +319,7 @@ fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alp
         var a = 0u;
         var b = 0u;
         var to = SINGLE;
-        // Steps 2 and 3 are of the source's term, 4 and 5 of the destination's.
+        // Steps 2 and 3 compute the source's term, steps 4 and 5 the destination's.
         let k = select(0u, 1u, step >= 4u);
         let factor = draw[equation + k];
         let value = select(values.source, values.destination, k == 1u);
@@ -335,7 +335,7 @@ fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alp
                 there[k] = factor != 0u;
                 terms[k] = value;
                 if (op >= 3u || !multiplied) {
-                    // Past the multiplication too.
+                    // Skips the multiplication too.
                     step++;
                     continue;
                 }
@@ -365,7 +365,7 @@ fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alp
                     result = select(values.source, values.destination, o_is_below(values.source, values.destination));
                     continue;
                 }
-                // What is taken from what.
+                // Minuend x and subtrahend y; for an addition, the addends.
                 let x = select(terms.x, terms.y, op == 2u);
                 let y = select(terms.y, terms.x, op == 2u);
                 let has_x = select(there.x, there.y, op == 2u);
@@ -383,7 +383,7 @@ fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alp
                 to = channel.format;
             }
         }
-        // The program's values are of the main format.
+        // In steps 0 and 1 the operands are the program's outputs, in the main format.
         let given = step < 2u;
         let kind = select(N_FLOAT, N_FIXED, given && o_main_is_fixed());
         let fraction = select(0u, draw[8u * MAIN + 2u], given);
@@ -415,10 +415,10 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
     let floats = draw[at + 5u] == 1u;
     let blends = draw[D_BLEND] == 1u;
     let alpha_channel = draw[at + 11u];
-    // A source whose alpha the target does not store is rounded to a channel all the same: the fifth in the table.
+    // The fifth channel in the table rounds the source's alpha if the target stores no alpha.
     let rounded_alpha = o_channel(at + 16u + 8u * min(alpha_channel, 4u));
     if (HAS_UNITS) {
-        // What leaves the unit of a card has no subnormal numbers.
+        // Outputs of a card's unit are flushed: subnormal numbers become zeros.
         if draw[8u * MAIN + 6u] > 1u {
             for (var c = 0u; c < 4u; c++) {
                 let place = q_row(ROW_COLORS + 4u * t + c);
@@ -429,7 +429,7 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
     let raw_alpha = o_given(ROW_COLORS + 4u * t + 3u, lane);
     var held_alpha = select(rounded_alpha.denominator, 0x3f800000u, floats);
     var made: vec4<u32>;
-    // One pass more, the first, for the alpha that the target holds.
+    // An extra pass, the first, reads the target's alpha.
     for (var pass_number = 0u; pass_number <= draw[at + 4u]; pass_number++) {
         let of_alpha = pass_number == 0u;
         if (of_alpha && (!blends || alpha_channel >= 4u)) {
@@ -477,8 +477,8 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
     }
 }
 
-// Takes one covered lane through the output stage; says what became of it, as `counts` has it: 0 shaded means nothing
-// more, 1 killed, 2 failed alpha, 3 failed depth, 4 passed.
+// Runs the output stage for one covered lane. Returns the fragment's fate: 1 killed, 2 failed the alpha test, 3 failed
+// the depth test, 4 passed.
 fn o_merge(lane: u32, x: u32, y: u32) -> u32 {
     var fate = select(4u, 1u, o_given(ROW_KILLED, lane) != 0u);
     if (HAS_ALPHA_TEST) {

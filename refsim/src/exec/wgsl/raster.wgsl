@@ -1,17 +1,17 @@
-// Coverage of one quad, and what its interpolation starts from, as the raster room defines them.
+// Coverage of one quad, and inputs of its interpolation, as refsim::raster defines them.
 
-// A set-up: three edges of seven words (a, b, c as pairs, bias), then these.
+// Layout of a set-up: three edges of seven words each (a, b, c as pairs, bias), then these fields.
 const S_BOUNDS: u32 = 22u;
 const S_FLAGS: u32 = 26u;
 
-// Set: centres of pixels lie between their corners.
+// Flag: pixel centres are at integers plus one half.
 const S_HALF: u32 = 8u;
 
 fn r_inside(edge: vec2<u32>, bias: u32) -> bool {
     return (edge.y >> 31u) == 0u && (bias == 0u || (edge.x | edge.y) != 0u);
 }
 
-// An edge function at a pixel.
+// Value of an edge function at a pixel.
 fn r_edge(start: u32, x: u32, y: u32) -> vec2<u32> {
     let a = vec2<u32>(setups[start], setups[start + 1u]);
     let b = vec2<u32>(setups[start + 2u], setups[start + 3u]);
@@ -19,13 +19,13 @@ fn r_edge(start: u32, x: u32, y: u32) -> vec2<u32> {
     return k_add(k_add(k_scale(a, x), k_scale(b, y)), c);
 }
 
-// Which lanes of the quad at (x, y) a triangle covers.
+// Lanes of the quad at (x, y) that a triangle covers.
 fn r_cover(at: u32, x: u32, y: u32) -> vec4<bool> {
     let left = x - setups[at + S_BOUNDS];
     let top = y - setups[at + S_BOUNDS + 1u];
     let width = setups[at + S_BOUNDS + 2u];
     let height = setups[at + S_BOUNDS + 3u];
-    // Columns and rows before the bounds wrap to numbers past them.
+    // Columns and rows before the bounds wrap to large numbers, which are outside too.
     let columns = vec2<bool>(left < width, left + 1u < width);
     let rows = vec2<bool>(top < height, top + 1u < height);
     var covered = vec4<bool>(columns.x && rows.x, columns.y && rows.x, columns.x && rows.y, columns.y && rows.y);
@@ -43,8 +43,8 @@ fn r_cover(at: u32, x: u32, y: u32) -> vec4<bool> {
     return covered;
 }
 
-// What interpolation starts from, in single precision: the edge functions at the four lanes, and columns and rows of
-// the pixels at their centres.
+// Writes the inputs of interpolation in single precision: edge functions at the four lanes, and columns and rows of the
+// pixels' centres.
 fn r_start(at: u32, x: u32, y: u32) {
     let half = select(0u, 1u, (setups[at + S_FLAGS] & S_HALF) != 0u);
     for (var i = 0u; i < 16u; i++) {

@@ -1,4 +1,4 @@
-// Integers of 64 bits as pairs of words, the lower one first; two's complement where they are signed.
+// 64-bit integers as pairs of words, the lower word first; signed integers are in two's complement.
 
 fn k_add(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
     let low = a.x + b.x;
@@ -9,12 +9,12 @@ fn k_neg(a: vec2<u32>) -> vec2<u32> {
     return k_add(~a, vec2<u32>(1u, 0u));
 }
 
-// Unsigned.
+// a < b, unsigned.
 fn k_less(a: vec2<u32>, b: vec2<u32>) -> bool {
     return a.y < b.y || (a.y == b.y && a.x < b.x);
 }
 
-// a * b modulo 2^64: right for signed a too.
+// a * b modulo 2^64, also for a signed a.
 fn k_scale(a: vec2<u32>, b: u32) -> vec2<u32> {
     let low = n_mul32(a.x, b).yx;
     return vec2<u32>(low.x, low.y + a.y * b);
@@ -23,7 +23,7 @@ fn k_scale(a: vec2<u32>, b: u32) -> vec2<u32> {
 // a >> n for n below 64, unsigned.
 fn k_shr(a: vec2<u32>, n: u32) -> vec2<u32> {
     let part = n & 31u;
-    // By 32 less the part in two steps, since no shift is by 32.
+    // Shifts by 32 - part in two steps, because WGSL has no shift by 32.
     let near = vec2<u32>((a.x >> part) | ((a.y << 1u) << (31u - part)), a.y >> part);
     return select(near, vec2<u32>(near.y, 0u), n >= 32u);
 }
@@ -38,14 +38,14 @@ fn k_shl(a: vec2<u32>, n: u32) -> vec2<u32> {
 // value / 2^shift for shift from 1 to 63, to nearest, ties to even; the result has at most 32 bits.
 fn k_round_even(value: vec2<u32>, shift: u32) -> u32 {
     let kept = k_shr(value, shift).x;
-    // What is cut off, moved to the top: its highest bit is the half.
+    // The dropped bits, moved to the top: the highest of them is the half.
     let rest = k_shl(value, 64u - shift);
     let half = (rest.y >> 31u) == 1u;
     let more = ((rest.y & 0x7fffffffu) | rest.x) != 0u;
     return kept + select(0u, 1u, half && (more || (kept & 1u) == 1u));
 }
 
-// A signed integer as single precision, to nearest, ties to even.
+// Converts a signed integer to single precision, to nearest, ties to even.
 fn k_to_single(value: vec2<u32>) -> u32 {
     let negative = (value.y >> 31u) == 1u;
     let size = select(value, k_neg(value), negative);
@@ -54,7 +54,7 @@ fn k_to_single(value: vec2<u32>) -> u32 {
     if (top > 23u) {
         significand = k_round_even(size, top - 23u);
     }
-    // The leading one of the significand adds one to the exponent, and a carry another.
+    // Adding the significand's leading one increments the exponent, and so does a carry.
     let single = select(0u, 0x80000000u, negative) | (((top + 126u) << 23u) + significand);
     return select(single, 0u, (size.x | size.y) == 0u);
 }

@@ -38,7 +38,7 @@ const FORMULAS: [(&str, &str); 23] = [
     ("saturate", "min(max(a, 0), 1)"),
     ("ceil", "-floor(-a)"),
     ("trunc", "m = floor(abs(a)); select(less(a, 0), -m, m)"),
-    // Of the two nearest whole numbers, a tie takes the even one.
+    // Ties round to the even integer.
     ("round", "n = floor(a); f = fract(a); select(max(greater(f, 0.5), min(equal(f, 0.5), fract(n * 0.5))), n + 1, n)"),
     ("sign", "greater(a, 0) - less(a, 0)"),
     ("mix", "a * (1 - c) + b * c"),
@@ -227,7 +227,7 @@ fn whole(function: F, arguments: &[Value]) -> Option<Value> {
             (F::Min, [a, b]) => *a.min(b),
             (F::Max, [a, b]) => *a.max(b),
             (F::Clamp, [a, low, high]) => *a.max(low).min(high),
-            // The least i32 stays, as its magnitude is no i32 (WGSL, `abs`).
+            // The smallest i32 is unchanged, because its magnitude exceeds every i32 (WGSL, `abs`).
             (F::Abs, [a]) if *a == i32::MIN.into() => *a,
             (F::Abs, [a]) => a.abs(),
             (F::Sign, [a]) => a.signum(),

@@ -11,7 +11,7 @@ use super::values::{Component, Value, is_half, part, scalar};
 use super::with_arguments;
 use crate::isa::{Opcode, RegisterFile, Span};
 
-/// Maximum length of an operation that is rewritten, in bytes: each is read for itself, however it is nested.
+/// Maximum length in bytes of an operation that is rewritten; nested operations each read their own text.
 const LONGEST: u32 = 4096;
 
 /// The largest number of f16.

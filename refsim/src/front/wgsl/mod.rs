@@ -36,7 +36,7 @@ const CAPABILITIES: Capabilities = Capabilities::SHADER_FLOAT16.union(Capabiliti
 #[cfg(not(target_family = "wasm"))]
 const STACK: usize = 1 << 28;
 
-/// WebAssembly has no threads, and its stack is the browser's, which ends the module's work where it is too small.
+/// WebAssembly has no threads. It uses the browser's stack, and the browser aborts the module if that overflows.
 #[cfg(target_family = "wasm")]
 pub(super) fn translate(text: &str) -> Result<Translation, Refusal> {
     translated(text)
@@ -117,7 +117,7 @@ fn with_arguments(text: &str, span: Span) -> Span {
     span
 }
 
-/// The root cause of an error, which says what is wrong; the errors above it name naga's internal handles.
+/// The root cause of an error, which describes the problem; outer errors only name naga's internal handles.
 fn first_cause(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     causes.last().map(ToString::to_string).unwrap_or_default()

@@ -11,7 +11,7 @@ use crate::isa::{Modifier, Opcode};
 
 type Result<T = Value> = std::result::Result<T, Refusal>;
 
-/// Operators of numbers, as texts write them, and those that are one instruction.
+/// Operators on numbers, their spelling in texts, and the opcode of each that is a single instruction.
 const OPERATORS: [(B, &str, Option<Opcode>); 11] = [
     (B::Add, "+", Some(Opcode::Add)),
     (B::Subtract, "-", Some(Opcode::Sub)),
@@ -26,7 +26,7 @@ const OPERATORS: [(B, &str, Option<Opcode>); 11] = [
     (B::GreaterEqual, ">=", Some(Opcode::Sge)),
 ];
 
-/// The operator in texts; nothing for those of conditions and bits.
+/// Spelling of an operator in texts; empty for operators on conditions and bits.
 pub(super) fn symbol(operator: B) -> &'static str {
     OPERATORS.iter().find(|(known, ..)| *known == operator).map_or("", |(_, symbol, _)| symbol)
 }
@@ -195,7 +195,7 @@ impl Translator<'_> {
                 B::Add => a.checked_add(b),
                 B::Subtract => a.checked_sub(b),
                 B::Multiply => a.checked_mul(b),
-                // By zero while the shader runs, a quotient is the dividend and a remainder is 0 (WGSL, 8.7).
+                // In a division by zero at run time, the quotient is the dividend and the remainder is 0 (WGSL, 8.7).
                 B::Divide => Some(a.checked_div(b).unwrap_or(a)),
                 B::Modulo => Some(a.checked_rem(b).unwrap_or(0)),
                 B::And => Some(a & b),

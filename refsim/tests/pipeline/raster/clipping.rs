@@ -73,7 +73,7 @@ fn neighbours(a: [f32; 4], b: [f32; 4], up: f32, down: f32) -> Vec<u32> {
     counts(&[[&va, &vb, &vc], [&va, &vb, &vd]], &state(64, 48, CONVENTIONS[0]), &RULES)
 }
 
-/// The near plane cuts off, or leaves, such a thin sliver that snapping folds the remainder over the common edge.
+/// The near plane cuts off or leaves a sliver so thin that snapping folds the rest over the common edge.
 #[test]
 fn a_folded_sliver_is_left_out() {
     let (a, b) =

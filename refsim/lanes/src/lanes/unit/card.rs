@@ -120,7 +120,7 @@ impl<U: CardUnit> CardLane<U> {
         })
     }
 
-    /// Computes a number, by an operation that every arithmetic has.
+    /// Computes an operation that every arithmetic has; the result is a number.
     fn number(&self, operation: Op, operands: [i32; 3]) -> i32 {
         self.word(operation, operands.map(i32::cast_unsigned)).unwrap_or(NAN).cast_signed()
     }

@@ -1,4 +1,4 @@
-//! The tables of the chips, read from `tables/*.csv` once. The columns are those of the files, except the index.
+//! The tables of the chips, read once from `tables/*.csv`, without the files' index column.
 
 use std::sync::LazyLock;
 

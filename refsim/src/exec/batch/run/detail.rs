@@ -130,7 +130,7 @@ impl LevelChoice {
     }
 }
 
-/// Adds the square of a derivative in texels to the sum; `begins` is `true` for the first term, which starts the sum.
+/// Adds the square of a derivative in texels to the sum; if `begins`, the square is the first term and starts the sum.
 #[inline(always)]
 fn add_square(derivative: &LaneRow, scale: f32, begins: bool, sum: &mut [f32; LANES]) {
     for i in 0..LANES {

@@ -1,6 +1,6 @@
 fn n_cut_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
-    // x y + z, the product cut to the significand of the format. A comment in front of a function would stay in the text
-    // of programs that do without: so it stands inside, and there are no empty lines.
+    // x y + z, with the product truncated to the format's significand. The comment is inside the function, and there
+    // are no empty lines, because text between functions would remain in programs that don't use them.
     let high = n_mul32(x.sig, y.sig);
     let shift = countLeadingZeros(high.x) & 1u;
     let leading = (high.x << shift) | ((high.y >> 31u) & shift);
@@ -16,8 +16,8 @@ fn n_cut_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     return n_sum(f, first, second, z);
 }
 fn n_aligned(f: Format, terms: u32, bits: u32, addends: vec4<u32>) -> Real {
-    // The sum of the first numbers: aligned to the largest exponent, cut so many bits below it, at most 28, and added
-    // exactly.
+    // The sum of the first `terms` numbers: each is aligned to the largest exponent and truncated to `bits` bits below
+    // it, at most 28; the results are added exactly.
     var numbers = addends;
     var top = -N_FAR;
     var nan = false;

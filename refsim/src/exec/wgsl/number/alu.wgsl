@@ -1,12 +1,12 @@
-// Every operation of the lane arithmetic behind one switch. Arguments of one operand ignore the others.
+// Every operation of the lane arithmetic, selected by one switch. Operations with one operand ignore the others.
 
-// A number of units of 1 / over: its integer part, and the rest in units.
+// Splits a number of units of 1 / over: integer part, and remainder in units.
 fn n_parted(x: Number, over: u32) -> vec2<u32> {
     let size = n_shift(x.sig, x.exp);
     return vec2<u32>(size / over, size % over);
 }
 
-// The integer next to x / over: downwards, or the nearest (ties to even).
+// x / over, rounded down or to the nearest integer (ties to even).
 fn n_integral(x: Number, over: u32, nearest: bool) -> Number {
     if (HAS_NORMALIZED) {
         if over != 1u {
@@ -33,7 +33,7 @@ fn n_integral(x: Number, over: u32, nearest: bool) -> Number {
     return n;
 }
 
-// x / over without what stands before the point, in units of 1 / over; +0 of an integer.
+// Fraction of x / over, in units of 1 / over; +0 for an integer.
 fn n_rest(x: Number, over: u32) -> Number {
     if (HAS_NORMALIZED) {
         if over != 1u {
@@ -51,7 +51,7 @@ fn n_rest(x: Number, over: u32) -> Number {
     return n;
 }
 
-// The nearest of so many steps of [0, 1], halves up, as a number of steps; below 2^24 steps.
+// x, clamped to [0, 1], as a number of steps: nearest, halves up. `steps` is below 2^24.
 fn n_step(x: Number, steps: u32) -> u32 {
     if x.kind == 2u || x.sign == 1u || x.sig == 0u {
         return 0u;
@@ -60,7 +60,7 @@ fn n_step(x: Number, steps: u32) -> u32 {
         return steps;
     }
     let product = n_mul32(x.sig, steps);
-    // Two more digits, of which the jammed one is not needed.
+    // Keeps two extra bits; the last, which is jammed, is not needed.
     let m = n_right(vec3<u32>(0u, product.x, product.y), u32(-x.exp) - 2u);
     return ((m.z >> 1u) + 1u) >> 1u;
 }
@@ -77,7 +77,7 @@ fn n_integer(x: Number) -> u32 {
     return select(part, 0u - part, x.sign == 1u);
 }
 
-// What orders raw values as their numbers; both zeros give 0.
+// Key that orders raw values like their numbers; both zeros give 0.
 fn n_key(f: Format, a: u32) -> i32 {
     return select(i32(a), s_key(a), n_is_float(f));
 }
@@ -86,7 +86,7 @@ fn n_is_nan(f: Format, a: u32) -> bool {
     return n_is_float(f) && (a & 0x7fffffffu) > N_INFINITY;
 }
 
-// A number over that of a product.
+// Converts an addend to the denominator of a product.
 fn n_addend(z: Number, over: u32) -> Number {
     if (HAS_NORMALIZED) {
         if over != 1u {
@@ -96,13 +96,13 @@ fn n_addend(z: Number, over: u32) -> Number {
     return z;
 }
 
-// What is a product and a sum, before its rounding. N_CONVERT: b is 0 if a is a float's, else 1 plus the fraction bits
-// of the fixed format it is of; above them, in the second byte, what a normalized one divides by. N_SCALE: b the power as
-// an i32.
+// Operations that consist of a product and a sum, before rounding. N_CONVERT: b is 0 if a is a float, else 1 plus the
+// fraction bits of a's fixed-point format; its second byte is the denominator of a normalized one. N_SCALE: b is the
+// power as an i32.
 fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     var kind = f.kind;
     var frac = f.frac;
-    // What numbers of the format, and what the result in units of the format, are divided by.
+    // Denominators: of the format, and of the result in units of the format.
     let over = n_over(f);
     var divisor = 1u;
     if op == N_CONVERT {
@@ -117,7 +117,7 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         if op == N_CONVERT && b >= U_SIGN {
             x = u_normal(n_unpack(N_FLOAT, 23u, a));
             divisor = 1u;
-            // GT200 makes no half float of what is below 2^-33, whatever the rounding.
+            // GT200 flushes magnitudes below 2^-33 to zero half floats in every rounding.
             if f.upper == 5u && f.frac == 10u && f.kind == 1u && x.kind == 0u && x.exp < -64 {
                 x = Number(0u, x.sign, -N_FAR, 0u);
             }
@@ -125,7 +125,7 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
             x = u_normal(x);
         }
     }
-    // Adds nothing, not even to the sign.
+    // An addend that changes nothing, not even the sign of a zero.
     let nothing = Number(0u, x.sign, -N_FAR, 0u);
     switch op {
         case N_ADD, N_SUB: {
@@ -159,7 +159,7 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
         case N_FRC: {
             let rest = n_rest(x, over);
             let below = x.sign == 1u && rest.sig != 0u;
-            // An infinity less itself; zero less zero; the rest, plus one if negative.
+            // An opposite infinity for infinities, 1 for negative numbers with a rest, else a zero.
             z = Number(select(0u, 1u, x.kind == 1u), select(1u - x.sign, 1u, rest.sig == 0u), -N_FAR, 0u);
             if below && x.kind == 0u {
                 z = n_whole(over);
@@ -178,8 +178,8 @@ fn n_arith(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     return w;
 }
 
-// What is found digit by digit, before its rounding. N_STEPS: a in single precision, b steps. N_SPLIT_...: a a word, b
-// the bit.
+// Operations computed digit by digit, before rounding. N_STEPS: a in single precision, b the number of steps.
+// N_SPLIT_...: a is a word, b the bit position.
 fn n_long(op: u32, f: Format, a: u32, b: u32) -> Real {
     var x = n_unpack(select(f.kind, N_FLOAT, op == N_STEPS), f.frac, a);
     var y = n_unpack(f.kind, f.frac, b);
@@ -227,7 +227,7 @@ fn n_mask(condition: bool) -> u32 {
     return select(0u, 0xffffffffu, condition);
 }
 
-// What needs no rounding; known is false if the operation does.
+// Operations that need no rounding; `known` is false for all others.
 fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     let float = n_is_float(f);
     let first = n_key(f, a);
@@ -288,7 +288,7 @@ fn n_simple(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     return Real(known, raw, 0u, 0, vec3<u32>());
 }
 
-// Any operation that is not long, by its number, before its rounding.
+// Any operation except long ones, by its number, before rounding.
 fn n_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     if (HAS_UNITS) {
         if f.special > 1u {
@@ -305,7 +305,7 @@ fn n_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     return exact;
 }
 
-// The result of an operation, rounded.
+// Rounds the result of an operation.
 fn n_result(op: u32, f: Format, exact: Real) -> u32 {
     var result = n_finish(f, exact);
     switch op {
@@ -320,7 +320,7 @@ fn n_result(op: u32, f: Format, exact: Real) -> u32 {
     return result;
 }
 
-// Any operation but N_MAD, which is a product and then a sum.
+// Any operation except N_MAD, which is a product followed by a sum.
 fn n_alu(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
     var exact: Real;
     switch op {

@@ -1,8 +1,8 @@
-// Exact sums and products; quotients, roots, powers and logarithms as far as one rounding can see them.
+// Exact sums and products; quotients, roots, powers and logarithms with enough bits to be rounded once.
 
 const N_ONE: Number = Number(0u, 0u, -31, 0x80000000u);
 
-// x k, for x of 24 digits at most and k below 256.
+// x k, for x of at most 24 bits and k below 256.
 fn n_multiple(x: Number, k: u32) -> Number {
     var n = n_whole((x.sig >> 8u) * k);
     n.kind = x.kind;
@@ -28,8 +28,8 @@ fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     let known = nan || infinite || z.kind == 1u;
     let raw = select(n_infinite(f, select(z.sign, sign, infinite)), n_nan(f), nan);
     let product = n_mul32(x.sig, y.sig);
-    // The higher one's leading bit goes to place 94. What the lower one loses below place 0 lies under zeros of the
-    // higher.
+    // The larger term's leading bit moves to place 94. Bits that the smaller term loses below place 0 are below all
+    // bits of the larger term.
     let first = x.exp + y.exp + 63;
     let second = z.exp + 31;
     let top = max(first, second);
@@ -39,20 +39,20 @@ fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     var total = n_add96(u, v, select(0u, 1u, differ));
     let turned = differ && (total.x >> 31u) == 1u;
     total = n_add96(select(total, ~total, turned), vec3<u32>(), select(0u, 1u, turned));
-    // An exact zero of different signs.
+    // The terms have different signs and cancel exactly.
     let cancelled = differ && (total.x | total.y | total.z) == 0u;
     let negative = select(select(sign, z.sign, turned), select(0u, 1u, f.rounding == 3u), cancelled);
     return Real(known, raw, negative, top - 94, total);
 }
 
-// What is left of a long division, and its digits, one digit further.
+// One step of a long division: remainder and digits, extended by one bit.
 fn n_digit(state: vec2<u32>, divisor: u32) -> vec2<u32> {
     let rest = state.x << 1u;
     let one = (state.x >> 31u) == 1u || (divisor != 0u && rest >= divisor);
     return vec2<u32>(rest - select(0u, divisor, one), (state.y << 1u) | select(0u, 1u, one));
 }
 
-// x / y, sqrt x, 1 / sqrt x: digits of a long division, two at a time, of which roots extract a digit each.
+// x / y, sqrt x, 1 / sqrt x: a long division yields two bits at a time, of which a root takes one bit.
 fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     var inverse = false;
     var root = false;
@@ -60,8 +60,8 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
         inverse = op == N_RSQ;
         root = inverse || op == N_SQRT;
     }
-    // What is known without digits; of several, NaN counts first and zero last. No return before the end, since drivers
-    // make such text much longer.
+    // Results that need no digits; NaN takes precedence over infinity, and infinity over zero. There is no early
+    // return, because drivers compile that to much longer code.
     let empty = x.kind == 0u && x.sig == 0u;
     let by_zero = y.kind == 0u && y.sig == 0u;
     let sign = select(x.sign ^ y.sign, select(0u, x.sign, empty), root);
@@ -73,7 +73,7 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     var raw = select(n_pole(f, sign), n_infinite(f, sign), infinite);
     raw = select(n_zero(f, sign), raw, infinite || pole);
     raw = select(raw, n_nan(f), nan);
-    // rest / divisor is less than one, except that divisor 0 stands for 2^32: then the digits are those of rest.
+    // rest / divisor is below 1. Divisor 0 represents 2^32: the digits are then the bits of rest.
     var rest = x.sig;
     var divisor = 0u;
     var digits = 0u;
@@ -87,7 +87,7 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
         divisor = x.sig;
         exp = cube.exp + 1 - x.exp;
     }
-    // Of an odd power, or after the digit before the point, the first pair has one digit only.
+    // For an odd exponent, and after the integer bit of a quotient, the first pair has only one bit.
     var skip = u32(exp & 1);
     exp = (exp + i32(skip)) / 2 - i32(steps);
     if !root {
@@ -100,7 +100,7 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
         skip = 1u;
         exp = x.exp - y.exp - 2 * i32(steps) + 1;
     }
-    // The result and, for roots, what is left of the digits: two words each, the high one first.
+    // The result and the remainder of a root: two words each, the high word first.
     var result = vec2<u32>();
     var left = vec2<u32>();
     for (var i = 0u; i < steps; i++) {
@@ -127,7 +127,7 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     return Real(nan || infinite || pole || zero, raw, sign, exp - 32, vec3<u32>(result.x, result.y, sticky));
 }
 
-// The upper half of a product, less 4 units at most.
+// Upper half of a product, too small by at most 4 units.
 fn n_mul96(a: vec3<u32>, b: vec3<u32>) -> vec3<u32> {
     let high = n_mul32(a.x, b.x);
     let one = n_mul32(a.x, b.y);
@@ -154,8 +154,8 @@ fn n_div96(p: vec3<u32>, k: u32) -> vec3<u32> {
     return to;
 }
 
-// 2^x and log2 x, good to 2^-90 and 2^-84, to 2^-80 of normalized numbers. Both are irrational where they aren't exact, and no format has an operand
-// whose result is expected nearer than 2^-64 to a place where rounding turns.
+// 2^x and log2 x, accurate to 2^-90 and 2^-84 (2^-80 for normalized numbers). Inexact results are irrational, and no
+// operand of any format is expected to have a result nearer than 2^-64 to a rounding boundary.
 fn n_power(op: u32, f: Format, x: Number) -> Real {
     let exponential = op == N_EXP2;
     if x.kind == 2u {
@@ -171,7 +171,7 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
         let far = whole >= 20;
         var integral = far || empty || i32(countTrailingZeros(x.sig)) >= -x.exp;
         whole = select(i32(n_shift(x.sig, x.exp)), N_FAR, far);
-        // The fraction in units of 2^-96; of a negative number, what is missing to the next integer.
+        // The fraction in units of 2^-96; for a negative number, complemented below to x - floor(x).
         let s = x.exp + 96;
         u = vec3<u32>(n_shift(x.sig, s - 64), n_shift(x.sig, s - 32), n_shift(x.sig, s));
         if (HAS_NORMALIZED) {
@@ -204,7 +204,7 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
         }
         var power = x.sig == 0x80000000u;
         if (HAS_NORMALIZED) {
-            // The quotient, its leading bit in place.
+            // The quotient, shifted until its leading bit is in place.
             power = x.sig == n_whole(n_over(f)).sig;
             u = n_div96(u, n_over(f));
             let zeros = countLeadingZeros(u.x) & 31u;
@@ -215,9 +215,8 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
             return Real(false, 0u, select(0u, 1u, whole < 0), 0, vec3<u32>(0u, 0u, u32(abs(whole))));
         }
     }
-    // Exponential: the first step makes t = u ln 2, each of the others 1 + t v / k, k from 27 down: e^t in units of
-    // 2^-94.
-    // Logarithm: squaring doubles it, so each square that passes 2 is a binary digit.
+    // Exponential: the first step computes t = u ln 2, each further step 1 + t v / k, for k from 27 down: e^t in units
+    // of 2^-94. Logarithm: squaring doubles it, so each square that reaches 2 yields the binary digit 1.
     let one = vec3<u32>(0x40000000u, 0u, 0u);
     var v = select(u, vec3<u32>(0xb17217f7u, 0xd1cf79abu, 0xc9e3b398u), exponential);
     var digits = vec3<u32>();
@@ -242,7 +241,7 @@ fn n_power(op: u32, f: Format, x: Number) -> Real {
         return Real(false, 0u, 0u, whole - 94, v | vec3<u32>(0u, 0u, 1u));
     }
     digits.x += u32(whole) << 20u;
-    // Truncated downwards: the magnitude of a negative one is one less.
+    // Digits are truncated toward minus infinity, so the magnitude of a negative number is one less.
     let negative = whole < 0;
     let magnitude = select(digits, ~digits, negative);
     return Real(false, 0u, select(0u, 1u, negative), -84, magnitude | vec3<u32>(0u, 0u, 1u));

@@ -1,7 +1,7 @@
 // Sine and cosine.
 
-// sin x and cos x, good to 2^-85 of themselves: but for 0 both are irrational, and no format has an operand whose
-// result is expected nearer than 2^-64 to a place where rounding turns.
+// sin x and cos x, with a relative accuracy of 2^-85. Except at 0 both are irrational, and no operand of any format is
+// expected to have a result nearer than 2^-64 to a rounding boundary.
 fn n_circle(op: u32, f: Format, x: Number) -> Real {
     let cosine = op == N_COS;
     if x.kind != 0u {
@@ -13,18 +13,18 @@ fn n_circle(op: u32, f: Format, x: Number) -> Real {
         }
         return n_known(n_zero(f, x.sign));
     }
-    // |x| is so many quarter turns and the angle times 2^e, which is below one; negative if it is to be taken off.
+    // |x| is `quarters` quarter turns plus angle * 2^e, which is below 1 and is subtracted if `negative`.
     var angle = vec3<u32>(x.sig, 0u, 0u);
     var e = x.exp - 64;
     var quarters = 0u;
     var negative = 0u;
     let far = x.exp >= -32;
     if far {
-        // 2 / pi after 64 zeros. Its digits that make whole turns are passed over; then 160 of them count.
+        // 2 / pi after 64 zero bits. Bits that only contribute whole turns are skipped; the next 160 bits are used.
         var digits = array<u32, 10>(
             0u, 0u, 0xa2f9836eu, 0x4e441529u, 0xfc2757d1u, 0xf534ddc0u, 0xdb629599u, 0x3c439041u, 0xfe5163abu, 0xdebbc561u,
         );
-        // What is divided later must not lose whole turns before: it has two bytes for them.
+        // Before a later division no whole turns may be skipped: 16 bits remain for them.
         let start = u32(clamp(x.exp + 62 - select(16, 0, n_over(f) == 1u), 0, 159));
         let first = start >> 5u;
         let bits = start & 31u;
@@ -47,7 +47,7 @@ fn n_circle(op: u32, f: Format, x: Number) -> Real {
                     let before = digit;
                     digit = dividend / f.over;
                     rest = dividend - digit * f.over;
-                    // A word is made of two digits: the first, two bytes wide, goes.
+                    // A word consists of two 16-bit digits; the first digit of the quotient is dropped.
                     if (i & 1u) == 0u && i > 0u {
                         part[(i >> 1u) - 1u] = (before << 16u) | digit;
                     }
@@ -55,22 +55,22 @@ fn n_circle(op: u32, f: Format, x: Number) -> Real {
                 part[4] = digit << 16u;
             }
         }
-        // Two digits before the point, then the fraction of a quarter turn: that to the nearest whole one.
+        // Two integer bits, then the fraction of a quarter turn, relative to the nearest whole quarter.
         quarters = part[0] >> 30u;
         negative = (part[0] >> 29u) & 1u;
         quarters += negative;
         for (var i = 0u; i < 5u; i++) {
             part[i] = ((part[i] << 2u) | (part[i + 1u] >> 30u)) ^ (0u - negative);
         }
-        // No number of 32 digits comes nearer than 2^-40 to a whole quarter.
+        // No number of 32 bits is nearer than 2^-40 to a whole quarter turn.
         let skip = select(0u, 1u, part[0] == 0u);
         let zeros = countLeadingZeros(part[skip]) & 31u;
         let high = vec3<u32>(part[skip], part[skip + 1u], part[skip + 2u]);
         angle = (high << vec3<u32>(zeros)) | ((vec3<u32>(high.y, high.z, part[skip + 3u]) >> vec3<u32>(1u)) >> vec3<u32>(31u - zeros));
         e = -96 - i32(32u * skip + zeros);
     }
-    // Then times pi / 2, squared, and the power series from its far end, 1 - z (1 - z (..) / 12) / 2 or the like, which
-    // stays below one. All products are made at one place.
+    // Multiplies by pi / 2, squares, and sums the power series from its last term: 1 - z (1 - z (..) / 12) / 2 or
+    // similar, which stays below 1. All products are computed at one place.
     let turn = quarters + select(0u, 1u, cosine);
     let even = (turn & 1u) == 1u;
     var square = vec3<u32>();

@@ -1,5 +1,5 @@
-// The sum of the first products, at most 4, before their one rounding: an integer of 672 bits in units of 2^-384 holds
-// every partial sum.
+// Sum of the first `terms` products, at most 4, before its only rounding: an integer of 672 bits in units of 2^-384
+// holds every partial sum.
 fn n_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> Real {
     if (HAS_UNITS) {
         if f.special > 1u {
@@ -49,7 +49,7 @@ fn n_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> Real {
     bad = bad || nan || all(infinite);
     let known = bad || any(infinite);
     let raw = select(n_infinite(f, select(0u, 1u, infinite.y)), n_nan(f), bad);
-    // The three highest words that hold something, the rest jammed.
+    // The three words from the highest nonzero one down; the rest is jammed into the last bit.
     let negative = sum[20] >> 31u;
     var carry = negative;
     for (var j = 0u; j < 21u; j++) {
@@ -77,7 +77,7 @@ fn n_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> Real {
             m = n_divided(m, f.over);
         }
     }
-    // An exact zero has the sign of the products, or the one of the rounding if theirs differ.
+    // An exact zero has the products' common sign, or, if their signs differ, the sign that the rounding gives.
     var sign = negative;
     if (m.x | m.y | m.z) == 0u {
         sign = select(0u, 1u, select(signs.y, f.rounding == 3u, all(signs)));

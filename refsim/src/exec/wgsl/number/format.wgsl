@@ -1,18 +1,18 @@
-// Number formats, and the one place that rounds.
+// Number formats, and the only place that rounds.
 //
-// Values are raw: fixed point as a sign-extended integer, floats of every format as the binary32 pattern of the number,
-// NaN as 0x7fc00000. Magnitudes of 96 bits are vec3, the first word the highest; a last bit that is set may stand for
-// whatever follows it ("jammed"), which rounding can't tell from the truth as long as it happens two places above.
+// Values are raw: a fixed-point number is a sign-extended integer, a float of any format is the binary32 pattern of the
+// same number, and NaN is 0x7fc00000. Magnitudes of 96 bits are vec3, the highest word first. A last bit of 1 may
+// represent any nonzero bits after it ("jammed"); rounding at least two places above gives the same result.
 
 struct Format {
-    kind: u32,       // 0 fixed, 1 float; floats without infinity: 2, without NaN too 3, without -0 4
+    kind: u32,       // 0 fixed, 1 IEEE float; 2 float without infinity, 3 also without NaN, 4 without infinity and -0
     upper: u32,      // integer bits, or exponent bits
     frac: u32,       // fraction bits, or stored mantissa bits
     rounding: u32,   // 0 nearest even, 1 nearest away, 2 toward zero, 3 down, 4 up, 5 to odd
     overflow: u32,   // 0 saturate, 1 wrap, 2 infinity, 3 as NV_fragment_program
     denormals: u32,  // 0 keep, 1 flush
     special: u32,    // 0 Direct3D, 1 NV_fragment_program
-    over: u32,       // what numbers of a normalized format (of kind 0, without fraction bits) are divided by, else 0
+    over: u32,       // denominator of a normalized format (of kind 0, without fraction bits), else 0
 }
 
 const N_FIXED: u32 = 0u;
@@ -20,10 +20,10 @@ const N_FLOAT: u32 = 1u;
 const N_NAN: u32 = 0x7fc00000u;
 const N_INFINITY: u32 = 0x7f800000u;
 const N_FP32: Format = Format(1u, 8u, 23u, 0u, 2u, 0u, 0u, 0u);
-// Beyond every exponent.
+// Larger than every exponent.
 const N_FAR: i32 = 1048576;
 
-// (-1)^sign sig 2^exp with the leading bit of sig set; zero has sig 0 and exp -N_FAR. kind: 0 finite, 1 infinite, 2
+// (-1)^sign sig 2^exp, with the leading bit of sig set; zero has sig 0 and exp -N_FAR. kind: 0 finite, 1 infinite, 2
 // NaN.
 struct Number {
     kind: u32,
@@ -32,8 +32,7 @@ struct Number {
     sig: u32,
 }
 
-// What an operation leaves to be rounded: (-1)^sign m 2^exp, divided by what numbers of the format are; or a result known
-// already.
+// An unrounded result, (-1)^sign m 2^exp divided by the denominator of the format; or, if `known`, the final raw value.
 struct Real {
     known: bool,
     raw: u32,
@@ -53,7 +52,7 @@ fn n_is_float(f: Format) -> bool {
     return true;
 }
 
-// No result: NaN, or zero where there is none.
+// Result of an invalid operation: NaN, or zero in formats without NaN.
 fn n_nan(f: Format) -> u32 {
     if (HAS_FINITE) {
         if f.kind == 3u {
@@ -77,7 +76,7 @@ fn n_zero(f: Format, sign: u32) -> u32 {
     return select(0u, sign << 31u, n_is_float(f));
 }
 
-// The finite end of the range on a side.
+// The largest finite number, with a sign.
 fn n_extreme(f: Format, sign: u32) -> u32 {
     var exponent = (1u << ((f.upper - 1u) & 31u)) + 126u;
     var ones = (1u << f.frac) - 1u;
@@ -90,7 +89,7 @@ fn n_extreme(f: Format, sign: u32) -> u32 {
     return select(select(most, ~most, sign == 1u), float, n_is_float(f));
 }
 
-// What stands for an infinity.
+// The value for an infinite result: infinity if the format has it, else NaN, else the largest number.
 fn n_unbounded(f: Format, sign: u32) -> u32 {
     if (HAS_FINITE) {
         if f.kind == 3u {
@@ -108,7 +107,7 @@ fn n_pole(f: Format, sign: u32) -> u32 {
     return select(n_extreme(f, sign), n_unbounded(f, sign), f.overflow != 0u);
 }
 
-// An infinite operand passed on.
+// The result of an infinite operand.
 fn n_infinite(f: Format, sign: u32) -> u32 {
     if (HAS_FINITE) {
         if f.kind > 1u {
@@ -118,7 +117,7 @@ fn n_infinite(f: Format, sign: u32) -> u32 {
     return n_unbounded(f, sign);
 }
 
-// A float too large; huge: beyond the largest exponent before rounding.
+// Result of a float overflow; `huge` if the exponent is too large even before rounding.
 fn n_overflow(f: Format, sign: u32, huge: bool) -> u32 {
     var infinite = f.rounding < 2u || f.rounding == 4u - sign;
     if f.overflow == 0u {
@@ -129,7 +128,7 @@ fn n_overflow(f: Format, sign: u32, huge: bool) -> u32 {
     return select(n_extreme(f, sign), n_unbounded(f, sign), infinite);
 }
 
-// x 2^s, cut to the word on both sides.
+// x 2^s, without the bits that leave the word on either side.
 fn n_shift(x: u32, s: i32) -> u32 {
     if s >= 32 || s <= -32 {
         return 0u;
@@ -137,7 +136,7 @@ fn n_shift(x: u32, s: i32) -> u32 {
     return select(x >> (u32(-s) & 31u), x << (u32(s) & 31u), s >= 0);
 }
 
-// m / 2^s, jammed.
+// m / 2^s, with the last bit jammed.
 fn n_right(m: vec3<u32>, s: u32) -> vec3<u32> {
     let one = (s >> 5u) == 1u;
     let two = (s >> 5u) == 2u;
@@ -146,7 +145,7 @@ fn n_right(m: vec3<u32>, s: u32) -> vec3<u32> {
     y = select(y, vec3<u32>(), more);
     var lost = select(select(0u, m.z, one), m.y | m.z, two);
     lost = select(lost, m.x | m.y | m.z, more);
-    // Shifts by 32 less the bits in two parts, since no shift is by 32.
+    // Shifts by 32 - bits in two parts, because WGSL has no shift by 32.
     let bits = vec3<u32>(s & 31u);
     let back = vec3<u32>(31u) - bits;
     lost |= (y.z << 1u) << back.z;
@@ -166,7 +165,7 @@ fn n_add96(a: vec3<u32>, b: vec3<u32>, carry: u32) -> vec3<u32> {
     return vec3<u32>(a.x + b.x + d, y, z);
 }
 
-// The 64 bits of a product, the high word first.
+// The 64-bit product, high word first.
 fn n_mul32(a: u32, b: u32) -> vec2<u32> {
     let a0 = a & 0xffffu;
     let a1 = a >> 16u;
@@ -178,7 +177,7 @@ fn n_mul32(a: u32, b: u32) -> vec2<u32> {
     return vec2<u32>(a1 * b1 + (middle >> 16u) + (other >> 16u), (other << 16u) | (low & 0xffffu));
 }
 
-// What numbers of the format are divided by.
+// Denominator of the format's numbers.
 fn n_over(f: Format) -> u32 {
     if (HAS_NORMALIZED) {
         return max(f.over, 1u);
@@ -193,7 +192,7 @@ fn n_times(m: vec3<u32>, k: u32) -> vec3<u32> {
     return n_add96(vec3<u32>(m.x * k, middle.y, low.y), vec3<u32>(middle.x, low.x, 0u), 0u);
 }
 
-// m 2^exp to be rounded as it is, not divided by what numbers of the format are.
+// Converts m 2^exp to units of the format.
 fn n_in_units(f: Format, x: Real) -> Real {
     var y = x;
     if (HAS_NORMALIZED) {
@@ -206,13 +205,13 @@ fn n_in_units(f: Format, x: Real) -> Real {
     return y;
 }
 
-// A whole number.
+// Converts an integer to a number.
 fn n_whole(x: u32) -> Number {
     let zeros = countLeadingZeros(x);
     return Number(0u, 0u, select(-i32(zeros), -N_FAR, x == 0u), x << (zeros & 31u));
 }
 
-// The number that a raw value of a format of this kind, with so many fraction bits if fixed, means.
+// Decodes a raw value of a format of this kind; `frac` is the number of fraction bits in fixed point.
 fn n_unpack(kind: u32, frac: u32, raw: u32) -> Number {
     let sign = raw >> 31u;
     let field = (raw >> 23u) & 0xffu;
@@ -234,7 +233,7 @@ fn n_unpack(kind: u32, frac: u32, raw: u32) -> Number {
     return n;
 }
 
-// (-1)^sign m 2^exp rounded once into the format. Without a return before its end: drivers make such text much longer.
+// Rounds (-1)^sign m 2^exp once into the format. No early return: drivers compile that to much longer code.
 fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     var m = magnitude;
     var e = exp;
@@ -259,7 +258,7 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     }
     let unit = select(-places, max(top, lowest) - places, float);
     let shift = unit - e;
-    // Below two the integer ends in 32 zeros, in fixed point; a float never comes near.
+    // A shift below 2 occurs only in fixed point, for an integer that ends in 32 zeros.
     var y = n_right(m, u32(max(shift, 2) - 2));
     y = select(y, vec3<u32>(), shift < 2);
     let kept = (y.z >> 2u) | (y.y << 30u);
@@ -272,7 +271,7 @@ fn n_round_real(f: Format, sign: u32, exp: i32, magnitude: vec3<u32>) -> u32 {
     var result = 0u;
     if (HAS_FIXED) {
         let bits = f.upper + f.frac;
-        // One unit further on the negative side.
+        // Two's complement has one more unit on the negative side.
         let limit = (1u << bits) - 1u + sign;
         let over = shift < 2 || y.x != 0u || (y.y >> 2u) != 0u || rounded > limit || rounded < kept;
         let value = select(rounded, 0u - rounded, sign == 1u);
@@ -301,15 +300,15 @@ fn n_finish(f: Format, x: Real) -> u32 {
     return select(n_round_real(f, x.sign, x.exp, x.m), x.raw, x.known);
 }
 
-// (-1)^negative v rounded into the format: v = sig 2^exponent (x the low word, y the high one), or with sticky strictly
-// between that and (sig + 1) 2^exponent.
+// Rounds (-1)^negative v into the format: v is sig 2^exponent (x the low word, y the high one), or, if `sticky`,
+// strictly between that and (sig + 1) 2^exponent.
 fn n_round(f: Format, negative: bool, sig: vec2<u32>, exponent: i32, sticky: bool) -> u32 {
     let m = vec3<u32>(sig.y, sig.x, select(0u, 1u, sticky));
     let x = n_in_units(f, Real(false, 0u, select(0u, 1u, negative), exponent - 32, m));
     return n_round_real(f, x.sign, x.exp, x.m);
 }
 
-// The raw value of a bit pattern of the format.
+// Decodes a bit pattern of the format to a raw value.
 fn n_decode(f: Format, bits: u32) -> u32 {
     if (HAS_UNITS) {
         if f.special > 1u {
@@ -351,11 +350,11 @@ fn n_decode(f: Format, bits: u32) -> u32 {
         return sign | ((field + 127u - bias) << 23u) | (mantissa << above);
     }
     let clear = countLeadingZeros(mantissa);
-    // The leading bit means 2^(31 - clear) units of 2^(1 - bias - frac).
+    // The leading bit has the value of 2^(31 - clear) units of 2^(1 - bias - frac).
     return sign | ((159u - clear - bias - f.frac) << 23u) | (((mantissa << clear) << 1u) >> 9u);
 }
 
-// The bit pattern of a raw value of the format.
+// Encodes a raw value as a bit pattern of the format.
 fn n_encode(f: Format, raw: u32) -> u32 {
     if (HAS_UNITS) {
         if f.special > 1u {

@@ -1,7 +1,7 @@
-// Numbers in parts of a word.
+// Packing of numbers into parts of a word.
 
-// The digits that a number takes in a word: its pattern of up to 16 bits; of single precision clamped to [0, 1] in 16
-// or 8 bits; 128 + 127 x of x from -128/127 to 1, 128 for NaN. Halves go up.
+// Encodes a number as bits of a word: its pattern of up to 16 bits; a single clamped to [0, 1] in 16 or 8 bits; or 128
+// + 127 x for x from -128/127 to 1, and 128 for NaN. Halves are rounded up.
 fn n_part(op: u32, f: Format, a: u32) -> u32 {
     let x = n_unpack(N_FLOAT, 23u, a);
     switch op {
@@ -16,13 +16,13 @@ fn n_part(op: u32, f: Format, a: u32) -> u32 {
     if x.kind == 1u || x.exp > -31 {
         return 0u;
     }
-    // 127 |x| with two more digits, the last of them jammed; halves go up, which is toward zero here.
+    // 127 |x| with two extra bits, the last one jammed; halves go up, which here is toward zero.
     let product = n_mul32(x.sig, 127u);
     let quarters = n_right(vec3<u32>(0u, product.x, product.y), u32(-x.exp) - 2u).z;
     return 128u - min((quarters + 1u) >> 2u, 128u);
 }
 
-// What N_JOIN_... but N_JOIN_PATTERN put at this bit of a word, as a number to be divided by its steps.
+// Extracts what N_JOIN_... (except N_JOIN_PATTERN) stored at this bit of a word, to be divided by its number of steps.
 fn n_taken(op: u32, word: u32, bit: u32) -> Number {
     let digits = word >> (bit & 31u);
     if op == N_SPLIT_SHORT {

@@ -1,10 +1,10 @@
-// Single precision: nearest even, subnormals kept, infinities; bits of any NaN in, the one NaN out.
+// Single precision: nearest even, with subnormals and infinities. Operands may be any NaN; results have one NaN.
 
 fn s_is_nan(a: u32) -> bool {
     return (a & 0x7fffffffu) > N_INFINITY;
 }
 
-// N_ADD, N_SUB, N_MUL, or N_DIV where there are cubes.
+// N_ADD, N_SUB, N_MUL; N_DIV only if there are cube maps.
 const S_DIVIDE: u32 = N_DIV;
 
 fn s_alu(op: u32, a: u32, b: u32) -> u32 {
@@ -16,8 +16,8 @@ fn s_alu(op: u32, a: u32, b: u32) -> u32 {
     return n_finish(N_FP32, w);
 }
 
-// N_ADD, N_SUB or N_MUL of a number of this kind and a single precision one; any other operation converts the first, and
-// divides by `over` if it is normalized.
+// N_ADD, N_SUB or N_MUL of a number of this kind and a single; any other operation converts the first operand, divided
+// by `over` if it is normalized.
 fn n_term(op: u32, f: Format, kind: u32, fraction: u32, over: u32, a: u32, b: u32) -> Real {
     let x = n_unpack(kind, fraction, a);
     let second = n_unpack(N_FLOAT, 0u, b);
@@ -41,7 +41,7 @@ fn n_term(op: u32, f: Format, kind: u32, fraction: u32, over: u32, a: u32, b: u3
     return w;
 }
 
-// Single precision patterns by their order, both zeros alike; no NaN.
+// Key that orders single-precision patterns except NaN; equal for both zeros.
 fn s_key(a: u32) -> i32 {
     let magnitude = i32(a & 0x7fffffffu);
     return select(magnitude, -magnitude, (a >> 31u) == 1u);

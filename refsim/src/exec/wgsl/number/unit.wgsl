@@ -1,8 +1,8 @@
 
-// The unit of GT200: the `special` of a format is 2, or 3 where 0 times anything is 0. Raw values are then plain words:
-// no NaN but that of results is the same as another, and subnormal numbers stay.
+// The unit of GT200: `special` of a format is 2, or 3 if 0 times anything is 0. Raw values are then plain words: NaN
+// operands keep their bits, results have one NaN, and subnormal numbers are kept.
 //
-// Integers of 64 bits are vec2, the first word the high one; in two's complement where they are signed.
+// 64-bit integers are vec2, the high word first; signed integers are in two's complement.
 
 const U_NAN: u32 = 0x7fffffffu;
 const U_ONE: u32 = 0x3f800000u;
@@ -28,7 +28,7 @@ fn u_flushed(word: u32) -> u32 {
     return select(word, word & U_SIGN, u_is_zero(word));
 }
 
-// A number of single precision without its subnormals.
+// Replaces a subnormal number of single precision by zero.
 fn u_normal(x: Number) -> Number {
     var y = x;
     if x.kind == 0u && x.exp < -157 {
@@ -57,7 +57,7 @@ fn u_wide(x: i32, n: u32) -> vec2<u32> {
     return vec2<u32>(u32((x >> 1u) >> (31u - n)), u32(x) << n);
 }
 
-// The float of a magnitude with so many fraction bits, its top 24 bits cut; 0 is a zero of the sign.
+// Converts magnitude / 2^fraction to a float, truncated to 24 bits; 0 becomes a zero of the sign.
 fn u_cut(negative: bool, magnitude: vec2<u32>, fraction: i32) -> u32 {
     let high = magnitude.x != 0u;
     let zeros = countLeadingZeros(select(magnitude.y, magnitude.x, high));
@@ -69,18 +69,18 @@ fn u_cut(negative: bool, magnitude: vec2<u32>, fraction: i32) -> u32 {
     return select(0u, U_SIGN, negative) | select(word, 0u, (magnitude.x | magnitude.y) == 0u);
 }
 
-// The same of a number whose magnitude below zero is its one's complement.
+// u_cut with a sign: a negative number is represented by its one's complement.
 fn u_cut_signed(value: vec2<u32>, fraction: i32) -> u32 {
     let negative = (value.x >> 31u) == 1u;
     return u_cut(negative, select(value, ~value, negative), fraction);
 }
 
-// What orders words as sign and magnitude, -0 below +0.
+// Key that orders words as sign and magnitude; -0 is below +0.
 fn u_order(word: u32) -> i32 {
     return select(i32(word), ~i32(word & 0x7fffffffu), word > 0x7fffffffu);
 }
 
-// What orders numbers; there is one zero.
+// Key that orders numbers; both zeros give 0.
 fn u_key(word: u32) -> i32 {
     return select(u_order(word), 0, u_is_zero(word));
 }
@@ -89,7 +89,7 @@ fn u_less(a: u32, b: u32) -> bool {
     return u_key(a) < u_key(b);
 }
 
-// What the unit makes of an operation that is not long; known is false if the ideal unit computes it.
+// Result of an operation, except long ones, by the unit; `known` is false if the ideal unit computes it.
 fn u_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     let unordered = u_is_nan(a) || u_is_nan(b);
     let first = u_key(a);
@@ -122,7 +122,7 @@ fn u_short(op: u32, f: Format, a: u32, b: u32, c: u32) -> Real {
     return Real(known, raw, 0u, 0, vec3<u32>());
 }
 
-// The sum of so many products, at most 4, as drivers make it: a product, and a MAD for every further term.
+// Sum of the first `terms` products, at most 4, as drivers compile it: a product, then a MAD for every further term.
 fn u_dot(f: Format, terms: u32, a: vec4<u32>, b: vec4<u32>) -> u32 {
     var left = a;
     var right = b;

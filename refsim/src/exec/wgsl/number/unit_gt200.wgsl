@@ -1,8 +1,8 @@
 
-// GT200. Subnormal operands are zeros of their sign everywhere.
+// GT200. Subnormal operands always count as zeros of their sign.
 
-// (-1)^sign m 2^exp rounded to 24 bits as if there were no least exponent; what then is below 2^-126 is a zero. A sum of
-// MAD below 2^-126 is rounded to a multiple of 2^-149, which is 2^-126 or flushed.
+// Rounds (-1)^sign m 2^exp to 24 bits with an unlimited exponent; a result below 2^-126 becomes a zero. A sum of MAD
+// below 2^-126 is rounded to a multiple of 2^-149, which is 2^-126 or flushed.
 fn g_round(zero: bool, mad: bool, x: Real) -> u32 {
     var m = x.m;
     var top = x.exp + 95;
@@ -26,8 +26,8 @@ fn g_round(zero: bool, mad: bool, x: Real) -> u32 {
     return (x.sign << 31u) | raw;
 }
 
-// N_ADD, N_SUB, N_MUL, N_FUSED_MAD, N_SCALE (b the power). The product of a MAD is cut to 24 bits, unless a number is
-// zero.
+// N_ADD, N_SUB, N_MUL, N_FUSED_MAD, N_SCALE (b is the power). The product of a MAD is truncated to 24 bits, unless an
+// operand is zero.
 fn g_sum(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
     let wins = f.special == 3u && (u_is_zero(a) || u_is_zero(b));
     var x = u_normal(n_unpack(N_FLOAT, 23u, a));
@@ -72,7 +72,7 @@ fn g_sum(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
     }
     let exact = n_sum(N_FP32, x, y, z);
     var raw = g_round(f.rounding == 2u && !mad, cut, exact);
-    // A product that vanished still meets the zero.
+    // A product that is flushed to zero is still added to a zero addend: -0 only if both are -0.
     if mad && z.kind == 0u && z.sig == 0u && (raw & 0x7fffffffu) == 0u {
         raw &= z.sign << 31u;
     }
@@ -80,7 +80,7 @@ fn g_sum(op: u32, f: Format, a: u32, b: u32, c: u32) -> u32 {
     return select(raw, U_NAN, u_is_nan(raw));
 }
 
-// MIN, or MAX: with a NaN the other operand; -0 is below +0.
+// MIN, or MAX if `greater`. If one operand is NaN, returns the other one; -0 is below +0.
 fn g_choose(a: u32, b: u32, greater: bool) -> u32 {
     let x = u_flushed(a);
     let y = u_flushed(b);
@@ -88,7 +88,7 @@ fn g_choose(a: u32, b: u32, greater: bool) -> u32 {
     return select(select(y, x, first), U_NAN, u_is_nan(a) && u_is_nan(b));
 }
 
-// The square of 17 bits y in units of 2^17, from partial products that are cut one by one.
+// The square of the 17-bit y, in units of 2^17, from individually truncated partial products.
 fn g_square(y: u32) -> u32 {
     var sum = 0u;
     for (var i = 0u; i < 17u; i++) {
@@ -97,14 +97,14 @@ fn g_square(y: u32) -> u32 {
     return sum >> 1u;
 }
 
-// A result from its interpolated significand, 2^23 to 2^24.
+// Assembles a result from its interpolated significand, 2^23 to 2^24.
 fn g_finish(sign: u32, field: i32, significand: u32) -> u32 {
     let place = field + i32(significand >> 24u);
     let raw = select((u32(place) << 23u) | (significand & 0x7fffffu), N_INFINITY, place > 254);
     return sign | select(raw, 0u, place < 1);
 }
 
-// An operand of SIN and COS: quarter turns in units of 2^-23, 25 bits.
+// Converts an operand of SIN and COS to quarter turns in units of 2^-23, 25 bits.
 fn g_angle(x: u32) -> u32 {
     let turns = n_mul32(u_significand(x), 10680707u);
     let size = (turns.x << 16u) | (turns.y >> 16u);
@@ -113,7 +113,7 @@ fn g_angle(x: u32) -> u32 {
     return select(raw, 0u, shift > 31 || u_is_zero(x) || (shift < -31)) & 0x1ffffffu;
 }
 
-// RCP, RSQRT, LG2, SIN, COS, EX2: what is looked up, quadratic interpolation, and the result.
+// RCP, RSQRT, LG2, SIN, COS, EX2: table lookup, quadratic interpolation, assembly of the result.
 fn g_function(op: u32, x: u32) -> u32 {
     let field = u_field(x);
     let sign = x & U_SIGN;
@@ -121,7 +121,7 @@ fn g_function(op: u32, x: u32) -> u32 {
     let mantissa = x & 0x7fffffu;
     let nan = u_is_nan(x);
     var whole = field - 127;
-    // 23 bits, of RSQRT 24.
+    // 23 bits; 24 bits for RSQRT.
     var place = mantissa;
     var quarter = 0u;
     switch op {
@@ -222,7 +222,7 @@ fn g_function(op: u32, x: u32) -> u32 {
     return select(raw, U_NAN, nan);
 }
 
-// What the unit makes of a long operation; known is false if the ideal unit computes it.
+// Result of a long operation by the unit; `known` is false if the ideal unit computes it.
 fn u_long(op: u32, a: u32) -> Real {
     var raw = 0u;
     var known = true;

@@ -1,12 +1,12 @@
-// The machine that runs programs given as words, so that arithmetic is compiled once, at one place. Arms of operations
-// that the programs of a draw don't use are left out of the text (parts.rs).
+// The virtual machine, which runs programs given as words, so that arithmetic is compiled only once. Arms of operations
+// that a draw's programs don't use are removed from the text (parts.rs).
 //
-// The words of a program start at code[q_code]: first word, first constant, first word of interpolation (offsets count
-// from q_code). Operands are slots below 0x8000, constants below 0xfe00, words of the triangle's set-up below 0xff00, then input
-// components. program/microcode.rs writes what this reads.
+// The words of a program start at code[q_code]: first word, first constant, first word of interpolation (offsets from
+// q_code). Operands are slots below 0x8000, constants below 0xfe00, words of the triangle's set-up below 0xff00, then
+// input components. program/microcode.rs encodes these words.
 
-// What long operations come to before their rounding, lane by lane, and whether the next operation finds it there. Rows
-// of words, not an array of structures, in which drivers of processors would reach for each word of each lane alone.
+// Unrounded results of long operations by lane, and a flag that the next operation uses them. They are rows of words,
+// not an array of structures, because drivers for processors would access each word of each lane separately.
 var<private> vm_known: vec4<bool>;
 var<private> vm_raw: vec4<u32>;
 var<private> vm_sign: vec4<u32>;
@@ -31,7 +31,7 @@ fn vm_kept(lane: u32) -> Real {
     return Real(vm_known[lane], vm_raw[lane], vm_sign[lane], vm_exp[lane], m);
 }
 
-// The value of an operand in every lane. There are few calls, since each is a copy of the text for most drivers.
+// Value of an operand in every lane. It is called at few places, because most drivers copy its text to each call.
 fn vm_row(operand: u32) -> vec4<u32> {
     var value: vec4<u32>;
     if (operand < 0x8000u || operand >= 0xff00u) {
@@ -44,12 +44,12 @@ fn vm_row(operand: u32) -> vec4<u32> {
     return value;
 }
 
-// The value of an operand in a lane.
+// Value of an operand in a lane.
 fn vm_read(operand: u32, lane: u32) -> u32 {
     return vm_row(operand)[lane];
 }
 
-// The operand in a half of a word: the lower one is number 0.
+// Operand `number` of an instruction; a word holds two, the lower half first.
 fn vm_operand(at: u32, number: u32) -> u32 {
     return (code[at + number / 2u] >> (16u * (number & 1u))) & 0xffffu;
 }
@@ -59,8 +59,8 @@ fn vm_bits(mask: vec4<bool>) -> u32 {
     return bits.x | bits.y | bits.z | bits.w;
 }
 
-// What the texture library asks for, of the read at word `q_read`: coordinates, then a bias or gradients (x, y, z, w
-// along x, then along y); and where it puts a texel's components.
+// Interface of the texture library, for the read at word `q_read`: coordinates, then a bias or gradients (x, y, z, w
+// along x, then along y); and destinations of a texel's components.
 fn texture_operand(number: u32, lane: u32) -> u32 {
     return vm_read(vm_operand(q_read + 1u + select(0u, 2u, number >= 4u), number), lane);
 }
@@ -72,7 +72,7 @@ fn texture_result(component: u32, lane: u32, value: u32) {
     }
 }
 
-// What an instruction wrote in the followed lane: its number, the components written, their values.
+// Records what an instruction wrote in the traced lane: its index, the components written, their values.
 fn vm_trace(at: u32) {
     if (q_trace == 0u) {
         return;
@@ -90,7 +90,7 @@ fn vm_trace(at: u32) {
     q_traced += 6u;
 }
 
-// What a long operation comes to before its rounding: of two operands, or the sum of up to four products.
+// Computes the unrounded result of a long operation on two operands, or of a sum of up to four products.
 fn vm_prepare(op: u32, word: u32, at: u32) {
     let f = format(word >> 24u);
     let operation = (word >> 16u) & 255u;
@@ -117,8 +117,8 @@ fn vm_prepare(op: u32, word: u32, at: u32) {
     vm_prepared = true;
 }
 fn vm_sum(word: u32, at: u32) {
-    // A sum that one adder makes: result, four operands. The word says how many are aligned, and to how many bits; none:
-    // a multiply-add that cuts its product. This stands inside as in n_cut_sum.
+    // A sum computed by one adder: result, four operands. The word holds the number of aligned terms and of kept bits;
+    // without terms, this is a multiply-add with a truncated product. For the place of this comment see n_cut_sum.
     let f = format(word >> 24u);
     let terms = (word >> 16u) & 7u;
     let bits = (word >> 19u) & 31u;
@@ -141,14 +141,14 @@ fn vm_sum(word: u32, at: u32) {
     scratch[q_row(vm_operand(at + 1u, 0u))] = result;
 }
 
-// What is computed lane by lane: result, up to three operands.
+// Computes an operation lane by lane: result, up to three operands.
 fn vm_compute(op: u32, word: u32, at: u32) {
     let f = format(word >> 24u);
     let operation = (word >> 16u) & 255u;
-    // Differences within the quad: bit 1 right neighbour less left one, bit 2 lower less upper.
+    // Differences within the quad: 1 is right minus left neighbour, 2 is lower minus upper.
     let other = (word >> 12u) & 3u;
-    // One call in a loop, not three: compilers take half of the time. An array would cost them more than moving the
-    // rows.
+    // One call in a loop instead of three calls: this halves the compile time. An array would be slower to compile than
+    // moving the rows.
     var first: vec4<u32>;
     var second: vec4<u32>;
     var third: vec4<u32>;
@@ -178,19 +178,19 @@ fn vm_compute(op: u32, word: u32, at: u32) {
     scratch[q_row(vm_operand(at + 1u, 0u))] = result;
 }
 
-// Loop passes of an instruction at most, by the class that its word names.
+// Maximum number of loop iterations of an instruction, by the class in its word.
 fn vm_cost(word: u32) -> u32 {
     return vec4<u32>(20u, 600u, 1000u, 8000u)[(word >> 14u) & 3u];
 }
 
-// Where a program that is to go on later puts down its next word.
+// Index in `scratch` at which a suspended program saves the offset of its next instruction.
 fn vm_saved() -> u32 {
     return q_save * q_stride + q_invocation;
 }
 
-// Interpolates and runs the program. Loops stand in loops because drivers of processors have no branches: they run all
-// the text of a loop's body at each pass, with the results of most of it thrown away. So the innermost loop holds what
-// programs do most, and the text for texture reads runs as often as there are texture reads.
+// Interpolates and runs the program. Loops are nested because drivers for processors have no branches: every iteration
+// executes the whole text of the loop's body and discards most of the results. So the innermost loop contains the most
+// frequent operations, and the text for texture reads runs only once per texture read.
 fn shade() {
     var next = code[q_code + 2u];
     vm_prepared = false;
@@ -206,7 +206,7 @@ fn shade() {
                 let is_long = (op == VM_DOT || op == VM_LONG) && !vm_prepared;
                 if (HAS_SUSPENSION) {
                     let cost = vm_cost(word);
-                    // Interpolation is part of what a triangle costs.
+                    // The cost of a triangle includes interpolation, so only the program is charged here.
                     if (!vm_prepared && next < code[q_code + 2u]) {
                         if (q_passes < cost) {
                             q_suspended = true;
@@ -222,7 +222,7 @@ fn shade() {
                         vm_compute(op, word, at);
                         next += select(3u, 6u, op == VM_DOT);
                     }
-                    case VM_UNLESS: { // goes on elsewhere if a bit of a word of the set-up is 1
+                    case VM_UNLESS: { // jumps if a bit of a set-up word is 1
                         let bits = setups[q_setup + (word >> 16u)];
                         next = select(next + 2u, code[at + 1u], ((bits >> ((word >> 8u) & 31u)) & 1u) == 1u);
                     }
@@ -238,7 +238,7 @@ fn shade() {
             vm_prepare(op, word, at);
         }
         switch op {
-            case VM_ENTER: { // the program begins, or goes on
+            case VM_ENTER: { // the program begins or resumes
                 next = code[q_code];
                 if (HAS_SUSPENSION) {
                     if (q_suspended) {
@@ -252,15 +252,15 @@ fn shade() {
                 texture_read((word >> 16u) & 0xffu, word >> 24u, q_run);
                 next += 5u + select(word >> 24u, 4u, word >> 24u == 2u);
             }
-            case VM_FETCHED: { // texture reads of every covered lane
+            case VM_FETCHED: { // counts texture reads of covered lanes
                 q_fetched[word >> 16u] += code[at + 1u] * countOneBits(vm_bits(q_covered));
                 next += 2u;
             }
-            case VM_SUM: { // a sum that one adder makes
+            case VM_SUM: { // a sum computed by one adder
                 vm_sum(word, at);
                 next += 4u;
             }
-            case VM_ZERO: { // zeros in so many slots
+            case VM_ZERO: { // zeros in consecutive slots
                 for (var i = 0u; i < code[at + 2u]; i += 1u) {
                     scratch[q_row(code[at + 1u] + i)] = vec4<u32>(0u);
                 }

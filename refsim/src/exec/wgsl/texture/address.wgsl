@@ -1,6 +1,6 @@
-// From coordinates to texel indices: refsim::texture::address in pairs of words (x the low one, y the high one).
+// Conversion of coordinates to texel indices: refsim::texture::address in pairs of words (x low, y high).
 
-// The index that stands for the border.
+// Index of the border texel.
 const TEXTURE_BORDER: u32 = 0xffffffffu;
 
 fn texture_wide(a: u32, b: u32) -> vec2<u32> {
@@ -21,7 +21,7 @@ fn texture_negated(a: vec2<u32>) -> vec2<u32> {
 
 fn texture_left(a: vec2<u32>, shift: u32) -> vec2<u32> {
     let part = shift & 31u;
-    // By 32 less the part in two steps, since no shift is by 32.
+    // Shifts by 32 - part in two steps, because WGSL has no shift by 32.
     let near = vec2<u32>(a.x << part, (a.y << part) | ((a.x >> 1u) >> (31u - part)));
     let moved = select(near, vec2<u32>(0u, near.x), shift >= 32u);
     return select(moved, vec2<u32>(0u), shift >= 64u);
@@ -34,16 +34,16 @@ fn texture_right(a: vec2<u32>, shift: u32) -> vec2<u32> {
     return select(moved, vec2<u32>(0u), shift >= 64u);
 }
 
-// floor(coordinate * scale * 2^fraction) in two's complement; with `half_up`, halves up instead of down. NaN and
-// infinities count as 0; what is larger than `most` (FP32 bits of a finite number) counts as that, so that the result
-// has at most 54 bits.
+// floor(coordinate * scale * 2^fraction) in two's complement; with `half_up`, rounded to nearest, halves up. NaN and
+// infinities count as 0. Larger magnitudes than `most` (FP32 bits of a finite number) are clamped to it, so that the
+// result has at most 54 bits.
 fn texture_position(coordinate: u32, most: u32, scale: u32, fraction: u32, half_up: bool) -> vec2<u32> {
     let given = coordinate & 0x7fffffffu;
     let size = select(min(given, most), 0u, given >= 0x7f800000u);
     let field = size >> 23u;
     let significand = (size & 0x7fffffu) | select(0u, 0x800000u, field != 0u);
     let product = texture_wide(significand, scale);
-    // One more bit below the point than asked for, so that a half can be added before the floor.
+    // One extra fraction bit, so that a half can be added before the floor.
     let shift = i32(max(field, 1u)) - 150 + i32(fraction) + 1;
     var doubled = product;
     var lost = false;
@@ -62,7 +62,7 @@ fn texture_position(coordinate: u32, most: u32, scale: u32, fraction: u32, half_
     return vec2<u32>((doubled.x >> 1u) | (doubled.y << 31u), bitcast<u32>(bitcast<i32>(doubled.y) >> 1u));
 }
 
-// The index that an address mode makes of a position in two's complement, or TEXTURE_BORDER.
+// Applies an address mode to a position in two's complement; returns an index, or TEXTURE_BORDER.
 fn texture_resolved(mode: u32, position: vec2<u32>, size: u32) -> u32 {
     let below = (position.y >> 31u) == 1u;
     let inside = position.y == 0u && position.x < size;
@@ -87,7 +87,7 @@ fn texture_resolved(mode: u32, position: vec2<u32>, size: u32) -> u32 {
     return index;
 }
 
-// The signed face axes and the signed major axis of a vector on a given face.
+// Signed axes of a face, and signed major axis, of a vector on this face.
 fn texture_face_axes(face: u32, v: vec3<u32>) -> vec3<u32> {
     let flipped = v ^ vec3<u32>(0x80000000u);
     switch face {
@@ -100,7 +100,7 @@ fn texture_face_axes(face: u32, v: vec3<u32>) -> vec3<u32> {
     }
 }
 
-// The face that a finite direction meets: of equal magnitudes z goes before y before x.
+// The cube face that a finite direction hits; for equal magnitudes z precedes y, and y precedes x.
 fn texture_face(v: vec3<u32>) -> u32 {
     let size = v & vec3<u32>(0x7fffffffu);
     let below = v >> vec3<u32>(31u);

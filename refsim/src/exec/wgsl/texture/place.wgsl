@@ -1,9 +1,9 @@
-// Where a lane reads: the coordinates on the face of a cube, and the level of detail (refsim::texture::lod).
+// Position of a lane's read: coordinates on the face of a cube, and level of detail (refsim::texture::lod).
 
 const TEXTURE_ONE: u32 = 0x3f800000u;
 const TEXTURE_HALF: u32 = 0x3f000000u;
 
-// What a sampler's words say, read once a quad.
+// Words of a sampler that are read once per quad.
 struct TextureState {
     base: u32,
     flags: u32,
@@ -31,7 +31,7 @@ struct TexturePlace {
     wanted: u32, // the level of detail with all biases, single precision
 }
 
-// An integer below 2^24 in size divided by 2^bits, as FP32.
+// An integer with a magnitude below 2^24 divided by 2^bits, as FP32.
 fn texture_fixed(value: i32, bits: u32) -> u32 {
     if (value == 0) { return 0u; }
     let magnitude = u32(abs(value));
@@ -40,7 +40,7 @@ fn texture_fixed(value: i32, bits: u32) -> u32 {
     return sign | ((150u - left - bits) << 23u) | ((magnitude << left) & 0x7fffffu);
 }
 
-// Half the logarithm to base 2 of an FP32 number >= 0, floored to 2^-bits.
+// Half the base-2 logarithm of an FP32 number >= 0, rounded down to a multiple of 2^-bits.
 fn texture_half_log2(squared: u32, bits: u32) -> u32 {
     if (squared >= 0x7f800000u) { return texture_fixed(select(127, 0, squared > 0x7f800000u), 0u); }
     if (squared == 0u) { return texture_fixed(-127, 0u); }
@@ -50,7 +50,7 @@ fn texture_half_log2(squared: u32, bits: u32) -> u32 {
     var result = i32(max(field, 1u)) - 150 + i32(top);
     var m = texture_left(vec2<u32>(significand, 0u), 62u - top); // in [1, 2), 62 fraction bits
     for (var k = 0u; k < bits; k++) {
-        // The square, 128 bits in three words from 2^32 up, then its bits from 2^62 up.
+        // Computes the square (128 bits, in three words from 2^32 up), then extracts the bits from 2^62 up.
         let outer = texture_wide(m.y, m.y);
         let cross = texture_left(texture_wide(m.x, m.y), 1u);
         let low = texture_add(vec2<u32>(texture_wide(m.x, m.x).y, 0u), cross);
@@ -63,7 +63,7 @@ fn texture_half_log2(squared: u32, bits: u32) -> u32 {
     return texture_fixed(result >> 1u, bits);
 }
 
-// Steps of texture_place, each one operation of single precision.
+// Steps of texture_place; each executes one operation of single precision.
 const TEXTURE_STEP_AXES: u32 = 0u; // no operation: a new direction begins
 const TEXTURE_STEP_CHANGE: u32 = 1u;
 const TEXTURE_STEP_MOVE: u32 = 2u;
@@ -84,8 +84,8 @@ const TEXTURE_STEP_SHIFT: u32 = 16u;
 const TEXTURE_STEP_FACE: u32 = 17u;
 const TEXTURE_STEP_END: u32 = 18u;
 
-// All single precision arithmetic before the texels are read goes through the one s_alu below: an inlining compiler
-// then makes one copy of it.
+// All single-precision arithmetic before the texels goes through the one call of s_alu below, so that an inlining
+// compiler makes one copy of it.
 fn texture_place(s: TextureState, lane: u32, detail: u32) -> TexturePlace {
     var at = vec3<u32>(0u);
     for (var i = 0u; i < 3u; i++) { at[i] = texture_operand(i, lane); }
@@ -181,7 +181,7 @@ fn texture_place(s: TextureState, lane: u32, detail: u32) -> TexturePlace {
                     if (axis < axes) {
                         step = select(TEXTURE_STEP_SCALE, TEXTURE_STEP_QUOTIENT, cube);
                     } else {
-                        // Patterns of numbers >= 0 order as the numbers, the canonical NaN above them all.
+                        // Patterns of numbers >= 0 order like the numbers, with the canonical NaN above all.
                         largest = max(largest, sum);
                         direction++;
                         axis = 0u;

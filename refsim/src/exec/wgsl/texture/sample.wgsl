@@ -10,7 +10,7 @@ fn texture_levels(s: TextureState, wanted: u32) -> TextureLevels {
     let bits = texture_flag(s, FLAG_LOD_BITS, 4u);
     var lambda = 0;
     if ((wanted & 0x7fffffffu) <= 0x7f800000u) {
-        // 1024 stands for all that is larger, infinity included.
+        // Larger values, infinity included, act like 1024.
         let near = (wanted & 0x80000000u) | min(wanted & 0x7fffffffu, 0x44800000u);
         let position = texture_position(near, 0x44800000u, 1u, bits, false);
         lambda = clamp(bitcast<i32>(position.x), -(128 << bits), 128 << bits);
@@ -32,13 +32,13 @@ fn texture_levels(s: TextureState, wanted: u32) -> TextureLevels {
     return TextureLevels(linear, vec2<u32>(u32(level), u32(min(level + 1, last))), weight);
 }
 
-// Both taps along an axis, x and y, and the weight of the second, z.
+// Texel indices of both taps along an axis (x and y), and the weight of the second tap (z).
 fn texture_taps(s: TextureState, coordinate: u32, axis: u32, size: u32, linear: bool) -> vec3<u32> {
     let scale = select(1u, size, texture_flag(s, FLAG_NORMALISED, 1u) != 0u);
     let mode = texture_flag(s, FLAG_ADDRESS + 2u * axis, 2u);
     let fraction = select(0u, texture_flag(s, FLAG_FILTER_BITS, 4u), linear);
     let half_up = fraction != 0u && texture_flag(s, FLAG_CUT, 1u) == 0u;
-    // From 2^24 on every FP32 number is an even integer: all of one sign address alike.
+    // From 2^24 on every FP32 number is an even integer, and all numbers of one sign have the same address.
     var position = texture_position(coordinate, 0x4b800000u, scale, fraction, half_up);
     if (fraction != 0u) {
         position = texture_add(position, texture_negated(vec2<u32>(1u << (fraction - 1u), 0u)));
@@ -56,7 +56,7 @@ fn texture_taps(s: TextureState, coordinate: u32, axis: u32, size: u32, linear: 
     return vec3<u32>(index, weight);
 }
 
-// The stored words of the texel at a column, row and slice of a level (`row` is the level's in the table).
+// Words of the texel at a column, row and slice of a level (`row` is the level's entry in the table).
 fn texture_words(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
     var words = vec4<u32>(0u);
     let size = texture_flag(s, FLAG_TEXEL_WORDS, 3u);
@@ -67,7 +67,7 @@ fn texture_words(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
     return words;
 }
 
-// The components of the texel at a column, row and slice of a level, or of the border: codes, or single precision.
+// Components of the texel at a column, row and slice of a level, or of the border: codes, or single-precision numbers.
 fn texture_codes(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
     var codes = vec4<u32>(0u);
     if (max(max(at.x, at.y), at.z) == TEXTURE_BORDER) {
@@ -88,8 +88,8 @@ fn texture_codes(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
     return codes;
 }
 
-// Floats: a + w (b - a) along each axis and between the levels, single precision; a weight of 0 gives a itself. Codes
-// of bytes: the same, each step rounded to an integer, halves up.
+// Interpolates floats, a + w (b - a) along each axis and between levels, in single precision; a weight of 0 gives a
+// itself. Codes of bytes are interpolated in the same steps, each rounded to an integer, halves up.
 fn texture_blend(
     s: TextureState, axis_weights: array<vec3<u32>, 2>, level_weight: u32, texels: ptr<function, array<vec4<u32>, 16>>,
 ) {
@@ -135,8 +135,8 @@ fn texture_blend(
     }
 }
 
-// One lane's texel: texels that are integers are summed exactly and rounded once, or interpolated as bytes, floats
-// blended in single precision.
+// Texel of one lane. Integer texels are summed exactly and rounded once, or interpolated as bytes; floats are
+// interpolated in single precision.
 fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
     var levels = TextureLevels(false, vec2<u32>(s.level_range & 0xffu), 0u);
     if (HAS_FILTERS) {
@@ -206,12 +206,12 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
         }
     }
     if (HAS_UNITS) {
-        // Units of cards take single floats as they are.
+        // Units of cards take single floats unchanged.
         if (floats && f.special > 1u) {
             return out;
         }
     }
-    // Single precision keeps what is single precision.
+    // Single floats need no rounding into single precision.
     if (!(floats && f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u)) {
         for (var c = 0u; c < 4u; c++) {
             var parts: TexelParts;
@@ -238,8 +238,8 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
     return out;
 }
 
-// A texture read of the lanes that run: components in the main format, raw; 0 in the other lanes. `texture_operand`
-// gives coordinates and whatever the detail takes, all in single precision.
+// Reads a texture for the lanes that run: raw components in the main format; 0 in the other lanes. `texture_operand`
+// provides the coordinates and the operands of the detail, all in single precision.
 fn texture_read(number: u32, detail: u32, run: vec4<bool>) {
     let s = texture_state(number);
     for (var lane = 0u; lane < 4u; lane++) {

@@ -1,31 +1,31 @@
-// Texels: components out of stored words, and the one rounding into the register format.
+// Texels: extraction of components from stored words, and the only rounding into the register format.
 //
 // A component is described by a word: class (bits 0 to 7), shift (8 to 15), width (16 to 23).
 
-// The stored bits of a component; `words` are those of the texel, low ones first.
+// Stored bits of a component; `words` are the texel's words, low ones first.
 fn texel_bits(component: u32, words: vec4<u32>) -> u32 {
     let shift = (component >> 8u) & 0xffu;
     let word = words[shift >> 5u];
     return extractBits(word, shift & 31u, component >> 16u);
 }
 
-// Whether a component is a floating-point pattern.
+// Returns true if a component is a floating-point pattern.
 fn texel_is_float(component: u32) -> bool {
     return (component & 0xffu) >= TEXEL_FP16;
 }
 
-// Whether a component that is no float is a byte: 8 bits, or bits repeated to 8, or not stored.
+// Returns true if a component that is not a float is a byte: 8 bits, or bits repeated to 8, or not stored.
 fn texel_is_byte(component: u32) -> bool {
     let kind = component & 0xffu;
     return kind <= TEXEL_ONE || kind >= TEXEL_BYTE || component >> 16u == 8u;
 }
 
-// The code of a component that is a ratio, as a filter of bytes takes it.
+// Code of a component that is a fraction, as filters on bytes use it.
 fn texel_code(component: u32, bits: u32) -> i32 {
     let width = component >> 16u;
     let spare = 32u - width;
     let signed_bits = bitcast<i32>(bits << (spare & 31u)) >> (spare & 31u);
-    // Repeated; by 32 in the last step, which is by 0, if there are 8 bits already.
+    // Repeats the bits. If there are 8 already, the last step would shift by 32, which wraps to 0 and changes nothing.
     let top = (bits << (8u - min(width, 8u))) & 0xffu;
     let two = top | (top >> (width & 31u));
     let four = two | (two >> ((2u * width) & 31u));
@@ -43,7 +43,7 @@ fn texel_code(component: u32, bits: u32) -> i32 {
     return code;
 }
 
-// The numerator of a component that is a ratio, from its code.
+// Numerator of a component that is a fraction, from its code.
 fn texel_numerator(component: u32, code: i32) -> i32 {
     let least = -bitcast<i32>(texel_denominator(component));
     var numerator = code;
@@ -56,7 +56,7 @@ fn texel_numerator(component: u32, code: i32) -> i32 {
     return numerator;
 }
 
-// The denominator of a component that is a ratio, at most 65535.
+// Denominator of a component that is a fraction, at most 65535.
 fn texel_denominator(component: u32) -> u32 {
     let width = component >> 16u;
     var denominator = 255u;
@@ -69,7 +69,7 @@ fn texel_denominator(component: u32) -> u32 {
     return denominator;
 }
 
-// A component of a floating-point texel as FP32 bits, exactly; NaN is the canonical one.
+// Decodes a component of a floating-point texel to FP32 bits, exactly; NaN becomes canonical.
 fn texel_single(component: u32, bits: u32) -> u32 {
     let kind = component & 0xffu;
     var fraction_bits = 23u;
@@ -80,7 +80,7 @@ fn texel_single(component: u32, bits: u32) -> u32 {
     let top_field = (1u << exponent_bits) - 1u;
     let field = (bits >> fraction_bits) & top_field;
     let fraction = bits & ((1u << fraction_bits) - 1u);
-    // The bias is half the largest field, cut.
+    // The bias is half the largest field, rounded down.
     let rebias = 127u - (top_field >> 1u);
     let above = 23u - fraction_bits;
     let left = countLeadingZeros(fraction) - (31u - fraction_bits); // places up to the hidden bit
@@ -92,7 +92,7 @@ fn texel_single(component: u32, bits: u32) -> u32 {
     var single = select(sign | size, 0x7fc00000u, field == top_field && fraction != 0u);
     single = select(single, 0u, kind < TEXEL_FP16);
     if (HAS_UNITS) {
-        // Units of cards take single floats as they are, and have a NaN of their own for others.
+        // Units of cards take single floats unchanged; NaN of other formats becomes the unit's own NaN.
         if format(MAIN).special > 1u && u_is_nan(single) {
             single = select(U_NAN, bits, kind == TEXEL_FP32);
         }
@@ -100,8 +100,8 @@ fn texel_single(component: u32, bits: u32) -> u32 {
     return select(single, 0x3f800000u, kind == TEXEL_ONE);
 }
 
-// What one rounding makes a number of: (-1)^negative * significand * 2^exponent, a little more with `sticky`, divided by
-// what numbers of the format are.
+// An unrounded number: (-1)^negative * significand * 2^exponent, plus less than one unit if `sticky`, divided by the
+// denominator of the format.
 struct TexelParts {
     significand: vec2<u32>,
     exponent: i32,
@@ -123,18 +123,18 @@ fn texel_parts_of_single(bits: u32, over: u32) -> TexelParts {
     );
 }
 
-// The parts of numerator / (denominator * 2^shift); the numerator in two's complement, of at most 54 bits, the denominator
-// of at most 16 bits.
+// The parts of numerator / (denominator * 2^shift). The numerator is in two's complement and has at most 54 bits, the
+// denominator at most 16 bits.
 fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32, over: u32) -> TexelParts {
     let negative = (numerator.y >> 31u) == 1u;
     var magnitude = numerator;
     if (negative) { magnitude = texture_negated(numerator); }
     var left = countLeadingZeros(magnitude.y);
     if (magnitude.y == 0u) { left = 32u + countLeadingZeros(magnitude.x); }
-    // Room for the product with `over`.
+    // Leaves room for the product with `over`.
     left -= select(8u, 0u, over == 1u);
     magnitude = texture_left(magnitude, left);
-    // Sixteen bits at a time: at least 48 bits of quotient, more than any format rounds at.
+    // Divides sixteen bits at a time: at least 48 bits of quotient, more than any rounding needs.
     var quotient = vec2<u32>(0u);
     var rest = 0u;
     for (var digit = 0u; digit < 4u; digit++) {
@@ -152,7 +152,7 @@ fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32, over
     return TexelParts(quotient, -i32(left + shift), negative, rest != 0u, false, false);
 }
 
-// The number rounded once into a format, raw.
+// Rounds the number once into a format; returns the raw value.
 fn texel_rounded(f: Format, parts: TexelParts) -> u32 {
     let sign = select(0u, 1u, parts.negative);
     let raw = select(n_infinite(f, sign), n_nan(f), parts.nan);
@@ -160,8 +160,8 @@ fn texel_rounded(f: Format, parts: TexelParts) -> u32 {
     return n_finish(f, Real(parts.nan || parts.infinite, raw, sign, parts.exponent - 32, m));
 }
 
-// A component of a stored texel in a format, raw: what a nearest read gives. (`texture_read` has
-// its own way, because it weighs before it rounds.)
+// A component of a stored texel in a format, as a raw value: the result of a nearest read. (`texture_read` does not use
+// this, because it filters before it rounds.)
 fn texel_decode(f: Format, component: u32, words: vec4<u32>) -> u32 {
     let bits = texel_bits(component, words);
     var parts: TexelParts;
