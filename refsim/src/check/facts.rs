@@ -95,7 +95,7 @@ impl<T> Deref for Checked<T> {
     }
 }
 
-/// Derives the facts of a program without violations.
+/// Derives the properties of a program without violations.
 pub(super) fn derive(context: &Context<'_>) -> Facts {
     let program: &Program = context.program;
     let count = program.instructions.len();

@@ -166,7 +166,7 @@ impl SampleRules {
     }
 }
 
-/// Repeats the lowest `width` bits, 1 to 8, until they fill a byte; the byte's upper bits come first.
+/// Repeats the lowest `width` bits, 1 to 8, until they fill a byte from the top down.
 fn repeated(bits: u32, width: u8) -> u8 {
     let top = (bits << (8 - width)) as u8;
     (0..8).step_by(usize::from(width)).fold(0, |byte, filled| byte | top >> filled)

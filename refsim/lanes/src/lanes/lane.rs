@@ -80,10 +80,10 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// Interpretation of a slot's bits as a number.
     fn reading(&self) -> Reading;
 
-    /// True for the unit of a card; its rows have separate loops.
+    /// True for units of cards, whose rows have separate loops.
     const CARD: bool = false;
 
-    /// False for an arithmetic that vector instructions do not make faster.
+    /// False if vector instructions do not make the arithmetic faster.
     const VECTORS: bool = true;
 
     /// True if [`Lane::is_guarded`] can return true.

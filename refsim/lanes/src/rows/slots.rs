@@ -90,8 +90,8 @@ impl Slots {
         self.row_mut(slot).fill(raw);
     }
 
-    /// [`Slots::fill`] for a slot that nothing else writes: cheap if the slot already has the value, or if its row is
-    /// never read.
+    /// [`Slots::fill`] for a slot that nothing else writes. It is cheap if the slot already has the value, or if its
+    /// row is never read.
     pub fn give(&mut self, slot: Slot, raw: u32) {
         let i = usize::from(slot);
         if self.values[i] != raw {

@@ -7,7 +7,7 @@ use crate::isa::{Opcode, Version};
 use crate::num::{self, NumberOperation as Op};
 
 impl GraphBuilder<'_> {
-    /// The result of an arithmetic instruction in a version's language; missing operands are zeros.
+    /// The result of an arithmetic instruction, as the version's language defines it; missing operands are zeros.
     pub(crate) fn operation(
         &mut self,
         k: Arith,

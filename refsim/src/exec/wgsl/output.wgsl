@@ -305,7 +305,7 @@ fn o_float(channel: Channel, raw: u32) -> u32 {
     return n_encode(into, n_finish(into, n_term(N_CONVERT, into, kind, draw[8u * MAIN + 2u], o_main_over(), raw, 0u)));
 }
 
-// As above, but blended in single precision. All roundings are at one place, because drivers compile a copy of the
+// As `o_float`, but blended in single precision. All roundings are at one place, because drivers compile a copy of the
 // arithmetic for each place.
 fn o_blend_float(channel: Channel, raw: u32, raw_alpha: u32, held: u32, held_alpha: u32, equation: u32) -> u32 {
     let is_alpha = channel.component == 3u;

@@ -29,7 +29,7 @@ pub fn machine() -> String {
     constants.collect::<String>() + include_str!("program/vm.wgsl")
 }
 
-/// Returns `true` if shaders run a pixel program: they have no flow control, and none of the vertex units of cards.
+/// Returns `true` if shaders can run a pixel program: it has no flow control, and no vertex unit of a card computes it.
 pub fn supports(checked: &CheckedProgram, rules: &Rules) -> bool {
     lower::supports(program(checked), rules)
 }

@@ -125,12 +125,12 @@ fn cut_signed(value: i64, bits: i32) -> u32 {
 }
 
 impl Nv {
-    /// x of EXP.
+    /// Result component x of EXP.
     fn exp_floor(x: u32) -> u32 {
         power(in_8192ths(x) & !8191)
     }
 
-    /// y of EXP.
+    /// Result component y of EXP.
     fn exp_fraction(x: u32) -> u32 {
         let (e, negative) = (field(x), x & SIGN != 0);
         if is_nan(x) {
@@ -151,7 +151,7 @@ impl Nv {
         if rest == 0 { 0 } else { cut(false, rest, bits) }
     }
 
-    /// z of EXP.
+    /// Result component z of EXP.
     fn exp_power(x: u32) -> u32 {
         if is_nan(x) { NAN } else { power(in_8192ths(x)) }
     }
@@ -165,7 +165,7 @@ impl Nv {
         }
     }
 
-    /// x of LOG.
+    /// Result component x of LOG.
     fn log_exponent(self, x: u32) -> u32 {
         self.log_of_none(x).unwrap_or_else(|| match field(x) {
             0 => FIELD | SIGN,
@@ -174,13 +174,13 @@ impl Nv {
         })
     }
 
-    /// y of LOG.
+    /// Result component y of LOG.
     fn log_mantissa(self, x: u32) -> u32 {
         let of_number = || if is_zero(x) { ONE } else { ONE | x & MANTISSA };
         self.log_of_none(x).unwrap_or_else(of_number)
     }
 
-    /// z of LOG.
+    /// Result component z of LOG.
     fn log_power(self, x: u32) -> u32 {
         self.log_of_none(x).unwrap_or_else(|| match field(x) {
             0 => FIELD | SIGN,
@@ -189,12 +189,12 @@ impl Nv {
         })
     }
 
-    /// y of LIT.
+    /// Result component y of LIT.
     fn lit_diffuse(x: u32) -> u32 {
         if x & SIGN == 0 { x } else { 0 }
     }
 
-    /// z of LIT.
+    /// Result component z of LIT.
     fn lit_specular(x: u32, y: u32, w: u32) -> u32 {
         let (negative_w, finished) = (w & SIGN != 0, |infinite: bool| if infinite { FIELD } else { 0 });
         if x & SIGN != 0 || is_zero(x) {

@@ -80,7 +80,7 @@ impl FilteredComponent {
         }
     }
 
-    /// Encodes a component as the value that the filter combines: a numerator, a byte or a single.
+    /// Encodes a component as the filter's input: a numerator, a byte or a single.
     pub(super) fn kept(self, component: SampledComponent, rules: &SampleRules) -> u32 {
         match (self, component, component.value(rules)) {
             (Self::Byte(..), SampledComponent::Byte { byte, .. }, _) => byte.cast_unsigned(),

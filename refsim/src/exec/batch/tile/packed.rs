@@ -17,7 +17,7 @@ use crate::texture::Region;
 const SMALL: u32 = 64;
 /// Minimum number of consecutive small triangles for packing.
 const MIN_TRIANGLES: usize = 4;
-/// Number of used lanes above which a batch is shaded as soon as the next triangle does not fit.
+/// Number of used lanes above which a batch is shaded without waiting, if the next triangle does not fit.
 const WORTH: usize = 3 * LANES / 4;
 
 /// A lane's pixel and inputs.

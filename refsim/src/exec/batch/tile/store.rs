@@ -152,8 +152,8 @@ pub(crate) fn quantise(
     }
 }
 
-/// A fixed-point value `k / 2^F` in [0, 1] equals `k 2^(n-F)` minus `k / 2^F` steps of `1 / (2^n - 1)`; the fraction
-/// subtracts one step if it is more than the rounding adds.
+/// A fixed-point value `k / 2^F` in [0, 1] is `k 2^(n-F) - k / 2^F` steps of `1 / (2^n - 1)`; subtracting the fraction
+/// lowers the result by one step if the fraction is more than the rounding adds.
 #[inline(always)]
 fn fixed_to_steps(row: &LaneRow, frac: u32, bits: u32, nearest: bool, out: &mut LaneRow) {
     let one = 1i32 << frac;

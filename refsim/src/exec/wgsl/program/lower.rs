@@ -44,7 +44,7 @@ pub(super) struct Lowered {
     pub(super) fetches: Vec<usize>,
 }
 
-/// Returns `true` if shaders run a pixel program: it has no flow control, and no format of a vertex unit.
+/// Returns `true` if shaders can run a pixel program: it has no flow control, and no format of a vertex unit.
 pub(super) fn supports(program: &Program, rules: &Rules) -> bool {
     !has_flow(program) && !Formats::pixel(program, rules).has_vertex_unit()
 }

@@ -6,7 +6,7 @@
 // input components. program/microcode.rs encodes these words.
 
 // Unrounded results of long operations by lane, and a flag that the next operation uses them. They are rows of words,
-// not an array of structures, because drivers for processors would access each word of each lane separately.
+// not an array of structures, because CPU drivers would access each word of each lane separately.
 var<private> vm_known: vec4<bool>;
 var<private> vm_raw: vec4<u32>;
 var<private> vm_sign: vec4<u32>;
@@ -188,9 +188,9 @@ fn vm_saved() -> u32 {
     return q_save * q_stride + q_invocation;
 }
 
-// Interpolates and runs the program. Loops are nested because drivers for processors have no branches: every iteration
-// executes the whole text of the loop's body and discards most of the results. So the innermost loop contains the most
-// frequent operations, and the text for texture reads runs only once per texture read.
+// Interpolates and runs the program. Loops are nested because CPU drivers have no branches: every iteration executes
+// the whole text of the loop's body and discards most of the results. So the innermost loop contains the most frequent
+// operations, and the text for texture reads runs only once per texture read.
 fn shade() {
     var next = code[q_code + 2u];
     vm_prepared = false;
