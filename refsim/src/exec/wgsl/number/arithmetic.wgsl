@@ -52,7 +52,7 @@ fn n_digit(state: vec2<u32>, divisor: u32) -> vec2<u32> {
     return vec2<u32>(rest - select(0u, divisor, one), (state.y << 1u) | select(0u, 1u, one));
 }
 
-// x / y, sqrt x, 1 / sqrt x: a long division yields two bits at a time, of which a root takes one bit.
+// x / y, sqrt x, 1 / sqrt x by long division, two bits per step; each step yields one bit of a root.
 fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     var inverse = false;
     var root = false;
