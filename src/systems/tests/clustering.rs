@@ -105,7 +105,7 @@ fn bounds_along_axes_exclude_no_best_cluster() {
     }
 }
 
-/// The subspace of a cluster has the same bits for any earlier clustering: kept inner products equal new ones.
+/// The subspace of a cluster has the same bits for any earlier clustering: cached inner products equal new ones.
 #[test]
 fn the_way_to_a_partition_leaves_no_trace() {
     let signal = torus_signal(90, 100, 2);

@@ -1,4 +1,5 @@
-//! The programs of the three passes: files, and text generated where it depends on links, lights or options.
+//! The programs of the three passes. Programs that depend on links, lights or options are generated; the others are
+//! files.
 
 mod gather;
 mod repeated;
@@ -27,7 +28,7 @@ kernels! {
 
 /// Pass 1 at vertices.
 pub const VERTEX_LIGHTS: LightKernel = LightKernel { kernel: LIGHT_VERTICES, prefix: "c", first: 3, step: 3 };
-/// Pass 1 at texels: the first pass over lights, and later ones.
+/// Programs of pass 1 at texels: for the first pass over lights, and for later passes.
 pub const TEXEL_LIGHTS: [LightKernel; 2] = [
     LightKernel { kernel: LIGHT_TEXELS, prefix: "p[", first: 2, step: 3 },
     LightKernel { kernel: LIGHT_TEXELS_NEXT, prefix: "p[", first: 2, step: 3 },
