@@ -71,8 +71,8 @@ fn drawn(seed: u64, points: usize, dimension: usize) -> Signal {
 }
 
 /// Dimensions that are 0 at all points change no bit of a sum. With them, points are first compared along principal
-/// axes; without them, every point is compared with every cluster. Equal clusters show that no bound excludes the best
-/// one. Clusters have fewer points than dimensions, so that equal matrices are decomposed.
+/// axes; without them, every point is compared with every cluster. If the clusters are equal, no bound has excluded the
+/// best one. Clusters have fewer points than dimensions, so that equal matrices are decomposed.
 #[test]
 fn bounds_along_axes_exclude_no_best_cluster() {
     for seed in 0..120 {

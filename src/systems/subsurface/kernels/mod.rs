@@ -26,7 +26,7 @@ kernels! {
     VIEW_LIT "view_lit.vsa"
 }
 
-/// Pass 1 at vertices.
+/// Program of pass 1 at vertices.
 pub const VERTEX_LIGHTS: LightKernel = LightKernel { kernel: LIGHT_VERTICES, prefix: "c", first: 3, step: 3 };
 /// Programs of pass 1 at texels: for the first pass over lights, and for later passes.
 pub const TEXEL_LIGHTS: [LightKernel; 2] = [

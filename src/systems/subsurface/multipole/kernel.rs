@@ -188,8 +188,8 @@ impl<const N: usize> DistanceTable<N> {
         self.second_order(one, other, apart, interval, t, LOOSE)
     }
 
-    /// The mean to second order if the sum of the squared sizes is at most the reach times `loose`, else R_d between
-    /// mean points.
+    /// Computes the mean to second order if the sum of the squared sizes is at most the reach times `loose`; otherwise
+    /// returns R_d between the mean points.
     #[inline]
     fn second_order(
         &self,
