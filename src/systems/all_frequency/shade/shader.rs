@@ -1,8 +1,7 @@
 //! Coded transfer laid out for rendering.
 //!
-//! All sums are in f32 in a fixed order. The sum of a representative runs over the light's coefficients, the sum of a
-//! vertex over its segments and their representatives. So the bits depend neither on threads nor on vector
-//! instructions.
+//! All sums are in f32 in a fixed order. A representative's sum runs over the light's coefficients, a vertex's sum over
+//! its segments and their representatives. Threads and vector instructions change no bit.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;

@@ -20,8 +20,7 @@ fn iterate(
     }
 }
 
-/// Jacobi, equation 4. A step divides the residual by the diagonal, so the convergence history costs no additional
-/// matrix product.
+/// Jacobi, equation 4. A step divides the residual by the diagonal, so the history costs no additional product.
 pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     let diagonal = problem.matrix.diagonal();
     iterate(problem, options, |b, left| {
@@ -29,7 +28,7 @@ pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solutio
     })
 }
 
-/// Gauss-Seidel with relaxation factor `factor`. The convergence history costs one matrix product per sweep.
+/// Gauss-Seidel with relaxation factor `factor`. The convergence history costs one product per sweep.
 pub(super) fn gauss_seidel(problem: &Problem<'_>, factor: f64, options: &Options) -> Result<Solution, InputError> {
     let diagonal = problem.matrix.diagonal();
     iterate(problem, options, |b, _| {

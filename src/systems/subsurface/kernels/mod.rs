@@ -1,5 +1,4 @@
-//! The programs of the three passes. Programs that depend on links, lights or options are generated; the others are
-//! files.
+//! The programs of the three passes: files, and generated programs that depend on links, lights or options.
 
 mod gather;
 mod repeated;
