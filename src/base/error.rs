@@ -53,9 +53,9 @@ struct ErrorParts {
 
 #[derive(Clone, Debug)]
 enum Cause {
-    /// The message states the consequence of this source.
+    /// Cause of an error that has a message of its own; `source` returns this cause.
     Source(Arc<dyn Error + Send + Sync>),
-    /// The message is the text of this error, so the chain of sources begins with this error's own source.
+    /// Error whose text is the message. `source` returns the source of this error, so that no text is shown twice.
     Shown(Arc<dyn Error + Send + Sync>),
 }
 
@@ -80,7 +80,7 @@ impl InputError {
         self
     }
 
-    /// Adds the advice.
+    /// Adds advice to the user.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());

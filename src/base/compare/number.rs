@@ -13,9 +13,9 @@ use super::single::shortest;
 /// Bit pattern with its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number {
-    /// The format.
+    /// Format of the number.
     pub format: Format,
-    /// The pattern.
+    /// Bit pattern of the number.
     pub bits: u32,
 }
 
@@ -38,9 +38,9 @@ pub struct Compared {
     pub right: String,
     /// Bits of the right value, hexadecimal.
     pub right_bits: String,
-    /// Distance in units of the last place of `unit`; `None` if a value is not finite.
+    /// Distance in ULPs of the format `unit`; `None` if a value is not finite.
     pub ulps: Option<f64>,
-    /// Format whose last place is counted.
+    /// Format whose ULP is the unit of `ulps`.
     pub unit: String,
 }
 
@@ -85,7 +85,7 @@ impl Number {
         }
     }
 
-    /// Integer that grows by one from each number of the layout to the next.
+    /// Maps a number to an integer, so that neighbouring numbers of the layout differ by 1.
     fn step(&self) -> i64 {
         let bits = i64::from(self.bits & self.format.mask());
         match self.format.kind {
@@ -98,12 +98,11 @@ impl Number {
     }
 }
 
-/// Distance of two numbers, and the format whose last place is its unit; `None` if they are not equal and one is NaN or
+/// Distance of two numbers in ULPs, and the format of these ULPs; `None` if they are not equal and one is NaN or
 /// infinite.
 ///
 /// Within one layout the distance is the number of steps between neighbouring numbers. Across two layouts it is the
-/// exact difference in units of the last place, at the larger of the two magnitudes, of the format that is coarser
-/// there.
+/// exact difference in ULPs at the larger of the two magnitudes, of the format that is coarser there.
 pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
     let (a, b) = (left.double(), right.double());
     if (left.format.kind, left.format.encoding) == (right.format.kind, right.format.encoding) {

@@ -29,7 +29,7 @@ pub struct TargetFormats<'a> {
 /// Identifies a fragment at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FragmentPass {
-    /// Its index at the pixel, from 0.
+    /// Index of the fragment at the pixel, from 0.
     pub index: usize,
     /// Instance, from 0.
     pub instance: usize,
@@ -59,12 +59,12 @@ pub enum TraceStage {
     Mask { index: usize, left: Mask, right: Mask },
     /// A branch: the index of the next instruction, `None` at the end of the program.
     Flow { left: Option<usize>, right: Option<usize> },
-    /// Output of the program that no register shows: kill, depth, clamped color. `instruction` is the cause if only one
-    /// instruction can be.
+    /// Output of the program that is in no register: kill, depth, clamped color. `instruction` is the only possible
+    /// cause, if there is just one.
     Output { instruction: Option<usize> },
     /// Result of the alpha test or the depth test.
     Test { left: FragmentFate, right: FragmentFate },
-    /// Stored value: the cause is quantisation, blending or masking, or the executor draws other values than it traces.
+    /// Stored value. The cause is quantisation, blending or masking, or the executor's trace differs from its draw.
     Merge,
 }
 
@@ -79,7 +79,7 @@ pub struct TraceDifference {
     pub stage: TraceStage,
     /// Values that differ at the stage, in the order of components.
     pub values: Vec<Compared>,
-    /// Operands of the instruction, where [`Self::stage`] is one.
+    /// Operands of the instruction, if [`Self::stage`] is an instruction.
     pub operands: Vec<Operand>,
     /// The fragment's first instruction that writes a different value, if `stage` is before all instructions.
     pub instruction: Option<Box<TraceDifference>>,
@@ -153,7 +153,7 @@ pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usiz
     })
 }
 
-/// Fragment on both sides.
+/// Fragment with its traces on both sides.
 struct Pair<'a> {
     left: &'a TraceSide<'a>,
     right: &'a TraceSide<'a>,
@@ -262,7 +262,7 @@ impl Pair<'_> {
         (!values.is_empty()).then_some((TraceStage::Output { instruction: None }, values))
     }
 
-    /// Returns the instruction with one of these opcodes that the fragment executed; `None` unless it is the only one.
+    /// Returns the only executed instruction with one of these opcodes; `None` if there are none or several.
     fn only(&self, opcodes: &[Opcode]) -> Option<usize> {
         let instructions = &self.left.program.instructions;
         let mut ran = self.a.shading.steps.iter().map(|step| step.instruction);

@@ -12,9 +12,9 @@ use crate::error::{InputError, ensure, input_error};
 pub struct Mesh {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
-    /// One per vertex, or empty.
+    /// Normal of each vertex; empty if there are none.
     normals: Vec<[f32; 3]>,
-    /// One per vertex, or empty.
+    /// Texture coordinates of each vertex; empty if there are none.
     texcoords: Vec<[f32; 2]>,
 }
 
@@ -212,8 +212,8 @@ impl Mesh {
         Self { positions: welder.into_positions(), triangles, ..Self::default() }
     }
 
-    /// Contact of two triangles. Corners are compared by position, so that a mesh whose file repeats its vertices is
-    /// treated like one that shares them. [`Contact::None`] also for an id that does not exist.
+    /// Contact of two triangles. Corners are compared by position, so repeated vertices count as shared. Returns
+    /// [`Contact::None`] for an id that does not exist.
     pub fn contact(&self, a: u32, b: u32) -> Contact {
         let (Some(a), Some(b)) = (self.corners(a), self.corners(b)) else {
             return Contact::None;

@@ -148,9 +148,8 @@ pub struct Disagreement {
     /// for if the triangle does not exist or is the correct one.
     #[serde(serialize_with = "ray_if_any")]
     pub right_for: Option<Ray>,
-    /// If `right_for` is `None`: this ray, or a ray within a few ULPs, that passes within a few ULPs of the vertex or
-    /// edge that the found triangle shares with the first triangle of that ray, or of a corner of the found triangle at
-    /// the same t.
+    /// This ray, or a nearby one, that passes within a few ULPs of a feature of the found triangle: the vertex or edge
+    /// shared with that ray's first triangle, or a corner at the same t. Only if `right_for` is `None`.
     #[serde(serialize_with = "ray_if_any")]
     pub touched_by: Option<Ray>,
     /// Corners of the found triangle, or of the expected one if no triangle was found or its id does not exist.

@@ -22,7 +22,7 @@ pub struct Oracle<'a> {
 }
 
 impl Oracle<'static> {
-    /// Creates an oracle like [`Oracle::new`], over a mesh that it keeps.
+    /// Creates an oracle like [`Oracle::new`], and takes ownership of the mesh.
     #[must_use]
     pub fn owning(mesh: Mesh, sides: Sides, tolerance: Tolerance) -> Self {
         Self { tracer: Tracer::owning(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
@@ -52,8 +52,8 @@ impl<'a> Oracle<'a> {
         self.tracer.nearest(ray, self.sides)
     }
 
-    /// Judges the hit of one ray, which is the one numbered `place` and has an aim if known; returns the exact first
-    /// hit, and the error of the hit found.
+    /// Judges the hit of one ray, whose index among all rays is `place`. Returns the exact first hit, and the
+    /// disagreement if there is one.
     #[must_use]
     pub fn judge_one(
         &self,
@@ -122,10 +122,9 @@ impl<'a> Oracle<'a> {
         if leaks.agrees() { Ok(()) } else { Err(Box::new(leaks)) }
     }
 
-    /// Checks by [`Oracle::examine`] that every result is exact for a ray within a few ULPs of the given one, up to the
-    /// order of the triangles that it passes there: no surface is missed, and none is hit that does not exist, unless
-    /// rounding explains it ([`Disagreement::is_rounding`]). A t beyond the tolerance does not pass
-    /// ([`Tolerance::ANY_T`] judges triangles alone).
+    /// Checks by [`Oracle::examine`] that rounding explains every result that is not exact
+    /// ([`Disagreement::is_rounding`]): it is correct for a ray within a few ULPs of the given one, up to the order of
+    /// the triangles that this ray passes. A t beyond the tolerance fails; [`Tolerance::ANY_T`] judges triangles alone.
     ///
     /// # Errors
     /// The report of the errors that rounding does not explain, if there are any.
@@ -263,9 +262,9 @@ impl<'a> Oracle<'a> {
     }
 
     /// Searches for this ray, or a nearby one, that passes an edge or vertex shared by the found triangle and the ray's
-    /// first triangle, or a corner of the found triangle at the same t; returns the kind of error if there is one.
-    /// Where a surface ends in a vertex, a triangle that faces away ties with the triangles in front of it at this one
-    /// point, and perhaps no f32 ray hits it first; seen from far away, a whole surface is such a point.
+    /// first triangle, or a corner of the found triangle at the same t; returns the kind of error if there is one. At a
+    /// vertex where a surface ends, a triangle that faces away ties with the triangles in front of it at one point, and
+    /// perhaps no f32 ray hits it first. From far away, a whole surface can be such a point.
     fn touched_nearby(
         &self,
         ray: &Ray,

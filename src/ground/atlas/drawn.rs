@@ -20,8 +20,8 @@ pub struct DrawnVertex {
 /// Face as two triangles.
 ///
 /// Drawn at [`DrawnVertex::at`], they cover the center of each texel of the face exactly once. Drawn at their
-/// positions, they read the atlas at the interpolated coordinates, clamped to the bounds. For the latter, [`WholeFace`]
-/// needs no vertex in the middle of an edge.
+/// positions, they read the atlas at the interpolated coordinates, clamped to the bounds. [`WholeFace`] draws the
+/// surface without a vertex in the middle of an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DrawnFace {
     /// The corners a, b, m and a, m, c, where m is the middle of the edge from b to c. On the surface they have the

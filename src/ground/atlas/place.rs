@@ -133,7 +133,7 @@ impl FacePlace {
     fn weights_of(&self, u: f64, v: f64, least: f64) -> [f64; 3] {
         let half = least / 2.0;
         let [b, c] = [u - half, v - half];
-        // u + v - least is the larger of u and v, where both belong to one point.
+        // For a single point, u + v - least is the larger of u and v.
         self.by_index([1.0 - (u + v - least), b, c])
     }
 }

@@ -9,7 +9,7 @@ use super::CardError;
 /// The values of an attribute register, one per vertex.
 pub type Attribute = Vec<[u32; 4]>;
 
-/// Attribute of three numbers, each rounded once to f32, and a fourth.
+/// Attribute of three numbers, each rounded once to f32, and a fourth number.
 pub fn attribute([x, y, z]: [f64; 3], w: f32) -> [u32; 4] {
     [x as f32, y as f32, z as f32, w].map(f32::to_bits)
 }

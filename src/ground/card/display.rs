@@ -25,13 +25,13 @@ pub struct MeshView {
     pub camera: Camera,
     /// Factor of all radiances in the picture: 0 to 1e30.
     pub exposure: f64,
-    /// The picture's format. Fixed-point formats clamp each pass to [0, 1]; floating-point formats need a device that
-    /// can draw into them, and blend in them where passes are added.
+    /// Format of the picture. Fixed-point formats clamp each pass to [0, 1]. Floating-point formats need a device that
+    /// can draw into them, and that can blend in them if passes are added.
     pub format: TexelFormat,
 }
 
 impl From<Camera> for MeshView {
-    /// Unscaled radiances in single precision.
+    /// A picture of unscaled radiances in single precision.
     fn from(camera: Camera) -> Self {
         Self { camera, exposure: 1.0, format: TexelFormat::Rgba32f }
     }
@@ -47,7 +47,7 @@ impl MeshView {
 /// The fragments that a draw writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeptFragments {
-    /// The nearest ones, by the depth test, which also fills the depth buffer.
+    /// The nearest fragments, by the depth test; the draw also fills the depth buffer.
     Nearest,
     /// Fragments at the depths left by earlier draws; they replace the target's contents.
     Visible,
@@ -133,8 +133,8 @@ impl MeshDisplay {
         &self.positions
     }
 
-    /// Returns the target after `draw`, which is 0 where nothing is drawn, and if `is_logged` the log of the draws
-    /// without the read-back. Fails with [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the
+    /// Returns the target after `draw`, and if `is_logged` the log of the draws without the read-back. The target is 0
+    /// where nothing is drawn. Fails with [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the
     /// card has no such target, and the errors of `draw`.
     pub fn show(
         &mut self,

@@ -47,7 +47,7 @@ pub struct FrameTime {
     pub draws: Picoseconds,
     /// Number of constant registers uploaded.
     pub constants: u64,
-    /// Number of vertices run.
+    /// Number of vertex program runs.
     pub vertices_run: u64,
     /// Number of triangles set up.
     pub triangles: u64,
@@ -127,7 +127,7 @@ impl UnseenFrame {
         Self { run_per_triangle, pixel: Arc::new(ProgramWork::new(&program, FlowConstants::default())), log }
     }
 
-    /// Draws triangles with this number of `attributes` and of vertex program `slots` per vertex.
+    /// Draws triangles with these numbers of `attributes` and of vertex program `slots` per vertex.
     pub fn draw(&mut self, triangles: u64, slots: u64, attributes: u64) {
         let run = (triangles as f64 * self.run_per_triangle).round() as u64;
         let mut counts = DrawEvents {

@@ -16,11 +16,11 @@ const MARKS: [&str; 2] = ["# a texel\n", "# end of a texel\n"];
 pub struct KernelText {
     /// The file's name.
     pub name: &'static str,
-    /// Its contents.
+    /// Text of the file.
     pub text: &'static str,
 }
 
-/// A device cannot run a kernel.
+/// Error: a device cannot run a kernel.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error("device `{device}` refuses {kernel}: {problem}")]
 #[diagnostic(code(card::refused))]
@@ -175,7 +175,7 @@ pub trait WrittenKernel {
         checked(profile, format!("`{}`", self.name()), &self.text())
     }
 
-    /// Name and text.
+    /// Returns the program's name and its text.
     fn listed(&self) -> (String, String) {
         (self.name(), self.text())
     }

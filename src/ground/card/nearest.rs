@@ -8,7 +8,7 @@ use refsim::texture::TexelFormat;
 /// A color target and its depth buffer.
 #[derive(Clone, Copy, Debug)]
 pub struct NearestTarget {
-    /// The colors.
+    /// Color target.
     pub color: TextureId,
     /// The depths, 1 where nothing was drawn.
     pub depth: DepthId,

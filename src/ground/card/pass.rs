@@ -9,7 +9,7 @@ use refsim::texture::{AddressMode, Filter, SamplerState, TexelFormat};
 
 use super::new_target;
 
-/// A texture and how it is read.
+/// A texture and the sampler state with which it is read.
 pub type ReadTexture = (TextureId, SamplerState);
 
 /// Linear within a level, clamped at the border.
@@ -75,7 +75,7 @@ impl FullScreenPass<'_> {
     }
 }
 
-/// Two targets that passes write in turn, each pass reading the output of the previous one. Passes count from 0.
+/// Two targets that passes write alternately; each pass reads the output of the previous pass. Passes count from 0.
 #[derive(Clone, Copy, Debug)]
 pub struct PingPong([TextureId; 2]);
 
@@ -95,7 +95,7 @@ impl PingPong {
         self.0[(pass + 1) % 2]
     }
 
-    /// Exchanges the target that a pass has written for `other`.
+    /// Swaps the target that a pass has written with `other`.
     pub fn exchange(&mut self, pass: usize, other: &mut TextureId) {
         std::mem::swap(&mut self.0[pass % 2], other);
     }

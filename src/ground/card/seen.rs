@@ -19,7 +19,7 @@ pub struct SeenPixel {
     pub triangle: u32,
     /// The corners.
     pub corners: [u32; 3],
-    /// Their perspective-correct weights.
+    /// Perspective-correct barycentric weights of the vertices.
     pub weights: [f64; 3],
 }
 

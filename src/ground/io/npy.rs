@@ -241,9 +241,9 @@ pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<Num
 /// Numbers, or bit patterns of a number format.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NumbersOrCodes {
-    /// Of type f2, f4 or f8.
+    /// Numbers of type f2, f4 or f8.
     Numbers(NumberArray<f64>),
-    /// Of type u1, u2 or u4.
+    /// Bit patterns of type u1, u2 or u4.
     Codes(NumberArray<u64>),
 }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
-/// Reasons why a text is not a number in single or double precision. Callers, who know the text's place, quote it.
+/// Reasons why a text is not a number in single or double precision. Callers quote the text with its position.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected {}", self.expected())]
@@ -42,7 +42,7 @@ pub fn parse_f64(text: &str) -> Result<f64, NumberError> {
     if number.is_finite() { Ok(number) } else { Err(not_finite(text, NumberError::TooLargeForDouble)) }
 }
 
-/// Tells a number that overflowed from an infinity or NaN given by name, which contains no digits.
+/// Distinguishes a number that overflowed from an infinity or NaN given by name, which has no digits.
 fn not_finite(text: &str, too_large: NumberError) -> NumberError {
     if text.contains(|c: char| c.is_ascii_digit()) { too_large } else { NumberError::NotFinite }
 }

@@ -12,9 +12,9 @@ pub const MAX_ORDER: usize = 10;
 struct Recurrence {
     /// y_mm without the factor (x + iy)^m, by m.
     diagonal: [f64; MAX_ORDER],
-    /// Factor of z times the band below.
+    /// Factor of z y_(l-1)m in the recurrence of y_lm.
     rise: [[f64; MAX_ORDER]; MAX_ORDER],
-    /// Factor of the band two below.
+    /// Factor of y_(l-2)m in the recurrence of y_lm.
     fall: [[f64; MAX_ORDER]; MAX_ORDER],
 }
 

@@ -80,7 +80,7 @@ impl Hemisphere {
         Self { order, functions, gram, inverse, spectrum: SymmetricEigen { values, vectors } }
     }
 
-    /// Order.
+    /// Order n of the harmonics.
     pub const fn order(&self) -> usize {
         self.order
     }

@@ -83,7 +83,7 @@ impl HarmonicLight {
         parts.into_iter().flatten().reduce(|sum, part| sum.plus(&part)).expect("three lights with finite figures")
     }
 
-    /// Order.
+    /// Order n of the harmonics.
     pub fn order(&self) -> usize {
         order_of(&self.channels[0])
     }

@@ -57,7 +57,7 @@ impl HarmonicRotation {
         Ok(Self { order, bands })
     }
 
-    /// Order.
+    /// Order n of the harmonics.
     pub const fn order(&self) -> usize {
         self.order
     }

@@ -158,9 +158,9 @@ const SPARE: usize = 2;
 
 /// Heights from 0 to 1 and their weights, which sum to 1 and integrate polynomials in z up to a degree exactly.
 ///
-/// With z = (1 - cos a) / 2, the angles a are equidistant from 0 to pi, the first at a share `phase` of a step. The
-/// weights are the plain sum's over angles, `sin(a) pi / (2 count)`, times 1 plus a polynomial in z; of all exact
-/// weights these differ least from the plain sum's. `None` if there are too few heights.
+/// With z = (1 - cos a) / 2, the angles a are equidistant from 0 to pi, the first at the fraction `phase` of a step.
+/// The plain sum over angles has the weights `sin(a) pi / (2 count)`. Here they are multiplied by 1 plus a polynomial
+/// in z; of all exact weights these differ least from the plain sum's. `None` if there are too few heights.
 fn column(count: usize, phase: f64, degree: usize) -> Option<Vec<(f64, f64)>> {
     if count < degree + 1 + SPARE {
         return None;

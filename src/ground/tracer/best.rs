@@ -19,8 +19,8 @@ impl Best {
         }
     }
 
-    /// Returns `true` if a cell that the ray enters at `t`, in multiples of its own direction, cannot contain a nearer
-    /// hit.
+    /// Returns `true` if a cell cannot contain a nearer hit. The ray enters the cell at `t`, in multiples of its own
+    /// direction.
     pub fn settles(&self, t: f64, power: f64) -> bool {
         self.0.is_some_and(|(best, _)| f64::from(best) * power * (1.0 + T_MARGIN) < t)
     }

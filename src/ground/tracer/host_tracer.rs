@@ -18,11 +18,11 @@ const CHUNK: usize = 256;
 /// Counters of tracing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HostCounts {
-    /// Rays traced.
+    /// Number of rays traced.
     pub rays: u64,
     /// Counters of the octree.
     pub traversal: TraversalCounts,
-    /// Ray-triangle tests.
+    /// Number of ray-triangle tests.
     pub tests: u64,
 }
 

@@ -70,7 +70,7 @@ impl CompressedSegment {
 pub struct CompressedTransfer {
     /// The rows m of a transfer matrix.
     pub rows: usize,
-    /// Vertices of the mesh.
+    /// Number of vertices of the mesh.
     pub vertices: usize,
     /// The segments with transfer at some vertex, in increasing order.
     pub segments: Vec<CompressedSegment>,

@@ -38,7 +38,7 @@ pub struct AllFrequencyFile {
     pub visibility: Option<VisibilityMaps>,
     /// Transfer, compressed and coded.
     pub coded: Option<CodedTransfer>,
-    /// For a ground, which has no name of its own: the file of its mesh, relative to the folder of this file.
+    /// The file of the mesh, relative to the folder of this file; only for a ground, which has no name of its own.
     pub model: Option<String>,
 }
 

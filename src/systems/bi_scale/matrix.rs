@@ -189,9 +189,9 @@ pub struct EntryValues {
     /// Number of fraction bits of a unit whose 32-bit multiples are all values of the matrix; `None` if there is no
     /// such unit.
     fraction_bits: Option<u32>,
-    /// The unit; 1 if there is none.
+    /// Unit of the values; 1 if they have none.
     unit: f64,
-    /// Unless entries are in units: the numbers in increasing order; entry 1 represents the first.
+    /// If entries are not in units: the numbers in increasing order; entry 1 represents the first.
     table: Option<Vec<f64>>,
 }
 

@@ -7,8 +7,8 @@
 //! Values of biclusters are rounded to the format of the product. So large residuals that cancel may leave an error,
 //! although the biclusters are exact.
 //!
-//! Sums begin with 0, in a fixed order: a bicluster's over its columns, increasing; a row's over its biclusters, in the
-//! order in which they were found.
+//! Sums begin with 0 and have a fixed order. The sum of a bicluster runs over its columns, increasing; the sum of a row
+//! over its biclusters, in the order in which they were found.
 
 use super::bicluster::Biclustering;
 use super::matrix::SparseMatrix;

@@ -1,5 +1,5 @@
 //! The macro-scale transfer T (section IV-A; equations 1 and 2): the light texels that each vertex sees, and the local
-//! direction to which the light of each is assigned.
+//! direction to which each texel's light is assigned.
 //!
 //! Row M p + j is local direction j of vertex p. Column k is a light texel, with k = 1024 face + 32 row + column on a
 //! cube with Direct3D's faces. A visible texel is assigned to one local direction, the nearest to the texel's center,

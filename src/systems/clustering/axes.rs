@@ -33,7 +33,7 @@ const TINY: f64 = 1e-36;
 pub(super) struct Axes {
     center: Vec<f64>,
     axes: Vec<f64>,
-    /// B (x - g) of each point.
+    /// Coordinates B (x - g) of each point x.
     points: Signal,
     /// |x - g| of each point.
     lengths: Vec<f64>,

@@ -108,14 +108,14 @@ struct Principal {
 }
 
 impl Principal {
-    /// From C^T C.
+    /// Decomposes C^T C.
     fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, InputError> {
         let (eigen, kept) = leading(products, count, level)?;
         let vectors = eigen.vectors.rows().take(kept).flatten().copied().collect();
         Ok(Self { values: eigen.values, vectors })
     }
 
-    /// From C C^T.
+    /// Decomposes C C^T.
     fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, InputError> {
         let (eigen, kept) = leading(products, count, residuals.level)?;
         let length = residuals.mean.len();
@@ -170,7 +170,7 @@ impl Residuals<'_> {
         into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
     }
 
-    /// C C^T.
+    /// Computes C C^T: the inner products of the points' residuals.
     fn between_points(&self, kept: &KeptProducts) -> Result<Matrix, InputError> {
         kept.of(self.points, self.mean.len(), self.level, |point, into| self.part(point, 0, into))
     }

@@ -20,7 +20,7 @@ pub struct System {
 /// Solutions of the three channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RgbSolution {
-    /// Red, green, blue.
+    /// The solutions of red, green and blue.
     pub channels: [Solution; 3],
 }
 

@@ -22,7 +22,7 @@ pub struct Patch {
 /// A point of a patch, with the parametrisation's density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchPoint {
-    /// Its position.
+    /// Position of the point.
     pub at: DVec3,
     /// Area of the patch per unit area of the parameter square.
     pub density: f64,

@@ -1,4 +1,4 @@
-//! Iterations per second of a card (section 3.1): an iteration is drawn, and its log timed by the pipeline model.
+//! Iterations per second of a card (section 3.1): an iteration is drawn, and the pipeline model times its log.
 //!
 //! Time depends only on sizes and programs, so the drawn system is all zeros.
 
@@ -53,9 +53,9 @@ pub struct TimedIteration {
     pub time: Picoseconds,
     /// Clocks of the texture units, which work concurrently with the other units.
     pub textures: u64,
-    /// Clocks of arithmetic.
+    /// Clocks of the arithmetic units.
     pub arithmetic: u64,
-    /// Clocks of memory.
+    /// Clocks of memory accesses.
     pub memory: u64,
     /// Bottleneck of the longest draw.
     pub bottleneck: Bottleneck,

@@ -188,8 +188,8 @@ impl Streams {
         Self { corners: corners.map(|c: [f32; 4]| c.map(f32::to_bits)), triangles }
     }
 
-    /// Triangles in the order of `ids`. The fourth component of a is the position in the pass, and of b the edge scale;
-    /// c's is unused.
+    /// Triangles in the order of `ids`. The fourth component of a is the position in the pass, the fourth of b is the
+    /// edge scale, and the fourth of c is unused.
     fn as_given(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (place, id, corners) in ids.iter().enumerate().filter_map(|(i, id)| Some((i, *id, mesh.corners(*id)?))) {
@@ -203,8 +203,8 @@ impl Streams {
     }
 
     /// Triangles with sorted corners, largest id first: at equal depths the last draw wins, which has the smallest id.
-    /// The corners' fourth components are the edge scales; the color's is the normal's scale with the sign of the
-    /// sorting.
+    /// The fourth components of the corners are the edge scales. The fourth component of the color is the normal's
+    /// scale with the sign of the sorting.
     fn sorted(mesh: &Mesh, units: &Units, ids: &[u32]) -> [Vec<[u32; 4]>; 4] {
         let mut triangles: [Vec<[u32; 4]>; 4] = std::array::from_fn(|_| Vec::with_capacity(ids.len()));
         for (id, corners) in ids.iter().rev().filter_map(|id| Some((*id, mesh.corners(*id)?))) {

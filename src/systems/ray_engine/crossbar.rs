@@ -109,7 +109,7 @@ impl Crossbar {
     }
 
     /// Runs [`Crossbar::intersect`] and records the card's log, bucket by bucket, as on a card with one set of textures
-    /// and targets. The hits are the same as by [`Crossbar::intersect`]; the log is the same for every executor and
+    /// and targets. The hits equal the hits of [`Crossbar::intersect`]; the log is the same for every executor and
     /// number of threads. Fails as [`Crossbar::intersect`] does.
     pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: None })

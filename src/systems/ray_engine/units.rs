@@ -179,8 +179,8 @@ impl Units {
         (largest((b - a).cross(c - a)) * scale, self.range.step)
     }
 
-    /// Vertex constants: `c0` belongs to the program; `c1` is scene scale, unused, 1 / t_max; `c2` is the common
-    /// origin.
+    /// Vertex constants: the program defines `c0`; `c1` holds the scene scale, an unused number and 1 / t_max; `c2` is
+    /// the common origin.
     pub(super) fn vertex_constants(&self) -> Vec<[u32; 4]> {
         let [x, y, z] = self.origin;
         let c1 = [self.scale as f32, 0.0, (1.0 / self.t_max) as f32, 0.0];

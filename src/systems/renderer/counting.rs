@@ -25,7 +25,7 @@ pub enum RayKind {
 /// Number of rays cast, per kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
-    /// By [`RayKind`].
+    /// Number of rays of each [`RayKind`].
     by_kind: [u64; 6],
     /// Bundles in which the rays were cast.
     pub bundles: u64,

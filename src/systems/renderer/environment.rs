@@ -36,9 +36,9 @@ const LOOKUP: &str = "ps_1_1\ntex t0\nmul r0, t0, c0\n";
 /// Card that draws mirrors.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvironmentCard<'a> {
-    /// Its profile.
+    /// Profile of the card.
     pub profile: &'a Profile,
-    /// Executor of its draws.
+    /// Executor of the card's draws.
     pub executor: &'a Executor,
 }
 

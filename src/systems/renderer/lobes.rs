@@ -101,8 +101,8 @@ pub(super) struct SpecularRay {
     pub(super) kind: RayKind,
     /// Probability of this ray if one of several rays is chosen.
     pub(super) probability: f64,
-    /// Additional factor of a photon's flux, which makes its irradiance relative to the squared index too: the squared
-    /// ratio of indices at a boundary that the photon passes, otherwise 1.
+    /// Additional factor of a photon's flux: the squared ratio of indices at a boundary that the photon passes,
+    /// otherwise 1. With it, irradiance too is divided by the squared index.
     pub(super) flux_scale: f64,
 }
 

@@ -6,12 +6,12 @@
 //! - [`environment`]: the same with cube maps in place of reflected rays, drawn by a card (Blinn and Newell 1976);
 //! - [`distributed`]: soft shadows, gloss, depth of field (Cook, Porter and Carpenter 1984);
 //! - [`path`]: path tracing, unbiased (Kajiya 1986; Veach 1997);
-//! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth;
+//! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth.
 //!
-//! All work breadth first: they generate a bundle of rays, cast it through [`crate::tracer::Caster`], shade, and
-//! generate the next bundle. Random numbers are keyed by pixel, sample and dimension, and all sums run in the order of
-//! samples: the picture does not depend on the size of bundles, on threads, or on the order in which rays are traced.
-//! It depends on the caster only where casters differ in the first triangle of a ray.
+//! All renderers work breadth first: they generate a bundle of rays, cast it through [`crate::tracer::Caster`], shade,
+//! and generate the next bundle. Random numbers are keyed by pixel, sample and dimension, and all sums run in the order
+//! of samples: the picture does not depend on the size of bundles, on threads, or on the order in which rays are
+//! traced. It depends on the caster only where casters differ in the first triangle of a ray.
 
 mod counting;
 pub mod distributed;

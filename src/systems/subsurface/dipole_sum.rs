@@ -9,8 +9,8 @@ use super::Dipole;
 /// Partial sums of a sum over distances.
 const LANES: usize = 8;
 
-/// R_d of the dipole, for many distances at once:
-/// `alpha' / (4 pi) sum over z of z (sigma_tr + 1/d) e^(-sigma_tr d) / d^2`, d^2 = r^2 + z^2.
+/// R_d of the dipole, for many distances at once: `alpha' / (4 pi) sum over z of z (sigma_tr + 1/d) e^(-sigma_tr d) /
+/// d^2`, where d^2 = r^2 + z^2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DipoleSum {
     scale: f64,

@@ -76,7 +76,7 @@ pub(crate) fn check_eta(eta: f64) -> Result<(), InputError> {
 /// A medium in red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Its name.
+    /// Name of the material.
     pub name: String,
     /// Red, green and blue.
     pub channels: [Coefficients; 3],

@@ -189,8 +189,8 @@ impl<'a> Reference<'a> {
     }
 
     /// The mean of R_d over the pairs of points of two close texels: the mean, over points of one texel, of the
-    /// integral over the other. The points are texel i's, so that the sum over all texels is complete at each point. If
-    /// texel j is much smaller, its points are used, because light varies less over it.
+    /// integral over the other. The points lie on texel i, so that the sum over all texels is complete at each point.
+    /// If texel j is much smaller, the points lie on j, because light varies less over it.
     fn mean_over_long_pair(&self, i: usize, j: usize) -> f64 {
         if self.length(i).max(self.length(j)) > MAX_LENGTH {
             return if i == j { self.dipole.total() / self.texels.area[i] } else { 0.0 };

@@ -71,8 +71,8 @@ fn drawn(seed: u64, points: usize, dimension: usize) -> Signal {
 }
 
 /// Dimensions that are 0 at all points change no bit of a sum. With them, points are first compared along principal
-/// axes; without them, every point is compared with every cluster. Equal clusters show that no bound excludes the best
-/// one. Clusters have fewer points than dimensions, so that equal matrices are decomposed.
+/// axes; without them, every point is compared with every cluster. If the clusters are equal, no bound has excluded the
+/// best one. Clusters have fewer points than dimensions, so that equal matrices are decomposed.
 #[test]
 fn bounds_along_axes_exclude_no_best_cluster() {
     for seed in 0..120 {
@@ -105,7 +105,7 @@ fn bounds_along_axes_exclude_no_best_cluster() {
     }
 }
 
-/// The subspace of a cluster has the same bits for any earlier clustering: kept inner products equal new ones.
+/// The subspace of a cluster has the same bits for any earlier clustering: cached inner products equal new ones.
 #[test]
 fn the_way_to_a_partition_leaves_no_trace() {
     let signal = torus_signal(90, 100, 2);

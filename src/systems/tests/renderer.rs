@@ -38,7 +38,7 @@ impl Caster for WithoutDistance {
     }
 }
 
-/// A caster's t has no effect: a point of the triangle gets the light that arrives there, and none from the other side.
+/// A caster's t has no effect: the hit point receives the light that arrives there, and no light from the other side.
 #[test]
 fn places_lie_on_their_triangle_whatever_t_says() {
     let corners = [[10.0, 0.0, 3.0], [11.0, 0.5, 3.25], [10.0, 2.0, 4.0]];

@@ -34,7 +34,7 @@ fn beside(eye: DVec3, [p, q]: [DVec3; 2], d: DVec3) -> f64 {
     moment.dot(d) / (moment.length() * d.length())
 }
 
-/// Corners of a grid of 3 x 3 whose heights differ, seen from close above its middle.
+/// Eye close above the middle of a 3 x 3 grid of corners with different heights.
 const EYE: [f32; 3] = [0.3, -0.2, 1.5];
 
 fn corner(index: usize) -> [f32; 3] {

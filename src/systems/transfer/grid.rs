@@ -20,7 +20,7 @@ pub const FINE_SIDE: usize = LIGHT_SIDE * SUPERSAMPLES;
 pub const LIGHT_TEXELS: usize = 6 * LIGHT_SIDE * LIGHT_SIDE;
 /// Fine directions.
 pub const FINE_DIRECTIONS: usize = 6 * FINE_SIDE * FINE_SIDE;
-/// The light's texels.
+/// Cube map of the light's texels.
 pub const LIGHT_MAP: CubeMap = CubeMap::new(LIGHT_SIDE);
 
 /// The division of the cube into squares, each with its own Haar transform.

@@ -14,8 +14,8 @@ use crate::tracer::offset::{SINGLE, SurfacePoint};
 
 /// Maximum number of rounds in which an origin is moved; after that it may not be clear of all triangles.
 const MAX_ROUNDS: usize = 16;
-/// The largest distance at which a vertex can count as lying on a triangle, relative to the triangle's size or the
-/// vertex's coordinates, which is several rounding errors.
+/// Largest distance at which a vertex counts as lying on a triangle, relative to the triangle's size or the vertex's
+/// coordinates: several rounding errors.
 const SHARE: f64 = 1e-5;
 
 /// The origin of a vertex's rays, and the triangles on which the vertex lies.

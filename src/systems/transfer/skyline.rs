@@ -22,9 +22,9 @@ const LEAF: usize = 4;
 const SMALL: [f64; 2] = [0.25, 0.08];
 /// Marked fraction of the hemisphere above which the first marking is final, because little sky remains to be found.
 const MUCH: f64 = 0.5;
-/// Sine of an angle: a box seen under a larger one is descended without a test whether its region is already marked.
+/// Sine of an angle. A box seen under a larger angle is descended without testing whether its region is marked.
 const WIDE: f64 = 0.4;
-/// Sine of an angle: a sphere seen under a larger one is treated as near.
+/// Sine of an angle. A sphere seen under a larger angle is treated as near.
 const NEAR: f64 = 0.9;
 /// Margin by which angles are widened, in radians: rays differ from their f64 directions by 1e-7.
 const MARGIN: f64 = 1e-5;

@@ -13,7 +13,7 @@ pub enum Sides {
     /// Only the side from which the corners run counter-clockwise (n.d < 0).
     #[default]
     Front,
-    /// Both.
+    /// Both sides.
     Both,
 }
 

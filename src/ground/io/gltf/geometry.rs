@@ -22,7 +22,7 @@ pub(super) struct Geometry {
     normals: Vec<[f32; 3]>,
     texcoords: Vec<[f32; 2]>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// One per triangle.
+    /// Index of each triangle's material.
     pub(super) material_of: Vec<u32>,
     some_without: [bool; 2],
     /// Number of corners of all primitives, including the corners of omitted triangles.

@@ -19,7 +19,7 @@ use crate::scene::{Material, Scene};
 const DEFAULT: &str = "default";
 /// Reflectance of materials that no library defines.
 const GREY: f32 = 0.5;
-/// Largest difference of a normal's squared length from 1 at which it is not scaled.
+/// Largest difference of a normal's squared length from 1 for which the normal is not rescaled.
 const SLACK: f64 = 1e-4;
 
 #[derive(Default)]

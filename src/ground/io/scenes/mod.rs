@@ -13,7 +13,7 @@ use super::scene_obj::parse_scene;
 use crate::scene::Scene;
 use crate::scene::built::rooms::{CornellBox, cornell};
 
-/// Where a scene is from.
+/// Source of a scene.
 enum SceneSource {
     /// The scene file, the compressed OBJ file and the material library.
     Files(&'static str, &'static [u8], &'static str),
@@ -76,7 +76,7 @@ pub fn named(name: &str) -> Option<Scene> {
     })
 }
 
-/// Reads a scene's files. Panics if they are no scene; tests read every scene.
+/// Reads a scene's files. Panics if the files are invalid; tests read every scene.
 fn read(name: &str, views: &str, mesh: &[u8], materials: &str) -> Scene {
     let mut obj = Vec::new();
     GzDecoder::new(mesh).read_to_end(&mut obj).expect("a compressed file");

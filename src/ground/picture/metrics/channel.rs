@@ -56,7 +56,7 @@ pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec
 }
 
 /// Computes second minus first, sample by sample: the difference of floats; for integers, 1 where they differ and 0
-/// elsewhere. Fails with [`InputError`], as [`channels`].
+/// elsewhere. Fails as [`channels`] does.
 pub fn signed_differences(
     left: &Picture,
     right: &Picture,

@@ -19,7 +19,7 @@ pub(super) fn bunny(vertices: usize) -> ClosedSurface {
     placed(read().closed().resampled(vertices))
 }
 
-/// The scan around the origin, with its holes and without the vertices that no triangle has.
+/// The scan around the origin, with its holes, without unused vertices.
 pub(super) fn scanned() -> ClosedSurface {
     placed(read())
 }

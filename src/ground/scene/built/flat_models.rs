@@ -1,6 +1,6 @@
 //! A chair and a temple with the vertex counts of the models with several textures in the paper on bi-scale transfer
-//! (its Table I). The original models are not available. The temple has no interior, because the paper's has many
-//! non-zero values per vertex; our counts of such values are therefore not evidence.
+//! (its Table I). The original models are not available. The temple has no interior, to match the paper's large number
+//! of non-zero values per vertex; so our counts of these values are not evidence.
 //!
 //! Parts are flat or curved faces and tubes; each is a grid of triangles with its own normals. Texture coordinates are
 //! lengths along the edges of a face. Where a tube closes, vertices are repeated; they have the same position, normal

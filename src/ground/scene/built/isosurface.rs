@@ -84,7 +84,7 @@ impl Folds {
 enum BodyStep {
     /// Adds a piece, with the width of its blend into the body.
     Add(RoundedPiece, f64),
-    /// Removes a piece in the same way.
+    /// Removes a piece, with the width of the blend.
     Carve(RoundedPiece, f64),
     Fold(Folds),
 }
@@ -186,7 +186,7 @@ fn smooth_min(one: f64, other: f64, width: f64) -> f64 {
 /// Paths along the edges of a cube from its first corner to its last: all orders of the axes, one per tetrahedron.
 const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
-/// Surface of a grid of values under construction.
+/// Isosurface of a grid of values, under construction.
 struct Cut<'a> {
     values: &'a [f64],
     corner: &'a dyn Fn(usize) -> DVec3,

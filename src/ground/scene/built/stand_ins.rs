@@ -21,7 +21,7 @@ pub fn bunny() -> Mesh {
     plain(bunny::scanned())
 }
 
-/// Surface with an even number of faces: faces / 2 vertices, plus two, minus two per handle of its shape.
+/// Surface with an even number of faces. It has faces / 2 + 2 vertices, minus two per handle of its shape.
 fn of_faces(build: fn(usize) -> ClosedSurface, faces: usize) -> ClosedSurface {
     let first = build(faces / 2);
     let faces_of_as_many = first.triangles.len();

@@ -47,8 +47,8 @@ fn walls_at_any_azimuth_are_told_about_as_well() {
         ((0..400).map(|wall| off(wall) * off(wall)).sum::<f64>() / 400.0).sqrt()
     };
     let [rings, spread] = [DirectionRule::hemisphere(44), DirectionRule::spread(44, 18)].map(|rule| rms(&rule));
-    // Errors of 0.27 and 0.31 %. The spread rule's is larger because its columns are aligned; hemisphere's rings
-    // alternate by half a step.
+    // The errors are 0.27 and 0.31 %. The spread rule has the larger one because its columns are aligned; the rings of
+    // `hemisphere` alternate by half a step.
     assert!(rings.max(spread) < 0.0035, "{rings} and {spread}");
 }
 

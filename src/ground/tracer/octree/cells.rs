@@ -9,12 +9,12 @@ use super::{Octree, OctreeNode};
 pub struct CellId(pub(super) u32);
 
 impl CellId {
-    /// Cell with this number.
+    /// Cell with this index.
     pub const fn at(index: usize) -> Self {
         Self(index as u32)
     }
 
-    /// Number of the cell, below the count of all cells.
+    /// Index of the cell, below the number of all cells.
     pub const fn index(self) -> usize {
         self.0 as usize
     }

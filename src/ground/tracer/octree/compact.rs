@@ -117,7 +117,7 @@ impl Compact {
             let (exit, axis) = first(far);
             // `& 7` changes nothing: it lets the compiler drop the bounds check.
             let word = self.children[frame.children as usize][((frame.child ^ mirror) & 7) as usize];
-            // From the lower half of the axis the ray goes to the upper one; from the upper half, out of the cell.
+            // In the lower half of the axis, the ray goes to the upper half; in the upper half, it leaves the cell.
             let last = frame.child & axis != 0;
             frame.child |= axis;
             counts.cells += 1;

@@ -31,7 +31,7 @@ pub enum Flow {
 pub struct TraversalCounts {
     /// Cells entered, the root and split cells included.
     pub cells: u64,
-    /// Leaves entered.
+    /// Number of leaves entered.
     pub leaves: u64,
 }
 
@@ -47,7 +47,7 @@ impl std::ops::AddAssign for TraversalCounts {
 pub struct Visit<'a> {
     /// The cell.
     pub cell: CellId,
-    /// Its triangles in ascending order.
+    /// Triangles of the cell, in ascending order.
     pub triangles: &'a [u32],
     /// `true` if the cell is a GPU cell, whose triangles are sent to the card together.
     pub gpu: bool,
@@ -102,7 +102,7 @@ impl Octree {
         let span = [0, 1, 2].map(|i| high[i] - low[i]);
         let mut walk = Walk { octree: self, gpu, from, mirror, span, counts: TraversalCounts::default(), visit };
         if latest(low) <= earliest(high) {
-            // The two ends of a traversal, a stop and no more cells, need no distinction here.
+            // It does not matter here whether the traversal was stopped or ran out of cells.
             let _: ControlFlow<()> = walk.enter(0, 0, [low, high]);
         }
         walk.counts

@@ -1,5 +1,5 @@
 //! The common input of the baselines, and the fixed-view baseline: exit radiance towards a fixed view as a diffuse
-//! signal, a row per vertex with a number per light texel.
+//! signal, with one row per vertex and one number per light texel.
 
 use glam::DVec3;
 use rayon::prelude::*;

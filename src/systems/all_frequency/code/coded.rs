@@ -52,7 +52,7 @@ pub struct CodeSize {
     pub representatives: u64,
     /// Counts of non-zeros per column of a block.
     pub columns: u64,
-    /// Weights.
+    /// Quantised weights.
     pub weights: u64,
     /// Quantisation steps.
     pub steps: u64,
@@ -93,7 +93,7 @@ impl CodedTransfer {
         self.segments.iter().find_map(|part| part.fault(self))
     }
 
-    /// Bytes by part.
+    /// Returns the number of bytes of each part.
     pub fn size(&self) -> CodeSize {
         let mut size = CodeSize::default();
         let bytes = |count: usize, bits: u64| (count as u64 * bits).div_ceil(8);

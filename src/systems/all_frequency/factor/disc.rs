@@ -206,7 +206,7 @@ impl DiscSamples {
     }
 }
 
-/// Evaluates a function of column and row at each of some texels.
+/// Evaluates a function of column and row at each of the given texels.
 fn each<T>(map: ParabolicMap, texels: &[usize], of: impl Fn(ParabolicMap, usize, usize) -> T) -> Vec<T> {
     texels.iter().map(|texel| of(map, texel % map.side(), texel / map.side())).collect()
 }
@@ -252,7 +252,7 @@ impl Expansion {
         analysed.and_then(|analysed| analysed.product(&self.synthesis)).map_err(of_svd)
     }
 
-    /// Expands each column.
+    /// Expands each column of a matrix.
     fn rows(&self, values: &Matrix) -> Result<Matrix, InputError> {
         let analysed = self.analysis.product(values);
         analysed.and_then(|analysed| self.synthesis.transposed().product(&analysed)).map_err(of_svd)

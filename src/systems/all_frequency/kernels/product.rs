@@ -29,7 +29,7 @@ pub struct ProductKernel {
     pub layout: SetLayout,
     /// Terms per texel: 4 or 2.
     pub terms_per_texel: usize,
-    /// The interpolation; for two terms per texel only the sampler's is possible.
+    /// The interpolation; with two terms per texel, only the sampler can interpolate.
     pub filter: MapFilter,
     /// Texels along an edge of a map.
     pub side: usize,

@@ -107,8 +107,8 @@ pub(super) fn colors(
 /// The expected value in error messages about attributes.
 const HELD: &str = "radiance that its format holds";
 
-/// The coordinate sets of a pass of products per pixel: T_p times exposure, color and `scales`, one per term, which
-/// compensate the scale of G's texels.
+/// The coordinate sets of a pass that multiplies per pixel: T_p times exposure, color and `scales`. Each term has a
+/// scale, which compensates the scale of G's texels.
 pub(super) fn radiance_sets(
     mesh: &TransferredMesh<'_>,
     options: &ProductOptions,

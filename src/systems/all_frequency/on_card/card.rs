@@ -195,7 +195,7 @@ pub fn draw(
     Ok(FactoredDrawing { texels, signed, counts, pixel_slots: slots(&card.meshes[0].programs.pixel), log })
 }
 
-/// The attributes that the host sends for a view between positions and tangents, pass by pass, and counts of colors.
+/// The attributes that the host sends per view, pass by pass, and counts of colors. In registers they follow positions.
 fn attributes(
     mesh: &TransferredMesh<'_>,
     place: &ProductPlace,

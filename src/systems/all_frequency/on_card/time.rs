@@ -46,7 +46,7 @@ const fn printed(
     PrintedModel { name, vertex_hundreds, terms, clusters, omega_thousandths, frames_in_ten_seconds }
 }
 
-/// Table 1.
+/// The models of the paper's Table 1, as printed.
 pub const TABLE_1: [PrintedModel; 6] = [
     printed("bunny", 10, 115, 763, 560, [50, 62]),
     printed("teapot", 10, 513, 3801, 618, [12, 13]),
@@ -122,9 +122,9 @@ fn share_of_host(vertices: u64, terms: usize, place: &ProductPlace, host: Multip
 pub struct FactoredFrame {
     /// Vertices of the mesh.
     pub vertices: u64,
-    /// Triangles of the mesh.
+    /// Number of triangles of the mesh.
     pub triangles: u64,
-    /// Terms m.
+    /// Number of terms m.
     pub terms: usize,
     /// Multiplications of steps 2 and 3.
     pub host: Multiplies,

@@ -1,7 +1,7 @@
 //! Coded transfer laid out for rendering.
 //!
-//! All sums are in f32 in a fixed order: a representative's over the light's coefficients, a vertex's over its segments
-//! and their representatives. So the bits depend neither on threads nor on vector instructions.
+//! All sums are in f32 in a fixed order. A representative's sum runs over the light's coefficients, a vertex's sum over
+//! its segments and their representatives. Threads and vector instructions change no bit.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -20,7 +20,7 @@ pub struct Shader {
     rows: usize,
     coefficients: usize,
     segments: Vec<ShaderSegment>,
-    /// The start of each vertex's entries, followed by the end of the last.
+    /// The start of each vertex's entries, followed by the end of the last vertex's entries.
     begins: Vec<u32>,
     entries: Vec<Entry>,
     weights: Vec<i16>,
@@ -44,7 +44,7 @@ struct Block {
     values: Vec<i16>,
 }
 
-/// A segment's part of a vertex.
+/// The part of a vertex that belongs to one segment.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     /// The index of the cluster's first representative among the representatives of all segments.

@@ -44,9 +44,9 @@ impl TransferredRadiance {
 /// Number of executed multiplications over all channels, without skipped zeros.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Multiplies {
-    /// By light coefficients: step 2 of section 6.
+    /// Multiplications by light coefficients: step 2 of section 6.
     pub per_cluster: u64,
-    /// By weights: step 3.
+    /// Multiplications by weights: step 3 of section 6.
     pub per_vertex: u64,
 }
 

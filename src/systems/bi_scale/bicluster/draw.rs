@@ -34,7 +34,7 @@ impl Counts {
         Self { sums, total }
     }
 
-    /// Elements in all rows.
+    /// Number of elements in all rows.
     pub(super) fn total(&self) -> u64 {
         self.total
     }

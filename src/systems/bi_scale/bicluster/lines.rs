@@ -59,7 +59,7 @@ impl ColumnTally {
         self.values.iter().find(|(known, _)| *known == value).map_or(0, |(_, count)| *count) + self.nonzeros
     }
 
-    /// The most frequent value; among equally frequent ones the lowest by `order`. Panics if there is none.
+    /// The most frequent value; on ties, the lowest by `order`. Panics if there is no value.
     pub(super) fn most_frequent(&self, order: impl Fn(i32, i32) -> Ordering) -> i32 {
         let frequent = self.values.iter().filter(|(_, count)| *count == self.most && *count > 0);
         frequent.map(|(value, _)| *value).min_by(|&a, &b| order(a, b)).expect("a column with a value")

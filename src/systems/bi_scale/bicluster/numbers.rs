@@ -10,7 +10,7 @@ pub(super) trait SearchNumbers {
     /// The integer for the difference of two numbers; `None` if no integer is left for it.
     fn difference(&mut self, value: i32, t: i32) -> Option<i32>;
 
-    /// The order of two numbers.
+    /// Compares the numbers that two integers represent.
     fn order(&self, a: i32, b: i32) -> Ordering;
 }
 

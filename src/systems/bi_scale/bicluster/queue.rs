@@ -40,8 +40,8 @@ impl BucketQueue {
         found
     }
 
-    /// The first of some keys that has a current line, and its lowest current line; outdated entries before it are
-    /// removed.
+    /// Finds the first of the given keys that has a current line, and its lowest current line. Outdated entries before
+    /// that line are removed.
     fn first(
         &mut self,
         mut keys: impl Iterator<Item = usize>,

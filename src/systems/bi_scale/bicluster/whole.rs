@@ -69,8 +69,8 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// Changes the encoding of values; `number` decodes each. The new encoding is units of 2^-`fraction_bits` if
-    /// `fraction_bits` is given and 32 bits hold all values, else a table.
+    /// Changes the encoding of values; `number` decodes each. The new encoding is a table, or units of
+    /// 2^-`fraction_bits` if this is given and 32 bits hold all values.
     pub(in crate::bi_scale) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
         self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
         for entry in &mut self.columns {

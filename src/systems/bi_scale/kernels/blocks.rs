@@ -8,8 +8,8 @@
 pub enum BlockEdges {
     /// Blocks touch, as in Figure 4: the patch has a seam one texel wide.
     ///
-    /// Reads stay half a texel inside, so that nothing is interpolated between the last texel's center and the first
-    /// one's of the next repetition.
+    /// Reads stay half a texel inside, so nothing is interpolated between the center of the last texel and the first
+    /// center of the next repetition.
     Touching,
     /// A border of one texel around each block repeats the opposite edge, so that the patch repeats without a seam.
     #[default]

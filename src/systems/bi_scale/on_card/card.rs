@@ -31,9 +31,9 @@ const LEAST_SETS: usize = 3;
 pub struct DisplayCounts {
     /// Number of draws, without the draw into the depth buffer: the passes of all textures.
     pub draws: usize,
-    /// Passes per texture.
+    /// Number of passes per texture.
     pub passes: usize,
-    /// Directions in a full pass.
+    /// Number of directions in a full pass.
     pub directions_per_pass: usize,
     /// Texture reads and arithmetic slots of a full pass's pixel program.
     pub pixel_slots: [u32; 2],
@@ -43,7 +43,7 @@ pub struct DisplayCounts {
     pub volume_bytes: u64,
     /// Vertices on the card: corners with different texture coordinates are separate.
     pub vertices: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub triangles: usize,
 }
 

@@ -53,7 +53,7 @@ pub(super) struct ListPass {
 /// Lists in textures.
 #[derive(Clone, Debug)]
 pub(super) struct Lists {
-    /// The sum at each place of the target.
+    /// Index of the sum at each place of the target.
     pub(super) order: Vec<u32>,
     /// Width and height of the target.
     pub(super) size: [usize; 2],

@@ -72,7 +72,7 @@ pub(super) struct LocalStream<'a> {
     /// Local light: one RGB triple per direction, M directions per vertex.
     pub(super) local: &'a [[f32; 3]],
     pub(super) directions: usize,
-    /// Exposure times the texels' factor.
+    /// Exposure times the factor that scales texels to samples.
     pub(super) factor: f64,
     /// Largest magnitude of local light times `factor`.
     pub(super) largest: f64,

@@ -39,7 +39,7 @@ pub(super) struct CardVertices {
     pub(super) vertices: Vec<u32>,
     /// The texture coordinates of each vertex of the card.
     pub(super) coordinates: Vec<[f32; 2]>,
-    /// Three indices per triangle.
+    /// Vertex indices, three per triangle.
     pub(super) indices: Vec<u32>,
 }
 

@@ -76,7 +76,7 @@ fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(),
 /// A bidirectional texture on a card.
 #[derive(Clone, Copy, Debug)]
 pub struct VolumeTexture {
-    /// The volume.
+    /// The volume texture on the card.
     pub id: TextureId,
     /// The layout of its blocks.
     pub grid: BlockGrid,

@@ -72,7 +72,7 @@ pub struct TextureLookup {
 }
 
 impl TextureLookup {
-    /// Lays a texture out.
+    /// Lays out a texture for shading.
     pub fn new(texture: &BidirectionalTexture) -> Self {
         let lights = texture.light().directions().len();
         let (size, texels) = (texture.size(), texture.size() * texture.size());

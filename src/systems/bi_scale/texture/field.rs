@@ -108,7 +108,7 @@ impl HeightField {
         self.side
     }
 
-    /// Heights, row by row: at most 0.
+    /// Heights, row by row; all are at most 0.
     pub fn heights(&self) -> &[f64] {
         &self.heights
     }

@@ -61,7 +61,7 @@ impl Move {
         if self.increase <= 0.0 { f64::INFINITY } else { self.reduction as f64 / self.increase }
     }
 
-    /// Better moves are greater.
+    /// Orders moves by quality; the better move is greater.
     fn compare(&self, other: &Self) -> Ordering {
         self.quotient()
             .total_cmp(&other.quotient())

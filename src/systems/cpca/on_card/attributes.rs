@@ -17,7 +17,7 @@ pub(super) struct Chunk {
     pub(super) clusters: Vec<u32>,
     /// Attributes by register: position, address and alpha, weights, and for glossy transfer tangent and normal.
     pub(super) attributes: Vec<Attribute>,
-    /// Three per triangle.
+    /// Vertex indices, three per triangle.
     pub(super) indices: Vec<u32>,
 }
 

@@ -26,7 +26,7 @@ pub fn host_of_section_7() -> Result<HostModel, HostError> {
 pub struct FrameCounts {
     /// The sizes of the transfer.
     pub size: TransferSize,
-    /// Triangles of the mesh.
+    /// Number of triangles of the mesh.
     pub triangles: u64,
     /// Triangles drawn per pass: [`Self::triangles`] times the overdraw.
     pub drawn: u64,

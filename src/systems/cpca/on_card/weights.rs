@@ -22,7 +22,7 @@ pub enum WeightFormat {
 }
 
 impl WeightFormat {
-    /// Bytes of a weight.
+    /// Number of bytes of a weight.
     pub fn bytes(self) -> usize {
         match self {
             Self::Fp32 => 4,

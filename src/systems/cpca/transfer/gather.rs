@@ -84,7 +84,7 @@ impl<'a> TransferGather<'a> {
     }
 
     /// The matrix of direct light, with the light in local coordinates: the sum over unblocked directions, or the sum
-    /// over all directions minus the blocked ones, whichever is shorter.
+    /// over all directions minus the sum over blocked ones, whichever is shorter.
     fn local_direct(&self, vertex: usize) -> Vec<f64> {
         let material = self.material(vertex);
         let directions = self.rays.rule().len();

@@ -20,7 +20,7 @@ pub(super) type FanVertex = (DVec3, [f64; 2]);
 
 type SnappedCorner = [u32; 3];
 
-/// Sides that no other patch shares in full length.
+/// Sides of patches that are not also a full side of another patch.
 fn loose_sides(patches: &Patches) -> BTreeSet<[SnappedCorner; 2]> {
     let mut count: BTreeMap<[SnappedCorner; 2], u32> = BTreeMap::new();
     for patch in patches.list() {

@@ -89,7 +89,7 @@ impl FormFactors {
              0) still sums to {sum}"))
     }
 
-    /// F_ij becomes d_i F_ij d_j; reciprocal to one ULP.
+    /// Scales F_ij to d_i F_ij d_j. The result is reciprocal to one ULP.
     fn scale(&mut self, scale: &[f64]) {
         let areas = &self.areas;
         self.matrix.par_rows_mut().enumerate().for_each(|(i, row)| {

@@ -42,7 +42,7 @@ fn points(patch: &Patch, rule: &[GaussPoint]) -> Vec<WeightedPoint> {
     points
 }
 
-/// Mutual orientation of two patches.
+/// Relative position of two patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Facing {
     /// Each patch lies wholly in front of the other.

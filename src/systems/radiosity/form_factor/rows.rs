@@ -1,4 +1,4 @@
-//! Form factors of patches: exchanges of pairs, above the diagonal, which are mirrored and divided by areas.
+//! Form factors of patches. The exchanges of pairs are computed above the diagonal, mirrored, and divided by areas.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::linalg::Matrix;
 use crate::radiosity::Patches;
 use crate::tracer::Caster;
 
-/// Exchanges without occlusion: area times form factor, which is symmetric, in the row of the first patch of a pair.
+/// Exchanges without occlusion: area times form factor, which is symmetric. A pair's is in the row of its first patch.
 fn exchanges(patches: &Patches) -> Result<Matrix, InputError> {
     let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
     let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();

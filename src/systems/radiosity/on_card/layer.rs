@@ -16,7 +16,7 @@ pub(super) struct SystemLayout {
     pub(super) packing: Packing,
     pub(super) size: usize,
     pub(super) block: usize,
-    /// Texels of a vector, and across a matrix.
+    /// Number of texels of a vector, and of a row of the matrix.
     pub(super) width: usize,
     /// Rows of a matrix.
     pub(super) rows: usize,

@@ -28,7 +28,7 @@ pub(super) fn jacobi(problem: &Problem<'_>, options: &Options) -> Result<Solutio
     })
 }
 
-/// Gauss-Seidel with relaxation factor `factor`. The history costs one product per sweep.
+/// Gauss-Seidel with relaxation factor `factor`. The convergence history costs one product per sweep.
 pub(super) fn gauss_seidel(problem: &Problem<'_>, factor: f64, options: &Options) -> Result<Solution, InputError> {
     let diagonal = problem.matrix.diagonal();
     iterate(problem, options, |b, _| {

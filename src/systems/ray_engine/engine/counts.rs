@@ -6,23 +6,23 @@ use crate::tracer::octree::TraversalCounts;
 /// Counters of an engine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EngineCounts {
-    /// Rays answered.
+    /// Number of rays answered.
     pub rays: u64,
     /// Rays that were tested on the card at least once.
     pub rays_on_card: u64,
-    /// Passes on the card.
+    /// Number of passes on the card.
     pub passes: u64,
-    /// Rays of all passes.
+    /// Number of rays of all passes.
     pub pass_rays: u64,
     /// Ray-triangle tests of all passes: rays times triangles.
     pub pass_tests: u64,
-    /// Triangles of all passes.
+    /// Number of triangles of all passes.
     pub pass_triangles: u64,
     /// Triangles of all passes that the vertex program moved off the screen.
     pub culled: u64,
     /// Rays left in caches and tested on the host at the end.
     pub forced_rays: u64,
-    /// Ray-triangle tests on the host.
+    /// Number of ray-triangle tests on the host.
     pub host_tests: u64,
     /// Cells tested against whole buckets of rays.
     pub beam_cells: u64,

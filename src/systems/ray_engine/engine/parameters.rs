@@ -26,14 +26,14 @@ pub enum Readback {
 /// Scheduling parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EngineParameters {
-    /// Triangle octree.
+    /// Parameters of the triangle octree.
     pub octree: OctreeParameters,
     /// Triangles of a GPU cell, from `T_min` to the maximum of one pass (Table 4: 5 to 15).
     pub triangles: RangeInclusive<usize>,
     /// Number of rays at which a cell's cache is sent to the card (`R_min`), which is also the maximum of one pass
     /// (Table 5: 64).
     pub rays: usize,
-    /// Ray tree.
+    /// Parameters of the ray tree.
     pub tree: RayTreeParameters,
     /// Number of rays in the tree above which buckets leave it.
     pub waiting: usize,

@@ -18,7 +18,7 @@ const ROWS: usize = 4;
 pub(super) struct PassInFlight {
     /// Rays of the pass.
     pub(super) waiting: Vec<Waiting>,
-    /// Hits of the rays. The emulator knows them at once; the host must not use them before it has taken the pass.
+    /// Hits of the rays. The emulator knows them at once; the host must not use them before it takes them.
     pub(super) hits: Vec<Option<CardHit>>,
     /// Fence after the read-back; `None` if the host has already waited for it.
     fence: Option<FenceId>,
@@ -39,7 +39,7 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    /// Wraps a card. A pass that finds no free set of textures and targets creates one.
+    /// Creates the queue of passes of a card. A pass that finds no free set of textures and targets creates one.
     pub(super) fn new(mut card: PassCard, readback: Readback, record: bool) -> Self {
         card.machine.record(record && readback != Readback::InfinitelyFast);
         Self { card, readback, flying: VecDeque::new(), free: VecDeque::new(), sheets: 0 }

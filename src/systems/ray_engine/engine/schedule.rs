@@ -123,7 +123,7 @@ impl RayEngine<'_> {
     }
 
     /// Tests the rays of a cache against the triangles of its cell on the card: section 3.3, with fp32 results in the
-    /// host's units. The rays are then in flight; results of passes beyond the allowed number in flight are taken.
+    /// host's units. The rays are then in flight. If too many passes are in flight, the oldest are taken.
     fn on_card(&mut self, cell: CellId, waiting: Vec<Waiting>) -> Result<(), EngineError> {
         let Some(triangles) = self.cells.triangles(cell).map(<[u32]>::to_vec) else { return Ok(()) };
         if waiting.is_empty() {

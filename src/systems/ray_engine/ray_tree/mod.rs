@@ -30,13 +30,13 @@ impl Default for RayTreeParameters {
 /// Counters of a tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayTreeCounts {
-    /// Rays inserted.
+    /// Number of rays inserted.
     pub inserted: u64,
     /// Nodes passed by inserted rays, buckets included.
     pub nodes_passed: u64,
-    /// Buckets split in four.
+    /// Number of buckets split in four.
     pub splits: u64,
-    /// Batches removed.
+    /// Number of batches removed.
     pub batches: u64,
     /// Rays in batches that come from the batch's own bucket.
     pub own: u64,

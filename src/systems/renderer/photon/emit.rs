@@ -92,8 +92,7 @@ impl PhotonEmission<'_> {
             let specular = choose_specular(&surfel, rng.at(flight.depth, 3)).filter(|_| more);
             let next = specular.and_then(|specular| {
                 let next = continue_photon(flight, &surfel, specular.towards, specular.weight)?;
-                // The factor comes after Russian roulette, which ignores it, because it is undone where the light
-                // leaves the glass.
+                // The factor is applied after Russian roulette, because it is undone where the light leaves the glass.
                 Some(PathRay { weight: specular.flux_scale * next.weight, ..next })
             });
             return PhotonHit { stored: None, next };

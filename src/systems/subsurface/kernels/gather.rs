@@ -66,7 +66,7 @@ pub struct GatherKernel {
 }
 
 impl GatherKernel {
-    /// All programs for links in separate textures.
+    /// All programs for links that are in separate textures.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for layout in [LinkLayout::Fixed, LinkLayout::Adaptive] {

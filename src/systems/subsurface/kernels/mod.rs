@@ -1,4 +1,4 @@
-//! The programs of the three passes: files, and text generated where it depends on links, lights or options.
+//! The programs of the three passes: files, and generated programs that depend on links, lights or options.
 
 mod gather;
 mod repeated;
@@ -25,9 +25,9 @@ kernels! {
     VIEW_LIT "view_lit.vsa"
 }
 
-/// Pass 1 at vertices.
+/// Program of pass 1 at vertices.
 pub const VERTEX_LIGHTS: LightKernel = LightKernel { kernel: LIGHT_VERTICES, prefix: "c", first: 3, step: 3 };
-/// Pass 1 at texels: the first pass over lights, and later ones.
+/// Programs of pass 1 at texels: for the first pass over lights, and for later passes.
 pub const TEXEL_LIGHTS: [LightKernel; 2] = [
     LightKernel { kernel: LIGHT_TEXELS, prefix: "p[", first: 2, step: 3 },
     LightKernel { kernel: LIGHT_TEXELS_NEXT, prefix: "p[", first: 2, step: 3 },

@@ -48,8 +48,8 @@ pub(super) struct DistanceTable<const N: usize> {
     /// A bound on the relative error of the tabulated R_d within [`MATTERS`] diffusion lengths.
     interpolation_error: f64,
     pub(super) tolerance: f64,
-    /// Radius in mm around the entry of light within which, in every channel, all light but the fraction `tolerance`
-    /// leaves.
+    /// Radius in mm around the entry of light. In every channel, all light but the fraction `tolerance` leaves within
+    /// it.
     pub(super) layer: f64,
 }
 
@@ -58,7 +58,7 @@ pub(super) struct DistanceTable<const N: usize> {
 struct Interval<const N: usize> {
     /// For each channel, coefficients of powers of v minus the interval's left end.
     cubic: [[f64; 4]; N],
-    /// For each channel, the integral of R_d over the disc whose radius belongs to the left end.
+    /// For each channel, the integral of R_d over the disc with the radius at the interval's left end.
     disc: [f64; N],
     /// For each channel, the largest sum of squared sizes at which two pieces are far.
     reach: [f64; N],
@@ -188,8 +188,8 @@ impl<const N: usize> DistanceTable<N> {
         self.second_order(one, other, apart, interval, t, LOOSE)
     }
 
-    /// The mean to second order if the sum of the squared sizes is at most the reach times `loose`, else R_d between
-    /// mean points.
+    /// Computes the mean to second order if the sum of the squared sizes is at most the reach times `loose`; otherwise
+    /// returns R_d between the mean points.
     #[inline]
     fn second_order(
         &self,

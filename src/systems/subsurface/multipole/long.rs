@@ -190,7 +190,7 @@ impl<const N: usize> Light<'_, N> {
         let &TexelPatch { corner, e, f, is_triangle, .. } = patch;
         let normal = e.cross(f);
         let allowed = TOLERANCES.map(|part| part * self.kernel.tolerance);
-        // For such a short side, the light at its middle is the mean within a quarter of the tolerance.
+        // For such a short side, the light at its middle equals the mean within a quarter of the tolerance.
         let is_short = |length: f64| length < self.kernel.depth() * (2.0 * self.kernel.tolerance).sqrt();
         let sides = || self.part.outlines.iter().flat_map(|outline| &outline.sides);
         let along = |s: f64| {
@@ -269,7 +269,7 @@ struct Interval<const N: usize> {
     ends: [f64; 2],
     /// Values at the ends, the middle and the quarter points.
     values: [[f64; N]; 5],
-    /// The rule on halves.
+    /// The integral by Simpson's rule on both halves.
     integral: [f64; N],
     /// The error estimate: the change from the whole interval to halves.
     error: [f64; N],

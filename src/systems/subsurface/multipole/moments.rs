@@ -6,9 +6,9 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moments {
     pub(super) area: f64,
-    /// Its mean point.
+    /// Mean point of the piece.
     pub(super) point: DVec3,
-    /// Its covariance about the mean point.
+    /// Covariance about the mean point.
     pub(super) covariance: Covariance,
     pub(super) size_squared: f64,
 }

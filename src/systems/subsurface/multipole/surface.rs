@@ -89,8 +89,8 @@ impl SurfaceMoments {
         (found.point, found.covariance.0, found.size_squared)
     }
 
-    /// The mean texel area of the atlas divided by the cluster's: the multiplier of a factor if means of levels weigh
-    /// all texels equally. 0 for a cluster without area.
+    /// Mean texel area of the atlas divided by the cluster's mean texel area; 0 for a cluster without area. Factors are
+    /// multiplied by it if the means of levels weigh all texels equally.
     pub(in crate::subsurface) fn area_ratio(&self, cluster: ClusterId) -> f64 {
         let texels = (1_u64 << (2 * cluster.level)) as f64;
         let all = f64::from(self.side) * f64::from(self.side);

@@ -8,7 +8,7 @@ use super::options::{LightStage, SubsurfaceCardOptions};
 /// Bytes of textures and targets by use, without the picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CardMemory {
-    /// Names, each with its number of bytes.
+    /// Names of the parts, each with its number of bytes.
     pub parts: Vec<(&'static str, u64)>,
 }
 
@@ -30,7 +30,7 @@ impl CardMemory {
         Self { parts: parts.into_iter().filter(|part| part.1 > 0).collect() }
     }
 
-    /// Bytes in all.
+    /// Total number of bytes.
     pub fn bytes(&self) -> u64 {
         self.parts.iter().map(|part| part.1).sum()
     }

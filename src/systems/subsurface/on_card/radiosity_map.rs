@@ -23,12 +23,12 @@ pub(super) struct LightPass {
     eta: f64,
     mean_transmittance: f64,
     side: u32,
-    /// Lights per pass.
+    /// Maximum number of lights per pass.
     most: usize,
     stage: StageData,
     /// Targets of the passes before the last one.
     between: Option<PingPong>,
-    /// Given irradiances, one per texel.
+    /// Texture of given irradiances, one per texel.
     table: Option<TextureId>,
 }
 

@@ -38,7 +38,7 @@ pub struct PassEvent {
 /// read-backs are not counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PassTime {
-    /// Draws.
+    /// Number of draws.
     pub draws: usize,
     /// The pass's time.
     pub time: Picoseconds,
@@ -46,9 +46,9 @@ pub struct PassTime {
     pub bottleneck: Option<Bottleneck>,
     /// Clocks of the texture units.
     pub textures: u64,
-    /// Clocks of arithmetic.
+    /// Clocks of the arithmetic units.
     pub arithmetic: u64,
-    /// Clocks of memory.
+    /// Clocks of memory accesses.
     pub memory: u64,
     /// Bytes between the card and its memory.
     pub bytes: u64,

@@ -85,7 +85,7 @@ fn products_are_the_hosts_bit_by_bit() {
     }
 }
 
-/// Light in fewer bits has an error of at most half a step of the largest number per unit of a row.
+/// With light in fewer bits, errors are at most half a step of the largest number times the sum of the row's values.
 #[test]
 fn light_in_fewer_bits_is_off_by_its_steps() {
     let (matrix, light) = (matrix(200, 100, 6), light(100, 7));

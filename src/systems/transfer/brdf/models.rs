@@ -24,7 +24,7 @@ pub enum Brdf {
         albedo: f64,
         /// Reflectance of the lobe at normal incidence.
         specular: f64,
-        /// At least 0.
+        /// Exponent of the lobe, at least 0.
         exponent: f64,
     },
     /// Cook and Torrance 1982, isotropic: Beckmann's distribution, shadowing by V-grooves, Fresnel's formula.

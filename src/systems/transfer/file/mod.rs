@@ -40,14 +40,14 @@ pub struct PrtFile {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PrtMeaning {
-    /// Numbers without a meaning.
+    /// Numbers of unknown meaning.
     Numbers {
         /// Numbers per point.
         dimension: u32,
     },
     /// One transfer matrix per channel: channel by channel, row by row.
     Transfer {
-        /// 1 or 3 (red, green, blue).
+        /// Number of channels: 1, or 3 for red, green and blue.
         channels: u32,
         /// For each row, the index l(l+1)+m of the function of exit radiance, increasing; `[0]` for diffuse transfer.
         exit_functions: Vec<u16>,

@@ -94,10 +94,10 @@ impl HaarLight {
     }
 }
 
-/// The criterion by which coefficients are chosen, of \[NRH03\].
+/// Criterion by which coefficients are chosen, as in \[NRH03\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum TruncationPriority {
-    /// Magnitude.
+    /// Magnitude of the coefficient.
     #[default]
     Magnitude,
     /// Magnitude times the solid angle of the basis function's support.

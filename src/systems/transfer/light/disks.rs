@@ -62,7 +62,7 @@ impl DiskSource {
 /// Adds a source to the mean radiances of the fine texels.
 pub(super) fn add_disk(source: &DiskSource, rotation: &DMat3, fine: &mut [[f64; 3]]) {
     let towards = *rotation * source.towards;
-    // Chords are compared instead of angles: they have the same order, and keep their digits if small.
+    // Chords are compared instead of angles: their order is the same, and small chords lose no digits.
     let chord = |angle: f64| 2.0 * sin_cos(angle.min(std::f64::consts::PI) / 2.0).0;
     let (edge, far) = (chord(source.radius), chord(source.radius + TEXEL_RADIUS));
     let near = if source.radius > TEXEL_RADIUS { chord(source.radius - TEXEL_RADIUS) } else { -1.0 };

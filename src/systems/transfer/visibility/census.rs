@@ -47,7 +47,7 @@ impl SegmentCensus {
         census
     }
 
-    /// The share omega of segments with transfer.
+    /// The fraction omega of segments with transfer.
     pub fn omega(&self) -> f64 {
         self.nonempty as f64 / self.segments.max(1) as f64
     }

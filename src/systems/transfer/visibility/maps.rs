@@ -21,7 +21,7 @@ impl Default for VisibilitySampling {
 }
 
 impl VisibilitySampling {
-    /// The directions. Panics if there are more than 4 x 4 per texel.
+    /// The directions of this sampling. Panics if there are more than 4 x 4 per texel.
     pub fn directions(self) -> &'static FineDirections {
         FineDirections::of(1 << self.log2_samples)
     }
