@@ -17,7 +17,7 @@ const FIRST: [u8; 9] = [2, 3, 5, 7, 10, 12, 15, 16, 20];
 pub(super) struct BitScan {
     /// Values of the goal's measure, by bits.
     pub(super) points: BTreeMap<u8, f64>,
-    /// Fewest bits that meet the goal, such that all larger computed numbers of bits meet it too.
+    /// Fewest bits at which the goal is met, there and at all larger computed numbers of bits.
     pub(super) smallest: Option<u8>,
     /// A number of bits, and a larger one with a worse value. If such a pair is found, all points are computed.
     pub(super) counterexample: Option<[u8; 2]>,
