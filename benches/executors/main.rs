@@ -28,7 +28,7 @@ const FORMATS: [&str; 4] = ["s3.12", "fp32", "fp16", "fp24"];
 const TRIANGLES: usize = 256;
 /// Suffix of the names of draws on a resident card.
 const RESIDENT: &str = ", resident";
-/// Number of threads that are measured.
+/// Number of threads used.
 const THREADS: usize = 2;
 
 /// 256 triangles of the teapot that face the camera, spread over all of it: the vertex program for rays of one origin

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use crate::error::value_error;
 use crate::signals::fill;
 
-/// Rays per task of a thread, and tasks at a time.
+/// Rays per parallel task, and number of tasks that run together.
 const TASKS: (usize, usize) = (256, 64);
 
 /// Names of the kinds of verdicts, in the order of their codes; 0 is correct.

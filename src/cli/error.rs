@@ -76,7 +76,7 @@ impl Diagnostic for Suggestion {
     }
 }
 
-/// The report, with a suggested name if it is about a device: the emulator only lists the names.
+/// Adds a suggested name to a report about a device; the emulator's error only lists all names.
 fn suggested(report: Report) -> Report {
     let error = match (report.downcast_ref::<DeviceError>(), report.downcast_ref::<CaseError>()) {
         (Some(error), _) | (_, Some(CaseError::Device(error))) => error.clone(),

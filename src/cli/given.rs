@@ -1,4 +1,4 @@
-//! Options that another option makes useless, and names of nothing.
+//! Errors for options that another option makes useless, and for words that are neither names nor files.
 
 use std::path::Path;
 
@@ -18,8 +18,8 @@ pub(super) fn refuse<'a>(
     }
 }
 
-/// Refuses a word that names no `what` and no file: a path without a dot or a folder is a name. Fails with
-/// [`Problem::Usage`], which lists the names.
+/// Rejects a word that is neither the name of a `what` nor a file; a path without a dot or a folder counts as a name.
+/// Fails with [`Problem::Usage`], which lists the names.
 pub(super) fn require_file(path: &Path, what: &str, names: &[&str], ending: &str) -> Result<(), Problem> {
     let name = path.to_str().unwrap_or_default();
     if path.exists() || path.components().count() != 1 || name.contains('.') {

@@ -83,7 +83,6 @@ pub(super) struct Args {
     caster: CasterOptions,
 }
 
-/// The source of hits.
 enum HitSource {
     Exact,
     Card(Box<Profile>, Executor),

@@ -2,7 +2,7 @@
 
 use clap::{ArgMatches, Command};
 
-/// The command that runs, below the program and its subcommands, with its matches.
+/// The innermost subcommand that was requested, with its matches.
 pub(super) fn obeyed<'a>(program: &'a Command, matches: &'a ArgMatches) -> (&'a Command, &'a ArgMatches) {
     let inner = matches.subcommand().and_then(|(name, inner)| Some((program.find_subcommand(name)?, inner)));
     inner.map_or((program, matches), |(command, inner)| obeyed(command, inner))

@@ -77,7 +77,7 @@ impl ProgressBar {
         self.say();
     }
 
-    /// Writes the messages that are due: that the work will take long, and, without a bar, a plain line.
+    /// Writes the messages that are due: that the work takes long, and, if there is no bar, a plain line of progress.
     fn say(&self) {
         let (done, total) = (self.bar.position(), self.bar.length().unwrap_or(0));
         let elapsed = self.bar.elapsed();

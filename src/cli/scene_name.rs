@@ -28,7 +28,7 @@ fn require_file(path: &Path) -> Result<(), Problem> {
     given::require_file(path, "scene", &scenes::names().collect::<Vec<_>>(), "obj")
 }
 
-/// The scene around a model, which has lights for it. The options of models say how the model is read, not this.
+/// The scene that surrounds a model and lights it. Options of model files apply to the model, not to this scene.
 pub(super) fn surroundings(path: &Path) -> miette::Result<Scene> {
     if let Some(scene) = scenes::named(path.to_str().unwrap_or_default()) {
         return Ok(scene);

@@ -34,7 +34,7 @@ impl ShownError {
         Self::within(diagnostic, None, most)
     }
 
-    /// The text of `outer` applies to causes that have no text.
+    /// Copies a diagnostic; one without source text uses the source text of `outer`.
     fn within(diagnostic: &dyn Diagnostic, outer: Option<&dyn SourceCode>, most: usize) -> Self {
         let source = diagnostic.source_code().or(outer);
         let labels: Vec<LabeledSpan> = diagnostic.labels().map(Iterator::collect).unwrap_or_default();

@@ -29,7 +29,7 @@ pub struct KeptWork {
 }
 
 impl KeptWork {
-    /// Work of a program and a command on files. Fails if a file cannot be read, as a pipe cannot a second time.
+    /// The work of a program and a command on files. Fails if a file cannot be read; a pipe can be read only once.
     pub fn new(program: String, command: String, inputs: &[&Path]) -> Result<Self, InputError> {
         let digest = |path: &&Path| match File::open(path).and_then(sha256) {
             Ok(digest) if path.is_file() => Ok((path.display().to_string(), digest)),
@@ -129,9 +129,9 @@ impl KeptResults {
         }
     }
 
-    /// Takes a result from the folder; computes and keeps it if it is missing, damaged, or of other work. The result
-    /// must depend only on the work and the name, which is a file name. Errors: those of `compute`, and if a result
-    /// cannot be kept.
+    /// Takes a result from the folder; computes and stores it if it is missing, damaged, or of other work. The result
+    /// must depend only on the work and the name, which is a file name. Fails if `compute` fails, or if a result cannot
+    /// be stored.
     pub fn get<T: Serialize + DeserializeOwned, E: From<InputError>>(
         &self,
         name: &str,
@@ -169,7 +169,7 @@ impl KeptResults {
     }
 }
 
-/// The work of a result's file, and the result as it is encoded; `None` unless the file is whole.
+/// The work and the encoded result in a file; `None` if the file is incomplete or damaged.
 fn read(path: &Path) -> Option<(KeptWork, Vec<u8>)> {
     let bytes = fs::read(path).ok()?;
     let (contents, digest) = bytes.split_at_checked(bytes.len().checked_sub(DIGEST)?)?;

@@ -183,7 +183,7 @@ impl ShaderText {
         self.source.clone()
     }
 
-    /// Returns `true` if the name is that of a WGSL file.
+    /// Returns `true` if the name has the extension of a WGSL file.
     pub fn is_wgsl(&self) -> bool {
         is_wgsl(Path::new(self.name()))
     }

@@ -77,8 +77,8 @@ pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
 pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     let mut all = Vec::new();
     for level in SimdLevel::available() {
-        // In the short form the widest level draws every case, and each way to compute the same one case in three: more
-        // threads, and the other levels, which are the same source compiled for other instructions.
+        // By default the widest level draws every case. The other levels, which are the same source compiled for other
+        // instructions, and more threads draw one case in three.
         let some = crate::environment::by_form(3, 1);
         let is_widest = level == SimdLevel::widest();
         for (threads, every) in [(1, if is_widest { 1 } else { some }), (3, some)] {

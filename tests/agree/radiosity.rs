@@ -123,7 +123,7 @@ pub(crate) fn every_luminance_pass_is_the_hosts() {
     }
 }
 
-/// The paper's block: one short of it, just it, one and two beyond.
+/// Sizes around the paper's block: one less, equal, one and two more.
 pub(crate) fn full_blocks_are_the_hosts() {
     let fit = Fit::of(&nv35(), Packing::Rgb).expect("a fit");
     assert_eq!(fit, Fit { block: 254, limit: 4096 });

@@ -163,7 +163,6 @@ const PARTS: [fn(&mut Scene); 28] = [
     },
 ];
 
-/// Describes a scene.
 pub(crate) fn describe(scene: &Scene) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "device {}, {:?}", scene.profile.name, scene.profile.rules);

@@ -1,5 +1,5 @@
-//! Laws of the source: rooms use only those that the table of this test allows them; the files of a room have no circular
-//! dependencies; no type name is defined in more than two rooms.
+//! Rules for the source: a room (a top-level module) uses only the rooms that the table of this test allows; the files
+//! of a room have no circular dependencies; no type name is defined in more than two rooms.
 
 mod circles;
 mod names;
@@ -114,7 +114,7 @@ const BATCH: Law = (
     ],
 );
 
-/// Rooms of the root package that may use the emulator; the other shared rooms know nothing of cards.
+/// Rooms of the root package that may use the emulator; the other shared rooms do not depend on cards.
 const SPEAKS_REFSIM: &str = "card tracer case compare shader radiosity subsurface clustering transfer cpca all_frequency bi_scale \
      ray_engine study cli renderer";
 

@@ -1,4 +1,4 @@
-//! A crate's source as the laws see it: its modules, the items of each, and the paths that each names.
+//! A crate's source as these tests see it: its modules, the items of each, and the paths that each names.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,7 +9,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::{Item, UseTree};
 
-/// Segments that `::` joins: of a module's path from the crate's root, or of a path as the code writes it.
+/// Segments of a path, which `::` joins: a module's path from the crate's root, or a path as written in code.
 pub(crate) type Names = Vec<String>;
 
 /// A path that a module names: a leaf of a `use`, or one inside code.

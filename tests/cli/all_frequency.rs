@@ -82,7 +82,7 @@ fn errors_are_those_of_compression() {
     assert!(fs::metadata(folder.path().join("page/index.html")).is_ok());
 }
 
-/// A ground is precomputed, compressed and drawn with its model; each lights the other.
+/// A ground is precomputed, compressed and drawn with its model; each blocks light from the other.
 #[test]
 fn a_model_stands_on_a_ground() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -74,7 +74,7 @@ fn light_comes_from_a_place_in_a_scene() {
     fs::write(&lamp, format!("mtllib lamp.mtl\nusemtl lamp\n{square}\nf 1 2 3 4\n")).expect("written");
     let light = |at: &str| format!("scene:{lamp}@{at}");
     let sampled = document(&["all-frequency", "lighting", "--light", &light("0,0,0")]);
-    // Of a square of half width a at distance d: 4 asin(a^2 / (a^2 + d^2)).
+    // Solid angle of a square of half width a at distance d: 4 asin(a^2 / (a^2 + d^2)).
     let solid_angle = 4.0 * libm::asin(0.2);
     for (channel, radiance) in [5.0, 2.0, 1.0].into_iter().enumerate() {
         assert_relative_eq!(number(&sampled["flux"][channel]), radiance * solid_angle, max_relative = 1e-9);

@@ -127,7 +127,7 @@ fn leaky_teapot_writes_everything_it_promises() {
     assert_eq!(fs::read_to_string(out.join("index.html")).expect("the page"), page, "and the same page");
 }
 
-/// Two device files that differ only in their rounding keep it in another format.
+/// Device files that differ only in rounding keep their roundings if `--format` replaces their format.
 #[test]
 fn a_format_keeps_the_rounding_of_device_files() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,5 +1,5 @@
-//! Every reader of a file without others beside it: no bytes make it panic, and a file that claims 2^32 elements is refused
-//! without allocating that much.
+//! Readers of single files: no bytes make a reader panic, and a file that claims 2^32 elements is refused without
+//! allocating that much.
 #![cfg_attr(not(target_os = "linux"), allow(dead_code, reason = "memory is limited by a shell of Linux"))]
 
 use std::fs;

@@ -114,7 +114,7 @@ fn every_bit_is_the_emulators_and_controls_work(name: &str, file: &Path) {
     assert!(programs.iter().all(|line| line["steps"].as_u64() > Some(8)));
     stepping_by_keys(&mut browser);
 
-    // The live view shows the first fixed view in s3.12, then what is chosen with the keyboard.
+    // The live view shows the first fixed view in s3.12, then the view chosen with the keyboard.
     let first = format!("s3.12 {}", list("teapot")[0]["expected"].as_str().unwrap_or_default());
     assert_eq!(drawn(&mut browser), first);
     let (before, after) = redrawn(&mut browser, |browser| browser.press("fractions-of", "ArrowLeft", 37));

@@ -1,4 +1,4 @@
-//! The visitor's own shader in the page: what the emulator answers stands beside what SwiftShader draws of the text.
+//! The part of the page for the visitor's own shader: compares the emulator's picture with SwiftShader's picture.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 use crate::browser::Browser;
 use crate::{attribute, emulator};
 
-/// The part of the page.
+/// JavaScript expression for this part of the page.
 const SECTION: &str = "document.getElementById('shader').parentElement";
 
 /// Largest difference of the two pictures, in 255ths.
 const MOST: &str = "Number(document.getElementById('shader-apart').dataset.most)";
 
-/// Keeps the page from its comparisons of whole numbers, which would use SwiftShader for a minute.
+/// Disables the page's integer comparisons, which would occupy SwiftShader for a minute.
 const SHADERS_ALONE: &str = "GPUDevice.prototype.createComputePipelineAsync = () => new Promise(() => {});";
 
 /// A browser with WebGPU on a page whose shader is drawn; `script` runs first.
@@ -37,9 +37,8 @@ pub(crate) fn page_with(module: &Path, file: &Path, name: &str) -> PathBuf {
     folder.join("index.html")
 }
 
-/// Functions in place of a module's, so that the page is tested where no compiler makes one. Their answer is that of
-/// `refsim-web` (its tests compare it), with the colors of this shader filled in; texts with a certain word are
-/// refused.
+/// Functions that replace a module's, so that the page can be tested without a WebAssembly compiler. They return the
+/// answer of `refsim-web` (its tests compare it) with the colors of this shader, and reject texts with a certain word.
 fn stand_in() -> (String, Value) {
     let stored: Value = serde_json::from_str(include_str!("../../refsim/web/shader.json")).expect("JSON");
     let (request, mut answer) = (stored["request"].clone(), stored["answer"].clone());
@@ -103,13 +102,13 @@ pub(crate) fn a_shader_stands_beside_that_of_the_gpu(name: &str, file: &Path) {
     assert!(apart < 0.01, "{apart} of 255: {}", attribute(&mut browser, "shader-said", "textContent"));
     assert_eq!(attribute(&mut browser, "shader-text", "value"), request["text"]);
 
-    // A uniform has a field per component, whose number is sent.
+    // A uniform has one input field per component; its number is sent.
     let fields = "document.querySelectorAll('#shader-uniforms input')";
     assert_eq!(number(&mut browser, &format!("{fields}.length")), 2.0);
     browser.value(&format!("{fields}[1].value = '0.75'; {fields}[1].dispatchEvent(new Event('input'))"));
     browser.wait(&format!("JSON.parse({SECTION}.dataset.drawn).uniforms.half[1] === 0.75"));
 
-    // Errors of the emulator and of the browser's compiler have their places; the page lives on.
+    // Errors of the emulator and of the browser's compiler state their positions; the page continues to work.
     write(&mut browser, "refuse\n  this = 1;");
     assert_eq!(remark(&mut browser)[1], "  this = 1;\n  ^^^^");
     assert_eq!(number(&mut browser, "document.getElementById('shader-pictures').offsetHeight"), 0.0);
@@ -144,7 +143,7 @@ pub(crate) fn shaders_of_the_module_are_near_the_gpu(name: &str, file: &Path) {
         let apart = number(&mut browser, MOST);
         let said = attribute(&mut browser, "shader-said", "textContent");
         match (example, format) {
-            // The highlight of docs/wgsl.md; the sine of a large number is every driver's own.
+            // The highlight of docs/wgsl.md; the sine of a large number depends on the driver.
             (0, "fp16") => assert_eq!(apart.round(), 41.0, "{said}"),
             (4, _) => assert!(apart > 1.0, "{said}"),
             _ => assert!(apart < 0.1, "example {example}: {said}"),

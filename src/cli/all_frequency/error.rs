@@ -1,4 +1,4 @@
-//! `crossbar all-frequency error`: the raw matrices again, compared with the coded transfer.
+//! `crossbar all-frequency error`: the coded transfer, compared with recomputed raw matrices.
 
 use std::path::PathBuf;
 

@@ -55,7 +55,7 @@ fn ground(path: &Path) -> miette::Result<LitGround> {
     Ok(LitGround { colors: model.materials.iter().map(color).collect(), mesh: model.mesh, vertices, file })
 }
 
-/// The way from the folder of a file to another file.
+/// Relative path from a file's folder to another file.
 pub(super) fn path_from(file: &Path, to: &Path) -> io::Result<String> {
     let [file, to] = [absolute(file)?, absolute(to)?];
     let (from, to) = (file.parent().unwrap_or(&file).components(), to.components());

@@ -6,10 +6,10 @@ use refsim::num::{Format, NumberOperation as Op, Unit};
 use super::operation::AluOperation;
 use crate::cli::{Problem, switch};
 
-/// A state that a card's unit can be in, for `--state`: the unit in each of its states, and the unit in this one.
+/// Value of `--state`: a card's unit in each of its states, then in the chosen state.
 pub(super) type State = ([Unit; 2], Unit);
 
-/// A number format, and a device's rules of products and sums; without them, those of the format.
+/// A number format, and a device's rules for products and sums; by default, the format's rules apply.
 pub(super) type AluArithmetic = (Format, Option<SumRules>);
 
 /// The arithmetic of a device's stage: by default the stage with a measured unit, otherwise the pixel stage.

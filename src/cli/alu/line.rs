@@ -20,7 +20,7 @@ fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|byte| byte.is_ascii_whitespace() || *byte == b',').filter(|field| !field.is_empty())
 }
 
-/// What is asked of every line.
+/// Options for every line: verification, comparison of flags, JSON output.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Asked {
     pub(super) verify: bool,

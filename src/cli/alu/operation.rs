@@ -136,7 +136,7 @@ impl AluOperation {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluUnit {
     pub(super) op: AluOperation,
-    /// The format of the operands; of blocks, that of the plain numbers.
+    /// The format of the operands; for blocks, the format of the plain numbers.
     pub(super) env: Env,
     /// The format of the result: the operands' format, except for `convert`.
     pub(super) to: Format,
@@ -144,7 +144,7 @@ pub(super) struct AluUnit {
     pub(super) seed: u64,
     /// A device's rules of products and sums.
     pub(super) sums: Option<SumRules>,
-    /// The format of blocks; only these have one.
+    /// The block format, for `quantize` and `dequantize` only.
     pub(super) block: Option<BlockFormat>,
     /// The order of `dot`, and its accumulator.
     pub(super) dot: (DotOrder, Format),
@@ -172,7 +172,7 @@ impl AluUnit {
         !self.op.is_comparison() && self.to.is_nan(result)
     }
 
-    /// Returns the results of a line, of a block with its scale first. Stochastic rounding uses the random word number
+    /// Returns the results of a line; for a block, the scale comes first. Stochastic rounding uses random word number
     /// `index`.
     pub(super) fn evaluate(&self, words: &[u32], index: u64) -> Vec<Outcome> {
         use AluOperation as Alu;

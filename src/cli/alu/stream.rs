@@ -32,8 +32,8 @@ fn lines(input: &mut BufReader<impl io::Read>) -> Result<Vec<Vec<u8>>, InputErro
     Ok(lines)
 }
 
-/// Writes the answer of `work` for every line of standard input; with `verify`, only the mismatches and the counts.
-/// Then a closed pipe does not change the verdict.
+/// Writes the answer of `work` for every line of standard input. With `verify`, writes only the mismatches and the
+/// counts, and a closed pipe does not change the verdict.
 pub(super) fn run(
     Asked { verify, json, .. }: Asked,
     out: &mut Out,

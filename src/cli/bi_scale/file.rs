@@ -34,7 +34,7 @@ pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>)
     Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
 }
 
-/// Returns `true` if a file name is that of a matrix in text form.
+/// Returns `true` for the name of a matrix file in text form.
 fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
 }

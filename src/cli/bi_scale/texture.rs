@@ -107,7 +107,7 @@ fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
     sum.map(|sum| sum / of_texel)
 }
 
-/// The patches of a view, arranged by light direction in the square, rows from the lower edge up; v points up in each.
+/// A view's picture of the patch per light direction, placed by direction in the square, from the lower edge up.
 fn sheet(texture: &BidirectionalTexture, view: usize) -> RgbImage {
     let (side, size) = (texture.light().side(), texture.size());
     let width = side * size;

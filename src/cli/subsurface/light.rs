@@ -54,7 +54,7 @@ impl FromStr for LightArg {
                 Light::Point { position, intensity, attenuation }
             }
             ["ambient" | "directional" | "point", ..] => return Err(wrong()),
-            // A word that no light begins with; a single letter is a drive.
+            // A prefix that names no light; a single letter is a drive.
             [word, _, ..] if word.len() > 1 && !["disk", "constant", "sky", "scene"].contains(&word) => {
                 return Err(wrong());
             }

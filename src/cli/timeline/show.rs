@@ -166,7 +166,7 @@ fn cache(log: &[Event]) -> Table {
     table
 }
 
-/// Times of the units; `written` formats the times of what a unit waits for.
+/// Times of the units. `written` formats the waiting times, listed by their reasons.
 fn units(timed: &TimedLog, written: fn(&Cell) -> String) -> Table {
     let whole = timed.replay.timeline.makespan();
     let mut table = timed.table("units", &["unit", "busy", "waiting", "idle", "busy %", "waits for"]);

@@ -29,7 +29,7 @@ macro_rules! forms {
     };
 }
 
-/// Forms of light in harmonics, and those of light on the texels of a cube, for help.
+/// Help texts: forms of light in harmonics, and of light on the texels of a cube.
 pub(in crate::cli) const HARMONIC_LIGHT: &str = forms!();
 pub(in crate::cli) const CUBE_LIGHT: &str =
     forms!(", a table of a cube's texels (.csv) or of small sources (.sources.csv)");
@@ -162,7 +162,7 @@ impl DistantLightArg {
     }
 }
 
-/// The light at a place in a scene, by path tracing, a camera for each face of the cube of texels.
+/// The light at a place in a scene, by path tracing with one camera per face of the cube of texels.
 fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
     let scene = scene_name::surroundings(path)?;
     if scene.point_lights.is_empty() && scene.emitters().is_empty() {
@@ -172,7 +172,7 @@ fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
     let no_place = |what: String| {
         Problem::usage(format!("{}: {what}", path.display()), "name a place inside of the scene, in its units")
     };
-    // Beyond, the faces of a cube around the place lie at the place itself in single precision.
+    // Beyond this bound, single precision does not separate the place from the faces of a cube around it.
     if at.abs().max_element() >= f64::from(1 << 24) {
         return Err(
             no_place(format!("expected a place of light within 2^24 of the origin, found {}", at.as_vec3())).into()

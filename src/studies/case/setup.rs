@@ -151,7 +151,7 @@ fn too_long() -> InputError {
         help "keep texels in image files")
 }
 
-/// Warnings about formats of instructions and storages that the device has for other programs.
+/// Warns of instruction and storage formats in the device file that the programs of the case do not use.
 fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) -> Vec<CaseWarning> {
     let programs: Vec<&Program> = [pixel].into_iter().chain(vertex).collect();
     let own: Vec<String> = programs.iter().map(|program| format!("{:016x}", program.digest())).collect();

@@ -5,7 +5,7 @@
 pub struct Folded {
     /// Noun for the rows, singular and plural: `switch`, `switches`.
     pub rows: [&'static str; 2],
-    /// What the rows share with the row above: `the same bits`.
+    /// Common property of these rows and the row above, such as `the same bits`.
     pub same: &'static str,
     /// Name of the row above.
     pub first: String,

@@ -1,5 +1,5 @@
-//! Legal programs of Direct3D's versions. A program grows from a plain one: of random instructions at random places, those
-//! stay that the checker accepts.
+//! Legal programs of Direct3D's versions. A program grows from a plain one: random instructions are inserted at random
+//! places, and kept if the checker accepts them.
 
 mod instructions;
 
@@ -11,7 +11,7 @@ use refsim::device::Profile;
 use refsim::isa::{Opcode, OpcodeClass, Stage, Version};
 use refsim::texture::TextureKind;
 
-/// Tries for each instruction that a program shall have.
+/// Number of tries per instruction wanted in a program.
 const TRIES: usize = 16;
 
 pub(super) fn program(
@@ -39,7 +39,7 @@ pub(super) fn program(
     print(&program).lines().map(str::to_owned).collect()
 }
 
-/// What the instructions of a program may name.
+/// Names that the instructions of a program may use.
 struct Writer {
     version: Version,
     temps: u16,
@@ -49,7 +49,7 @@ struct Writer {
     samplers: Vec<u16>,
     /// True if most of the program reads textures.
     sampling: bool,
-    /// Instructions before and after the part in which there is flow control: registers get their values, results leave.
+    /// Instructions before and after the part with flow control: they initialise registers, and write results.
     begin: usize,
     end: usize,
     /// The operations to draw from, without flow control, and those among them that read textures.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::{Files, assert_refused};
 
-/// Gives every option for an input file every kind of unsuitable file.
+/// Tries every kind of unsuitable file for every option that takes an input file.
 #[test]
 fn hostile_files() {
     let commands: [&[&str]; 17] = [
@@ -63,7 +63,7 @@ fn hostile_files() {
     });
 }
 
-/// Gives every option for an output path every kind of path that cannot be written.
+/// Tries every kind of unwritable path for every option that takes an output path.
 #[test]
 fn hostile_places_for_results() {
     let files: [(&str, &[u8]); 3] = [

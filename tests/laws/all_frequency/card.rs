@@ -53,7 +53,7 @@ impl Hills {
     }
 }
 
-/// Each two bits fewer quadruple the error; fp24 is nearer to f64 than fp16, 16 bits nearer than 8 on each card.
+/// The error quadruples for every two bits less; fp24 is nearer to f64 than fp16, 16 bits nearer than 8 on each card.
 #[test]
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();

@@ -49,8 +49,8 @@ fn seen(light: &HaarLight, normal: DVec3) -> f64 {
     products.sum()
 }
 
-/// A bright texel at the middle of a face lights the normal along the face's axis most; no other axis gets half as
-/// much. (Four texels meet in the middle.)
+/// A bright texel at the middle of a face lights a surface that looks along the face's axis most; no other axis gets
+/// half as much. (Four texels meet in the middle.)
 #[test]
 fn a_texel_shines_from_its_face() {
     let axes = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z];

@@ -28,7 +28,7 @@ fn parallel_corner(a: f64, b: f64) -> f64 {
     (a / x * libm::atan(b / x) + b / y * libm::atan(a / y)) / (2.0 * PI)
 }
 
-/// A floor, and a lamp spanned by two sides from a corner.
+/// A floor, and a parallelogram as a lamp, given by a corner and two sides.
 fn lit(corner: [f32; 3], u: [f32; 3], v: [f32; 3]) -> (Scene, f64) {
     let mut builder = Builder::default();
     builder.quad([-3.0, -3.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], white(0.75));

@@ -28,7 +28,7 @@ fn mean(picture: &RenderedPicture, scene: &Scene) -> [[f64; 2]; 3] {
 fn assert_bias_below(bound: f64, block: &Material, gather: u32) {
     let scene = room(1.0, block);
     let camera = room_camera(12, 12);
-    // With `CROSSBAR_FULL=1`, so many samples that hardly more than the bias remains.
+    // With `CROSSBAR_FULL=1`, enough samples that little more than the bias remains.
     let full = by_form(1, 20);
     let settings = |samples: u32| Settings { samples: samples * full, depth: 30, ..settings() };
     let photons = Photons { global: 20_000, caustic: 20_000, nearest: 50, radius: 0.3, gather };

@@ -87,7 +87,7 @@ proptest! {
     }
 }
 
-/// Constants of Sloan's "Efficient Spherical Harmonic Evaluation", whose y_lm are ours times (-1)^m, as D3DX's.
+/// Constants of Sloan's "Efficient Spherical Harmonic Evaluation". Its y_lm are ours times (-1)^m, as in D3DX.
 #[test]
 fn functions_have_the_published_constants() {
     let v = DVec3::new(0.48, -0.6, 0.64);

@@ -8,8 +8,8 @@ use crossbar::subsurface::multipole::Factors;
 
 use super::links_models::{atlas, figure_7, fine_tolerance, medium, sphere, surface, texels};
 
-/// The largest difference between the factors of links and those that a texel gathers individually with a finer
-/// tolerance, each relative to the factor and 1e-5 of the light that the plane returns.
+/// The largest difference between link factors and factors that a texel gathers individually with a finer tolerance,
+/// each relative to the factor and 1e-5 of the light that the plane returns.
 fn worst(mm_per_unit: f64, dipole: Dipole, side: u32, choice: LinkChoice) -> f64 {
     let surface = surface(&atlas(&sphere(6, 0.2), side), mm_per_unit);
     let links = Links::new(&surface, &[dipole], choice, 0.01).expect("links");
@@ -41,7 +41,7 @@ fn links_keep_their_tolerance() {
     }
 }
 
-/// Atlases of all sides down to one texel, smaller than the squares of texels that gather together.
+/// Atlas sides down to one texel, which is smaller than the squares of texels that gather together.
 #[test]
 fn small_atlases_have_links() {
     let corners = vec![[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.5]];

@@ -1,5 +1,5 @@
-//! The dipole's own error: photons walk one by one through a half space with a smooth boundary, whose albedo is
-//! Chandrasekhar's H function without the boundary.
+//! The dipole's own error, from a photon random walk through a half space with a smooth boundary. Without the boundary,
+//! the albedo of the walk must match Chandrasekhar's H function.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ const FAR: f64 = 4.5;
 struct HalfSpace {
     albedo: f64,
     eta: f64,
-    /// The cosine of the angle of incidence of a beam; none for equal radiance from all directions.
+    /// The cosine of the angle of incidence of a beam; `None` for equal radiance from all directions.
     beam: Option<f64>,
     seed: u64,
 }
@@ -32,8 +32,8 @@ fn around(cosine: f64, turn: f64) -> DVec3 {
 
 impl HalfSpace {
     /// Follows a photon that has passed the boundary at the origin: exponentially distributed steps, absorbed or
-    /// scattered isotropically at the end of each, reflected by Fresnel's formula at the boundary. The squared distance
-    /// at which it leaves; none if it is absorbed.
+    /// scattered isotropically at the end of each, reflected by Fresnel's formula at the boundary. Returns the squared
+    /// distance at which it leaves; `None` if it is absorbed.
     fn leaves(self, photon: u64) -> Option<f64> {
         let (stream, mut event) = (CounterRng::new(self.seed), 0);
         let mut pair = || {
@@ -70,7 +70,7 @@ impl HalfSpace {
         }
     }
 
-    /// Requires that these shares of the photons leave within each of the ascending radii, beyond those before.
+    /// Requires that these shares of the photons leave in the rings between consecutive radii, which are ascending.
     fn require(self, photons: u64, shares: &[f64], radii: &[f64]) {
         let photons = photons * by_form(1, 50);
         let squares: Vec<f64> = (0..photons).into_par_iter().filter_map(|photon| self.leaves(photon)).collect();
@@ -109,8 +109,8 @@ fn half_spaces_without_a_boundary_have_chandrasekhars_albedo() {
     }
 }
 
-/// The dipole against the walk in a half space, as docs/papers/subsurface.md says: bounds of rings in mean free paths,
-/// the light that leaves in each ring after a million photons of another seed, and the dipole's share.
+/// Compares the dipole with the walk in a half space, as in docs/papers/subsurface.md: radii of rings in mean free
+/// paths, the share of a million other photons that leaves in each ring, and the dipole's share.
 #[test]
 fn the_dipole_is_as_far_off_as_the_page_says() {
     let coefficients = Coefficients { sigma_s_prime: 2.21, sigma_a: 0.0012 };

@@ -19,7 +19,6 @@ fn all() -> impl Iterator<Item = &'static PaperRow> {
     FOUND.iter().flat_map(|(_, found)| &found.rows)
 }
 
-/// Findings of an entry.
 fn findings(id: &str) -> &'static EntryFindings {
     &FOUND.iter().find(|(entry, _)| entry.id == id).expect("an entry").1
 }

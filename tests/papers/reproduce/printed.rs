@@ -28,8 +28,8 @@ fn print_is_set_against_print() {
     assert!(armor.expect("a computation").text().starts_with("254.80 MB: "));
 }
 
-/// "About 8 of 24" segments hold only within the rounding of the print; so do two of the rates from which the number
-/// six was determined.
+/// Three rows are within their bounds only because of the printed value's rounding: "about 8 of 24" segments, and two
+/// frame rates, which calibrated a constant.
 #[test]
 fn about_8_segments_need_the_rounding() {
     let rounded = findings("all-frequency-counts").rows.iter().filter(|row| row.holds_by_rounding());

@@ -40,7 +40,7 @@ fn contradictions_come_with_their_computations() {
         assert!(text.contains(|c: char| c.is_ascii_digit()), "{text}");
         assert!(notes.rows().iter().any(|note| note[1].text() == "contradictory" && note[2].text() == text), "{text}");
     }
-    // Fifteen times of passes include waits, one claim is a factor; ours agrees with four of eight pairs of values.
+    // Without a value: 15 pass times that contain waits, and one factor. With a value: ours agrees in 4 of 8.
     assert_eq!(counts, [[15, 4], [1, 4]]);
 }
 

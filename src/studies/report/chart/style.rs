@@ -52,7 +52,6 @@ pub(super) enum Marker {
     Printed,
 }
 
-/// Style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SeriesStyle {
     pub(super) color: RGBColor,

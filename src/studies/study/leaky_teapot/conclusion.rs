@@ -75,8 +75,8 @@ fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     })
 }
 
-/// The finding: the fraction of the surface that the leakiest row loses, and, if they were traced, the fractions that
-/// the same card loses rounded to nearest, and with each edge evaluated once. `None` if no row leaks.
+/// The finding: the fraction of the surface that the leakiest row loses. If they were traced, also the fractions that
+/// its card loses when it rounds to nearest, and when it evaluates each edge once. `None` if no row leaks.
 fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     // The first one on a tie.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;

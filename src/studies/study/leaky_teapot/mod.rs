@@ -93,7 +93,7 @@ impl Parameters {
     }
 }
 
-/// Hits of a configuration: of the listed or camera rays, of rays aimed at edges, of rays aimed at vertices.
+/// Hits of a configuration, by kind of ray: listed or camera rays, rays aimed at edges, rays aimed at vertices.
 #[derive(Debug)]
 struct ConfigurationHits {
     view: Vec<Option<Hit>>,
@@ -101,7 +101,7 @@ struct ConfigurationHits {
     vertices: Vec<Option<Hit>>,
 }
 
-/// Rays aimed at edges and at vertices; empty if the rays have no common origin or none are requested.
+/// Rays aimed at edges and at vertices. Empty if the rays have no common origin, or none are requested.
 fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
     let eye = parameters.view.common_origin().filter(|_| parameters.options.rays_per_edge > 0);
     let rays = |aimed: Vec<Aimed>| aimed.into_iter().map(|aimed| aimed.ray).collect();

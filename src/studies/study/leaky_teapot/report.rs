@@ -111,7 +111,7 @@ fn same_hits(a: &TeapotRow, b: &TeapotRow) -> bool {
     a.triangle == b.triangle && bits(a) == bits(b)
 }
 
-/// For each row, the index of the first row that is alike.
+/// For each row, the index of the first row that equals it by `alike`.
 fn first_alike(rows: &[TeapotRow], alike: impl Fn(&TeapotRow, &TeapotRow) -> bool) -> Vec<usize> {
     let first = |(i, row): (usize, &TeapotRow)| rows[..i].iter().position(|other| alike(other, row)).unwrap_or(i);
     rows.iter().enumerate().map(first).collect()
@@ -241,8 +241,8 @@ fn worst(groups: &[Group<'_>]) -> Option<usize> {
     groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(at, _)| at)
 }
 
-/// The groups of the disease, its relief and its cure, if all were traced and differ: the first card with shared-edge
-/// rows, with the paper's program, with the same rounded to nearest, and with shared edges.
+/// Three groups for comparison, if all were traced and differ: the first card with shared-edge rows as it runs the
+/// paper's program, the same rounded to nearest, and the card with shared edges.
 fn cure(groups: &[Group<'_>]) -> Option<[usize; 3]> {
     let find = |wanted: &dyn Fn(&TeapotRow) -> bool| {
         groups.iter().position(|group| std::iter::once(&group.row).chain(&group.same).any(|row| wanted(row)))

@@ -141,7 +141,7 @@ fn column(name: &'static str, title: &'static str, format: &Format) -> FormatCol
     FormatColumn { name, title, words: format_words(format), width: format.width(), bits, native }
 }
 
-/// Counter of a set, from which its operands follow.
+/// Counter of an operand set, from which the generator derives the operands.
 const fn counter(row: usize, column: usize, set: u32) -> u32 {
     (row as u32 * FORMATS.len() as u32 + column as u32) * SETS + set
 }

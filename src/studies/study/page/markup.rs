@@ -21,7 +21,7 @@ const SCRIPT: [&str; 9] = [
     include_str!("assets/stepper.js"),
 ];
 
-/// Its end.
+/// Last part of the script.
 const MAIN: &str = include_str!("assets/main.js");
 
 /// Renders the page around its data as JSON.
@@ -35,7 +35,7 @@ pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> 
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                // Without an icon of its own a browser asks the server for one.
+                // Without this link, a browser requests an icon from the server.
                 link rel="icon" href="data:,";
                 title { "Your GPU against the cards" }
                 style { (PreEscaped(page_style())) (PreEscaped(include_str!("assets/page.css"))) }

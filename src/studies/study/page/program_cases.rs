@@ -127,7 +127,7 @@ fn any_origin() -> ProgramCase {
 }
 
 fn radiosity() -> ProgramCase {
-    /// Texels of the block: four columns each.
+    /// Texels per row of a block of the matrix; each texel holds four columns.
     const BLOCK: u32 = 4;
     // Minus reflectance times form factor between patches of the floor and the lamp, with centers at distance 1.
     let factor = |patch: u32, source: u32| {

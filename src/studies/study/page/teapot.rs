@@ -69,7 +69,6 @@ struct MachineProgram {
     depth_scales: Vec<usize>,
 }
 
-/// A fixed view.
 #[derive(Debug, Serialize)]
 pub(super) struct FixedView {
     pub(super) name: &'static str,

@@ -34,7 +34,7 @@ impl FormatFamily {
         }
     }
 
-    /// Numbers of bits that decide the range: of the exponent, or of the integer part.
+    /// Possible numbers of range bits: exponent bits, or bits of the integer part.
     pub(super) fn range_bits(self) -> RangeInclusive<u8> {
         match self {
             Self::Float => 2..=8,
@@ -42,8 +42,7 @@ impl FormatFamily {
         }
     }
 
-    /// Numbers of bits that decide the precision of a format with `range` bits of range: of the mantissa, or of the
-    /// fraction.
+    /// Possible numbers of precision bits, with `range` range bits: mantissa bits, or bits of the fraction.
     pub(super) fn digit_bits(self, range: u8) -> RangeInclusive<u8> {
         match self {
             Self::Float => 1..=23,

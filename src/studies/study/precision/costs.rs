@@ -50,7 +50,7 @@ impl FormatCosts {
         })
     }
 
-    /// Parses the table; an error is a line and what is wrong with it.
+    /// Parses the table; an error has the line and the reason.
     fn parse(bytes: &[u8]) -> Result<Self, (u64, String)> {
         let broken = |error: csv::Error| {
             let line = error.position().map_or(1, csv::Position::line);

@@ -17,7 +17,7 @@ const FIRST: [u8; 9] = [2, 3, 5, 7, 10, 12, 15, 16, 20];
 pub(super) struct BitScan {
     /// Values of the goal's measure, by bits.
     pub(super) points: BTreeMap<u8, f64>,
-    /// Fewest bits such that every computed number of bits from there on meets the goal.
+    /// Fewest bits at which the goal is met, there and at all larger computed numbers of bits.
     pub(super) smallest: Option<u8>,
     /// A number of bits, and a larger one with a worse value. If such a pair is found, all points are computed.
     pub(super) counterexample: Option<[u8; 2]>,
@@ -77,7 +77,7 @@ impl BitScan {
         Ok(())
     }
 
-    /// Two neighboring points, fewer bits and more bits, of which more bits are worse.
+    /// Two neighboring points of which the one with more bits is worse; the one with fewer bits comes first.
     fn worsening(&self, goal: &Goal) -> Option<[u8; 2]> {
         let worse = |(a, b): &((&u8, &f64), (&u8, &f64))| goal.badness(*b.1) > goal.badness(*a.1);
         self.points.iter().zip(self.points.iter().skip(1)).find(worse).map(|((a, _), (b, _))| [*a, *b])
@@ -105,8 +105,8 @@ pub(super) struct Curve {
     pub(super) is_complete: bool,
 }
 
-/// Integer bits in addition to the fewest that meet the goal: at the end of its range a wide format saturates by less
-/// than single precision shows, and a narrower one by more.
+/// Integer bits added to the fewest that meet the goal. A value at the end of the range loses less than a step of
+/// single precision in a wide format, but more in a narrower format.
 const SPARE: u8 = 2;
 
 impl Curve {

@@ -30,7 +30,7 @@ fn operations(text: &ShaderText) -> BTreeMap<[u32; 2], WgslOperation> {
     found.into_iter().flatten().map(|operation| ([operation.span.start, operation.span.end], operation)).collect()
 }
 
-/// Spans in the text of the instructions of a place.
+/// Text spans of the instructions at a place.
 fn spans(place: usize, runs: &Runs<'_>) -> impl Iterator<Item = [u32; 2]> {
     let place = &runs.places[place];
     let program = runs.programs[place.program].program;

@@ -1,4 +1,4 @@
-//! Runs of a subject with a format per instruction, each made once and counted against the budget.
+//! Runs of a subject with a format per instruction. Each run is made once and counted against the budget.
 
 use std::collections::BTreeMap;
 

@@ -62,7 +62,7 @@ pub(super) fn search(
         return Ok(());
     }
     let result = descend(&mut formats, order, runs);
-    // Every step of the descent meets the goal, and so does a search cut off by the budget.
+    // Every step of the descent meets the goal, so the formats also meet it if the budget ends the search.
     let cost = costs.sum(&formats);
     if best.as_ref().is_none_or(|best| cost < best.cost) {
         *best = Some(MixedFormats { cost, is_minimal: result.is_ok(), refuted: refuted(&formats, runs), formats });

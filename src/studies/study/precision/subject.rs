@@ -123,7 +123,7 @@ pub(super) fn places(programs: &[StudiedProgram<'_>]) -> Vec<InstructionPlace> {
 }
 
 fn places_of(program: usize, StudiedProgram { program: studied, text }: StudiedProgram<'_>) -> Vec<InstructionPlace> {
-    // Moves in a translated shader bring components together: they are no operations of the text.
+    // Moves in a translated shader only gather components; they are not operations of the source text.
     let is_move = |instruction: &Instruction| {
         text.is_wgsl() && instruction.opcode == Opcode::Mov && instruction.fragment.precision.is_none()
     };

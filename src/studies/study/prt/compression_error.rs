@@ -21,7 +21,7 @@ pub struct CompressionError {
 }
 
 impl CompressionError {
-    /// Errors of a clustering with the same number of points, and of numbers per point, as the signal.
+    /// Errors of a clustering, which must have as many points, and as many numbers per point, as the signal.
     pub fn new(signal: &Signal, clustering: &Clustering) -> Self {
         let squared: Vec<f64> = (0..signal.points()).map(|point| clustering.squared_error_of(point, signal)).collect();
         let square = |&value: &f32| f64::from(value) * f64::from(value);

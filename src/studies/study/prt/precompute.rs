@@ -176,7 +176,7 @@ impl Precomputation<'_> {
         Ok(ChannelResponses { of_materials, entering })
     }
 
-    /// The transfer of a channel out of direct light on the surface, and of that which enters below it.
+    /// Transfer of a channel, from direct light on the surface and from light that enters below the surface.
     fn channel(&self, rays: &TracedRays, responses: &ChannelResponses) -> Result<Transfer, InputError> {
         let whole =
             |responses: &[Response], bounces: u32| Transfer::new(self.vertices, rays, responses, self.order, bounces);

@@ -132,7 +132,6 @@ impl Rendering {
     }
 }
 
-/// The color of a cluster.
 pub(in crate::study) fn cluster_color(cluster: u32) -> [u8; 3] {
     let random = CounterRng::new(0);
     [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3)

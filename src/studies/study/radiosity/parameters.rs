@@ -23,7 +23,7 @@ pub struct Parameters {
     pub executor: Executor,
     /// Camera of the pictures.
     pub camera: Camera,
-    /// What casts the rays of form factors, at least one; several engines are compared, and the first one's room is
+    /// Casters of the rays for form factors, at least one. Several engines are compared; the room of the first is
     /// solved.
     pub casters: Vec<CasterChoice>,
     /// Options.

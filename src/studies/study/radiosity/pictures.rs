@@ -35,7 +35,6 @@ pub(super) struct Pictures {
 /// Picture of the room after some iterations on the card.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct IterationPicture {
-    /// Number of iterations.
     pub(super) iteration: u32,
     /// Flat-shaded picture.
     pub(super) flat: RgbImage,

@@ -31,7 +31,6 @@ fn mean([r, g, b]: [f64; 3]) -> f64 {
     (r + g + b) / 3.0
 }
 
-/// Solves by a method.
 pub(super) fn solve(method: SolveMethod, system: &System, parameters: &Parameters) -> Result<Solved, StudyError> {
     match method {
         SolveMethod::Host(solver) => on_host(solver, system, &parameters.options.stopping()),

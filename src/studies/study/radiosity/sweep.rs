@@ -14,7 +14,6 @@ use crate::study::configuration::Configuration;
 /// Result for one number of patches, one method on the card, and one setting of its switches.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SweepRow {
-    /// Number of patches.
     pub(super) patches: usize,
     /// Name of the method.
     pub(super) method: String,
@@ -23,7 +22,6 @@ pub(super) struct SweepRow {
     /// Index of the first row of the sweep with the same bits: this row, or an earlier one with the same patches and
     /// method.
     pub(super) same_as: usize,
-    /// Number of iterations.
     pub(super) iterations: u32,
     /// Reason why it stopped.
     pub(super) stopped: StopReason,

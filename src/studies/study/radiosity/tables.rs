@@ -149,7 +149,6 @@ fn card(outcome: &RadiosityOutcome) -> Table {
 }
 
 impl MethodRow {
-    /// Number of iterations.
     pub(super) fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)
     }

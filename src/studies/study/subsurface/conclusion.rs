@@ -44,7 +44,7 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
     })
 }
 
-/// Reads the error of one of the two choices of links, from a bin of each.
+/// Reads the error of one choice of links from a pair of bins, one per choice.
 type ErrorOf = fn((&AngleBin, &AngleBin)) -> f64;
 
 /// Compares fixed and adaptive links by angle from the light, at the largest number of links that both have, and says

@@ -11,7 +11,7 @@ use crate::subsurface::{DistantSource, distant_irradiance};
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
 use crate::transfer::light::CubeLight;
 
-/// Side in texels of the square of the light that one shadow ray of the study represents.
+/// Side, in texels of the light, of the square that one shadow ray of the study represents.
 const GROUP: usize = 2;
 
 /// E of equation 8 per texel of the atlas, with the model's own shadows; and statistics of the Ray Engine, if it cast

@@ -35,7 +35,7 @@ impl GatherWay {
         format!("{choice}-{count}{channels}-{links}-map-{}", self.map)
     }
 
-    /// Returns `true` if the other way gathers over the same links.
+    /// Returns `true` if the other way of gathering uses the same links.
     pub(super) fn has_links_of(&self, other: &Self) -> bool {
         (self.choice, self.rgb) == (other.choice, other.rgb)
     }

@@ -21,12 +21,12 @@ pub(super) struct SubsurfaceOutcome {
     pub(super) cast: Option<CastRecord>,
     /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
     pub(super) truth: Option<Vec<[f64; 3]>>,
-    /// One row per way.
+    /// One row per way of gathering.
     pub(super) rows: Vec<WayRow>,
 }
 
 impl SubsurfaceOutcome {
-    /// Values per texel by name: E, B over all pairs if computed, and B of every way.
+    /// Values per texel by name: E, B over all pairs if computed, and B by every way of gathering.
     pub(super) fn columns(&self) -> impl Iterator<Item = (&str, &[[f64; 3]])> {
         let truth = self.truth.iter().map(|truth| ("all_pairs", &truth[..]));
         let ways = self.rows.iter().map(|row| (row.label.as_str(), &row.radiosity[..]));

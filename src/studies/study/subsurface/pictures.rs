@@ -16,7 +16,7 @@ pub(super) fn exposure(outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
     Ok(auto_exposure(&colors))
 }
 
-/// Figure 7: the first way with and without scattered light, and scattered light alone.
+/// Figure 7: the first way of gathering, with and without scattered light, and scattered light alone.
 pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let (whole, scattered) = (row.picture.linear()?, row.scattered.linear()?);
     let direct: Vec<[f32; 3]> = whole.iter().zip(&scattered).map(|(w, s)| [0, 1, 2].map(|c| w[c] - s[c])).collect();
@@ -34,7 +34,7 @@ pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, Stu
     ])
 }
 
-/// Pictures of the scattered light in each way.
+/// Pictures of the scattered light, one per way of gathering.
 pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let picture = |row: &WayRow| {
         let image = row.scattered.display(exposure)?;
@@ -60,7 +60,7 @@ fn atlas(side: u32, values: &[[f64; 3]]) -> RgbImage {
     rgb8(side, side, values.iter().map(|value| value.map(|channel| encode(channel / most))))
 }
 
-/// Differences between B in each way and over all pairs, on the atlas, in false colors with one scale.
+/// Differences of B, by each way of gathering, from B over all pairs: on the atlas, in false colors with one scale.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
     let Some(truth) = &outcome.truth else { return Vec::new() };
     let most = truth.iter().flatten().copied().filter(|b| b.is_finite()).fold(0.0, f64::max);

@@ -90,7 +90,7 @@ fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<N
     })
 }
 
-/// Name of the way without its number of links.
+/// Name of a row's way of gathering, without its number of links.
 fn line(row: &WayRow) -> String {
     let channels = if row.way.rgb { ", RGB" } else { "" };
     let choice = row.way.choice.word();

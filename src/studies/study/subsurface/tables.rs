@@ -49,7 +49,7 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
     table
 }
 
-/// Table of errors, a row per way.
+/// Table of errors, one row per way of gathering.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Ways of gathering; errors of B: root mean square by area and maximum, relative to B; seams: roughness of errors among neighbouring texels",
@@ -74,7 +74,7 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table of errors by angle from the light, a row per way and bin.
+/// Table of errors by angle from the light, one row per way of gathering and bin.
 pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Errors by the angle between normals and the light: of the mean of B, and root mean square, relative to all pairs",
@@ -90,7 +90,7 @@ pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table of the card's resources that each way of gathering uses, a row per way.
+/// Table of the card's resources, one row per way of gathering.
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Card resources; reads and instructions per texel of pass 2",
@@ -117,7 +117,7 @@ pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table of modelled times, a row per way that has them.
+/// Table of modelled times, one row per way of gathering for which times are known.
 pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "A frame with a new light, by the pipeline model; a new view takes only pass 3",
@@ -140,7 +140,7 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table with a row per face: its area, the light that entered it, and B in every way.
+/// Table with a row per face: its area, the light that entered it, and B by every way of gathering.
 pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let columns: Vec<(&str, Vec<[f64; 3]>)> =
         outcome.columns().map(|(label, texels)| (label, model::by_face(&outcome.atlas, texels))).collect();

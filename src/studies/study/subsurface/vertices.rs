@@ -27,7 +27,7 @@ pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<
     sums.into_iter().map(|(area, sum)| (area > 0.0).then(|| (sum / area).to_array())).collect()
 }
 
-/// Table with a row per vertex of the model: its position, E, and B in every way.
+/// Table with a row per vertex of the model: its position, E, and B by every way of gathering.
 pub(super) fn table(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let at_vertices = |texels: &[[f64; 3]]| by_vertex(&outcome.atlas, &parameters.mesh, texels);
     let columns: Vec<_> = outcome.columns().map(|(label, texels)| (label, at_vertices(texels))).collect();

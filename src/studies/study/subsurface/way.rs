@@ -70,7 +70,7 @@ pub(super) struct WayRow {
     pub(super) links_error: Option<GatherError>,
     /// Roughness of the errors among neighboring texels, relative to B.
     pub(super) seams: Option<f64>,
-    /// The links' own error if means count texels without area weights.
+    /// The links' own error, with texels weighted equally instead of by area.
     pub(super) plain_error: Option<GatherError>,
     /// The card's own error: compared with the host's sum over the same links.
     pub(super) card_error: GatherError,
@@ -82,7 +82,7 @@ pub(super) struct WayRow {
     pub(super) times: Option<[PassTime; 4]>,
     /// B of every texel, computed by the card.
     pub(super) radiosity: Vec<[f64; 3]>,
-    /// Only for the first way: E of every texel, as in the card's map.
+    /// E of every texel, as in the card's map; only for the first way of gathering.
     pub(super) irradiance: Vec<[f64; 3]>,
     /// Scattered and direct light.
     pub(super) picture: Picture,
@@ -91,19 +91,18 @@ pub(super) struct WayRow {
     pub(super) log: Vec<Event>,
 }
 
-/// The links of a way.
 pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
     progress(&format!("links: {}", way.label(scene.parameters.options.side)), 0, 2);
     let (dipoles, tolerance) = (link_dipoles(scene, way), scene.parameters.options.tolerance);
     Ok(Links::new(scene.surface, dipoles, way.choice, tolerance)?)
 }
 
-/// The dipoles of a way's factors: for red, green and blue, or green's for all channels.
+/// The dipoles of the link factors: for red, green and blue, or green's for all channels.
 fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
     if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }
 
-/// Runs one way with its links.
+/// Gathers in one way, over its links.
 pub(super) fn run(
     scene: &Scene<'_>,
     way: GatherWay,
@@ -166,7 +165,7 @@ fn angles(scene: &Scene<'_>, found: [&[[f64; 3]]; 2]) -> Vec<AngleBin> {
     judged.map_or_else(Vec::new, |(towards, truth)| angles::by_angle(scene.atlas, towards, truth, found))
 }
 
-/// A card loaded with the links of a way, whose maps are lit and gathered; it records events if requested.
+/// A card loaded with these links, whose maps are lit and gathered; it records events if requested.
 pub(super) fn lit_card(
     scene: &Scene<'_>,
     way: GatherWay,

@@ -41,7 +41,7 @@ pub(super) struct FormatRow {
     format: &'static str,
     /// Fraction of the rays of form factors that differ from exact arithmetic.
     differing: f64,
-    /// Error of radiosity from form factors by these rays, compared with those by the host's rays.
+    /// Error of radiosity if these rays compute the form factors, compared with the host's rays.
     by_rays: SolutionError,
     /// Error of radiosity by sums in the format, compared with the direct solution; `None` if the programs do not run.
     by_sums: Option<SolutionError>,

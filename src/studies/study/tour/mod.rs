@@ -46,7 +46,7 @@ const GEFORCE: &str = "nv35";
 /// Texels per side of the statue's atlas, with 16 links each, and millimeters per unit of the room.
 const SIDE: u32 = 128;
 const MM_PER_UNIT: f64 = 40.0;
-/// Side in texels of the square of the light that a shadow ray on the statue represents.
+/// Side, in texels of the light, of the square that one shadow ray on the statue represents.
 const SHADOW_GROUP: usize = 8;
 
 /// Parameters of the tour.
@@ -54,7 +54,7 @@ const SHADOW_GROUP: usize = 8;
 pub struct Parameters {
     /// Pixels of the picture.
     pub size: Size,
-    /// Edges of patches and models are about so many times as long as by default, 1 to 8.
+    /// Factor, 1 to 8, by which edges of patches and models are longer than by default, approximately.
     pub coarser: u32,
 }
 

@@ -14,7 +14,7 @@ use crate::transfer::brdf::Brdf;
 
 /// The bunny's transfer.
 pub(super) const BUNNY: GlossyTransfer = GlossyTransfer {
-    // A sharper lobe would show that five orders of harmonics ring around so small a lamp.
+    // A sharper lobe would show ringing: a lamp this small is too sharp for five orders of harmonics.
     brdf: Brdf::Phong { albedo: 0.5, specular: 0.3, exponent: 6.0 },
     order: 5,
     exit_order: 5,
@@ -41,7 +41,7 @@ impl TourScene {
     pub(super) fn new(size: Size, coarser: u32) -> Result<Self, InputError> {
         let empty = cornell(CornellBox { blocks: true, open: true });
         let camera = empty.views.first().expect("a view of the box").camera(size.width, size.height)?;
-        // Models, divisors of their detail and their coarse bodies', heights, and the points on which they stand.
+        // Model, divisors of its detail and of its coarse body's, height, and the point on which it stands.
         let places = [
             (TransferModel::BiScaleBunny, [coarser, 10], 1.5, DVec3::new(1.86, 1.69, 1.651)),
             (TransferModel::BiScaleArmor, [2 * coarser, 16], 2.2, DVec3::new(4.2, 1.25, 0.001)),

@@ -94,7 +94,7 @@ fn picture_of(light: DistantLight) -> Picture {
     StudyFiles::of(&AllFrequencyRendering { lit }).picture("light.png")
 }
 
-/// In the picture read as a light, a disk is in its original direction.
+/// If a disk's picture is read as a light again, the disk is in its original direction.
 #[test]
 fn the_picture_read_as_a_light_comes_from_the_same_direction() {
     let towards = DVec3::new(0.6, -0.5, 0.4).normalize();

@@ -160,7 +160,7 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
 #[test]
 fn every_difference_between_fp32_and_the_truth_is_counted() {
     let yardsticks: &[Yardstick] = &YARDSTICKS;
-    // Of scenes of one size and of mixed sizes: rays, rays that truly hit, and wrong answers by kind.
+    // For scenes of one size, and of mixed sizes: numbers of rays, of true hits, and of wrong answers by kind.
     let ([mut rays, mut surface], mut counts) = ([[0; 2]; 2], BTreeMap::<DisagreementKind, [usize; 2]>::new());
     let hits_truly = yardsticks.par_iter().enumerate().map(|(number, Yardstick { scene, hits, .. })| {
         let scale = single::scale(&scene.mesh);

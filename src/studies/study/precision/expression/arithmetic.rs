@@ -255,7 +255,7 @@ impl Arithmetic {
                 Real::Unknown | Real::Truth(_) => {}
             }
         }
-        // The highest precision does not decide: the value is where the rounding changes.
+        // If even the highest precision does not decide, the value is at a rounding boundary.
         last.map_or(self.nan(), |range| self.encode(&range.high))
     }
 

@@ -8,7 +8,7 @@ use super::sample::{Sample, Samples, parallel};
 /// Measures of goals.
 pub(super) const MEASURES: [&str; 2] = ["mean_relative", "largest_relative"];
 
-/// Inputs that are tried before the first question whether the goal is missed.
+/// Number of inputs evaluated before the first check whether the goal is missed.
 const FIRST: usize = 64;
 
 /// Bits of error of computed values, over sampled inputs; NaN without any.
@@ -37,8 +37,8 @@ pub(super) fn bits(expression: &Expression, arithmetic: Arithmetic, samples: &Sa
     BitErrors { mean, standard_error, worst: errors.get(worst_input).copied().unwrap_or(f64::NAN), worst_input }
 }
 
-/// Value of a goal's measure in a format, over inputs sampled in another, which are rounded to it. With `ends_early`,
-/// the value over the first inputs if the goal is missed whatever the others are.
+/// Value of a goal's measure in a format, over inputs sampled in another format and rounded to this one. With
+/// `ends_early`, stops as soon as the inputs so far miss the goal, whatever the others are.
 pub(super) fn relative_errors(
     expression: &Expression,
     arithmetic: Arithmetic,
@@ -52,7 +52,7 @@ pub(super) fn relative_errors(
         let computed = arithmetic.values(&expression.body, &inputs, &constants).pop().unwrap_or_default();
         relative(arithmetic.value(computed), *value)
     };
-    // Errors are not negative: no later one makes a sum or a maximum smaller.
+    // Errors are not negative, so later errors never decrease a sum or a maximum.
     let ends_early = ends_early && matches!(goal.relation, GoalRelation::AtMost | GoalRelation::Below);
     let (count, mut errors) = (samples.kept.len(), Vec::new());
     loop {

@@ -9,7 +9,7 @@ use num_bigint::BigInt;
 use super::real::{Constant, Function, Real, RealInterval, apply};
 use crate::report::SourceText;
 
-/// A comparison: whether it holds of a lesser, an equal and a greater number.
+/// Truth values of a comparison if the first number is less than, equal to, and greater than the second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NumberComparison([bool; 3]);
 
@@ -138,7 +138,7 @@ fn real(operation: &Operation, inputs: &[Real], values: &[Real], bits: u64) -> R
     }
 }
 
-/// Compares intervals; `None` unless all of their numbers compare alike.
+/// Compares intervals; `None` unless the comparison has the same result for all of their numbers.
 fn compare(comparison: NumberComparison, x: &RealInterval, y: &RealInterval) -> Option<bool> {
     let orders = match x.order(y) {
         Some(order) => [order; 2],

@@ -7,11 +7,11 @@ use super::graph::{Expression, Graph, Operation};
 use super::real::Real;
 use crate::geom::random::CounterRng;
 
-/// Maximum number of random inputs per input wanted, and of discarded ones, before the search for inputs ends.
+/// Maximum numbers of drawn and of discarded inputs, per wanted input, before sampling ends.
 const DRAWS: usize = 1000;
 const DISCARDED: usize = 20;
 
-/// Draws without any input that meets the precondition, before the search for inputs ends.
+/// Number of draws without an input that meets the precondition before sampling ends.
 const MISSES: usize = 1_000_000;
 
 /// Distribution of inputs.
@@ -57,7 +57,7 @@ pub(super) fn sample(
         return samples;
     }
     for row in 0..DRAWS {
-        // Whole rows at once, each input by its number, so that the number of threads changes nothing.
+        // Draws a whole row, each input from its index, so that the number of threads does not change the result.
         let numbers: Vec<usize> = (row * count..(row + 1) * count).collect();
         let drawn = parallel(&numbers, |&number| {
             let bits = |variable: usize| rng.bits(number as u64, 0, variable as u64);
@@ -125,8 +125,8 @@ impl Arithmetic {
     }
 }
 
-/// For each variable the positions of the first and the last number within the bounds that preconditions state by
-/// constants, in this order unless there is none; what else they demand is tried input by input.
+/// For each variable, the positions of the first and last number within its constant bounds in the preconditions; first
+/// > last if there is no such number. All other conditions are tested input by input.
 pub(super) fn spans(expression: &Expression, arithmetic: Arithmetic) -> Vec<[i64; 2]> {
     let mut spans = vec![arithmetic.finite_ordinals(); expression.variables.len()];
     expression.preconditions.iter().for_each(|graph| narrow(&mut spans, graph, arithmetic));
@@ -134,7 +134,7 @@ pub(super) fn spans(expression: &Expression, arithmetic: Arithmetic) -> Vec<[i64
 }
 
 fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) {
-    // As many bits as ever: bounds are few, and no number beside one must stay.
+    // Always the highest precision: bounds are few, and no number just outside a bound may remain.
     let values = precondition.reals(&vec![Real::Unknown; spans.len()], PRECISIONS[PRECISIONS.len() - 1], None);
     let ordinal = |end| arithmetic.ordinal(arithmetic.encode(end));
     let mut demanded = vec![precondition.0.len() - 1];
@@ -160,7 +160,7 @@ fn narrow(spans: &mut [[i64; 2]], precondition: &Graph, arithmetic: Arithmetic) 
                 let found = x.order(range);
                 found == Some(order) || is_strict && found == Some(Ordering::Equal)
             };
-            // From one number beyond, in case the bound was rounded away from it.
+            // Starts one number farther out, because the bound may have been rounded inward.
             let [low, high] = &mut spans[*index];
             if is_upper {
                 *high = (*high).min(ordinal(&range.high) + 1);

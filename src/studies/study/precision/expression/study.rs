@@ -196,8 +196,8 @@ impl ExpressionStudy {
     }
 }
 
-/// The format with the fewest bits of all of a family that meet a goal; of several, the one with the best value, and
-/// of these the one with the fewest bits of range. No format is left out: fewer bits can err less than more.
+/// The format of a family with the fewest bits that meets a goal. Among formats of equal width, the best value decides,
+/// then the fewest bits of range. Tries every format, because fewer bits can have a smaller error than more.
 fn smallest(family: FormatFamily, goal: &Goal, value: impl Fn(FormatBits) -> f64) -> Option<FormatBits> {
     let digits = |range| family.digit_bits(range).map(move |digits| FormatBits { family, range, digits });
     let all: Vec<FormatBits> = family.range_bits().flat_map(digits).collect();
@@ -208,7 +208,7 @@ fn smallest(family: FormatFamily, goal: &Goal, value: impl Fn(FormatBits) -> f64
     })
 }
 
-/// Why an expression has no input at which its result can be judged.
+/// Error that states why no input of an expression can be judged.
 fn without_inputs(expression: &Expression, arithmetic: Arithmetic, samples: &Samples) -> StudyError {
     let failed = |reason: &str, help: &str| {
         let found = format!("{}: {reason}", expression.name);

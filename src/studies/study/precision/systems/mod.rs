@@ -1,6 +1,5 @@
-//! The six systems as subjects, each with a small input of its own.
-//!
-//! The input is made by the host and is the same for every format; the study is about the pixel programs of the card.
+//! The six systems as subjects, each with a small input. The host computes the input, which is the same for every
+//! format; the study varies the pixel programs of the card.
 
 mod all_frequency;
 mod bi_scale;

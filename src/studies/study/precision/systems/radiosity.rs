@@ -18,7 +18,7 @@ const ITERATIONS: usize = 12;
 /// Cornell box of few patches, with one texel of three channels per patch.
 #[derive(Debug)]
 pub(super) struct CornellBox {
-    /// With the light of the scene, and with half as bright a light of another color.
+    /// The Cornell box under its own light, and under a light of another color that is half as bright.
     systems: [System; 2],
 }
 

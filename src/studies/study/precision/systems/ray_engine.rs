@@ -121,8 +121,8 @@ impl PrecisionSubject for RayEngineSubject {
         &MEASURES
     }
 
-    /// At most one ray in a thousand is wrong. Leaks alone are no sufficient goal: a format in which every ray hits
-    /// something has none.
+    /// At most one ray in a thousand is wrong. A bound on leaks alone would not suffice: a format in which every ray
+    /// hits something has no leaks.
     fn default_goal(&self) -> Goal {
         Goal::at_most("wrong", 0.001)
     }

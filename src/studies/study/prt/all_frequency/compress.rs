@@ -23,7 +23,7 @@ pub struct SegmentedCompression<'a> {
     pub vertices: &'a Vertices,
     /// Visibility at each vertex.
     pub maps: &'a VisibilityMaps,
-    /// The hats of the light's texels.
+    /// Hat functions of the light's texels.
     pub hats: BasisWidth,
     /// The reflectance.
     pub reflectance: &'a Reflectance,

@@ -21,7 +21,7 @@ pub(in crate::study::prt) enum Transferred {
 }
 
 impl Transferred {
-    /// In single precision, as a card takes it.
+    /// Converts to single precision, in which a card takes it.
     pub(in crate::study::prt) fn singles(self) -> TransferredRadiance {
         match self {
             Self::Coded(radiance) => radiance,
@@ -30,7 +30,7 @@ impl Transferred {
     }
 }
 
-/// Transferred radiance with one rounding to f32 each.
+/// Transferred radiance, each number rounded once to f32.
 pub(in crate::study::prt) fn singles(rows: usize, values: Vec<[f64; 3]>) -> TransferredRadiance {
     let values = values.into_iter().map(|row| row.map(|value| value as f32)).collect();
     TransferredRadiance::new(rows, values)
@@ -70,12 +70,11 @@ impl<'a> Part<'a> {
         self.shader.is_some()
     }
 
-    /// The coded transfer.
     pub(in crate::study::prt) fn coded(&self) -> Option<&'a CodedTransfer> {
         self.file.coded.as_ref()
     }
 
-    /// What a card draws.
+    /// The mesh in the form that a card draws.
     pub(in crate::study::prt) fn mesh(&self, transferred: &'a TransferredRadiance) -> TransferredMesh<'a> {
         let Self { vertices, colors, .. } = *self;
         TransferredMesh { vertices, reflectance: &self.file.reflectance, colors, transferred }

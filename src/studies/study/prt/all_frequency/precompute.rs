@@ -19,7 +19,7 @@ pub struct SightOfModel<'a> {
     pub scene: &'a Mesh,
     /// The vertices at which transfer is computed.
     pub vertices: &'a Vertices,
-    /// The hats of the light's texels.
+    /// Hat functions of the light's texels.
     pub hats: BasisWidth,
     /// The reflectance.
     pub reflectance: Reflectance,
@@ -27,7 +27,7 @@ pub struct SightOfModel<'a> {
     pub ground: Option<&'a Vertices>,
 }
 
-/// Visibility at its vertices.
+/// Computed visibility at the vertices of a model or its ground.
 #[derive(Debug)]
 pub struct FoundSight {
     /// The file.
@@ -37,8 +37,8 @@ pub struct FoundSight {
 }
 
 impl SightOfModel<'_> {
-    /// Casts the rays by a caster of the scene that sees both sides: the model's, then the ground's. Fails with
-    /// [`InputError`](crate::error::InputError), in a study's.
+    /// Casts the model's rays, then the ground's, with a caster of the scene that hits both sides of faces. Fails with
+    /// a `StudyError` that contains an [`InputError`](crate::error::InputError).
     pub fn run(
         self,
         caster: &mut dyn Caster,

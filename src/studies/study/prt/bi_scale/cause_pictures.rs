@@ -5,7 +5,6 @@ use crate::bi_scale::shade::TracedRung;
 use crate::picture::metrics::{ErrorSums, value_error};
 use crate::report::{Cell, Table};
 
-/// The pictures.
 #[derive(Clone, Debug)]
 pub(in crate::study) struct CausePictures {
     /// Approximation that each picture after the first adds to the previous one: a word, and a sentence.

@@ -21,7 +21,7 @@ pub(in crate::study) struct LocalLight {
 
 impl LocalLight {
     /// The light times a file's transfer, by its biclusters if it has any, otherwise by its matrix; `None` without
-    /// both. Panics if the number of columns is not that of light texels.
+    /// both. Panics if the transfer does not have one column per light texel.
     pub(super) fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
         let gather = Gather::new(biclusters);

@@ -43,7 +43,7 @@ pub(super) struct SurfacePixel {
 
 impl TexturedSurface {
     /// Creates a surface. `texture_of` is a texture index per triangle, `repeat` the number of patches per unit of
-    /// texture coordinates. Fails if the mesh has no texture coordinates, or there is not a texture per triangle.
+    /// texture coordinates. Fails if the mesh has no texture coordinates, or if a triangle has no texture index.
     pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, StudyError> {
         if mesh.texcoords().is_none() {
             let what = "the model has no texture coordinates, which place patches on it";

@@ -1,7 +1,7 @@
 //! Radiance transfer drawn by an emulated card: errors of its pictures, their causes, and the time of a frame.
 //! [`OnCard`] is about clustered principal components, [`AllFrequencyOnCard`] about all-frequency and [`BiScaleOnCard`]
-//! about bi-scale transfer. A study consists of a subject of its system and a [`CardSetting`]; this module has what all
-//! of them report.
+//! about bi-scale transfer. A study consists of its system's subject and a [`CardSetting`]; this module contains the
+//! reports that they share.
 
 mod all_frequency;
 mod bi_scale;

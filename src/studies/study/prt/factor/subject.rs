@@ -32,7 +32,7 @@ pub struct BrdfFactors {
 const TERMS: usize = 10;
 
 impl BrdfFactors {
-    /// Refuses more terms than a map has texels, which no rank exceeds, before any table is made.
+    /// Rejects more terms than a map has texels, before any table is computed; no rank exceeds this number.
     pub(super) fn check_terms(&self) -> Result<(), InputError> {
         let texels = match &self.subject {
             FactorSubject::Table(table) => table.view().texels().min(table.light().texels()),

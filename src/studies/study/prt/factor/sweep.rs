@@ -65,7 +65,6 @@ impl BrdfFactors {
     }
 }
 
-/// Table with a row per roughness.
 pub(in crate::study) fn roughness_table(rows: &[SweptRoughness], title: &str) -> Table {
     let mut table = Table::of(title, "roughness relative_squared_error rms max flip_of_spheres");
     for row in rows {

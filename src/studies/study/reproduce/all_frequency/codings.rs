@@ -5,7 +5,7 @@ use crate::all_frequency::code::{CodeOptions, CodedSegment, ScaleOf};
 use crate::all_frequency::compressed::CompressedSegment;
 use crate::elementary::pow;
 
-/// The range that 16 bits divide into steps, for the numbers of a representative.
+/// Scale of the numbers of a representative, which 16 bits divide into steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Coding {
     /// The largest number of a representative or segment gets the largest code.
@@ -38,7 +38,6 @@ impl Coding {
         matches!(self, Self::Absolute(_))
     }
 
-    /// Codes a compressed segment.
     pub(super) fn code(&self, part: &CompressedSegment) -> Result<CodedSegment, StudyError> {
         let options = self.options();
         let coded = match self {

@@ -1,5 +1,5 @@
-//! Segments below the horizon from the geometry of the cube, and Table 1's frame rates from its sizes. Figures that
-//! follow from printed values alone are expressions in `src/studies/papers`.
+//! Number of segments below the horizon, from the geometry of the cube; Table 1's frame rates, from its sizes. Figures
+//! that follow from printed values alone are expressions in `src/studies/papers`.
 
 use refsim::timing::host::HostOperation;
 

@@ -101,7 +101,6 @@ pub(super) struct ModelVisibility {
     size: ModelSize,
 }
 
-/// Compressed model.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct CompressedModel {
     pub(super) vertices: usize,

@@ -8,7 +8,7 @@ use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_ta
 
 /// Roughnesses, in ascending order.
 const ROUGHNESSES: [f64; 5] = [0.2, 0.25, 0.3, 0.4, 0.5];
-/// Mean FLIP error of spheres above which their difference counts as visible: our choice, before any was computed.
+/// Mean FLIP error of spheres above which their difference counts as visible; we chose it before we computed any error.
 const SEEN: f64 = 0.05;
 
 /// Results of Figure 3's sweep.

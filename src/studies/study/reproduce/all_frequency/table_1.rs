@@ -18,7 +18,7 @@ use crate::transfer::grid::LIGHT_TEXELS;
 use TableMaterial::{Cook, Diffuse, Schlick};
 use TableModel::{Buddha, Bunny, Teapot, Tweety};
 
-/// Columns: the names of column and model in figure names, the model, and its material.
+/// Columns of Table 1: name of the column and of the model in figure names, the model, and its material.
 const TABLE_1: [(&str, &str, TableModel, TableMaterial); 6] = [
     ("bunny", "bunny", Bunny, Cook),
     ("teapot", "teapot", Teapot, Schlick),

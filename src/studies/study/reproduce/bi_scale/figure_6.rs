@@ -1,4 +1,4 @@
-//! Figure 6: a chair whose biclusters lose nothing, and the bytes that the paper's other ways to store transfer take.
+//! Figure 6: lossless biclusters of a chair, and the size of its transfer in the paper's other storage formats.
 
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
@@ -34,7 +34,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Row for the share of a matrix's rows that its biclusters give back.
+/// Row for the fraction of a matrix's rows that its biclusters reproduce.
 fn lossless(matrix: &SparseMatrix) -> Result<PaperRow, StudyError> {
     let biclusters = bicluster(matrix, SEED, &mut |_| ()).on(HOST)?;
     let sum = biclusters.sum().on(HOST)?;

@@ -31,7 +31,6 @@ impl PrintedScene {
         printed(&self.figure(what))
     }
 
-    /// Number of vertices.
     pub(super) fn vertices(&self) -> Result<usize, StudyError> {
         Ok(self.printed("vertices")?.value as usize)
     }

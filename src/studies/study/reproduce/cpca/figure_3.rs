@@ -57,8 +57,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [QUESTION], [table]))
 }
 
-/// Row for a sentence that holds for several numbers of vectors or clusters: the first value is ours, the others are
-/// readings.
+/// Row for a sentence about several numbers of vectors or clusters: the first value is ours, the others are readings.
 pub(super) fn over_readings(id: &str, values: &[f64]) -> Result<PaperRow, StudyError> {
     let [first, others @ ..] = values else { return solved(id, f64::NAN) };
     Ok(solved(id, *first)?.with_readings(others.iter().copied()))

@@ -114,7 +114,6 @@ impl PaperSignal {
     }
 }
 
-/// Computed signal.
 pub(super) struct ComputedSignal {
     pub(super) paper: &'static PaperSignal,
     pub(super) mesh: Mesh,

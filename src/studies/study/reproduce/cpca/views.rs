@@ -47,9 +47,9 @@ impl<'a> ModelView<'a> {
         self.seen.colors(radiance, [0.0; 3])
     }
 
-    /// Difference of a picture from another one of the same model and camera: RMS of the difference relative to the RMS
-    /// of the other picture. `wanted` selects pixels by the cosine between view and normal at the vertex with the
-    /// largest weight.
+    /// Difference of a picture from another picture with the same model and camera: RMS of the difference, relative to
+    /// the RMS of the other picture. `wanted` selects pixels by the cosine between view and normal at the vertex with
+    /// the largest weight.
     pub(super) fn difference(
         &self,
         clustering: Option<&Clustering>,

@@ -10,7 +10,6 @@ use super::expression::evaluate;
 use crate::study::reproduce::Paper;
 use crate::study::reproduce::row::{Bound, Judgement, MissClass, Origin, PaperEquation, PaperFigure};
 
-/// File of a paper.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PaperFile {
@@ -86,11 +85,11 @@ pub(super) struct FileFigure {
     pub(super) implied: Option<String>,
     /// Reason for a value that is not in the paper.
     pub(super) inferred: Option<String>,
-    /// Class of the miss of its row. It is not part of the statement: it is added after the result.
+    /// Reason why its row is missed. It is added after the result, so it is not part of the statement.
     pub(super) missed: Option<MissClass>,
     /// Date on which its bound was stated; by default the file's first date.
     pub(super) stated: Option<String>,
-    /// Changes of the statement, oldest first; those of its group precede them.
+    /// Changes of the statement, oldest first; the group's changes precede them.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
     /// Expression of printed values for the row's own value.

@@ -50,8 +50,8 @@ pub(super) fn value(id: &str) -> Result<f64, StudyError> {
     Ok(printed(id)?.value)
 }
 
-/// Returns the row that judges the figure with a name by our value, with the bound from the data. Fails if there is no
-/// such figure, or if the data has a reason not to judge it.
+/// Returns the row that compares our value with the figure of this name, with the bound from the data. Fails if there
+/// is no such figure, or if the data has a reason not to judge it.
 pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Dependence)) -> Result<PaperRow, StudyError> {
     let unjudged = || papers_error(&format!("the figure `{id}` is listed as not judged"));
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)

@@ -16,7 +16,7 @@ use crate::tracer::offset::unit_roundoff;
 
 /// Card that draws the map and the eye rays.
 const DRAWS: &str = "r200";
-/// Cards of the engine. The fixed point of the card that draws leaks.
+/// Cards of the engine. The card that draws is not among them, because its fixed-point arithmetic leaks.
 const ENGINES: [&str; 2] = ["r300", "ideal-fp32"];
 /// Size of the pictures.
 const SIZE: [u32; 2] = [160, 120];

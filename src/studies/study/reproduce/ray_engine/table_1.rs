@@ -75,7 +75,6 @@ const READINGS: &str = "A printed share of rays on the card has two readings: ra
     the caches of GPU cells that ended on the card, among all visits, of which the rest was forced to the host. The text does not decide between \
     them. Rows use the first, which was chosen before any of them was computed.";
 
-/// Run of a scene.
 struct SceneRun {
     run: Rc<Run>,
     triangles: usize,

@@ -41,7 +41,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Row for the points of speed-up that synchronous read-back costs: asynchronous read-back minus plus card.
+/// Row for the cost of synchronous read-back: speed-ups of "asynchronous read-back" minus "plus card", in points.
 fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, StudyError> {
     let ours = |name: &str| lines.iter().find(|line| line.name == name).map_or(f64::NAN, |line| line.ours());
     let lost = ours("asynchronous read-back") - ours("plus card");

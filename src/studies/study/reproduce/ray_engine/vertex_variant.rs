@@ -14,8 +14,8 @@ use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
 
-/// Cards of the time with vertex programs. The row uses the first, from the year of the paper's text about them; the
-/// others are readings.
+/// Cards of that time with vertex programs. The row uses the first, which dates from the year of the paper's text about
+/// vertex programs; the others are readings.
 const DEVICES: [&str; 3] = ["nv20", "nv25", "r200"];
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/vertex-tests";

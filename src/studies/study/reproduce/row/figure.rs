@@ -87,7 +87,7 @@ pub struct PaperFigure {
     pub judgement: Judgement,
     /// Date on which the judgement was stated or last changed.
     pub stated: String,
-    /// Class of its miss, if its row is missed.
+    /// Reason for the miss, if its row is missed.
     pub missed: Option<MissClass>,
     /// The equation of a row that follows only from printed values; `None` for other rows.
     pub equation: Option<PaperEquation>,

@@ -188,7 +188,7 @@ impl PaperRow {
         matches!(self.source, RowSource::Differs { .. })
     }
 
-    /// Class of the miss; `None` for a row that is not missed.
+    /// Reason for the miss; `None` for a row that is not missed.
     pub fn missed(&self) -> Option<MissClass> {
         self.target.missed.filter(|_| self.verdict() == RowVerdict::Missed)
     }

@@ -82,7 +82,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Dependence of values that use nothing printed.
+/// Dependence of values that use no printed value.
 const PREDICTED: Dependence = Dependence::Predicted { from: "" };
 
 /// Rows for the times of the passes of one frame: 1 and 3 always; 2 unless Table 1's own entry judges it.

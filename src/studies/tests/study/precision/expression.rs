@@ -118,7 +118,7 @@ fn nearest(x: f64, [e, m]: [i32; 2]) -> f64 {
     if rounded.abs() > largest { f64::INFINITY.copysign(x) } else { rounded }
 }
 
-/// By definition, tried over all formats: the fewest bits, then the smallest error, then the fewest exponent bits.
+/// The definition, tried over all formats: the fewest bits, then the smallest error, then the fewest exponent bits.
 #[test]
 fn the_smallest_format_is_the_smallest_of_all_that_meet_the_goal() {
     type Computed = fn(&dyn Fn(f64) -> f64) -> f64;
@@ -152,9 +152,9 @@ fn the_smallest_format_is_the_smallest_of_all_that_meet_the_goal() {
     }
 }
 
-/// By hand: in e2m1, whose numbers are 0, 0.5, 1, 1.5, 2 and 3, the squares of sine and cosine of 1, 1.5 and 2 round to
-/// 1 and 0. The other polynomial is 0 too, and `1 - x` errs in all formats unless it is rounded back: no number of bits
-/// that the table calls enough is below the smallest.
+/// By hand: e2m1 has the numbers 0, 0.5, 1, 1.5, 2 and 3, so the squares of sine and cosine of 1, 1.5 and 2 round to 1
+/// and 0. The polynomial is also 0 everywhere, but `1 - x` errs in all formats. No format that the table lists as
+/// sufficient may have fewer bits than the smallest format.
 #[test]
 fn the_table_and_the_smallest_format_agree() {
     let said = |text: &str, range: &str, draw| {
@@ -188,8 +188,8 @@ fn nan_in_place_of_zero_is_an_infinite_relative_error() {
     }
 }
 
-/// A range with few numbers or none is known without drawing any: of 100,000 inputs a search by rejection would draw
-/// a hundred million.
+/// A range with few numbers or none is recognised without drawing any. For 100,000 inputs, a rejection sampler would
+/// draw a hundred million.
 #[test]
 fn inputs_are_drawn_among_the_numbers_of_the_format_in_the_range() {
     let means = |text: &str, range: &str, format| {

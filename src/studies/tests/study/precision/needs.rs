@@ -108,7 +108,7 @@ impl PrecisionSubject for Told {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// Whatever the fewest bits of a family are, the study finds them, as a format of the emulator and as a device
+    /// The study finds the fewest bits of a family, whatever they are, as a format of the emulator and as a device
     /// file. Each refuted format has one bit less, and nothing is narrower than the narrowest format. Fixed point keeps
     /// two spare integer bits.
     #[test]
@@ -161,7 +161,7 @@ fn rules_of_a_card_are_kept_within_its_family() {
     }
 }
 
-/// The fewest bits of all instructions are found with few runs, and those of one instruction by bisection.
+/// A few runs find the fewest bits of all instructions together; bisection finds the fewest bits of one instruction.
 #[test]
 fn a_falling_error_is_bisected() {
     for smallest in 1..=23_u8 {

@@ -27,8 +27,8 @@ fn vectors_are_interpolated_by_logarithms() {
     assert!((reaching(&curve, 2.0) - 1.5).abs() < 1e-12);
 }
 
-/// Two kinds of errors equal the errors of separate compressions with each number of vectors: those by section 4.1's
-/// formula, in which a dropped vector adds its squared singular value, and those of the steps of one compression.
+/// Two ways to compute errors agree with separate compressions for each number of vectors: section 4.1's formula, in
+/// which a dropped vector adds its squared singular value, and the steps of one compression.
 #[test]
 fn errors_by_vectors_are_those_of_compressions() {
     let signal = signal_at(300, 12, 7, |at| [0.1 * at as f64, (at % 7) as f64, (at % 11) as f64]);

@@ -99,8 +99,8 @@ fn what_cannot_fail_is_met_by_construction() {
     assert_eq!(outside.verdict(), RowVerdict::Missed, "a wrong reason hides no miss");
 }
 
-/// If the host works for all 20 ms of a frame, the host decides its rate, which is calibrated; if it waits for the
-/// card, it does not.
+/// If the host works for all 20 ms of a frame, the rate depends only on the host and is calibrated. If the host waits
+/// for the card, the rate is not calibrated.
 #[test]
 fn a_frame_that_the_host_decides_is_an_equation() {
     let frame = Picoseconds(20_000_000_000);

@@ -139,7 +139,7 @@ impl Parser<'_> {
             self.at += sign.len();
             // Powers are right-associative.
             let right = self.operation(if *name == "pow" { SIGN } else { tight + 1 })?;
-            // Brackets belong to the place of the operation outside of them.
+            // The span of an operation includes the parentheses around its operands.
             let end = self.source.text()[..self.at].trim_end().len();
             left = Self::list(name, vec![left, right], from..end);
         }

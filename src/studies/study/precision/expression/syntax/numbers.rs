@@ -6,11 +6,11 @@ use num_traits::{One, Zero};
 /// Maximum length of a number's text, and largest exponent.
 const MAX: usize = 5000;
 
-/// What [`parse`] takes, for messages.
+/// Syntax that [`parse`] accepts, for messages.
 pub(super) const EXPECTED: &str =
     "expected a number of at most 5,000 characters, with an exponent within 5,000 and a denominator above 0";
 
-/// Numerator and denominator, above 0, of a number of FPCore; `None` for other text.
+/// Numerator and positive denominator of an FPCore number; `None` for other text.
 pub(super) fn parse(text: &str) -> Option<(BigInt, BigInt)> {
     if text.len() > MAX {
         return None;

@@ -287,7 +287,7 @@ impl<'a> GraphBuilder<'a> {
         REFUSED.iter().find(|(names, _)| names.split(' ').any(|refused| refused == name)).map(|(_, reason)| *reason)
     }
 
-    /// Bindings of `let` see the names before it; those of `let*` see each other.
+    /// Bindings of `let` see only the names before it; bindings of `let*` also see earlier bindings.
     fn binding(&mut self, bindings: &[Tree], body: &Tree, is_sequential: bool) -> Result<usize, ExpressionError> {
         let depth = self.scope.len();
         let mut bound = Vec::new();

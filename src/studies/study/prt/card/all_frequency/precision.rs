@@ -111,9 +111,9 @@ pub(super) fn ways_of_precision(meshes: &[TransferredMesh<'_>]) -> u64 {
     choices(meshes).len() as u64
 }
 
-/// Draws meshes, in order, into floats in many ways, and compares each picture with one that the host computes in f64 from the
-/// same numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with
-/// [`CardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
+/// Draws variants of meshes, in order, into floats. Compares each picture with the host's in f64 from the same numbers,
+/// interpolated by the device's raster. `done` is called with the number of pictures drawn. Fails with [`CardError`] if
+/// the meshes do not fit the cards: more than thirty terms, or parts of different kinds.
 pub fn factored_precision(
     meshes: &[TransferredMesh<'_>],
     executor: &Executor,

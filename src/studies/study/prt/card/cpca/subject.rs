@@ -26,7 +26,7 @@ pub struct OnCard {
     pub light: HarmonicLight,
     /// The card that draws.
     pub card: CardSetting,
-    /// Variants.
+    /// Drawing options: superclusters, maps, format of weights.
     pub options: PrtCardOptions,
 }
 

@@ -10,7 +10,7 @@ pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the
     from the paper's 2.9 frames per second of uncompressed transfer. Host and card work in parallel, frame after \
     frame.";
 
-/// Sizes and counts: the columns of the paper's Table 1, and those that section 6.2 derives from them.
+/// Sizes and counts: the columns of the paper's Table 1, and the counts that section 6.2 derives from them.
 pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> impl Iterator<Item = (&'static str, Cell)> {
     let overdraw = draws.drawn as f64 / draws.triangles.max(1) as f64;
     let rows = [

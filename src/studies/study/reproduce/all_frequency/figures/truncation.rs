@@ -22,7 +22,7 @@ const RADIUS: f64 = 3.0;
 const KEPT: [usize; 5] = [50, 100, 200, 400, 800];
 /// Number of steps of half a degree around z.
 const FRAMES: u32 = 6;
-/// Threshold of visible flicker, one percent of the picture: our choice, before any was computed.
+/// Threshold of visible flicker, one percent of the picture; we chose it before we computed any flicker.
 const SEEN: f64 = 0.01;
 
 const HOW: &str = "Figure 6 shows a diffuse Buddha of {} vertices under {} evenly spread disks with radii of {} degrees and random colors; the light \

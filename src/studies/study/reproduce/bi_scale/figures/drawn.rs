@@ -32,8 +32,8 @@ impl DrawnFigure {
         Ok(Self { causes, smooth: drawing.shade(&low) })
     }
 
-    /// RMS errors of a picture in percent, relative to the ray-traced picture with patches, and to the one with
-    /// textures as in transfer.
+    /// RMS errors of a picture in percent: relative to the picture ray-traced with patches, and relative to the picture
+    /// ray-traced with textures, as in transfer.
     pub(super) fn errors(&self, picture: &[[f64; 3]]) -> [f64; 2] {
         [self.causes.exact(), self.causes.textured()].map(|other| self.causes.apart(other, picture))
     }
