@@ -249,8 +249,8 @@ fn inputs() -> &'static Path {
         put("odd.mtl", "newmtl m\nNs 5\nKd 0.8 0.7 0.8\nKs 0.5 0.5 0.4\nd 1\nillum 2\n");
         let square = fs::read_to_string(folder.path().join("fixtures/models/square.obj")).expect("a model");
         put("square.obj", &square);
-        put("rays.csv", "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0.1\n0.25,-1,0.75,0,1,0\n0.25,2,0.5,0,-1,0\n");
-        put("rays_2.csv", "ox,oy,oz,dx,dy,dz\n0.7,-1,0.3,0,1,0\n0.3,-1,0.7,0.1,1,0\n0.25,2,0.5,0,-1,0\n");
+        put("rays.csv", "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0.1\n0.25,-1,0.75,0,1,0\n0.25,2,0.5,0,-0.9,0\n");
+        put("rays_2.csv", "ox,oy,oz,dx,dy,dz\n0.7,-1,0.3,0,1,0\n0.3,-1,0.7,0.1,1,0\n0.25,2,0.5,0,-0.9,0\n");
         put("roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0.5\nv 1 -1 0.5\nv 0 -1 0.5\nf 1 2 3 4\nf 2 1 6 5\n");
         put("heights.csv", "0,0.1\n0.2,0\n");
         for line in [

@@ -5,7 +5,6 @@
 
 mod unit_tables;
 
-use super::parts::section;
 use crate::num::{Denormals, Encoding, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials, Unit};
 
 /// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
@@ -88,7 +87,9 @@ pub fn library() -> String {
         include_str!("number/single.wgsl"),
     ];
     let gt200 = concat!(include_str!("number/unit.wgsl"), include_str!("number/unit_gt200.wgsl"));
-    constants(false) + &parts.join("\n") + &section("HAS_UNITS", &(constants(true) + gt200 + &unit_tables::gt200()))
+    let units = constants(true) + gt200 + &unit_tables::gt200();
+    let section = format!("// begin HAS_UNITS\nconst HAS_UNITS: bool = true;\n{units}// end HAS_UNITS\n");
+    constants(false) + &parts.join("\n") + &section
 }
 
 /// The operations of shaders.

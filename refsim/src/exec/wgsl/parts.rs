@@ -231,11 +231,6 @@ impl Parts {
 const BEGIN: &str = "// begin ";
 const END: &str = "// end ";
 
-/// Wraps a text into a section that is removed unless the draw uses this feature.
-pub(super) fn section(feature: &str, text: &str) -> String {
-    format!("{BEGIN}{feature}\nconst {feature}: bool = true;\n{text}{END}{feature}\n")
-}
-
 /// The feature constants, all `true`: blocks of unused features are removed from the text.
 pub fn constants() -> String {
     FEATURES.iter().map(|name| format!("const {name}: bool = true;\n")).collect()

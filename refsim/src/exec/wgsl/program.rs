@@ -6,6 +6,7 @@
 //! either a trace function or [`NO_TRACE`].
 
 mod assembler;
+mod error;
 mod interpolate;
 mod lower;
 mod microcode;
@@ -14,10 +15,11 @@ pub(super) mod operations;
 use crate::device::Rules;
 use crate::exec::{CheckedProgram, PixelBindings, program};
 pub(crate) use assembler::IN_OUT_ROWS;
+pub use error::ProgramError;
 pub use interpolate::Interpolation;
 pub(crate) use interpolate::PLANES;
 use lower::Lowered;
-pub use microcode::{Microcode, ProgramError};
+pub use microcode::Microcode;
 
 /// Definition of `trace_put`, which records a word of a trace, for modules without traces.
 pub const NO_TRACE: &str = "fn trace_put(at: u32, word: u32) {\n}\n";

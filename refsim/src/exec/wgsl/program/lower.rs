@@ -1,6 +1,6 @@
 //! Lowering of programs for GPUs: the graph shared with the batch executor, and the uses of its values.
 
-use super::ProgramError;
+use super::error::ProgramError;
 use crate::device::Rules;
 use crate::exec::lower::{Arith, Effect, Formats, Graph, NodeId, Translator, has_flow, translate_straight};
 use crate::exec::trace::{makes_step, written_mask};

@@ -2,6 +2,7 @@
 
 use super::Interpolation;
 use super::assembler::{Assembler, COLORS, DEPTH, DEPTH_IS_MAIN, FIRST_CONSTANT, INPUT, SETUP};
+use super::error::ProgramError;
 use super::lower::Lowered;
 use super::operations as op;
 use crate::device::MAX_PROGRAM_FORMATS;
@@ -9,41 +10,11 @@ use crate::exec::lower::Arith;
 use crate::exec::wgsl::parts::Parts;
 use crate::raster::POSITION_COMPONENT;
 use std::collections::{BTreeMap, BTreeSet};
-use thiserror::Error;
 
 /// Words before the first instruction.
 const HEADER: usize = 3;
 /// Maximum loop iterations of a program that runs in one dispatch; lavapipe terminates all loops after 65,535.
 const MAX_PASSES: u32 = 40_000;
-
-/// Error of encoding a program for GPUs.
-#[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum ProgramError {
-    /// More live values or constants than operands can address.
-    #[error(
-        "the program needs {slots} slots and {constants} constants, at most 32768 and 32256 can be named; use another executor"
-    )]
-    TooLarge {
-        /// Number of slots for live values.
-        slots: usize,
-        /// Number of constants.
-        constants: usize,
-    },
-    /// The program has flow control, or a format in which a vertex unit of a card computes.
-    #[error(
-        "the program has flow control, or computes in a card's vertex unit, which shaders lack; use another executor"
-    )]
-    Unsupported,
-    /// More number formats of instructions, storages, sums and products than the shader's table holds.
-    #[error("the program has {formats} number formats, the table of shaders holds {most}; use another executor")]
-    TooManyFormats {
-        /// Number of formats.
-        formats: usize,
-        /// Maximum number of formats.
-        most: usize,
-    },
-}
 
 /// A program for the virtual machine of `vm.wgsl`.
 #[derive(Clone, Debug, PartialEq, Eq)]
