@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::report::Series;
+
 /// Relation of a measure to its bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GoalRelation {
@@ -71,6 +73,19 @@ impl fmt::Display for Goal {
 }
 
 impl Goal {
+    /// Name of the measure in words.
+    pub(super) fn words(&self) -> String {
+        self.measure.replace('_', " ")
+    }
+
+    /// The bound as a line across the points of a chart.
+    pub(super) fn line(&self, lines: &[Series]) -> Series {
+        let across = || lines.iter().flat_map(|line| &line.points).map(|point| point.0);
+        let ends = [across().min_by(f64::total_cmp), across().max_by(f64::total_cmp)];
+        let points = ends.into_iter().flatten().map(|x| (x, self.bound)).collect();
+        Series { label: format!("goal: {}{}", self.relation.sign(), self.bound), points }
+    }
+
     /// Returns `true` if a value meets the goal; NaN does not.
     pub fn met(&self, value: f64) -> bool {
         match self.relation {

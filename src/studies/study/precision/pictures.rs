@@ -16,7 +16,7 @@ pub(super) fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &
     let mut add = |name: String, caption: String, device| -> Result<(), StudyError> {
         let measured = runs.shown(&device, ExecutorKind::Batch)?;
         let value = number(measured.value(&runs.goal.measure));
-        let caption = format!("{caption}: {} {value}", runs.goal.measure);
+        let caption = format!("{caption}: {} {value}", runs.goal.words());
         pictures.extend(measured.picture.map(|picture| NamedPicture::new(name, picture, caption)));
         Ok(())
     };
@@ -28,11 +28,8 @@ pub(super) fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &
         }
     }
     found.pictures(pictures);
-    for family in &outcome.families {
-        if let Some(picture) = of_most_blamed(family, runs)? {
-            found.pictures([picture].into());
-        }
-    }
+    let errors = outcome.families.iter().filter_map(|family| of_most_blamed(family, runs).transpose());
+    found.pictures(errors.collect::<Result<_, _>>()?);
     Ok(())
 }
 
@@ -49,7 +46,7 @@ fn of_most_blamed(family: &FamilyOutcome, runs: &Runs<'_>) -> Result<Option<Name
     let shares: Vec<f64> = values.iter().map(|value| value / scale).collect();
     let line = tables::line(place, runs);
     let caption = format!(
-        "errors with `{}` (line {}) alone in {}; the bar ends at {} {unit}{}",
+        "errors with `{}` (line {}) alone in {}; the bar goes from 0 to {} {unit}{}",
         line.text,
         line.line,
         blamed.bits,

@@ -68,7 +68,8 @@ fn powers_of_ten_are_labels() {
 fn points_and_names_are_drawn() {
     let ticks = ["an office", "teapot, Monte Carlo", "a very long name of a room"].map(str::to_owned).into();
     let dots = vec![series("ours", vec![(1.0, 2.0), (2.0, 3.0)])];
-    let chart = Chart { dots, printed: vec![(1.0, 2.5), (2.0, 1.0)], ticks, ..chart(Vec::new()) };
+    let printed = vec![series("printed", vec![(1.0, 2.5), (2.0, 1.0)])];
+    let chart = Chart { dots, printed, ticks, ..chart(Vec::new()) };
     let svg = chart.svg().expect("four points");
     // Names that would overlap their neighbors break in the middle.
     for text in ["an office", "teapot, Monte Carlo", "a very long", "name of a room", "ours", "printed"] {
@@ -245,7 +246,7 @@ fn looks(svg: &str, labels: &[String]) -> Vec<[String; 3]> {
 #[test]
 fn no_two_series_look_the_same() {
     let (mut chart, mut labels) = lines_to(&[1.0; MAX_SERIES]);
-    chart.printed = vec![(0.5, 0.5)];
+    chart.printed = vec![series("printed", vec![(0.5, 0.5)])];
     labels.push("printed".to_owned());
     let looks = looks(&chart.svg().expect("lines"), &labels);
     assert_eq!(looks.iter().collect::<BTreeSet<_>>().len(), MAX_SERIES + 1, "{looks:?}");
