@@ -117,7 +117,7 @@ impl Case {
         }
         let setup = Arc::clone(&self.setup);
         let trace = signals::aside(py, move || case::trace(&setup, kind, [x, y]))?.map_err(|error| refused(&error))?;
-        let traced = Traced { setup: &self.setup, trace: &trace, knows_flags: kind == ExecutorKind::Scalar };
+        let traced = Traced { setup: &self.setup, trace: &trace };
         Ok(traced.document().to_string())
     }
 }

@@ -4,7 +4,7 @@ mod trace;
 
 use std::path::{Path, PathBuf};
 
-use refsim::machine::{Executor, ExecutorKind};
+use refsim::machine::Executor;
 use serde_json::json;
 
 use super::executor::DeviceExecutor;
@@ -63,11 +63,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     error::print_warnings(&setup.warnings, out.json());
     let folder = args.out.clone().unwrap_or_else(|| default_folder(&args.case));
     let traced = args.trace.map(|place| follow(&setup, &executor, place)).transpose()?;
-    let traced = traced.as_ref().map(|trace| Traced {
-        setup: &setup,
-        trace,
-        knows_flags: matches!(executor.kind(), ExecutorKind::Scalar | ExecutorKind::Batch),
-    });
+    let traced = traced.as_ref().map(|trace| Traced { setup: &setup, trace });
     // Checked before the work, so that an unwritable folder is found at once.
     require_writable(&folder).map_err(Problem::from)?;
     let outcome = case::run(&setup, &executor)?;

@@ -74,8 +74,7 @@ impl ShownTrace<'_> {
         // Expressions of WGSL are longer than instructions.
         let is_wgsl = self.0.setup.pixel_text.is_wgsl();
         let places = if is_wgsl { "step line,_expression" } else { "instruction line text" };
-        let flags = if self.0.knows_flags { "flags" } else { "" };
-        let mut table = Table::of("Steps", &format!("{places} register value bits {flags}"));
+        let mut table = Table::of("Steps", &format!("{places} register value bits flags"));
         for step in &fragment.shading.steps {
             let setup = self.0.setup;
             let Some(line) = setup.pixel_text.instruction(&setup.pixel, step.instruction) else { continue };

@@ -21,8 +21,6 @@ pub struct Traced<'a> {
     pub setup: &'a Setup,
     /// Trace of the pixel.
     pub trace: &'a PixelTrace,
-    /// `true` if the executor reports exceptions of instructions.
-    pub knows_flags: bool,
 }
 
 /// A named value.
@@ -177,8 +175,7 @@ impl Traced<'_> {
         }
         out.insert("mask".to_owned(), letters(step.mask).into());
         out.insert("written".to_owned(), self.written(step).iter().map(TraceRow::json).collect());
-        let flags = self.knows_flags.then(|| flag_names(step.flags));
-        out.insert("flags".to_owned(), flags.map_or(Value::Null, |flags| json!(flags)));
+        out.insert("flags".to_owned(), flag_names(step.flags).into());
         Value::Object(out)
     }
 }

@@ -34,7 +34,8 @@ fn with_bar(
 ) -> RgbImage {
     let color = |at: f64| gradient.eval_continuous(at.clamp(0.0, 1.0)).as_array();
     let rows = values.len() as u32 / width.max(1);
-    let bar = (rows / 24).max(2);
+    // Tall enough to be read below a wide picture, too.
+    let bar = (rows / 24).max(width / 40).max(2);
     let pixel = |value: &f64| if value.is_finite() { color(place(*value)) } else { not_finite };
     // The right end of a signed scale is the left end of its gradient.
     let [left, right] = [place(0.0).min(1.0), place(1.0)];

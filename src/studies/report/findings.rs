@@ -203,7 +203,9 @@ impl Findings {
     pub fn pictures(&mut self, pictures: Vec<NamedPicture>) {
         let first = self.pictures.len();
         self.pictures.extend(pictures);
-        self.text.push(Passage::Pictures(first..self.pictures.len()));
+        if first < self.pictures.len() {
+            self.text.push(Passage::Pictures(first..self.pictures.len()));
+        }
     }
 
     /// Appends the legend of a false-color picture to the page.

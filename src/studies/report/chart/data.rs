@@ -29,8 +29,8 @@ pub struct Chart {
     pub lines: Vec<Series>,
     /// Series of unconnected points.
     pub dots: Vec<Series>,
-    /// Points of a paper: crosses in rings, labelled "printed".
-    pub printed: Vec<(f64, f64)>,
+    /// Points of a paper: crosses in rings.
+    pub printed: Vec<Series>,
     /// Names at 1, 2, ... of the horizontal axis, if it has no numbers.
     pub ticks: Vec<String>,
 }

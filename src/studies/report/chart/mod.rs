@@ -50,24 +50,20 @@ impl Chart {
     }
 
     /// Lines, points and printed points, in the order of their styles; empty series are omitted.
-    fn series(&self) -> Vec<DrawnSeries<'_>> {
+    fn series<'a>(&'a self) -> Vec<DrawnSeries<'a>> {
         let admitted = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points.iter().copied().filter(|p| self.x_scale.admits(p.0) && self.y_scale.admits(p.1)).collect()
         };
-        let all = self.lines.iter().map(|line| (line, true)).chain(self.dots.iter().map(|dots| (dots, false)));
-        let ours = all.enumerate().map(|(n, (series, joined))| DrawnSeries {
+        let ours = self.lines.iter().map(|line| (line, true)).chain(self.dots.iter().map(|dots| (dots, false)));
+        let ours = ours.enumerate().map(|(n, (series, joined))| (series, joined, SeriesStyle::nth(n)));
+        let printed = self.printed.iter().map(|printed| (printed, false, SeriesStyle::PRINTED));
+        let drawn = |(series, joined, style): (&'a Series, bool, SeriesStyle)| DrawnSeries {
             label: &series.label,
             points: admitted(&series.points),
             joined,
-            style: SeriesStyle::nth(n),
-        });
-        let printed = DrawnSeries {
-            label: "printed",
-            points: admitted(&self.printed),
-            joined: false,
-            style: SeriesStyle::PRINTED,
+            style,
         };
-        ours.chain([printed]).filter(|series| !series.points.is_empty()).collect()
+        ours.chain(printed).map(drawn).filter(|series| !series.points.is_empty()).collect()
     }
 
     /// Adds the title for screen readers, and the colors of a dark page, to a drawing of plotters.

@@ -164,22 +164,23 @@ fn cured(rows: &[TeapotRow]) -> Option<String> {
     })
 }
 
-/// Sentence about the rays aimed at edges, by the paper's program; `None` if there were none.
+/// Sentence about the rays aimed at edges, with the paper's program; `None` if there were none.
 fn seams(rows: &[TeapotRow]) -> Option<String> {
     let rows: Vec<&TeapotRow> = rows.iter().filter(|row| row.edge_rule == EdgeRule::Paper).collect();
     let shares = rows.iter().filter(|row| row.edges.surface > 0).map(|row| row.edges.leak_share());
     let leaking = rows.iter().filter(|row| row.edges.leaks > 0).count();
     let least = shares.clone().min_by(f64::total_cmp)?;
     let most = shares.max_by(f64::total_cmp)?;
-    Some(if leaking == 0 {
-        "Of the rays aimed at shared edges none leaks.".to_owned()
+    let share = if leaking == 0 {
+        "none leaks".to_owned()
     } else if leaking < rows.len() {
-        format!("Of the rays aimed at shared edges up to {} leak, in {leaking} of {} rows.", percent(most), rows.len())
+        format!("up to {} leak, in {leaking} of {} rows", percent(most), rows.len())
     } else if least == most {
-        format!("Of the rays aimed at shared edges {} leak.", percent(most))
+        format!("{} leak", percent(most))
     } else {
-        format!("Of the rays aimed at shared edges some leak in every row: {} to {}.", percent(least), percent(most))
-    })
+        format!("some leak in every row: {} to {}", percent(least), percent(most))
+    };
+    Some(format!("With the paper's program, of the rays aimed at shared edges {share}."))
 }
 
 fn label(row: &TeapotRow) -> &str {

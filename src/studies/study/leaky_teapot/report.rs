@@ -32,7 +32,7 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
          switch",
     );
     let mut edges = Table::of(
-        "Rays aimed at shared edges and vertices: leaks where the surface is whole",
+        "Rays aimed at shared edges and vertices: leaks, at outlines too",
         "row edge_rays edge_leaks edge_leak_percent vertex_rays vertex_leaks vertex_leak_percent device format switch",
     );
     for row in &outcome.rows {
@@ -218,7 +218,8 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
         found.paragraph(
             "The paper's equations are evaluated once for each triangle, and on a shared edge the two evaluations need not \
              agree: a ray can miss both neighbours, in any precision. These rays are aimed from the eye at random points of \
-             every shared edge, and at every vertex; only rays that truly hit are counted.",
+             every shared edge, and at every vertex; only rays that truly hit are counted. A miss at an outline counts as a leak \
+             too.",
         );
     }
     found.table(edges.csv("edges").field("edges"));

@@ -35,7 +35,10 @@ impl ExactSum {
     fn add(&mut self, addend: f64) {
         let sum = self.high + addend;
         let part = sum - self.high;
-        self.low += (self.high - (sum - part)) + (addend - part);
+        // An infinite sum has no rest.
+        if sum.is_finite() {
+            self.low += (self.high - (sum - part)) + (addend - part);
+        }
         self.high = sum;
         self.magnitudes += addend.abs();
     }

@@ -83,27 +83,38 @@ pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result
 /// Reports the largest and the smallest error in words.
 fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     let [rows, depth, columns] = outcome.shape;
-    let order = |x: &&ProductRow, y: &&ProductRow| x.last().worst.total_cmp(&y.last().worst);
+    let order = |x: &&ProductRow, y: &&ProductRow| {
+        let (x, y) = (x.last(), y.last());
+        x.worst.total_cmp(&y.worst).then(x.differing.cmp(&y.differing)).then(x.not_finite.cmp(&y.not_finite))
+    };
     let (Some(worst), Some(best)) = (outcome.rows.iter().max_by(order), outcome.rows.iter().min_by(order)) else {
         return;
     };
     let (errors, elements) = (worst.last(), rows * columns);
-    if errors.differing == 0 {
-        found.conclusion(format!("All {elements} elements equal those of {reference}."));
-        return;
-    }
-    let mut sentence = format!(
-        "After {depth} products {} is off by up to {} of an element ({:.1} bits are right); {} of {elements} elements \
-         differ from {reference}.",
-        worst.name(),
-        error(errors.worst),
-        errors.bits(),
-        errors.differing,
-    );
+    let differ = format!("{} of {elements} elements differ from {reference}.", errors.differing);
+    let mut sentence = if errors.differing == 0 {
+        format!("Every element equals that of {reference}.")
+    } else if errors.worst == 0.0 {
+        differ
+    } else {
+        format!(
+            "After {depth} products {} is off by up to {} of an element ({:.1} bits are right); {differ}",
+            worst.name(),
+            error(errors.worst),
+            errors.bits(),
+        )
+    };
     if best.last().worst < errors.worst {
         sentence += &format!(" {} has the smallest error: up to {}.", best.name(), error(best.last().worst));
     }
     found.conclusion(sentence);
+    if errors.not_finite > 0 {
+        found.conclusion(format!(
+            "{} of {elements} elements are infinite or NaN by {} or in {reference}; the errors exclude them.",
+            errors.not_finite,
+            worst.name(),
+        ));
+    }
 }
 
 /// Errors at the depths after the first `skipped`.

@@ -37,9 +37,9 @@ const OPERATIONS: [(Op, &str, usize); 17] = [
     (Op::Cos, "cos", 2),
 ];
 
-/// Formats, with the hardware that had them.
+/// Formats, with the hardware that had them; the Radeon 8500's rounding is not known, and its profile rounds down.
 const FORMATS: [(&str, &str); 8] = [
-    ("s3.12", "Radeon 8500"),
+    ("s3.12", "Radeon 8500, if it rounded to nearest"),
     ("s1.10", "GeForce FX fixed point"),
     ("n3.8", "multiples of 1/255"),
     ("e5m10", "fp16"),

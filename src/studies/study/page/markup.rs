@@ -189,7 +189,8 @@ fn fixed_views(views: &[FixedView]) -> Markup {
             h2 #fixed { "Fixed views, bit for bit" }
             p {
                 "Pictures of the emulator. Where your GPU can, it draws each again; triangle and distance of every pixel must \
-                 have the emulator's bits."
+                 have the emulator's bits. All formats round to nearest; our Radeon 8500 computes in s3.12 rounded down, \
+                 which leaks most: choose it under Rounding above."
             }
             @for (v, view) in views.iter().enumerate() {
                 h3 { "Seen " (view.name) }

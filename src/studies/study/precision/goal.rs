@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::names::did_you_mean;
+use crate::report::Series;
 use crate::report::words::listed;
 use crate::study::StudyError;
 
@@ -75,6 +76,19 @@ impl fmt::Display for Goal {
 }
 
 impl Goal {
+    /// Name of the measure in words.
+    pub(super) fn words(&self) -> String {
+        self.measure.replace('_', " ")
+    }
+
+    /// The bound as a line across the points of a chart.
+    pub(super) fn line(&self, lines: &[Series]) -> Series {
+        let across = || lines.iter().flat_map(|line| &line.points).map(|point| point.0);
+        let ends = [across().min_by(f64::total_cmp), across().max_by(f64::total_cmp)];
+        let points = ends.into_iter().flatten().map(|x| (x, self.bound)).collect();
+        Series { label: format!("goal: {}{}", self.relation.sign(), self.bound), points }
+    }
+
     /// The goal `given`, or else the default. Fails if the given one is for a measure that is none of `names`.
     pub(super) fn chosen(given: Option<&Self>, names: &[&str], default: Self) -> Result<Self, StudyError> {
         let Some(goal) = given else { return Ok(default) };

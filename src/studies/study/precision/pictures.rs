@@ -13,7 +13,7 @@ pub(super) fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &
     let mut add = |name: String, caption: String, device| -> Result<(), StudyError> {
         let measured = runs.shown(&device)?;
         let value = number(measured.value(&runs.goal.measure));
-        let caption = format!("{caption}: {} {value}", runs.goal.measure);
+        let caption = format!("{caption}: {} {value}", runs.goal.words());
         pictures.extend(measured.picture.map(|picture| NamedPicture::new(name, picture, caption)));
         Ok(())
     };

@@ -123,7 +123,7 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
 
 /// Chart of the curves, if there are points enough for an axis.
 fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
-    let lines: Vec<Series> = outcome
+    let mut lines: Vec<Series> = outcome
         .families
         .iter()
         .map(|family| Series {
@@ -148,11 +148,12 @@ fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
     }
     let positive = values.iter().copied().filter(|value| *value > 0.0);
     let y_scale = if positive.clone().count() < 2 { Scale::Linear } else { Scale::fitting(positive) };
+    lines.push(runs.goal.line(&lines));
     let zero = if y_scale == Scale::Logarithmic { " The axis cannot show values of 0." } else { "" };
     let chart = Chart {
-        title: format!("{} by bits of precision", runs.goal.measure),
+        title: format!("{} by bits of precision", runs.goal.words()),
         x: "mantissa or fraction bits of all instructions".to_owned(),
-        y: runs.goal.measure.clone(),
+        y: runs.goal.words(),
         y_scale,
         lines,
         dots,
@@ -160,7 +161,8 @@ fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
     };
     let caption = format!(
         "{} with all instructions in one format, against its mantissa or fraction bits; goal: {}.{zero}",
-        runs.goal.measure, runs.goal
+        runs.goal.words(),
+        runs.goal
     );
     Some(NamedChart { name: "curve".to_owned(), chart, caption })
 }

@@ -124,7 +124,7 @@ impl Study for Parameters {
         formats::conclude(&rows, &mut found);
         let room = linear_picture(&camera, &colors).display(1.0)?;
         found.pictures(vec![NamedPicture::new("room", room, ROOM)]);
-        found.paragraph(ABOUT);
+        ABOUT.into_iter().for_each(|step| found.paragraph(step));
         found.heading("Light at the models");
         let probe = |name: &str, what: &str, light: &CubeLight| light_picture(name, what, of_texels(light.texels()));
         found.pictures(vec![
@@ -145,7 +145,10 @@ impl Study for Parameters {
 const ROOM: &str = "Matrix radiosity lights the room, clustered principal components the bunny, subsurface scattering \
     the statue; each is drawn by its card.";
 
-const ABOUT: &str = "1. The Ray Engine on a GeForce FX 5900 Ultra casts the rays between the room's patches, and the card solves for radiosity. \
-    Coarse bodies replace the models in the room: they reflect light and cast shadows. 2. At each model, a probe casts rays to find the visible \
-    patch in each direction. 3. The bunny's transfer, also by rays, turns its probe's light into the picture of a glossy surface on a Radeon 9700. \
-    4. The statue, a marble suit of armor, scatters its probe's light below the surface.";
+const ABOUT: [&str; 4] = [
+    "1. The Ray Engine on a GeForce FX 5900 Ultra casts the rays between the room's patches, and the card solves for radiosity. \
+    Coarse bodies replace the models in the room: they reflect light and cast shadows.",
+    "2. At each model, a probe casts rays to find the visible patch in each direction.",
+    "3. The bunny's transfer, also by rays, turns its probe's light into the picture of a glossy surface on a Radeon 9700.",
+    "4. The statue, a marble suit of armor, scatters its probe's light below the surface.",
+];

@@ -66,7 +66,8 @@ fn powers_of_ten_are_labels() {
 fn points_and_names_are_drawn() {
     let ticks = ["an office", "teapot, Monte Carlo", "a very long name of a room"].map(str::to_owned).into();
     let dots = vec![series("ours", vec![(1.0, 2.0), (2.0, 3.0)])];
-    let chart = Chart { dots, printed: vec![(1.0, 2.5), (2.0, 1.0)], ticks, ..chart(Vec::new()) };
+    let printed = vec![series("printed", vec![(1.0, 2.5), (2.0, 1.0)])];
+    let chart = Chart { dots, printed, ticks, ..chart(Vec::new()) };
     let svg = chart.svg().expect("four points");
     // Names that would overlap their neighbors break in the middle.
     for text in ["an office", "teapot, Monte Carlo", "a very long", "name of a room", "ours", "printed"] {

@@ -43,6 +43,23 @@ fn eight_bit_sums_drift_on_hopper_and_promotion_helps() {
     assert!(rows.iter().take(3).all(|row| number(row, "mean") < 0.0), "cut sums are too small");
 }
 
+/// Elements that are infinite or NaN are counted, and an infinite sum is the exact one.
+#[test]
+fn what_is_not_finite_is_said() {
+    for value in [f64::NAN, f64::INFINITY] {
+        let mut study = product(&["hopper-f16"], [1, 2, 1]);
+        for (factor, (shape, values)) in study.factors.iter_mut().zip([([1, 2], [value, 1.0]), ([2, 1], [1.0, 1.0])]) {
+            factor.data = NumbersOrCodes::Numbers(NumberArray { shape: shape.to_vec(), values: values.to_vec() });
+        }
+        let reference = "the exact product of the quantised operands";
+        let excluded = format!(
+            "1 of 1 elements are infinite or NaN by hopper_f16_f32 with one accumulator or in {reference}; the errors \
+             exclude them."
+        );
+        assert_eq!(findings(&study).conclusions(), [format!("Every element equals that of {reference}."), excluded]);
+    }
+}
+
 #[test]
 fn an_element_is_followed_to_the_block_where_it_parts() {
     let mut study = product(&["hopper-f16"], [3, 100, 4]);

@@ -166,16 +166,18 @@ fn chart(outcome: &ExpressionOutcome, goal: &Goal) -> Option<NamedChart> {
         let label = format!("{}, {}", curve.family.name(), curve.range_text());
         Series { label, points: points.filter(|(_, value)| value.is_finite() && *value > 0.0).collect() }
     };
-    let lines: Vec<Series> = outcome.curves.iter().map(line).filter(|line| line.points.len() > 1).collect();
+    let mut lines: Vec<Series> = outcome.curves.iter().map(line).filter(|line| line.points.len() > 1).collect();
     let is_flat = lines.iter().all(|line| line.points.iter().all(|point| point.1 == line.points[0].1));
+    let y_scale = Scale::fitting(lines.iter().flat_map(|line| &line.points).map(|point| point.1));
+    lines.push(goal.line(&lines));
     let chart = Chart {
-        title: format!("{} by bits of precision", goal.measure),
+        title: format!("{} by bits of precision", goal.words()),
         x: "mantissa or fraction bits of all operations".to_owned(),
-        y: goal.measure.clone(),
-        y_scale: Scale::fitting(lines.iter().flat_map(|line| &line.points).map(|point| point.1)),
+        y: goal.words(),
+        y_scale,
         lines,
         ..Chart::default()
     };
-    let caption = format!("{} of the whole expression in one format; goal: {goal}.", goal.measure);
+    let caption = format!("{} of the whole expression in one format; goal: {goal}.", goal.words());
     (!is_flat).then(|| NamedChart { name: "curve".to_owned(), chart, caption })
 }

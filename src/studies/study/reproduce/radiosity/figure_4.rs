@@ -46,6 +46,10 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     };
     let size = f64::from(PATCHES) * f64::from(PATCHES) / 1e6;
     let printed = [PrintedRates::card()?, PrintedRates::host()?];
+    let stated = |(label, rates): (&str, &PrintedRates)| Series {
+        label: label.to_owned(),
+        points: vec![(size, 1e3 / rates.per_s)],
+    };
     let chart = Chart {
         title: "Iteration time by matrix size".to_owned(),
         x: "M elements, N x N".to_owned(),
@@ -58,7 +62,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
             line("nv35, four elements per texel", |p| p.luminance),
             line("Athlon 2800+, Gauss-Seidel", |p| p.host),
         ],
-        printed: printed.iter().map(|rates| (size, 1e3 / rates.per_s)).collect(),
+        printed: ["printed: nv35", "printed: Athlon 2800+"].into_iter().zip(&printed).map(stated).collect(),
         ..Chart::default()
     };
     Ok(EntryFindings {

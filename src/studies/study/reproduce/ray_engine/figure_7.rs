@@ -70,7 +70,7 @@ fn line(label: String, card: &CostRates, gamma: f64) -> Series {
 fn chart(gamma: f64, lines: Vec<Series>) -> Result<NamedChart, StudyError> {
     // The text gives the points only for the id alone.
     let shown = if gamma == GAMMAS[0] { &TEN_TRIANGLES[..] } else { &[] };
-    let printed = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, StudyError>>()?;
+    let points = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, StudyError>>()?;
     Ok(NamedChart {
         name: format!("ray-engine-figure-7-gamma-{gamma}"),
         chart: Chart {
@@ -78,7 +78,7 @@ fn chart(gamma: f64, lines: Vec<Series>) -> Result<NamedChart, StudyError> {
             x: "triangles T".to_owned(),
             y: "M tests/s".to_owned(),
             lines,
-            printed,
+            printed: vec![Series { label: "printed".to_owned(), points }],
             ..Chart::default()
         },
         caption: format!("Figure 7 of the Ray Engine paper for gamma = {gamma}, in both models."),

@@ -50,7 +50,7 @@ pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result
             Series { label: "rays that met the card".to_owned(), points: rays },
             Series { label: "cache visits that ended on the card".to_owned(), points: visits },
         ],
-        printed: points(values),
+        printed: vec![Series { label: "printed".to_owned(), points: points(values) }],
         ..Chart::default()
     })
 }

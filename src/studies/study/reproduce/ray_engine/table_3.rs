@@ -89,12 +89,16 @@ fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
         points: settings.iter().filter_map(|(at, values)| Some((at.parse().ok()?, values[i]))).collect(),
     };
     let stated = OCTREE_OF_ALL.most_triangles as f64;
+    let printed = |line: &&SpeedUpRun| Series {
+        label: format!("printed: {}", line.name),
+        points: vec![(stated, line.printed())],
+    };
     Chart {
         title: "Speed-up over the host alone".to_owned(),
         x: "triangles per leaf of the host-alone octree".to_owned(),
         y: "%".to_owned(),
         lines: lines.iter().enumerate().map(line).collect(),
-        printed: lines.iter().map(|line| (stated, line.printed())).collect(),
+        printed: lines.iter().map(printed).collect(),
         ..Chart::default()
     }
 }

@@ -67,7 +67,10 @@ fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
         x: "rays per pass".to_owned(),
         y: "%".to_owned(),
         lines: found.under(&found.commands, PLACE).into_iter().map(line).collect(),
-        printed: points(lines.iter().map(|line| line.printed()).collect()),
+        printed: vec![Series {
+            label: "printed".to_owned(),
+            points: points(lines.iter().map(|line| line.printed()).collect()),
+        }],
         ..Chart::default()
     }
 }
