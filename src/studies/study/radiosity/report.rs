@@ -50,6 +50,12 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         }
         relit_pictures.extend(drawn.relit.map(|image| picture("relit", image, "after the changes")));
     }
+    let is_drawn = |number: &&u32| outcome.frames.iter().any(|frame| frame.iteration == **number);
+    for number in parameters.options.frames.iter().filter(|number| !is_drawn(number)) {
+        found.conclusion(format!(
+            "No picture after iteration {number}: the first method on the card stopped before it."
+        ));
+    }
     let frames: Vec<NamedPicture> = outcome.frames.into_iter().map(frame).collect();
     found.pictures(lead);
     found.paragraph(about);
