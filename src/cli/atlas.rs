@@ -7,6 +7,7 @@ use super::scene_name::EyeArgs;
 use super::study::{StudyArgs, StudyFiles};
 use crate::atlas::{MAX_SIDE, require_side};
 use crate::options::Size;
+use crate::options::number;
 use crate::study::atlas::{AtlasStudy, no_atlas};
 
 const EXAMPLES: &str = "\
@@ -31,11 +32,11 @@ pub(super) struct Args {
     model: PathBuf,
 
     /// Texels along a side of the atlas: a power of two
-    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(1..=MAX_SIDE as i64))]
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = number::whole::<u32>(1..=MAX_SIDE))]
     side: u32,
 
     /// Pixels of the pictures of the mesh
-    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true, requires = "out")]
     size: Size,
 
     /// Folder for pictures, tables, page and files [default: write nothing]

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, IsTerminal as _, Write as _};
 
+use clap::error::ContextKind;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
 };
@@ -143,6 +144,14 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
     for warning in warnings {
         write_report("Warning", &Report::new(warning.clone()), json);
     }
+}
+
+/// A usage error without the parser's advice to write an unknown option as a value, which no command takes.
+pub(super) fn without_tip(mut error: clap::Error) -> clap::Error {
+    if error.get(ContextKind::Suggested).is_some_and(|tips| tips.to_string().contains("as a value")) {
+        error.remove(ContextKind::Suggested);
+    }
+    error
 }
 
 /// A usage error as JSON: clap's sentence and its help.

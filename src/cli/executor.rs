@@ -3,9 +3,9 @@
 use clap::ValueEnum;
 use refsim::machine::{Executor, ExecutorKind};
 
-use super::Problem;
 #[cfg(feature = "wgpu")]
 use super::ProgressBar;
+use super::{Problem, given};
 use crate::study::caster::CasterOptions;
 
 /// The executor of the card.
@@ -61,9 +61,13 @@ pub(super) enum Decider {
 }
 
 impl Decider {
-    /// The requested arithmetic; without a request, the card if one is named, otherwise exact arithmetic.
-    pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Self {
-        executor.unwrap_or(if device.is_some() { Self::Batch } else { Self::Exact })
+    /// The requested executor; without a request, the card's if one is named, otherwise exact arithmetic, `None`. Fails
+    /// for a card with exact arithmetic, and if there is no GPU.
+    pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Result<Option<Executor>, Problem> {
+        let idle = device.is_some() && executor == Some(Self::Exact);
+        let help = "name `--executor scalar`, `batch` or `wgpu`, or leave it out";
+        given::refuse([("--device", idle)], "the arithmetic of a card", help)?;
+        executor.unwrap_or(if device.is_some() { Self::Batch } else { Self::Exact }).open()
     }
 
     /// The executor of the card, or `None` for exact arithmetic.

@@ -1,8 +1,11 @@
 //! Errors for options that another option makes useless, and for words that are neither names nor files.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::Problem;
+use clap::{Arg, ArgAction, ArgMatches, Command};
+
+use super::{Problem, outputs};
 use crate::names::did_you_mean;
 
 /// Rejects the first option that was given; each option is paired with `true` if it was. `only_for` completes the
@@ -16,6 +19,26 @@ pub(super) fn refuse<'a>(
         Some((option, _)) => Err(Problem::usage(format!("`{option}` is for {only_for}"), help)),
         None => Ok(()),
     }
+}
+
+/// Rejects an option that is given twice with the same value, or with the same name before a `=`. Lights add up, and A
+/// and B of a product may have the same type. Fails with [`Problem::Usage`].
+pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
+    let (command, matches) = outputs::obeyed(program, matches);
+    let is_list = |arg: &&Arg| matches!(arg.get_action(), ArgAction::Append);
+    for arg in command.get_opts().filter(is_list).filter(|arg| !["light", "types"].contains(&arg.get_id().as_str())) {
+        let mut known = BTreeSet::new();
+        let values = matches.get_raw(arg.get_id().as_str()).into_iter().flatten().map(|value| value.to_string_lossy());
+        let names = values.map(|value| value.split('=').next().unwrap_or_default().to_owned());
+        if let Some(name) = names.into_iter().find(|name| !known.insert(name.clone())) {
+            let what = format!(
+                "expected different values of `--{}`, found `{name}` twice",
+                arg.get_long().unwrap_or_default()
+            );
+            return Err(Problem::usage(what, "leave one of them out"));
+        }
+    }
+    Ok(())
 }
 
 /// Rejects a word that is neither the name of a `what` nor a file; a path without a dot or a folder counts as a name.

@@ -118,7 +118,7 @@ fn choose(args: &Args) -> miette::Result<HitSource> {
         return Ok(HitSource::Caster(caster));
     }
     let profile = Box::new(device_named(device.unwrap_or(view::DEFAULT_DEVICE))?);
-    let executor = Decider::choose(args.executor, device).open()?;
+    let executor = Decider::choose(args.executor, device)?;
     Ok(executor.map_or(HitSource::Exact, |executor| HitSource::Card(profile, executor)))
 }
 

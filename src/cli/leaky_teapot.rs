@@ -14,6 +14,7 @@ use super::{Problem, view};
 use crate::geom::teapot::teapot;
 use crate::io::load_rays;
 use crate::options::Size;
+use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::ray_engine::{EdgeRule, RayBatch};
 use crate::scene::Camera;
@@ -65,7 +66,7 @@ pub(super) struct Args {
     eye: EyeArgs,
 
     /// Quads along each side of each of the 32 Bezier patches
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = number::whole::<u32>(1..=64))]
     tessellation: u32,
 
     /// A card to run on; may be repeated [default: r200, unchanged and with each of its open switches changed]

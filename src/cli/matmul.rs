@@ -1,11 +1,13 @@
 //! `crossbar matmul`: a matrix product in the matrix units of GPUs.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use refsim::num::matrix::{Element, MatrixUnit, UNITS};
 
 use super::Problem;
 use super::study::{StudyArgs, StudyFiles};
+use crate::options::number;
 use crate::study::matrix_product::{MatrixInput, MatrixProduct};
 use crate::study::precision::Goal;
 
@@ -50,7 +52,7 @@ pub(super) struct Args {
     types: Vec<Element>,
 
     /// Also add the partial sum to single precision after each N products
-    #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N,...", value_delimiter = ',', value_parser = number::whole::<u32>(1..=u32::MAX))]
     promote: Vec<u32>,
 
     /// Reference for errors: exact, or a unit
@@ -82,8 +84,10 @@ fn reference(text: &str) -> Result<MatmulReference, String> {
 }
 
 fn element(text: &str) -> Result<Element, String> {
-    let mut all = UNITS.iter().flat_map(|unit| unit.operands);
-    all.find(|element| element.name == text).copied().ok_or_else(|| format!("expected a type, found `{text}`"))
+    let all: BTreeMap<&str, Element> =
+        UNITS.iter().flat_map(|unit| unit.operands).map(|element| (element.name, *element)).collect();
+    let expected = || format!("expected one of {}, found `{text}`", all.keys().copied().collect::<Vec<_>>().join(", "));
+    all.get(text).copied().ok_or_else(expected)
 }
 
 fn place(text: &str) -> Result<[usize; 2], String> {

@@ -57,6 +57,7 @@ use std::{io::Write as _, process::ExitCode};
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use crate::options::number;
 use crate::report::Verdict;
 
 use resolved::CommandLine;
@@ -99,7 +100,7 @@ struct Cli {
 
     /// Number of threads; the results do not depend on it [default: one per core]
     #[arg(long, global = true, value_name = "N", display_order = 901,
-          value_parser = clap::value_parser!(u16).range(1..=1024))]
+          value_parser = number::whole::<u16>(1..=1024))]
     threads: Option<u16>,
 
     /// Show no progress
@@ -160,9 +161,9 @@ type Parsed = (Cli, CommandLine, Result<(), Problem>);
 
 fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
     let mut program = program();
-    let matches = program.try_get_matches_from_mut(arguments)?;
+    let matches = program.try_get_matches_from_mut(arguments).map_err(error::without_tip)?;
     let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
-    let fits = model_file::choose(&program, &matches);
+    let fits = given::refuse_repeated(&program, &matches).and_then(|()| model_file::choose(&program, &matches));
     Ok((cli, resolved::command_line(&program, &matches), fits))
 }
 

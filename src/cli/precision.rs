@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use strum::IntoEnumIterator as _;
+
 use super::study::{StudyArgs, StudyFiles};
 use super::uniform::{self, Uniform};
 use super::{given, switch};
 use crate::case::{Overrides, Setup};
+use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::study::Study;
 use crate::study::precision::{
@@ -63,11 +66,11 @@ pub(super) struct Args {
     range: Vec<String>,
 
     /// Inputs of an expression per format [default: 1000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=100_000))]
     samples: Option<u32>,
 
     /// Random seed of the inputs of an expression [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u64>(0..=u64::MAX))]
     seed: Option<u64>,
 
     /// Distribution of the inputs of an expression [default: floats]
@@ -102,7 +105,7 @@ pub(super) struct Args {
     family: Option<Families>,
 
     /// Maximum number of runs of the program; then the best result so far counts [default: 10000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u64>(1..=u64::MAX))]
     budget: Option<u64>,
 
     /// Cost of a format by its bits, a CSV file [default: the bits]
@@ -192,6 +195,8 @@ impl Args {
             let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
             return Ok(self.of(system.subject(profile)?, costs));
         }
+        let systems: Vec<&str> = PaperSystem::iter().map(Into::into).collect();
+        given::require_file(case, "system", &systems, "toml")?;
         let mut subject = self.case(case)?;
         if let Some(path) = &self.held_back {
             let (other, _) = self.setup(path, &[])?;

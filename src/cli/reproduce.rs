@@ -11,7 +11,7 @@ use super::{CommandLine, Out, Problem, ProgressBar};
 use crate::io::{require_writable, write_file};
 use crate::kept::{KeptResults, KeptWork, SpentTime};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
-use crate::study::reproduce::{ENTRIES, EntryRecord, Parameters, RecordMade, ReproduceEntry, choose, recorded};
+use crate::study::reproduce::{EntryRecord, Parameters, RecordMade, ReproduceEntry, choose, recorded};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -67,7 +67,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     match &args.record {
         Some(folder) => record(args, folder, out),
-        None if args.list => list(out),
+        None if args.list => list(&args.entries, out),
         None => study::run(args, command_line, out),
     }
 }
@@ -85,9 +85,9 @@ impl StudyArgs for Args {
     }
 }
 
-fn list(out: &mut Out) -> miette::Result<Verdict> {
+fn list(entries: &[String], out: &mut Out) -> miette::Result<Verdict> {
     let mut table = Table::new("Entries", &["id", "what"]);
-    for entry in ENTRIES {
+    for entry in choose(entries)? {
         table.push([entry.id.into(), entry.title.into()]);
     }
     if out.json() {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::study::{StudyArgs, StudyFiles};
 use crate::options::Size;
+use crate::options::number;
 use crate::study::tour::Parameters;
 
 const EXAMPLES: &str = "\
@@ -23,7 +24,7 @@ pub(super) struct Args {
     size: Size,
 
     /// Lengthen edges of patches and models by this factor, for a quick look
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=8))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = number::whole::<u32>(1..=8))]
     coarser: u32,
 
     /// Where to write pictures, tables and the page

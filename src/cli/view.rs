@@ -44,6 +44,10 @@ pub(super) fn framing(
     let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
     let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
     let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
+    if radius == 0.0 && eye.is_none() {
+        let help = "name another mesh, or place the camera by `--eye` where there is one";
+        return Err(Problem::usage("expected a mesh with an extent, found one point", help).into());
+    }
     let tangent = f64::from(tan_half_height);
     let camera = |eye, target| Camera::new(eye, target, up, tan_half_height, size.width, size.height).into_diagnostic();
     if eye.is_none() && target.is_none() {

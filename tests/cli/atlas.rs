@@ -17,7 +17,7 @@ fn what_it_says() {
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> ProgramOutput {
-    let ran = crossbar_in(folder, &[&["atlas", TEAPOT, "--side", "64", "--size", "32x24"], arguments].concat(), "");
+    let ran = crossbar_in(folder, &[&["atlas", TEAPOT, "--side", "64"], arguments].concat(), "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     ran
 }
@@ -25,7 +25,7 @@ fn run(folder: &Path, arguments: &[&str]) -> ProgramOutput {
 #[test]
 fn what_it_writes() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let ran = run(folder.path(), &["--out", "atlas", "--json"]);
+    let ran = run(folder.path(), &["--size", "32x24", "--out", "atlas", "--json"]);
     let document: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
     assert_eq!(document["side"], 64);
     assert_eq!(document["levels"].as_array().map(Vec::len), Some(7));

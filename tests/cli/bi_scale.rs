@@ -184,6 +184,11 @@ fn textures_that_do_not_fit_are_refused() {
             "the model has no texture coordinates",
         ),
         (
+            format!("bi-scale render {COURT_BICLUSTERS} --model {STEP} --texture tiles --size 8x6"),
+            "name the model that docs/examples/court_biclusters.npz was computed from",
+        ),
+        ("bi-scale bicluster docs/examples/rays.csv".to_owned(), "name a Matrix Market file (.mtx)"),
+        (
             format!("bi-scale render {BICLUSTERS} --model {COURT} --texture mail --size 8x6"),
             "found that of 70 vertices",
         ),

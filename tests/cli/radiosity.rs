@@ -19,7 +19,7 @@ const SMALL: [&str; 9] =
 fn what_it_says_and_writes() {
     let mut arguments = SMALL.to_vec();
     arguments.extend(["--solver", "gauss-seidel", "--solver", "direct", "--packing", "rgb", "--packing", "luminance"]);
-    arguments.extend(["--storage", "fp32", "--storage", "fp16", "--picture-after", "1,4"]);
+    arguments.extend(["--storage", "fp32", "--storage", "fp16", "--picture-after", "1,4,5000"]);
     let (ran, folder) = radiosity(&arguments);
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     insta::assert_snapshot!("radiosity_tables", ran.stdout);

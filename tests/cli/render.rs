@@ -34,7 +34,7 @@ fn what_it_says() {
 
 #[test]
 fn bad_input() {
-    let cases: [(&str, &[&str]); 14] = [
+    let cases: [(&str, &[&str]); 16] = [
         ("unknown_scene", &["teapot-rooms"]),
         ("unknown_view", &["cornell-box", "--view", "behind"]),
         ("view_and_eye", &["cornell-box", "--view", "front", "--eye", "0,0,0"]),
@@ -42,6 +42,8 @@ fn bad_input() {
         ("no_samples", &["cornell-box", "--samples", "0"]),
         ("bad_exposure", &["cornell-box", "--exposure", "-1"]),
         ("device_of_the_host", &["cornell-box", "--device", "r300"]),
+        ("device_in_exact_arithmetic", &["square.obj", "--executor", "exact", "--device", "r200"]),
+        ("one_point", &["point.obj"]),
         ("engine_in_exact_arithmetic", &["cornell-box", "--caster", "engine", "--executor", "exact"]),
         ("no_lights", &["square.obj", "--renderer", "path"]),
         ("missing_file", &["square2.obj", "--renderer", "eye"]),
@@ -52,7 +54,9 @@ fn bad_input() {
     ];
     let said = listed(cases.map(|(name, arguments)| {
         let folder = tempfile::tempdir().expect("a folder for the test");
-        for (file, text) in [("square.obj", SQUARE), ("field.toml", FIELD), ("broken.ply", BROKEN)] {
+        let point = "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n";
+        let files = [("square.obj", SQUARE), ("point.obj", point), ("field.toml", FIELD), ("broken.ply", BROKEN)];
+        for (file, text) in files {
             std::fs::write(folder.path().join(file), text).expect("written");
         }
         let ran = crossbar_in(folder.path(), &[&["render"], arguments].concat(), "");

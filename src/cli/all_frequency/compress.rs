@@ -14,6 +14,7 @@ use crate::cli::words::counted;
 use crate::cli::{CommandLine, Problem, ProgressBar, version};
 use crate::clustering::CpcaMethod;
 use crate::kept::{KeptResults, KeptWork, SpentTime};
+use crate::options::number;
 use crate::report::{Cell, Findings, Table};
 use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
 use crate::transfer::linear_basis::LinearBasis;
@@ -41,16 +42,16 @@ pub(super) struct Args {
     model: PathBuf,
 
     /// Vertices per cluster on average
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = number::whole::<u32>(1..=u32::MAX))]
     points_per_cluster: u32,
 
     /// Representatives per cluster; 256 times the terms of the reflectance, as many as a vertex has numbers in a
     /// segment, at most
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = number::whole::<u32>(1..=u32::MAX))]
     vectors: u32,
 
     /// Bits of the numbers of representatives, and of weights
-    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u8).range(2..=16))]
+    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = number::whole::<u8>(2..=16))]
     bits: u8,
 
     /// Store finished segments in this folder and reuse those in it; a folder of another run is refused

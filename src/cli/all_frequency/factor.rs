@@ -85,11 +85,11 @@ pub(super) struct Args {
     shadowing: Option<Shadowing>,
 
     /// Texels along an edge of the parabolic maps
-    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=MAX_MAP_SIDE as i64))]
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = number::whole::<u32>(1..=MAX_MAP_SIDE as u32))]
     side: u32,
 
     /// Terms [default: 10, or the rank of the table if that is less]
-    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "M", value_parser = number::whole::<u32>(1..=u32::MAX))]
     terms: Option<u32>,
 
     /// Where to write the page, the pictures and the tables

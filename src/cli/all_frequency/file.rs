@@ -9,6 +9,7 @@ use crate::cli::model_name::Model;
 use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::cli::transfer::model::model_of;
 use crate::cli::transfer::picture::PictureArgs;
+use crate::options::number;
 use crate::scene::{Material, Surface};
 use crate::study::prt::{LitGround, LitModel};
 use crate::transfer::Vertices;
@@ -87,7 +88,7 @@ pub(super) struct LitArgs {
     light: DistantLightArg,
 
     /// Number of light coefficients kept, largest area times magnitude first [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=6144))]
     keep: Option<u32>,
 
     #[command(flatten)]

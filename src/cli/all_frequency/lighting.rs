@@ -10,6 +10,7 @@ use crate::cli::study::written;
 use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
 use crate::error::InputError;
 use crate::io::{write_cube_table, write_file};
+use crate::options::number;
 use crate::options::one_of::variants;
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
@@ -45,7 +46,7 @@ pub(super) struct Args {
     segments: Segmentation,
 
     /// Coefficients that are kept [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=6144))]
     keep: Option<u32>,
 
     /// Measure of importance for --keep

@@ -18,6 +18,7 @@ use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::geom::{Mesh, Sides};
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
+use crate::options::number;
 use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
@@ -53,7 +54,7 @@ pub(super) struct Args {
 
     /// Put the model on a diffuse ground of N x N vertices; the paper has 192. Written beside --out, with the endings
     /// ground.npz and ground.obj: the ground's own file and its model
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1024))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(2..=1024))]
     ground: Option<u32>,
 
     /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an

@@ -13,6 +13,7 @@ use self::device::{AluArithmetic, State, refuse_foreign, refuse_lacking};
 use self::line::Asked;
 use self::operation::{AluOperation, AluUnit};
 use super::{Out, Problem, Verdict, given};
+use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 
 const EXAMPLES: &str = "\
@@ -108,7 +109,7 @@ pub(super) struct Args {
     flags: bool,
 
     /// The seed of stochastic rounding, `:rst` [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u64>(0..=u64::MAX))]
     seed: Option<u64>,
 }
 

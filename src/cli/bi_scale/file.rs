@@ -34,15 +34,12 @@ pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>)
     Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
 }
 
-/// Returns `true` for the name of a matrix file in text form.
-fn is_text(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
-}
-
 /// Reads a Matrix Market file, or a `.npz` file of bi-scale transfer, by the extension.
 pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
-    if !is_text(path) {
-        let file = load_bi_scale(path)?;
+    let ends = |with: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(with));
+    if !ends("mtx") {
+        let help = "name a Matrix Market file (.mtx), or what `crossbar bi-scale` wrote (.npz)";
+        let file = load_bi_scale(path).map_err(|error| if ends("npz") { error } else { error.with_help(help) })?;
         require_size(path, file.biclusters.as_ref().map_or([0; 2], Biclustering::matrix_size))?;
         return Ok(file);
     }

@@ -16,6 +16,7 @@ use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::geom::Sides;
+use crate::options::number;
 use crate::report::Findings;
 use crate::study::caster::CasterOptions;
 use crate::transfer::file::MeshDigest;
@@ -41,7 +42,7 @@ pub(super) struct Args {
     model: PathBuf,
 
     /// Local directions per side of the square that is mapped to the hemisphere
-    #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
+    #[arg(long, value_name = "K", default_value_t = 8, value_parser = number::whole::<u8>(1..=64))]
     directions: u8,
 
     /// Recompute normals from the triangles, smooth over edges up to this angle in degrees; `crossbar bi-scale render`

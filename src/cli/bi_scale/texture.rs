@@ -12,6 +12,7 @@ use crate::cli::study::written;
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::io::write_file;
+use crate::options::number;
 use crate::picture::{RgbImage, display, png, rgb8};
 use crate::report::Findings;
 
@@ -35,15 +36,15 @@ pub(super) struct Args {
     source: PathBuf,
 
     /// Texels per side; the paper uses 32 and 64
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = number::whole::<u32>(1..=1024))]
     texels: u32,
 
     /// Light directions per side of the square that is mapped to the hemisphere, as for transfer
-    #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
+    #[arg(long, value_name = "K", default_value_t = 8, value_parser = number::whole::<u8>(1..=64))]
     directions: u8,
 
     /// View directions per side of such a square
-    #[arg(long, value_name = "K", default_value_t = 12, value_parser = clap::value_parser!(u8).range(1..=64))]
+    #[arg(long, value_name = "K", default_value_t = 12, value_parser = number::whole::<u8>(1..=64))]
     views: u8,
 
     /// The file to write

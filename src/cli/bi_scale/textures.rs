@@ -7,13 +7,11 @@ use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
 use crate::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
 use crate::cli::model_name::Model;
-use crate::cli::transfer::model::vertices;
+use crate::cli::transfer::model::vertices_of;
 use crate::cli::{Problem, given};
 use crate::options::number;
 use crate::study::prt::SurfaceTexture;
 use crate::transfer::Vertices;
-use crate::transfer::file::MeshDigest;
-use crate::transfer::file::require_mesh;
 
 /// Sampling of patches, and their placement.
 #[derive(Debug, clap::Args)]
@@ -23,11 +21,11 @@ pub(super) struct PatchArgs {
     pub(super) repeat: f64,
 
     /// Texels per side of textures of patches [default: 64]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=1024))]
     texture_size: Option<u32>,
 
     /// View directions per side of the square, for textures of patches [default: 12]
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
+    #[arg(long, value_name = "K", value_parser = number::whole::<u8>(1..=64))]
     texture_views: Option<u8>,
 
     /// The crease angle in degrees, as given to `crossbar bi-scale precompute`
@@ -84,8 +82,7 @@ impl TransferOfModel {
             return Err(Problem::usage(what, "name what `crossbar bi-scale precompute` wrote").into());
         };
         let model = load_creased(name, meaning.mesh.tangents, crease)?;
-        let vertices = vertices(&model, meaning.mesh.tangents)?;
-        require_mesh(path, &MeshDigest::new(&vertices), Some(meaning.mesh))?;
+        let (vertices, _) = vertices_of(path, Some(meaning.mesh), &model)?;
         let light = LocalDirections::new(meaning.side as usize)
             .map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
         Ok(Self { file, model, vertices, light })

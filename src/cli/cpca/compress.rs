@@ -12,6 +12,7 @@ use crate::cli::{Problem, ProgressBar, given};
 use crate::clustering::{
     Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, compress,
 };
+use crate::options::number;
 use crate::options::one_of::{name, variants};
 use crate::report::Findings;
 use crate::study::prt::CompressionError;
@@ -45,11 +46,11 @@ pub(super) struct Args {
     signal: PathBuf,
 
     /// Clusters: 1 to as many as there are points [default: 256]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=u32::MAX))]
     clusters: Option<u32>,
 
     /// Vectors per cluster; 0 is vector quantisation [default: 8, or as many as a point has numbers]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=u32::MAX))]
     vectors: Option<u32>,
 
     /// How points are assigned to clusters [default: iterative]

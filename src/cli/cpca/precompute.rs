@@ -58,7 +58,7 @@ pub(super) struct Args {
     kind: KindArg,
 
     /// Order n of the light: n x n functions
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = number::whole::<u8>(1..=10))]
     order: u8,
 
     /// Functions of exit radiance, for --kind glossy: 16, 25 and other squares; 24 and others that are one less are
@@ -91,11 +91,11 @@ pub(super) struct Args {
 
     /// Size D of the quadrature over each hemisphere, 18 to 255. From 40 on D / 2 + 1 rings of D + 2 directions
     /// of different heights; below, rings of D + 1 directions, each ring of one height
-    #[arg(long, value_name = "D", default_value_t = 44, value_parser = clap::value_parser!(u16).range(18..=255))]
+    #[arg(long, value_name = "D", default_value_t = 44, value_parser = number::whole::<u16>(18..=255))]
     degree: u16,
 
     /// Bounces: interreflections before the reflection towards the eye
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = number::whole::<u32>(0..=100))]
     bounces: u32,
 
     /// The file to write

@@ -104,15 +104,15 @@ pub(super) struct LightArgs {
     pub(super) renderer: Option<Renderer>,
 
     /// Samples per pixel [default: 1 for eye, environment and `--drawn-eyes`, 4 for whitted, else 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
     /// Maximum number of surfaces on a path from lamp to eye; not for eye rays [default: 8]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1024))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=1024))]
     pub(super) depth: Option<u32>,
 
     /// Random seed [default: 1]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u64>(0..=u64::MAX))]
     pub(super) seed: Option<u64>,
 
     /// A view of the scene, by its name [default: its first]
@@ -128,11 +128,11 @@ pub(super) struct LightArgs {
     pub(super) lens: Option<Lens>,
 
     /// Photons per map in photon mapping [default: 100000]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=u32::MAX))]
     pub(super) photons: Option<u32>,
 
     /// Gather rays per hit in photon mapping; 0 shows the map itself [default: 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(0..=65536))]
     pub(super) gather: Option<u32>,
 
     /// The engine's card draws what the eye sees, from the front, and the engine casts all other rays

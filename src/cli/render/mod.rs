@@ -32,13 +32,14 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     args.light.refuse_others(None)?;
     args.caster.choose(ExecutorKind::Batch.into())?;
     let profile = device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
+    let executor = Decider::choose(args.executor, args.device.as_deref())?;
     let mesh = model_file::mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;
     let Size { width, height } = args.size;
     require_writable(&args.out).map_err(Problem::from)?;
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
-    let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open()? {
+    let hits: Vec<Option<(u32, f32)>> = match executor {
         None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), Sides::Both, ExactT::to_f32),
         Some(kind) => {
             provenance.profiles.push(profile.name.clone());

@@ -135,15 +135,11 @@ impl Args {
             (Some(name), ..) => {
                 let published = published(name)?.material();
                 let Some(eta) = self.eta else { return Ok(published) };
-                let made = Material::new(format!("{}, eta {eta}", published.name), published.channels, eta);
-                made.map_err(|error| {
-                    Problem::usage(error.to_string(), "leave out `--eta` for the published one").into()
-                })
+                Ok(Material::new(format!("{}, eta {eta}", published.name), published.channels, eta)?)
             }
             (None, Some(s), Some(a)) => {
                 let channel = |c: usize| Coefficients { sigma_s_prime: s[c], sigma_a: a[c] };
-                let made = Material::new("the coefficients given", [0, 1, 2].map(channel), self.eta.unwrap_or(ETA));
-                made.map_err(|error| Problem::usage(error.to_string(), "coefficients are per mm").into())
+                Ok(Material::new("the coefficients given", [0, 1, 2].map(channel), self.eta.unwrap_or(ETA))?)
             }
             _ => {
                 let help = "add `--material NAME` (see `crossbar materials`), or `--sigma-s` and `--sigma-a` per mm";

@@ -35,10 +35,24 @@ pub(in crate::cli) fn model_of(
 ) -> miette::Result<(Model, Vertices, MeshDigest)> {
     let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
     let model = load(model, tangents)?;
-    let vertices = vertices(&model, tangents)?;
+    let (vertices, digest) = vertices_of(path, mesh, &model)?;
+    Ok((model, vertices, digest))
+}
+
+/// The vertices of the model from which a file was computed.
+pub(in crate::cli) fn vertices_of(
+    path: &Path,
+    mesh: Option<MeshDigest>,
+    model: &Model,
+) -> miette::Result<(Vertices, MeshDigest)> {
+    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
+    let other = |error: InputError| {
+        Problem::usage(error.to_string(), format!("name the model that {} was computed from", path.display()))
+    };
+    let vertices = Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(other)?;
     let digest = MeshDigest::new(&vertices);
     require_mesh(path, &digest, mesh)?;
-    Ok((model, vertices, digest))
+    Ok((vertices, digest))
 }
 
 /// Adds unusual vertices of a model to the findings of `precompute`: vertices without a triangle, vertices without a
@@ -56,7 +70,7 @@ pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, m
 
 /// Reason why the transfer of a model cannot be computed.
 pub(in crate::cli) fn refused(error: InputError) -> Problem {
-    Problem::usage(error.to_string(), "see this command's `--help`")
+    Problem::usage(error.to_string(), error.advice().unwrap_or("see this command's `--help`"))
 }
 
 /// The materials of a model, and the material of each triangle; a file that was read as a mesh is read again for them.

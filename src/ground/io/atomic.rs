@@ -57,7 +57,10 @@ fn write_beside(
     };
     let folder = if folder == Path::new("") { Path::new(".") } else { folder };
     let beside = || {
-        fs::create_dir_all(folder)?;
+        fs::create_dir_all(folder).map_err(|error| match error.kind() {
+            io::ErrorKind::AlreadyExists => io::ErrorKind::NotADirectory.into(),
+            _ => error,
+        })?;
         tempfile::Builder::new().prefix(".crossbar-").tempdir_in(folder)
     };
     let beside = beside().map_err(|source| WriteError::Folder { path: folder.into(), source })?;

@@ -3,7 +3,7 @@
 use image::Limits;
 
 use super::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureFormat};
-use crate::error::{InputError, ensure, input_error};
+use crate::error::{InputError, input_error};
 
 /// The size of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,10 +35,14 @@ pub(super) fn limits() -> Limits {
 /// Rejects a size that would take too much memory.
 pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_bytes: u64) -> Result<(), InputError> {
     let bytes = width.saturating_mul(height).saturating_mul(channels as u64).saturating_mul(sample_bytes);
-    ensure!(width.max(height) <= u64::from(MAX_SIDE) && bytes <= MAX_DECODED_BYTES, "crossbar::picture::size" =>
-        "expected a picture of at most {MAX_SIDE} pixels per side and {MAX_DECODED_BYTES} bytes decoded, found \
-         {width}x{height} with {channels} channels");
-    Ok(())
+    let fits = width.max(height) <= u64::from(MAX_SIDE) && bytes <= MAX_DECODED_BYTES;
+    if fits { Ok(()) } else { Err(too_large(&format!("{width}x{height} with {channels} channels"))) }
+}
+
+/// The error of a picture beyond the limits.
+pub(super) fn too_large(found: &str) -> InputError {
+    input_error!("crossbar::picture::size" =>
+        "expected a picture of at most {MAX_SIDE} pixels per side and {MAX_DECODED_BYTES} bytes decoded, found {found}")
 }
 
 /// Rejects a size for which a file is too short, because memory is allocated before the pixels are read. `least` is the

@@ -4,12 +4,12 @@ use std::borrow::Cow;
 use std::io::Cursor;
 
 use image::codecs::hdr::HdrDecoder;
-use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageFormat, ImageReader, Rgba};
+use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageError, ImageFormat, ImageReader, Rgba};
 
 use super::channels::{ChannelUnit, Picture, Samples};
 use super::error::PictureFormat;
 use super::exr;
-use super::limits::{PictureSize, limits, require_length, require_size};
+use super::limits::{PictureSize, limits, require_length, require_size, too_large};
 use crate::elementary::pow;
 use crate::error::{InputError, input_error};
 use crate::picture::error::decode_error;
@@ -120,8 +120,11 @@ fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], InputError> {
     }
 }
 
-fn refused(format: PictureFormat) -> impl Fn(image::ImageError) -> InputError {
-    move |error| decode_error(format, error.to_string())
+fn refused(format: PictureFormat) -> impl Fn(ImageError) -> InputError {
+    move |error| match error {
+        ImageError::Limits(_) => too_large("more"),
+        error => decode_error(format, error.to_string()),
+    }
 }
 
 fn reader(bytes: &[u8], format: PictureFormat) -> ImageReader<Cursor<&[u8]>> {

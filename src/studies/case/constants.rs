@@ -3,8 +3,9 @@
 use std::{collections::BTreeMap, ops::Range};
 
 use refsim::{
+    device::Limits,
     exec::{CheckedProgram, Constants},
-    isa::{FIRST_ENVIRONMENT, ParameterSource, Version},
+    isa::{FIRST_ENVIRONMENT, ParameterSource, Stage, Version},
 };
 use toml::Spanned;
 
@@ -32,11 +33,12 @@ impl Binder<'_> {
         &self,
         written: &BTreeMap<String, Spanned<Constant>>,
         program: &CheckedProgram,
+        limits: &Limits,
     ) -> Result<Constants, CaseError> {
         let mut constants = Constants::default();
         for (name, value) in written {
             let span = value.span();
-            match (self.constant_target(name, program, span.clone())?, value.get_ref()) {
+            match (self.constant_target(name, program, limits, span.clone())?, value.get_ref()) {
                 (ConstantTarget::Float(number), Constant::Vector(numbers)) => {
                     *place_at(&mut constants.float, number) = self.four(numbers, span)?;
                 }
@@ -47,17 +49,15 @@ impl Binder<'_> {
                     let value = value.map_err(|message| self.place.wrong(span, message, help))?;
                     constants.named.insert(name.clone(), value);
                 }
-                (ConstantTarget::Int(number @ 0..16), Constant::Vector(numbers)) => match integers(numbers) {
+                (ConstantTarget::Int(number), Constant::Vector(numbers)) => match integers(numbers) {
                     Some(four) => *place_at(&mut constants.int, number) = four,
                     None => return self.odd(span, format!("expected 4 whole numbers of 32 bits for `{name}`")),
                 },
-                (ConstantTarget::Bool(number @ 0..16), Constant::Bool(value)) => {
+                (ConstantTarget::Bool(number), Constant::Bool(value)) => {
                     *place_at(&mut constants.boolean, number) = *value;
                 }
                 _ => {
-                    let message =
-                        format!("the value of `{name}` does not fit the register, or there is no such register");
-                    return self.odd(span, message);
+                    return self.odd(span, format!("the value of `{name}` does not fit the register"));
                 }
             }
         }
@@ -73,6 +73,7 @@ impl Binder<'_> {
         &self,
         name: &str,
         program: &CheckedProgram,
+        limits: &Limits,
         span: Range<usize>,
     ) -> Result<ConstantTarget, CaseError> {
         let declared = || program.parameters.iter().filter(|p| matches!(p.source, ParameterSource::Named(_)));
@@ -80,14 +81,20 @@ impl Binder<'_> {
             return Ok(ConstantTarget::Named(parameter.width));
         }
         let opengl = program.version.is_fragment_program();
-        let number = register(name, 256);
+        let of_card = match program.version.stage() {
+            Stage::Pixel => limits.constants,
+            Stage::Vertex => limits.vertex_constants,
+        };
+        let floats = of_card.filter(|_| !opengl).unwrap_or(256);
+        let number = register(name, if name.starts_with('c') { floats as usize } else { 16 });
         match (name.bytes().next(), number) {
             (Some(b'c'), Some(number)) => return Ok(ConstantTarget::Float(number)),
             (Some(b'i'), Some(number)) if !opengl => return Ok(ConstantTarget::Int(number)),
             (Some(b'b'), Some(number)) if !opengl => return Ok(ConstantTarget::Bool(number)),
             _ if !opengl => {
-                return self
-                    .odd(span, format!("expected a constant c0 to c255, i0 to i15 or b0 to b15, found `{name}`"));
+                let last = floats.saturating_sub(1);
+                let message = format!("expected a constant c0 to c{last}, i0 to i15 or b0 to b15, found `{name}`");
+                return self.odd(span, message);
             }
             _ => {}
         }

@@ -124,6 +124,7 @@ impl CaseText {
     /// Converts an error of the TOML reader, with its message and span.
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
         let message = error.message().trim_end().replace('\n', ", ");
+        let message = message.replace("expected u32", &format!("expected a whole number from 0 to {}", u32::MAX));
         CaseError::Schema {
             help: format!("{}docs/cases.md describes the case format", did_you_mean_field(&message)),
             message,

@@ -1,6 +1,22 @@
 //! Numbers on the command line.
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
 use crate::io::{NumberError, parse_f32, parse_f64, to_f32};
+
+/// A whole number in a range.
+pub fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    T: Clone + Display + FromStr + PartialOrd,
+{
+    move |text| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        let expected = || format!("expected a whole number from {} to {}, found `{text}`", range.start(), range.end());
+        number.ok_or_else(expected)
+    }
+}
 
 /// A finite number.
 pub fn finite(text: &str) -> Result<f64, String> {

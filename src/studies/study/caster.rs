@@ -12,6 +12,7 @@ use serde_json::json;
 
 use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
+use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::ray_engine::EngineError;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine, Readback};
@@ -50,7 +51,7 @@ pub struct CasterOptions {
     pass_triangles: Option<CountPair>,
 
     /// Rays per pass on the card; the host tests the rays of cells that fewer rays meet [default: 64]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=65536))]
     pass_rays: Option<u32>,
 
     /// When results of a pass are taken: sync (the host waits), async:N (N passes in flight), free (passes take no

@@ -101,7 +101,7 @@ impl Vertices {
         let texture = match tangents {
             Tangents::Texture => Some(mesh.texcoords().ok_or_else(|| {
                 input_error!("crossbar::prt::precompute" =>
-                    "the mesh has no texture coordinates to take tangents from; name an axis for the tangents instead")
+                    "the mesh has no texture coordinates to take tangents from"; help "name an axis for the tangents")
             })?),
             Tangents::Any => None,
             Tangents::Along(axis) if unit(axis).is_some() => None,

@@ -22,7 +22,6 @@ use texts::Command;
 /// Reduced sizes and counts of long work: command, option and the value that replaces the value in the text. Where
 /// `always` is true, the option is added if the text does not have it.
 const CUT: &[(&str, &str, &str, bool)] = &[
-    ("atlas", "--size", "8x8", true),
     ("leaky-teapot", "--size", "16x16", true),
     ("leaky-teapot", "--tessellation", "1", true),
     ("leaky-teapot", "--rays-per-edge", "0", true),
@@ -30,7 +29,7 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("render", "--samples", "1", false),
     ("radiosity", "--size", "8x8", true),
     ("radiosity", "--patches", "60", true),
-    ("radiosity", "--iterations", "4", true),
+    ("radiosity", "--iterations", "4", false),
     ("radiosity", "--picture-after", "1,2", false),
     ("radiosity", "--sweep-patches", "60", false),
     ("subsurface", "--all-pairs", "no", true),

@@ -190,6 +190,9 @@ fn what_is_wrong_is_said() {
         "expected a picture of at most 16384 pixels per side and 1073741824 bytes decoded, found 1000000x1000000 with 3 \
          channels"
     );
+    let header = b"IHDR\x7f\xff\xff\xff\x7f\xff\xff\xff\x08\x02\0\0\0\x9b\xab\x9c\x31\0\0\0\0IDAT\x35\xaf\x06\x1e";
+    let huge = [b"\x89PNG\r\n\x1a\n\0\0\0\x0d", &header[..]].concat();
+    assert!(said(&huge).starts_with("expected a picture of at most 16384 pixels per side"), "{}", said(&huge));
     let ids = Picture::new(1, 1).with("id", ChannelUnit::Id, Samples::Uint(vec![0])).expect("one sample");
     let refused = ids.display(1.0).map(|_| ()).unwrap_err().to_string();
     assert_eq!(refused, "expected channels R, G and B, or Y; found id");

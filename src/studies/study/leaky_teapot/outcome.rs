@@ -9,6 +9,7 @@ use super::inside::Holes;
 use crate::geom::classify::HitVerdict;
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
+use crate::options::number;
 use crate::options::sides;
 use crate::picture::RgbImage;
 use crate::ray_engine::{EdgeRule, RayBatch};
@@ -40,7 +41,7 @@ pub struct Parameters {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::Args)]
 pub struct LeakyTeapotOptions {
     /// Rays aimed at each edge that two triangles share, for the second table; 0 leaves the table out.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=64))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = number::whole::<u32>(0..=64))]
     pub rays_per_edge: u32,
 
     /// Sides of faces that can be hit.

@@ -35,7 +35,7 @@ pub struct DifferenceOptions {
     pub ppd: Option<f64>,
 
     /// The difference at the ends of the false colors [default: the 99th percentile of the differing pixels]
-    #[arg(long, value_name = "X", value_parser = number::positive)]
+    #[arg(long, value_name = "X", value_parser = number::positive, requires = "out")]
     pub scale: Option<f64>,
 
     /// Largest root mean square difference allowed in a channel.

@@ -17,7 +17,7 @@ use crate::study::StudyError;
 #[derive(Clone, Debug, clap::Args)]
 pub struct RadiosityOptions {
     /// Cut faces into at most this many patches in total.
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = number::whole::<u32>(1..=16384))]
     pub patches: u32,
 
     /// How form factors are computed: unoccluded (all patches see each other), or rays or rays:N (closed forms and
@@ -49,17 +49,17 @@ pub struct RadiosityOptions {
     tolerance: Option<f64>,
 
     /// Maximum number of iterations [default: 1000]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=100_000))]
     iterations: Option<u32>,
 
     /// Pictures of the first method on the card after these numbers of iterations.
     #[arg(long = "picture-after", value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true,
-          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+          value_parser = number::whole::<u32>(1..=100_000))]
     pub frames: Vec<u32>,
 
     /// Also solve the room with these numbers of patches, on the card as it is and with each open switch changed.
     #[arg(long = "sweep-patches", value_name = "N,N", value_delimiter = ',',
-          value_parser = clap::value_parser!(u32).range(1..=16384))]
+          value_parser = number::whole::<u32>(1..=16384))]
     pub sweep: Vec<u32>,
 }
 
@@ -139,14 +139,16 @@ impl RadiosityOptions {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
         let solvers = if self.solvers.is_empty() { &usual[..] } else { &self.solvers };
         let of_the_card = !self.packings.is_empty() || !self.storages.is_empty();
-        let of_card = [
-            (of_the_card, "`--packing` and `--storage` are for the card", "leave them out"),
-            (!self.frames.is_empty(), "`--picture-after` shows the iterations of the card", "leave it out"),
-            (!self.sweep.is_empty(), "`--sweep-patches` turns the switches of the card", "leave it out"),
+        let stops = self.tolerance.is_some() || self.iterations.is_some();
+        let on_card = solvers.contains(&SolverChoice::Card);
+        let iterates = solvers.iter().any(|solver| *solver != SolverChoice::Host(Solver::Direct));
+        let idle = [
+            (of_the_card && !on_card, "`--packing` and `--storage` are for the card", "leave them out"),
+            (!self.frames.is_empty() && !on_card, "`--picture-after` shows the iterations of the card", "leave it out"),
+            (!self.sweep.is_empty() && !on_card, "`--sweep-patches` turns the switches of the card", "leave it out"),
+            (stops && !iterates, "`--tolerance` and `--iterations` are for solvers that iterate", "leave them out"),
         ];
-        if !solvers.contains(&SolverChoice::Card)
-            && let Some((_, what, or)) = of_card.into_iter().find(|(given, ..)| *given)
-        {
+        if let Some((_, what, or)) = idle.into_iter().find(|(idle, ..)| *idle) {
             return Err(StudyError::usage(what, format!("add `--solver card`, or {or}")));
         }
         let packings = if self.packings.is_empty() { &[Packing::Rgb][..] } else { &self.packings };

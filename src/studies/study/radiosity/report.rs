@@ -45,6 +45,12 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         let smooth = picture("smooth", drawn.smooth, "resampled to corners");
         if leads { lead.push(smooth) } else { pictures.push(smooth) }
     }
+    let is_drawn = |number: &&u32| outcome.frames.iter().any(|frame| frame.iteration == **number);
+    for number in parameters.options.frames.iter().filter(|number| !is_drawn(number)) {
+        found.conclusion(format!(
+            "No picture after iteration {number}: the first method on the card stopped before it."
+        ));
+    }
     let frames: Vec<NamedPicture> = outcome.frames.into_iter().map(frame).collect();
     found.pictures(lead);
     found.paragraph(about);

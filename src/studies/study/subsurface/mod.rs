@@ -23,7 +23,7 @@ use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::subsurface::links::Links;
 use crate::subsurface::multipole::SurfaceMoments;
-use crate::subsurface::on_card::CardModel;
+use crate::subsurface::on_card::{CardModel, SubsurfaceCard};
 use crate::subsurface::{Dipole, irradiance};
 use angles::{AngleBin, BinError};
 use model::ModelLengths;
@@ -53,6 +53,8 @@ impl Study for Parameters {
 /// Builds the atlas, lights it, gathers over all pairs and by every way. Fails if the model, its medium or its
 /// light does not suit the study, or the card refuses the work.
 fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, StudyError> {
+    // Before the sums, which take long.
+    SubsurfaceCard::require(&parameters.profile).map_err(no_card)?;
     let eta = parameters.material.eta;
     let [red, green, blue] = parameters.material.channels;
     let dipoles = [Dipole::new(red, eta)?, Dipole::new(green, eta)?, Dipole::new(blue, eta)?];

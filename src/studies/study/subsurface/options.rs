@@ -22,11 +22,11 @@ pub struct SubsurfaceOptions {
     pub mm_per_unit: f64,
 
     /// Texels along a side of the atlas: a power of two.
-    #[arg(long = "atlas", value_name = "N", default_value_t = 128, value_parser = clap::value_parser!(u32).range(1..=8192))]
+    #[arg(long = "atlas", value_name = "N", default_value_t = 128, value_parser = number::whole::<u32>(1..=8192))]
     pub side: u32,
 
     /// Links per texel; for fixed links 1, 4, 16, 64, ...
-    #[arg(long, value_name = "L,L", value_delimiter = ',', default_value = "16", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_name = "L,L", value_delimiter = ',', default_value = "16", value_parser = number::whole::<u32>(1..=16384))]
     pub links: Vec<u32>,
 
     /// Layout of links; may be repeated [default: fixed]
@@ -117,15 +117,9 @@ impl SubsurfaceOptions {
     }
 }
 
-/// The requested values without duplicates, or the usual value.
-fn or<T: Copy + PartialEq>(asked: &[T], usual: T) -> Vec<T> {
-    let mut all: Vec<T> = Vec::new();
-    for &one in asked {
-        if !all.contains(&one) {
-            all.push(one);
-        }
-    }
-    if all.is_empty() { vec![usual] } else { all }
+/// The requested values, or the usual value.
+fn or<T: Copy>(asked: &[T], usual: T) -> Vec<T> {
+    if asked.is_empty() { vec![usual] } else { asked.to_vec() }
 }
 
 fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, StudyError> {

@@ -83,9 +83,14 @@ impl SubsurfaceCard {
         Ok(Self { options, model, memory, map, light, gather, view, lights, log: None })
     }
 
+    /// Checks that a device runs the passes. Fails with [`CardError`] if it does not.
+    pub fn require(profile: &Profile) -> Result<(), CardError> {
+        Ok(require_versions(profile, &[Version::Fp1_0, Version::Vs2_0], "the passes")?)
+    }
+
     /// Checks sizes before any work.
     fn fits(profile: &Profile, links: &LinkTextures, options: &SubsurfaceCardOptions) -> Result<(), CardError> {
-        require_versions(profile, &[Version::Fp1_0, Version::Vs2_0], "the passes")?;
+        Self::require(profile)?;
         let sides = [profile.limits.max_texture_size, profile.limits.max_target_size].into_iter().flatten();
         let limit = sides.min().unwrap_or(MAX_TEXELS);
         let row = !options.map.is_leveled() && links.level.is_none();
