@@ -17,6 +17,7 @@ use std::collections::BTreeMap;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    #[cfg_attr(not(feature = "wgpu"), expect(unused_mut, reason = "adapters add to them"))]
     let mut trials =
         adapter::trials![on_host: the_table_is_sound, scalar, batch, measured_units_depart_from_the_specifications];
     #[cfg(feature = "wgpu")]

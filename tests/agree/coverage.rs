@@ -184,7 +184,7 @@ pub(crate) fn programs_reach_every_opcode_modifier_and_swizzle() {
     for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
         let mut seen = SeenFeatures::default();
         // OpenGL's programs are not all legal.
-        let count = if version.is_fragment_program() || version == Version::Ps2A { 1500 } else { 500 };
+        let count = if version.is_fragment_program() || version == Version::Ps2A { 1500 } else { 1000 };
         let all = programs(version, count);
         assert!(3 * all.len() as u64 > count, "{version}: only {} of {count} programs are legal", all.len());
         for program in &all {

@@ -14,23 +14,10 @@ use refsim::texture::TexelFormat;
 /// Width and height of the targets: more than one tile.
 const SIDE: u32 = 18;
 
-/// The executors available on this host.
-fn executors() -> Vec<ExecutorKind> {
-    let mut all = vec![ExecutorKind::Scalar, ExecutorKind::Batch];
-    #[cfg(feature = "wgpu")]
-    if refsim::exec::gpu::testing::shared().expect("a GPU that can be opened").is_some() {
-        all.push(ExecutorKind::Wgpu);
-    }
-    all
-}
+/// The executors that run programs with flow control.
+const EXECUTORS: [ExecutorKind; 2] = [ExecutorKind::Scalar, ExecutorKind::Batch];
 
 fn machine(profile: &Profile, kind: ExecutorKind) -> Machine {
-    #[cfg(feature = "wgpu")]
-    if kind == ExecutorKind::Wgpu
-        && let Ok(Some(gpu)) = refsim::exec::gpu::testing::shared()
-    {
-        return Machine::with_gpu(profile.clone(), gpu).expect("a machine");
-    }
     Machine::new(profile.clone(), kind)
 }
 
@@ -98,7 +85,7 @@ fn place(error: &MachineError) -> (ProgramPlace, usize, u32) {
 fn what_would_never_end_is_an_error_with_its_place() {
     for text in [nested(4), nested(20), call_tree()] {
         let mut first: Option<MachineError> = None;
-        for kind in executors() {
+        for kind in EXECUTORS {
             let (drawn, bytes) = draw(&text, &host(), 300, kind);
             let error = drawn.expect_err("years");
             assert!(bytes.iter().all(|&b| b == 64), "{kind:?}: nothing is drawn");
@@ -132,7 +119,7 @@ fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
     ];
     for (text, steps) in cases {
         let count = text.lines().count();
-        for kind in executors() {
+        for kind in EXECUTORS {
             let (drawn, bytes) = draw(&text, &host(), steps, kind);
             drawn.unwrap_or_else(|e| panic!("{kind:?}, {steps}: {e}\n{text}"));
             assert!(bytes.iter().any(|&b| b != 64), "{kind:?}: something is drawn");
@@ -150,7 +137,7 @@ fn the_first_fragment_that_needs_too_much_is_named() {
                 t0.y, c2.y\nadd r0, r0, c1.x\nendif\nendif\nbreak_gt r0.x, t0.y\nif_lt t0.y, c2.y\nbreak\nendif\nendrep\nmov \
                 oC0, r0";
     let mut found = Vec::new();
-    for kind in executors() {
+    for kind in EXECUTORS {
         let (drawn, _) = draw(text, &host(), 30, kind);
         found.push(drawn.expect_err("those that never add"));
     }
@@ -164,7 +151,7 @@ fn the_first_fragment_that_needs_too_much_is_named() {
 #[test]
 fn vertices_have_a_budget_too() {
     let text = "vs_2_0\ndcl_position v0\nmov r0, v0\nrep i0\nadd r0, r0, c0\nendrep\nmov oPos, r0";
-    for kind in executors() {
+    for kind in EXECUTORS {
         let mut profile = ideal("fp32");
         let run = |profile: &Profile| {
             let (vertex, pixel) = (checked(text, profile), checked("ps_2_0\ndef c0, 1, 1, 1, 1\nmov oC0, c0", profile));

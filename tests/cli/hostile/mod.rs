@@ -253,7 +253,7 @@ fn what_is_wrong_is_said() {
         ("diff a.png b.png --scale 0.1", "--out <DIR>"),
         ("atlas stand-in-head --size 4x4", "--out <DIR>"),
         ("leaky-teapot --kernel paper --kernel paper", "expected different values of `--kernel`, found `paper` twice"),
-        ("radiosity white-box --emit light=1,1,1 --emit light=2,2,2", "of `--emit`, found `light` twice"),
+        ("radiosity white-box --solver direct --solver direct", "of `--solver`, found `direct` twice"),
         ("tour --coarser nan", "expected a whole number from 1 to 8, found `nan`"),
         ("render white-box --seed abc", "expected a whole number from 0 to 18446744073709551615, found `abc`"),
         ("matmul a.npy b.npy --unit hopper-fp8 --type f99", "expected one of "),
