@@ -96,7 +96,7 @@ pub(super) const TABLE: &[Tried] = &[
              --out OUT",
         ],
         options: concat!(
-            "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 same:--executor=scalar@1 \
+            "--mesh=square.obj --rays=rays_2.csv --sides=both@0,1,2,3 same:--sides=both@4 --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 same:--executor=scalar@1 \
                   --caster=engine@1,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
             caster!("4")
         ),
