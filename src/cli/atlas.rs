@@ -1,4 +1,4 @@
-//! `crossbar atlas`: a mesh in a square of texels.
+//! `crossbar atlas`: maps a mesh to a square texture.
 
 use std::path::PathBuf;
 

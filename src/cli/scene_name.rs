@@ -73,8 +73,8 @@ impl EyeArgs {
         eye.is_none() && target.is_none() && tan_half_height.is_none()
     }
 
-    /// A camera; without an eye, it sees the whole mesh. Up is z, or y if the eye is directly above or below the
-    /// target.
+    /// A camera; without `--eye`, one that shows the whole mesh. Up is z, or y if the eye is directly above or below
+    /// the target.
     pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
         let is_upright = self.eye.zip(self.target).is_some_and(|(eye, target)| eye[..2] == target[..2]);
         let up = if is_upright { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };

@@ -41,7 +41,7 @@ pub struct SourceLine {
 /// Error of reading, assembling or checking a shader.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum ShaderError {
     /// The file cannot be read.
     #[error("shader `{name}` cannot be read")]

@@ -5,7 +5,7 @@ use crate::num::{Format, FormatError};
 /// Error for a device, switch or value that does not exist. Lists are separated by spaces.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum DeviceError {
     /// There is no profile with this name.
     #[error("unknown device `{name}`; expected one of {known}")]

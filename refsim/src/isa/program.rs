@@ -104,7 +104,7 @@ pub struct Instruction {
     pub sources: Vec<Source>,
     /// `+`: issued together with the previous instruction.
     pub coissue: bool,
-    /// `(p0)` in front.
+    /// Predicate written before the instruction, such as `(p0)`.
     pub predicate: Option<Predicate>,
     /// Parts that only OpenGL fragment programs have; default in Direct3D's versions.
     pub fragment: FragmentPart,

@@ -47,7 +47,7 @@ impl Version {
         Self::Vs2_0,
     ];
 
-    /// OpenGL's fragment programs, in the order of the enumeration, which continues after [`Self::ALL`].
+    /// OpenGL's fragment programs; the enumeration lists them after the versions of [`Self::ALL`].
     pub const FRAGMENT: [Self; 2] = [Self::Fp1_0, Self::ArbFp1_0];
 
     /// The version token in a program, for example `ps_1_4`.

@@ -28,7 +28,7 @@ impl std::fmt::Display for ProgramPlace {
 /// Error of a machine. It leaves the machine unchanged, unless the variant states otherwise.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum MachineError {
     /// The host GPU of the machine failed. Targets are undefined if a draw had begun.
     #[cfg(feature = "wgpu")]

@@ -5,7 +5,7 @@ use crate::texture::{Region, TextureKind};
 /// Error of setting up render targets.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum OutputError {
     /// More targets than the emulator supports.
     #[error("expected at most {most} colour targets, found {found}")]

@@ -5,7 +5,7 @@ use super::Primitive;
 /// Error of rasterising a draw.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum RasterError {
     /// The primitive is not supported.
     #[error("expected triangles or quads, found {primitive:?}; draw thin triangles instead")]

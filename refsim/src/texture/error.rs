@@ -8,7 +8,7 @@ use crate::texel::TexelFormat;
 /// Error of creating or modifying an image.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum TextureError {
     /// There is no format with that name.
     #[error("expected a texel format as `rgba8`, `rg16` or `rgba16f`, found `{name}`")]

@@ -3,7 +3,7 @@
 /// Error of constructing or changing a timing model.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum TimingError {
     /// The device does not state a figure that the model needs.
     #[error("`{device}` has no figure `{figure}`, so it has no timing; use one of the cards that have it: {have}")]

@@ -123,7 +123,7 @@ impl FaceGraph {
         (0..self.len() as u32).filter(|&face| !second[face as usize]).map(across).sum()
     }
 
-    /// Splits the graph into the faces of each side, with the links between them.
+    /// Splits the graph into its two sides, each with the links among its own faces.
     pub(super) fn halves(&self, second: &[bool]) -> [Self; 2] {
         let mut place = vec![0; self.len()];
         let mut counts = [0, 0];

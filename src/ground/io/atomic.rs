@@ -10,7 +10,7 @@ use thiserror::Error;
 /// Errors of writing files.
 #[non_exhaustive]
 #[derive(Debug, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum WriteError {
     /// The folder cannot be made, or nothing can be written in it.
     #[error("cannot write into the folder {}; choose another folder, or make it writable", path.display())]

@@ -8,7 +8,7 @@ use crate::geom::polygon::PolygonFault;
 /// A repair or defect of a model file to report to the user.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum ModelNote {
     /// Reflectances that sum to more than 1 were scaled.
     Scaled { place: FilePlace, material: String, sum: f32 },

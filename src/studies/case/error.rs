@@ -19,7 +19,7 @@ pub(super) type Source = Arc<SourceText>;
 /// Error of reading, binding or running a case.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum CaseError {
     /// The file is not TOML, or does not match the schema.
     #[error("{message}")]
@@ -76,7 +76,7 @@ pub enum CaseError {
 /// Warning: something runs, or may run, differently from the case's text.
 #[non_exhaustive]
 #[derive(Clone, Debug, thiserror::Error, Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum CaseWarning {
     /// A warning on the case.
     #[error("{message}")]

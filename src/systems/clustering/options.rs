@@ -65,7 +65,7 @@ pub enum CpcaMethod {
 /// Reasons for which a signal cannot be compressed. Points count from 0.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum CpcaError {
     /// No clusters, or more clusters than points.
     #[error("expected 1 to {points} clusters, one per point at most, found {clusters}")]

@@ -16,7 +16,7 @@ const EDGE_ON: f64 = 1e-9;
 /// Error of drawing patches.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum DrawError {
     /// The card rejects a resource or a draw.
     #[error(transparent)]

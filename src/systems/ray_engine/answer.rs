@@ -13,7 +13,7 @@ pub(super) const MAX_TRIANGLES: usize = 1 << 24;
 /// Error of an intersection on a card.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
+#[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum EngineError {
     /// The device runs none of the shader versions that the intersection programs are written in.
     #[error("device `{device}` runs no intersection program: expected ps_1_4 or ps_2_0")]

@@ -33,7 +33,7 @@ pub(crate) struct IeeeLane<const PATH: u8> {
     /// Pivot minus the binade, in exponent bits. The pivot is 1.5 times the number whose last place is the format's
     /// unit.
     pivot: (u32, u64),
-    /// Factor by which exactly the numbers above the format's largest overflow to infinity, and its reciprocal.
+    /// Factor that overflows exactly the numbers above the format's largest to infinity; `shrink` is its reciprocal.
     stretch: (f32, f64),
     shrink: (f32, f64),
 }

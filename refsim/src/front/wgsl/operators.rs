@@ -213,7 +213,7 @@ impl Translator<'_> {
             };
             match value {
                 Some(value) => Ok(Component::Int(wrapped(value, kind))),
-                None => self.builder.refuse("this operation on whole numbers has no result"),
+                None => self.builder.refuse("this operation on integers overflows or is not defined"),
             }
         };
         (0..width).map(one).collect()

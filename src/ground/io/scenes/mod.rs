@@ -1,4 +1,4 @@
-//! Scenes of the project by name: files of this folder, and rooms that code builds.
+//! Scenes of the project by name: files in this folder, and rooms built in code.
 //!
 //! A scene's files are those of `crossbar scene NAME --out`, its mesh compressed: `NAME.toml`, `NAME.mtl` and
 //! `NAME.obj.gz`. Units are metres, z is up, fronts face outwards (of a room: inwards).

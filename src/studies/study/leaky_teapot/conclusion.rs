@@ -34,7 +34,7 @@ pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUni
     let right = [format!("row right in every {}", unit[0]), format!("rows right in every {}", unit[0])];
     found.tally(rows_with(|t| t.wrong() == 0), right.each_ref().map(String::as_str), Tone::Good);
     let wrong = rows_with(|t| t.wrong() > 0 && t.leaks == 0);
-    found.tally(wrong, ["row wrong without a leak", "rows wrong without a leak"], Tone::Neutral);
+    found.tally(wrong, ["row with errors but no leak", "rows with errors but no leak"], Tone::Neutral);
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 

@@ -144,13 +144,13 @@ fn same_bits(groups: &[Group<'_>]) -> Value {
 }
 
 impl Group<'_> {
-    /// Lists the other rows, which the tables name: `. The same bits with a and b`
+    /// Lists the other rows, which the tables name: `. The same bits as a and b`
     fn others(&self) -> String {
         let names: Vec<String> = self.same.iter().map(|row| called(row)).collect();
         match names.len() {
             0 => String::new(),
-            1..=MAX_NAMES => format!(". The same bits with {}", listed(&names)),
-            _ => format!(". The same bits in {} other rows", names.len()),
+            1..=MAX_NAMES => format!(". The same bits as {}", listed(&names)),
+            _ => format!(". The same bits as {} other rows", names.len()),
         }
     }
 }

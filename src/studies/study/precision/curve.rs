@@ -105,8 +105,8 @@ pub(super) struct Curve {
     pub(super) is_complete: bool,
 }
 
-/// Integer bits added to the fewest that meet the goal. A value at the end of the range loses less than a step of
-/// single precision in a wide format, but more in a narrower format.
+/// Integer bits added to the smallest number that meets the goal. Clamping at the end of the range costs less than a
+/// single-precision step in a wide format, but more in a narrower one.
 const SPARE: u8 = 2;
 
 impl Curve {

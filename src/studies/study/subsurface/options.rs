@@ -71,8 +71,8 @@ fn rgb() -> OneOf<bool> {
 fn maps() -> OneOf<MapBits> {
     one_of([
         ("8bit", "8 bits per channel, whose levels the card generates", MapBits::Eight),
-        ("fp16", "Half floats, levels by passes", MapBits::Float(FloatTexels::Fp16)),
-        ("fp32", "Single floats, levels by passes", MapBits::Float(FloatTexels::Fp32)),
+        ("fp16", "Half floats; passes compute the levels", MapBits::Float(FloatTexels::Fp16)),
+        ("fp32", "Single floats; passes compute the levels", MapBits::Float(FloatTexels::Fp32)),
     ])
 }
 

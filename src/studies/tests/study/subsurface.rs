@@ -62,8 +62,7 @@ fn cube() -> Mesh {
     flat(halves.as_flattened())
 }
 
-/// Light that enters each face under an environment, compared with the means over the face's texels under the host's
-/// lights.
+/// Per face: the light that enters under an environment, and the mean over the face's texels under the host's lights.
 fn entering(light: CubeLight, lights: &[Light]) -> Vec<[f64; 2]> {
     let study = study(&cube(), Lighting::Environment(light), "--atlas 8 --links 4 --all-pairs no");
     let atlas = Atlas::new(&study.mesh, 8).expect("an atlas");

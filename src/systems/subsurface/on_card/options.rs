@@ -41,9 +41,9 @@ pub enum MapFormat {
         /// Factor that scales irradiance to [0, 1]; larger values are clamped.
         scale: f64,
     },
-    /// Half floats in a rectangle, with levels by passes.
+    /// Half floats in a rectangle, with levels computed by passes.
     Fp16,
-    /// Single floats in a rectangle, with levels by passes.
+    /// Single floats in a rectangle, with levels computed by passes.
     #[default]
     Fp32,
 }

@@ -87,7 +87,7 @@ pub(super) const fn nearest_even(magnitude: u128, drop: u32) -> u128 {
     if rest > half || rest == half && kept % 2 == 1 { kept + 1 } else { kept }
 }
 
-/// Replaces a subnormal number by a zero of its sign.
+/// Flushes a subnormal number to zero; the sign stays.
 pub(super) const fn flushed(x: u32) -> u32 {
     if Word::of(x).is_zero() { x & SIGN } else { x }
 }

@@ -82,7 +82,7 @@ pub(super) fn sample(
     samples
 }
 
-/// Results in order, computed by several threads.
+/// Applies `of` to every item on several threads; the results are in the order of the items.
 pub(super) fn parallel<T: Sync, U: Send>(items: &[T], of: impl Fn(&T) -> U + Sync + Send) -> Vec<U> {
     use rayon::prelude::*;
     items.par_iter().map(of).collect()

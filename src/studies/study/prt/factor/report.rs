@@ -115,7 +115,7 @@ impl BrdfFactors {
         if let Some(radiance) = &of_formula {
             pictures.push(named("f", radiance, "f itself, cut off".to_owned())?);
         }
-        pictures.push(named("table", &of_table, "f by its table, interpolated".to_owned())?);
+        pictures.push(named("table", &of_table, "f interpolated from its table".to_owned())?);
         pictures.push(named("approximation", &of_terms, format!("by terms: {}", factors.terms()))?);
         let difference: Vec<f64> = of_terms.iter().zip(&of_table).map(|(terms, table)| terms - table).collect();
         let largest = difference.iter().fold(0.0_f64, |most, value| most.max(value.abs()));

@@ -210,7 +210,7 @@ impl ModelVisibility {
     }
 }
 
-/// Visibility of a model without and with ground, computed on first use: stored pieces do not need it.
+/// Visibility of a model with and without the ground, computed on first use: stored pieces do not need it.
 pub(super) struct SeenModel {
     pub(super) model: TableModel,
     size: ModelSize,

@@ -99,7 +99,7 @@ fn kernels() -> Result<([PaperRow; 2], [Table; 2]), StudyError> {
 
 /// Table of leaks by the precision of the ray textures and the card's rounding, for rays that bytes hold exactly.
 fn leaks(mesh: &Mesh) -> Result<Table, StudyError> {
-    let mut table = Table::of("Leaks of rays in bytes", "rounding rays_that_hit leaks_from_bytes leaks_from_16_bits");
+    let mut table = Table::of("Leaks of 8-bit rays", "rounding rays_that_hit leaks_from_bytes leaks_from_16_bits");
     for rounding in ["rdn", "rne"] {
         let mut profile = Profile::named(DEVICE)?;
         profile.set_switch("rounding", rounding).on(DEVICE)?;

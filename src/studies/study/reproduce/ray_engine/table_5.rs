@@ -1,4 +1,4 @@
-//! Table 5: the teapot room by the number of rays per pass; and the costs of commands.
+//! Table 5: the teapot room with different numbers of rays per pass, and the costs of commands.
 
 use super::engine_run::Run;
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};

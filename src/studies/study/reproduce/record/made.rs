@@ -7,8 +7,8 @@ use crate::study::reproduce::prose::{number, paragraph};
 
 const RECORDED: &str = "Rows and tables are recorded: `{}`, version {} ({}), {}.";
 const CONFIRMED: &str =
-    "All rows are recomputed at full size, with the same bits as the record: `{}`, version {} ({}), {}.";
-const DIFFERS: &str = "All rows are recomputed at full size; {} different from the record: `{}`, version {} ({}), {}. \
+    "All rows were recomputed at full size, with the same bits as the record: `{}`, version {} ({}), {}.";
+const DIFFERS: &str = "All rows were recomputed at full size; {} from the record: `{}`, version {} ({}), {}. \
     Either another program made the record, or this program does not compute the same everywhere.";
 
 /// Provenance of a record.
@@ -60,7 +60,7 @@ impl RecordStatus {
             Self::Recorded(_) => paragraph(RECORDED, made),
             Self::Computed { differ: 0, .. } => paragraph(CONFIRMED, made),
             Self::Computed { differ, .. } => {
-                let rows = counted(*differ as u64, "row is", "rows are");
+                let rows = counted(*differ as u64, "row differs", "rows differ");
                 paragraph(DIFFERS, [rows].into_iter().chain(made))
             }
         }
