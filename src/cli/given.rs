@@ -21,15 +21,17 @@ pub(super) fn refuse<'a>(
     }
 }
 
-/// Rejects an option that is given twice with the same value, or with the same name before a `=`. Lights add up, and A
-/// and B of a product may have the same type. Fails with [`Problem::Usage`].
+/// Rejects an option that is given twice with the same value, or with the same name if its values are `NAME=VALUE`.
+/// Lights add up, and A and B of a product may have the same type. Fails with [`Problem::Usage`].
 pub(super) fn refuse_repeated(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
     let (command, matches) = outputs::obeyed(program, matches);
     let is_list = |arg: &&Arg| matches!(arg.get_action(), ArgAction::Append);
     for arg in command.get_opts().filter(is_list).filter(|arg| !["light", "types"].contains(&arg.get_id().as_str())) {
         let mut known = BTreeSet::new();
         let values = matches.get_raw(arg.get_id().as_str()).into_iter().flatten().map(|value| value.to_string_lossy());
-        let names = values.map(|value| value.split('=').next().unwrap_or_default().to_owned());
+        let is_named = arg.get_value_names().into_iter().flatten().any(|name| name.contains('='));
+        let end = |value: &str| value.find('=').filter(|_| is_named).unwrap_or(value.len());
+        let names = values.map(|value| value[..end(&value)].to_owned());
         if let Some(name) = names.into_iter().find(|name| !known.insert(name.clone())) {
             let what = format!(
                 "expected different values of `--{}`, found `{name}` twice",

@@ -25,6 +25,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         timed.push(TimedLog::new(level, &input, &log, args)?);
     }
     if let (Some(path), Some(last)) = (&args.perfetto, timed.last()) {
+        if args
+            .case
+            .as_ref()
+            .is_some_and(|case| matches!((case.canonicalize(), path.canonicalize()), (Ok(a), Ok(b)) if a == b))
+        {
+            return Err(Problem::usage("`--perfetto` names the case itself", "name another file").into());
+        }
         let trace = trace(input.profile(), last.name(), &input.title(), &last.replay.timeline);
         write_file(path, |file| trace.write(file)).map_err(Problem::from)?;
     }

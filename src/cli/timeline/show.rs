@@ -27,6 +27,7 @@ pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[Timed
         "readback": args.readback.map(|mode| if mode == ReadBackMode::Synchronous { "sync" } else { "async" }),
         "double_buffered": args.double_buffer,
         "events": log.len(),
+        "time_unit": "us",
         "models": timed.iter().map(|one| model(log, one)).collect::<Vec<_>>(),
         "trace": args.perfetto.as_ref().map(|path| path.display().to_string()),
     }));

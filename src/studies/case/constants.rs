@@ -85,15 +85,22 @@ impl Binder<'_> {
             Stage::Pixel => limits.constants,
             Stage::Vertex => limits.vertex_constants,
         };
-        let floats = of_card.filter(|_| !opengl).unwrap_or(256);
-        let number = register(name, if name.starts_with('c') { floats as usize } else { 16 });
+        // Versions without flow control have no other constants; ps_1_1 to ps_1_4 have eight on every card.
+        let (of_version, others) = match program.version {
+            version if version.is_ps_1_x() => (8, 0),
+            Version::Vs1_1 => (256, 0),
+            _ => (256, 16),
+        };
+        let floats = of_card.filter(|_| !opengl).unwrap_or(256).min(of_version);
+        let number = register(name, if name.starts_with('c') { floats as usize } else { others });
         match (name.bytes().next(), number) {
             (Some(b'c'), Some(number)) => return Ok(ConstantTarget::Float(number)),
             (Some(b'i'), Some(number)) if !opengl => return Ok(ConstantTarget::Int(number)),
             (Some(b'b'), Some(number)) if !opengl => return Ok(ConstantTarget::Bool(number)),
             _ if !opengl => {
                 let last = floats.saturating_sub(1);
-                let message = format!("expected a constant c0 to c{last}, i0 to i15 or b0 to b15, found `{name}`");
+                let more = if others > 0 { ", i0 to i15 or b0 to b15" } else { "" };
+                let message = format!("expected a constant c0 to c{last}{more}, found `{name}`");
                 return self.odd(span, message);
             }
             _ => {}

@@ -251,6 +251,9 @@ fn inputs() -> &'static Path {
         put("square.obj", &square);
         put("rays.csv", "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0.1\n0.25,-1,0.75,0,1,0\n0.25,2,0.5,0,-0.9,0\n");
         put("rays_2.csv", "ox,oy,oz,dx,dy,dz\n0.7,-1,0.3,0,1,0\n0.3,-1,0.7,0.1,1,0\n0.25,2,0.5,0,-0.9,0\n");
+        let cell = |n: u32| (f64::from(n % 16) - 7.5, f64::from(n / 16) - 9.5);
+        let ray = |(x, y): (f64, f64)| format!("0,-10,1.5,{},1,{}\n", x / 40.0, y / 60.0);
+        put("many.csv", &(0..256).map(cell).map(ray).fold("ox,oy,oz,dx,dy,dz\n".to_owned(), |all, ray| all + &ray));
         put("roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0.5\nv 0 1 0.5\nv 1 -1 0.5\nv 0 -1 0.5\nf 1 2 3 4\nf 2 1 6 5\n");
         put("heights.csv", "0,0.1\n0.2,0\n");
         for line in [

@@ -35,7 +35,9 @@ macro_rules! card {
 macro_rules! caster {
     ($engine:literal) => {
         concat!(
-            " --caster=engine@0 --caster-device=r200 --caster-format=fp16 --octree=1,1@",
+            " --caster=engine@0 --caster-device=r200 --caster-format=fp16@0,",
+            $engine,
+            " --octree=1,1@",
             $engine,
             " --pass-triangles=9,99@",
             $engine,
@@ -92,12 +94,11 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --device r200 --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
-            "intersect --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --caster engine --caster-device r300 --pass-rays 2 \
-             --out OUT",
+            "intersect --mesh docs/examples/teapot.obj --rays many.csv --caster engine --caster-device r300 --pass-rays 2 --out OUT",
         ],
         options: concat!(
             "--mesh=square.obj --rays=rays_2.csv --sides=both@0,1,2,3 same:--sides=both@4 --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 same:--executor=scalar@1 \
-                  --caster=engine@1,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
+                  --caster=engine@1,3 --caster=host@2 --time --out=other.csv --model-up=y --strict@0,1,2,3 same:--strict@4",
             caster!("4")
         ),
     },
@@ -120,7 +121,7 @@ pub(super) const TABLE: &[Tried] = &[
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --iterations 3 --out OUT",
             "radiosity odd.obj --patches 8 --size 8x8 --iterations 3 --out OUT",
             "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
-            "radiosity docs/examples/room.toml --patches 60 --size 8x8 --solver direct --caster engine --caster-device r300 \
+            "radiosity docs/examples/room.toml --patches 60 --size 8x8 --solver direct --caster engine --caster-device r300 --pass-rays 2 \
              --out OUT",
         ],
         options: concat!(
@@ -145,7 +146,7 @@ pub(super) const TABLE: &[Tried] = &[
             "render harbour --size 8x8 --renderer environment --out OUT",
         ],
         options: concat!(
-            "--device=ideal-fp16 --executor=batch@0,1,2,3,4,5,6,7 same:--executor=scalar@8 --out=other \
+            "--device=ideal-fp16 --executor=batch@0,1,2,3,4,5,6 same:--executor=scalar@7,8 --out=other \
              --renderer=eye@1,2,3,4,5,6 --samples=3 --drawn-eyes \
              --depth=1@0,3,4,5,6 same:--depth=1@2 --seed=2@2,3,4,5,6 same:--seed=2@0,1 \
              --view=front@0,5,6 same:--view=front@1,2,3,4 --exposure=0.3 \
@@ -176,7 +177,7 @@ pub(super) const TABLE: &[Tried] = &[
              --size 8x8 --caster engine --caster-device r300 --out OUT",
         ],
         options: concat!(
-            "--caster=engine@2 --material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
+            "--caster=engine@2 --material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=32 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --tolerance=0.5 \
              --light=ambient:1,1,1 --all-pairs=no --device=nv30 --switch=rounding=rtz \
              same:--executor=scalar --out=other --model-up=y --strict@1",
@@ -186,7 +187,7 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["timeline docs/examples/product.toml", "timeline --eye-rays 4x4"],
-        options: "--eye-rays=5x4 --device=nv20 --readback=async --double-buffer --cache \
+        options: "--eye-rays=5x4 --device=nv20 --readback=async --double-buffer --cache@1 \
                   --sensitivity --perfetto=trace.json",
     },
     Tried { bases: &["tour --size 8x8 --coarser 8 --out OUT"], options: "--size=9x7 --coarser=7 --out=other" },
@@ -365,7 +366,7 @@ pub(super) const TABLE: &[Tried] = &[
     Tried {
         bases: &[
             "precision docs/examples/lerp.toml --out OUT",
-            "precision docs/examples/wgsl/fresnel.wgsl --uniform f0=0.04,0.3,0.9 --budget 9 --out OUT",
+            "precision docs/examples/wgsl/fresnel.wgsl --uniform f0=0.04,0.3,0.9 --budget 60 --out OUT",
             "precision --expr sqrt(x+1)-sqrt(x) --goal largest_relative<=9 --samples 30 --out OUT",
         ],
         options: "--expr=x/3 --fpcore=fixtures/fpbench/suite.fpcore --range=x=2..3 --samples=31 --seed=5 --draw=reals \

@@ -194,7 +194,7 @@ impl Translator<'_> {
             let value = match operator {
                 B::Add => a.checked_add(b),
                 B::Subtract => a.checked_sub(b),
-                B::Multiply => a.checked_mul(b),
+                B::Multiply => Some(a.wrapping_mul(b)),
                 // In a division by zero at run time, the quotient is the dividend and the remainder is 0 (WGSL, 8.7).
                 B::Divide => Some(a.checked_div(b).unwrap_or(a)),
                 B::Modulo => Some(a.checked_rem(b).unwrap_or(0)),

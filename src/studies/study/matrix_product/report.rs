@@ -93,7 +93,8 @@ fn conclude(found: &mut Findings, reference: &str, outcome: &ProductOutcome) {
     let (errors, elements) = (worst.last(), rows * columns);
     let differ = format!("{} of {elements} elements differ from {reference}.", errors.differing);
     let mut sentence = if errors.differing == 0 {
-        format!("Every element equals that of {reference}.")
+        let every = ["Every element", "Every finite element"][usize::from(errors.not_finite > 0)];
+        format!("{every} equals that of {reference}.")
     } else if errors.worst == 0.0 {
         differ
     } else {
