@@ -16,6 +16,36 @@ pub(super) enum Count {
 }
 
 impl Count {
+    /// Number of registers in a file; `None` if the version has no such file.
+    pub(super) fn of(file: RegisterFile, version: Version, profile: &Profile) -> Option<Self> {
+        use RegisterFile as F;
+        let pixel_2 = version.is_ps_2();
+        let vertex = version.stage() == Stage::Vertex;
+        let vs_2 = version == Version::Vs2_0;
+        let limited = |limit: Limit| limit.allowed(profile, version).map(Self::Limited);
+        let fixed = |n: u32, there: bool| there.then_some(Self::Fixed(n));
+        match file {
+            F::Temp => limited(Limit::Temporaries),
+            F::Constant => limited(Limit::Constants),
+            F::Input if vertex => fixed(16, true),
+            F::Input => limited(Limit::ColorInputs),
+            F::Texture => limited(Limit::TextureCoordinates).filter(|_| !vertex),
+            F::Sampler => limited(Limit::Samplers).filter(|_| pixel_2),
+            F::ConstantInt | F::ConstantBool => fixed(16, pixel_2 || vs_2),
+            F::Label => fixed(16, version.is_ps_2_x() || vs_2),
+            F::Predicate => fixed(1, version == Version::Ps2A),
+            F::ColorOut => fixed(4, pixel_2),
+            F::DepthOut => fixed(1, pixel_2),
+            F::Address => fixed(1, vertex),
+            F::Loop => fixed(1, vs_2),
+            F::PositionOut | F::FogOut | F::PointSizeOut => fixed(1, vertex),
+            F::DiffuseOut => fixed(2, vertex),
+            F::TexCoordOut => fixed(8, vertex),
+            // `fragment` checks the registers of OpenGL programs.
+            F::Half | F::FogIn | F::WindowPosition | F::HalfColorOut | F::Discard | F::HalfDiscard => None,
+        }
+    }
+
     pub(super) fn value(&self) -> u32 {
         match self {
             Self::Limited(allowed) => allowed.value,
@@ -93,33 +123,7 @@ impl<'a> Context<'a> {
 
     /// Number of registers in `file`; `None` if the version has no such file.
     pub(super) fn count(&self, file: RegisterFile) -> Option<Count> {
-        use RegisterFile as F;
-        let version = self.version;
-        let pixel_2 = version.is_ps_2();
-        let vertex = version.stage() == Stage::Vertex;
-        let vs_2 = version == Version::Vs2_0;
-        let limited = |limit: Limit| self.limit(limit).map(Count::Limited);
-        let fixed = |n: u32, there: bool| there.then_some(Count::Fixed(n));
-        match file {
-            F::Temp => limited(Limit::Temporaries),
-            F::Constant => limited(Limit::Constants),
-            F::Input if vertex => fixed(16, true),
-            F::Input => limited(Limit::ColorInputs),
-            F::Texture => limited(Limit::TextureCoordinates).filter(|_| !vertex),
-            F::Sampler => limited(Limit::Samplers).filter(|_| pixel_2),
-            F::ConstantInt | F::ConstantBool => fixed(16, pixel_2 || vs_2),
-            F::Label => fixed(16, version.is_ps_2_x() || vs_2),
-            F::Predicate => fixed(1, version == Version::Ps2A),
-            F::ColorOut => fixed(4, pixel_2),
-            F::DepthOut => fixed(1, pixel_2),
-            F::Address => fixed(1, vertex),
-            F::Loop => fixed(1, vs_2),
-            F::PositionOut | F::FogOut | F::PointSizeOut => fixed(1, vertex),
-            F::DiffuseOut => fixed(2, vertex),
-            F::TexCoordOut => fixed(8, vertex),
-            // `fragment` checks the registers of OpenGL programs.
-            F::Half | F::FogIn | F::WindowPosition | F::HalfColorOut | F::Discard | F::HalfDiscard => None,
-        }
+        Count::of(file, self.version, self.profile)
     }
 
     pub(super) fn sampler_usage(&self, number: u16) -> Option<Usage> {

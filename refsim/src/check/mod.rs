@@ -37,8 +37,14 @@ pub use rule::{RuleId, WarningId};
 pub use slots::SlotCount;
 
 use crate::device::Profile;
-use crate::isa::{Program, Stage, Version};
-use context::Context;
+use crate::isa::{Program, RegisterFile, Stage, Version};
+use context::{Context, Count};
+
+/// Number of registers of a file that programs of a Direct3D version have on a device; `None` if the version has no such
+/// file.
+pub fn registers(file: RegisterFile, version: Version, profile: &Profile) -> Option<u32> {
+    Count::of(file, version, profile).map(|count| count.value())
+}
 
 /// Checks a program for a device.
 ///

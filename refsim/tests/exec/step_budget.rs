@@ -17,10 +17,6 @@ const SIDE: u32 = 18;
 /// The executors that run programs with flow control.
 const EXECUTORS: [ExecutorKind; 2] = [ExecutorKind::Scalar, ExecutorKind::Batch];
 
-fn machine(profile: &Profile, kind: ExecutorKind) -> Machine {
-    Machine::new(profile.clone(), kind)
-}
-
 /// A quad over the whole target whose t0 counts columns and rows.
 fn corners() -> Vec<Vertex> {
     let (side, step) = (SIDE as f32, 1.0 / SIDE as f32);
@@ -37,7 +33,7 @@ fn draw(text: &str, host: &Constants, budget: u32, kind: ExecutorKind) -> (Resul
     let mut profile = ideal("fp32");
     profile.limits.set_step_budget(budget);
     let program = checked(text, &profile);
-    let mut machine = machine(&profile, kind);
+    let mut machine = Machine::new(profile.clone(), kind);
     let target = machine.create_target(TexelFormat::Rgba8, SIDE, SIDE).unwrap();
     machine.clear_target(target, bits([0.25; 4])).unwrap();
     let vertices = corners();
@@ -155,7 +151,7 @@ fn vertices_have_a_budget_too() {
         let mut profile = ideal("fp32");
         let run = |profile: &Profile| {
             let (vertex, pixel) = (checked(text, profile), checked("ps_2_0\ndef c0, 1, 1, 1, 1\nmov oC0, c0", profile));
-            let mut machine = machine(profile, kind);
+            let mut machine = Machine::new(profile.clone(), kind);
             let target = machine.create_target(TexelFormat::Rgba8, 4, 4).unwrap();
             let data: Vec<[u32; 4]> = corners().iter().map(|v| v.position).collect();
             let streams = VertexStreams {

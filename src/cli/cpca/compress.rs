@@ -76,12 +76,12 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     drop(bar);
     let provenance = args.provenance(&options, &clustering, &steps);
     let coherence = vertices.map(|vertices| args.coherence.apply(&signal, &clustering, &vertices)).transpose()?;
-    let clustering = coherence.as_ref().map_or(clustering, |coherence| coherence.found.clustering.clone());
-    let error = CompressionError::new(&signal, &clustering);
+    let clustering = coherence.as_ref().map_or(&clustering, |coherence| &coherence.found.clustering);
+    let error = CompressionError::new(&signal, clustering);
     let file =
         PrtFile { meaning, mesh, transfer: None, clustering: Some(clustering.clone()), provenance: Some(provenance) };
     save_prt(&file, &args.out).map_err(Problem::from)?;
-    Ok(findings(args, (&signal, &clustering), &steps, &error, coherence.as_ref()))
+    Ok(findings(args, (&signal, clustering), &steps, &error, coherence.as_ref()))
 }
 
 impl Args {

@@ -5,6 +5,8 @@ mod run;
 mod sensitivity;
 mod show;
 
+use std::path::PathBuf;
+
 use refsim::timing::Level;
 
 use super::{Out, Problem, ProgressBar, Verdict, study};
@@ -15,6 +17,10 @@ use run::{Input, TimedLog};
 pub(super) use args::Args;
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
+    let same = |case: &PathBuf, trace: &PathBuf| matches!((case.canonicalize(), trace.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if args.case.as_ref().zip(args.perfetto.as_ref()).is_some_and(|(case, trace)| same(case, trace)) {
+        return Err(Problem::usage("`--perfetto` names the case itself", "name another file").into());
+    }
     let input = Input::read(args)?;
     // A single step, shown because it takes long with `--cache`.
     let bar = ProgressBar::new("drawing", 1);
@@ -25,13 +31,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         timed.push(TimedLog::new(level, &input, &log, args)?);
     }
     if let (Some(path), Some(last)) = (&args.perfetto, timed.last()) {
-        if args
-            .case
-            .as_ref()
-            .is_some_and(|case| matches!((case.canonicalize(), path.canonicalize()), (Ok(a), Ok(b)) if a == b))
-        {
-            return Err(Problem::usage("`--perfetto` names the case itself", "name another file").into());
-        }
         let trace = trace(input.profile(), last.name(), &input.title(), &last.replay.timeline);
         write_file(path, |file| trace.write(file)).map_err(Problem::from)?;
     }

@@ -3,9 +3,10 @@
 use std::{collections::BTreeMap, ops::Range};
 
 use refsim::{
-    device::Limits,
+    check::registers,
+    device::Profile,
     exec::{CheckedProgram, Constants},
-    isa::{FIRST_ENVIRONMENT, ParameterSource, Stage, Version},
+    isa::{FIRST_ENVIRONMENT, ParameterSource, RegisterFile, Version},
 };
 use toml::Spanned;
 
@@ -33,12 +34,12 @@ impl Binder<'_> {
         &self,
         written: &BTreeMap<String, Spanned<Constant>>,
         program: &CheckedProgram,
-        limits: &Limits,
+        profile: &Profile,
     ) -> Result<Constants, CaseError> {
         let mut constants = Constants::default();
         for (name, value) in written {
             let span = value.span();
-            match (self.constant_target(name, program, limits, span.clone())?, value.get_ref()) {
+            match (self.constant_target(name, program, profile, span.clone())?, value.get_ref()) {
                 (ConstantTarget::Float(number), Constant::Vector(numbers)) => {
                     *place_at(&mut constants.float, number) = self.four(numbers, span)?;
                 }
@@ -73,7 +74,7 @@ impl Binder<'_> {
         &self,
         name: &str,
         program: &CheckedProgram,
-        limits: &Limits,
+        profile: &Profile,
         span: Range<usize>,
     ) -> Result<ConstantTarget, CaseError> {
         let declared = || program.parameters.iter().filter(|p| matches!(p.source, ParameterSource::Named(_)));
@@ -81,27 +82,20 @@ impl Binder<'_> {
             return Ok(ConstantTarget::Named(parameter.width));
         }
         let opengl = program.version.is_fragment_program();
-        let of_card = match program.version.stage() {
-            Stage::Pixel => limits.constants,
-            Stage::Vertex => limits.vertex_constants,
+        let count = |file| registers(file, program.version, profile).unwrap_or(0);
+        let counts = match opengl {
+            true => [256, 0, 0],
+            false => [RegisterFile::Constant, RegisterFile::ConstantInt, RegisterFile::ConstantBool].map(count),
         };
-        // Versions without flow control have no other constants; ps_1_1 to ps_1_4 have eight on every card.
-        let (of_version, others) = match program.version {
-            version if version.is_ps_1_x() => (8, 0),
-            Version::Vs1_1 => (256, 0),
-            _ => (256, 16),
-        };
-        let floats = of_card.filter(|_| !opengl).unwrap_or(256).min(of_version);
-        let number = register(name, if name.starts_with('c') { floats as usize } else { others });
-        match (name.bytes().next(), number) {
-            (Some(b'c'), Some(number)) => return Ok(ConstantTarget::Float(number)),
-            (Some(b'i'), Some(number)) if !opengl => return Ok(ConstantTarget::Int(number)),
-            (Some(b'b'), Some(number)) if !opengl => return Ok(ConstantTarget::Bool(number)),
+        let file = name.chars().next().and_then(|letter| "cib".find(letter));
+        match (file, file.and_then(|file| register(name, counts[file] as usize))) {
+            (Some(0), Some(number)) => return Ok(ConstantTarget::Float(number)),
+            (Some(1), Some(number)) => return Ok(ConstantTarget::Int(number)),
+            (_, Some(number)) => return Ok(ConstantTarget::Bool(number)),
             _ if !opengl => {
-                let last = floats.saturating_sub(1);
-                let more = if others > 0 { ", i0 to i15 or b0 to b15" } else { "" };
-                let message = format!("expected a constant c0 to c{last}{more}, found `{name}`");
-                return self.odd(span, message);
+                let known = "cib".chars().zip(counts).filter(|(_, count)| *count > 0);
+                let known: Vec<String> = known.map(|(c, count)| format!("{c}0 to {c}{}", count - 1)).collect();
+                return self.odd(span, format!("expected a constant {}, found `{name}`", known.join(", ")));
             }
             _ => {}
         }

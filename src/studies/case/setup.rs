@@ -234,10 +234,10 @@ impl Binder<'_> {
             title: case.title,
             pixel_constants: Constants {
                 state: self.fixed_function(case.state.as_ref(), &pixel)?,
-                ..self.uniforms(self.constants(&case.constants, &pixel, &profile.limits)?, &pixel, &pixel_text)?
+                ..self.uniforms(self.constants(&case.constants, &pixel, &profile)?, &pixel, &pixel_text)?
             },
             vertex_constants: match (&vertex, case.vertex_constants.first_key_value()) {
-                (Some(program), _) => self.constants(&case.vertex_constants, program, &profile.limits)?,
+                (Some(program), _) => self.constants(&case.vertex_constants, program, &profile)?,
                 (None, None) => Constants::default(),
                 (None, Some((name, value))) => {
                     let message = format!("`{name}` in [vertex_constants], but the case has no [vertex]");
