@@ -149,7 +149,7 @@ pub(crate) fn unit_dot<'py>(
         || !fits(sa.len(), per_row[0])
         || !fits(sb.len(), per_row[1])
     {
-        return Err(value_error("expected rows of one length, and as many rows of scales"));
+        return Err(value_error("expected rows of the same length, and as many rows of scales"));
     }
     let [first, second] = rows(0);
     unit.check(&first, &second).map_err(|error| refused(&error))?;

@@ -256,7 +256,7 @@ pub(crate) fn dot(
     let (x, y, lengths) = (x.as_slice(), y.as_slice(), [rows(x), rows(y)]);
     let out = out.as_slice_mut().map_err(|error| value_error(error.to_string()))?;
     let (Ok(x), Ok(y), true) = (x, y, lengths[0] == lengths[1] && lengths[0].is_multiple_of(out.len().max(1))) else {
-        return Err(value_error("expected two arrays of one shape, in the order of C"));
+        return Err(value_error("expected two arrays of the same shape, in C order"));
     };
     let terms = lengths[0] / out.len().max(1);
     let task = ((1 << 16) / terms.max(1)).clamp(1, 1 << 12);

@@ -88,7 +88,7 @@ pub(crate) fn diff<'py>(
     });
     let refuse = |error: InputError| value_error(error.to_string());
     let Some((ssim, map)) = found.map_err(refuse)? else {
-        return Err(value_error("expected two pictures of one size, with a positive number of pixels per degree"));
+        return Err(value_error("expected two pictures of the same size, with a positive number of pixels per degree"));
     };
     let errors = Array2::from_shape_vec((shape[0], shape[1]), map.errors).map_err(|e| value_error(e.to_string()))?;
     Ok((ssim, map.mean, map.maximum, errors.into_pyarray(py)))
