@@ -46,26 +46,12 @@ pub struct ReproduceEntry {
     pub id: &'static str,
     /// Title, including the table, figure or section of the paper.
     pub title: &'static str,
-    work: EntryWork,
+    pub(super) work: fn(&Shared) -> Result<EntryFindings, StudyError>,
     /// Text of the record, for an entry that takes minutes to hours at full size.
     pub(super) record: Option<&'static str>,
 }
 
-type EntryWork = fn(&Shared) -> Result<EntryFindings, StudyError>;
-
-impl Paper {
-    /// Entry that is computed by default.
-    pub(super) const fn entry(self, id: &'static str, title: &'static str, work: EntryWork) -> ReproduceEntry {
-        ReproduceEntry { paper: self, id, title, work, record: None }
-    }
-}
-
 impl ReproduceEntry {
-    /// An entry with a record; by default, the recorded values replace a run at full size.
-    pub(super) const fn recorded(self, record: &'static str) -> Self {
-        Self { record: Some(record), ..self }
-    }
-
     /// Computes the entry. Rows that are expressions of printed values come first, then the rows of its code.
     pub(super) fn run(&self, shared: &Shared) -> Result<EntryFindings, StudyError> {
         let (mut rows, found) = (equations(self.id)?, (self.work)(shared)?);

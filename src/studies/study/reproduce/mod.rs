@@ -39,7 +39,7 @@ use crate::study::StudyError;
 pub use entries::{ENTRIES, choose};
 pub use entry::{EntryFindings, ReproduceEntry, Reproduced};
 use model_size::ModelSize;
-use paper::{equations, row as paper_row, value as printed_value};
+use paper::{HOST, equations, row as paper_row, solved, value as printed_value};
 pub use paper::{figures, printed};
 pub use papers::Paper;
 use prose::{number, paragraph};

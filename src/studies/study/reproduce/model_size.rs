@@ -9,3 +9,13 @@ pub(super) enum ModelSize {
     #[default]
     Printed,
 }
+
+impl ModelSize {
+    /// One of two values: for models as printed, or for reduced models.
+    pub(super) fn pick<T>(self, printed: T, reduced: T) -> T {
+        match self {
+            Self::Printed => printed,
+            Self::Reduced => reduced,
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 pub use super::overview::evidence_line;
-use super::overview::{overview, overview_chart, rows as all_rows, tally};
+use super::overview::{overview, rows as all_rows, tally};
 use super::summary::summary_lines;
 use super::{Bound, Judgement, PaperFigure, PaperRow, Reproduced, StudyError, figures, number, paragraph};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
@@ -196,7 +196,6 @@ pub fn findings(found: &Reproduced) -> Findings {
     all.keep_table(FoundTable::from(tally_table(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
     all.heading("All rows");
-    overview_chart(found).into_iter().for_each(|chart| all.chart(chart));
     all.paragraph(how);
     let is_short = found.len() <= PRINTED;
     let printed = |table: Table| if is_short { FoundTable::from(table) } else { FoundTable::from(table).unprinted() };

@@ -14,12 +14,13 @@ use crate::all_frequency::factor::Factorization;
 use crate::all_frequency::transfer::transfer_of;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
+use crate::geom::teapot::teapot;
 use crate::kept::KeptResults;
 use crate::scene::built::ground::{GROUND_SIDE, on_ground};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
-use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
+use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Tangents, Vertices};
@@ -38,14 +39,6 @@ pub(super) enum TableModel {
     Buddha,
 }
 
-/// Segments that are compressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SegmentChoice {
-    /// [`SAMPLED_SEGMENTS`]; the other segments are assumed to have the same size per vertex.
-    Sampled,
-    All,
-}
-
 /// Material of a model in Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableMaterial {
@@ -57,16 +50,12 @@ pub(super) enum TableMaterial {
 impl TableModel {
     /// Builds the mesh; a reduced mesh has some hundred vertices, for a run without verdicts.
     fn mesh(self, size: ModelSize) -> Result<Mesh, StudyError> {
-        let built =
-            |model: TransferModel, coarser: u32| model.mesh(if size == ModelSize::Printed { 1 } else { coarser });
+        let built = |model: TransferModel, coarser: u32| model.mesh(size.pick(1, coarser));
         Ok(match self {
             Self::Bunny => built(TransferModel::Bunny, 8),
             Self::Tweety => built(TransferModel::Tweety, 12),
             Self::Buddha => built(TransferModel::Buddha, 12),
-            Self::Teapot => {
-                let rate = if size == ModelSize::Printed { 40 } else { 3 };
-                crate::geom::teapot::teapot(rate).on(HOST)?
-            }
+            Self::Teapot => teapot(size.pick(40, 3)).on(HOST)?,
         })
     }
 }
@@ -86,11 +75,8 @@ impl TableMaterial {
 }
 
 /// Number of vertices along an edge of the ground.
-pub(super) const fn ground_side(size: ModelSize) -> u32 {
-    match size {
-        ModelSize::Printed => GROUND_SIDE,
-        ModelSize::Reduced => 14,
-    }
+pub(super) fn ground_side(size: ModelSize) -> u32 {
+    size.pick(GROUND_SIDE, 14)
 }
 
 /// Visibility at the vertices of a model, or of its ground.
@@ -156,39 +142,29 @@ impl ModelVisibility {
         Ok(Self { maps: maps.on(HOST)?, vertices, hats: LinearBasis::new(BasisWidth::TwoTexels), size })
     }
 
-    /// Counts the segments that hold transfer.
-    pub(super) fn census(&self) -> SegmentCensus {
-        SegmentCensus::new(&self.vertices, &self.maps, &self.hats)
-    }
-
-    /// Compresses and codes the transfer. Each segment is a piece of the work `name`.
+    /// Compresses and codes some segments of the transfer, which represent all: the others are assumed to have the same
+    /// size per vertex. Each segment is a piece of the work `name`.
     pub(super) fn compressed(
         &self,
         reflectance: &Reflectance,
-        choice: SegmentChoice,
+        segments: impl IntoIterator<Item = usize>,
         (shared, name): (&Shared, &str),
     ) -> Result<CompressedModel, StudyError> {
         let transfer = transfer_of(&self.vertices, &self.maps, &self.hats, reflectance);
-        let all: Vec<usize> = (0..Segmentation::Quarters.count()).collect();
-        let wanted = if choice == SegmentChoice::Sampled { &SAMPLED_SEGMENTS[..] } else { &all[..] };
-        let iterations = match self.size {
-            ModelSize::Reduced => REDUCED_ITERATIONS,
-            ModelSize::Printed => SegmentOptions::default().iterations,
-        };
+        let iterations = self.size.pick(SegmentOptions::default().iterations, REDUCED_ITERATIONS);
         let (rows, vertices) = (reflectance.terms(), self.maps.len());
         let of_segment = |segment: usize| {
             let found = transfer.segment(segment).on(HOST)?;
             found.map(|found| SegmentSums::new(found, iterations, (rows, vertices))).transpose()
         };
         let (mut sums, mut by_segment) = (SegmentSums::default(), Vec::new());
-        for &segment in wanted {
-            let of_segment = || of_segment(segment);
-            if let Some(found) = shared.piece(&format!("{name}-segment-{segment:02}"), of_segment)? {
+        for segment in segments {
+            if let Some(found) = shared.piece(&format!("{name}-segment-{segment:02}"), || of_segment(segment))? {
                 sums.add(&found);
                 by_segment.push(found.shares(segment));
             }
         }
-        let census = self.census();
+        let census = SegmentCensus::new(&self.vertices, &self.maps, &self.hats);
         // Exactly 1 if all segments are compressed.
         let all_over_sampled = census.nonempty as f64 / sums.points as f64;
         let coded = sums.coded.map(|code| CodedModel {
@@ -247,7 +223,7 @@ fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, Study
 pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
     let (shared, seen) =
         (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));
-    let compress = || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::Sampled, (&shared, "bunny"));
+    let compress = || seen.alone()?.compressed(&Reflectance::Diffuse, SAMPLED_SEGMENTS, (&shared, "bunny"));
     let model = shared.piece("bunny", compress)?;
     Ok((format!("{model:?}"), seen.alone.get().is_some()))
 }

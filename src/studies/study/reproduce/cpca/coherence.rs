@@ -1,11 +1,10 @@
 //! The table of section 7: overdraw before and after the two optimisations of section 5.
 
 use super::drawn::{BUDGET, COLUMN_IDS, DrawnClusters};
-use super::mesh_cost::CARD;
 use super::rates::{INPUTS, rates, ratio_row};
 use super::signals::{BIRD, BUDDHA};
 use super::{
-    Contradiction, EntryFindings, Method, PaperRow, REGISTERS, Shared, StudyError, number, paragraph, printed,
+    CARD, Contradiction, EntryFindings, Method, PaperRow, REGISTERS, Shared, StudyError, number, paragraph, printed,
     printed_value, solved,
 };
 use crate::report::{Cell, Table};

@@ -3,11 +3,9 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
-use super::shared::iterative;
-use super::signals::BIRD;
-use super::{EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
+use super::signals::{BIRD, iterative};
+use super::{CARD, EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
 use crate::card::frame_time::FrameTime;
 use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;

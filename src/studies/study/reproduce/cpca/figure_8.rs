@@ -3,11 +3,10 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::mesh_cost::CARD;
-use super::rates::{OWN_INPUTS, modelled_from_clusters, ratio_row, uncompressed};
+use super::rates::{OWN_INPUTS, modelled_from_clusters, ratio_row, time_cells, uncompressed};
 use super::signals::{GLOSSY_BUDDHA, HEAD, SIGNALS};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph, printed,
+    CARD, Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph, printed,
     printed_value,
 };
 use crate::card::frame_time::FrameTime;
@@ -39,15 +38,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let (model, size) = (SIGNALS[at].model, SIGNALS[at].size);
         let on = |card: &Profile| modelled_from_clusters(card, shared, (model, size), drawn);
         let time = on(&Profile::named(CARD)?)?;
-        let cells = [
-            Cell::decimals(drawn.overdraw[3], 3),
-            printed(rate)?.cell(),
-            Cell::measured(time.per_second()),
-            Cell::measured(1e3 * time.host.seconds()),
-            Cell::measured(1e3 * time.state.seconds()),
-            Cell::measured(1e3 * time.draws.seconds()),
-        ];
-        table.push([Cell::from(name)].into_iter().chain(cells));
+        let head = [name.into(), Cell::decimals(drawn.overdraw[3], 3), printed(rate)?.cell()];
+        table.push(head.into_iter().chain(time_cells(&time)));
         rows.extend(without_compression(id, size)?);
         let faster = time.per_second() / uncompressed(of_rows(size, 25))?;
         rows.push(ratio_row(&format!("faster-{id}"), ((&time).into(), faster), OWN_INPUTS)?);

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use super::shared::iterative;
-use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA};
+use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA, iterative};
 use super::views::ModelView;
 use super::{EntryFindings, HOST, RunResult, Shared, StudyError, number, paragraph};
 use crate::report::{Cell, Table};

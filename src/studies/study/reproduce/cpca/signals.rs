@@ -1,6 +1,6 @@
 //! The signals of Table 1 and of Figures 2 to 4, on our own models.
 
-use super::{ModelSize, RunResult, StudyError};
+use super::{HOST, ModelSize, RunResult, Shared, SharedResult, StudyError};
 use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, compress};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::transfer::{Incident, ScatteringOptions};
@@ -12,8 +12,6 @@ use crate::transfer::brdf::{Brdf, ExitBasis};
 use crate::transfer::file::PrtMeaning;
 use crate::transfer::{Tangents, Vertices};
 
-/// Name of the host on which our values are computed.
-pub(super) const HOST: &str = "host";
 /// Edge lengths of reduced models, as multiples of the full models': for diffuse and for glossy transfer.
 const DIFFUSE_COARSER: u32 = 4;
 const GLOSSY_COARSER: u32 = 6;
@@ -106,11 +104,7 @@ impl PaperSignal {
 
     /// Edge length of our model, as a multiple of the full model's.
     fn coarser(&self, models: ModelSize) -> u32 {
-        match (models, self.material) {
-            (ModelSize::Printed, _) => 1,
-            (ModelSize::Reduced, Diffuse) => DIFFUSE_COARSER,
-            (ModelSize::Reduced, _) => GLOSSY_COARSER,
-        }
+        models.pick(1, if self.material == Diffuse { DIFFUSE_COARSER } else { GLOSSY_COARSER })
     }
 }
 
@@ -121,6 +115,34 @@ pub(super) struct ComputedSignal {
     pub(super) meaning: PrtMeaning,
     pub(super) signal: Signal,
     pub(super) models: ModelSize,
+}
+
+/// A signal of [`SIGNALS`], by its index.
+impl SharedResult for ComputedSignal {
+    type Key = usize;
+
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
+        Self::new(&SIGNALS[at], shared.models)
+    }
+}
+
+/// Iterative clustering with the printed numbers of clusters and vectors; reduced models have a fraction of the
+/// clusters.
+struct IterativeClustering(Clustering);
+
+impl SharedResult for IterativeClustering {
+    type Key = usize;
+
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
+        let size = SIGNALS[at].size;
+        let signal = shared.get::<ComputedSignal>(at)?;
+        signal.compressed(size.clusters, size.vectors, CpcaMethod::Iterative).map(Self)
+    }
+}
+
+/// Returns a signal with its iterative clustering.
+pub(super) fn iterative(shared: &Shared, at: usize) -> Result<(&ComputedSignal, &Clustering), StudyError> {
+    Ok((shared.get(at)?, &shared.get::<IterativeClustering>(at)?.0))
 }
 
 impl ComputedSignal {

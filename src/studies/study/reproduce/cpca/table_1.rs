@@ -3,11 +3,9 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::mesh_cost::CARD;
-use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal};
-use super::shared::iterative;
-use super::signals::SIGNALS;
-use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, printed, solved};
+use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal, time_cells};
+use super::signals::{SIGNALS, iterative};
+use super::{CARD, EntryFindings, PaperRow, Shared, StudyError, number, paragraph, printed, solved};
 use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
@@ -96,17 +94,9 @@ fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
         let time = modelled_from_clusters(&card, shared, (paper.model, paper.size), drawn)?;
         let id = format!("rate-{id}");
         let row = rate_row(&id, &time, OWN_INPUTS)?;
-        table.push([
-            paper.name.into(),
-            Cell::decimals(drawn.overdraw[0], 3),
-            Cell::decimals(drawn.overdraw[3], 3),
-            row.target.cell(),
-            Cell::measured(time.per_second()),
-            Cell::measured(1e3 * time.host.seconds()),
-            Cell::measured(1e3 * time.state.seconds()),
-            Cell::measured(1e3 * time.draws.seconds()),
-            time.vertices_run.into(),
-        ]);
+        let [original, .., both] = drawn.overdraw.map(|overdraw| Cell::decimals(overdraw, 3));
+        let head = [paper.name.into(), original, both, row.target.cell()];
+        table.push(head.into_iter().chain(time_cells(&time)).chain([time.vertices_run.into()]));
         rows.push(if id == CONTRADICTORY[0] { row.contradicted(same_signal(&id)?) } else { row });
     }
     Ok((rows, table))

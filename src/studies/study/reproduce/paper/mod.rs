@@ -57,6 +57,14 @@ pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Dependence))
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }
 
+/// Name of the host on which our values are computed.
+pub(super) const HOST: &str = "host";
+
+/// Returns the row for a value that is computed in f64 and uses no printed value. Fails as [`row`] does.
+pub(super) fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
+    row(id, (HOST, Method::Solver), (ours, Dependence::Counted))
+}
+
 /// Returns the rows of an entry whose values are expressions of printed values, in the order of the file. Fails as
 /// [`row`] does.
 pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {

@@ -3,7 +3,7 @@
 use super::{CARD, EntryFindings, PATCHES, PrintedRates, Shared, Storage, StudyError, host, iteration, printed_value};
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
-use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
+use crate::report::{Chart, NamedChart, Scale, Series};
 use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
 
 /// Numbers of patches; the card of the paper had textures of at most 2048 texels per side.
@@ -30,11 +30,6 @@ impl Point {
 
     fn elements(&self) -> f64 {
         f64::from(self.patches) * f64::from(self.patches)
-    }
-
-    /// Nanoseconds per element of the matrix.
-    fn each(&self, ms: f64) -> f64 {
-        ms * 1e6 / self.elements()
     }
 }
 
@@ -71,7 +66,6 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         questions: vec![
             "why the host's time would grow faster than the bytes that it reads, as the authors' estimate requires.",
         ],
-        tables: vec![table(&points)],
         charts: vec![NamedChart {
             name: "radiosity-figure-4".into(),
             chart,
@@ -88,26 +82,6 @@ fn overtakes(points: &[Point]) -> Result<Option<PaperRow>, StudyError> {
     let Some(largest) = points.last() else { return Ok(None) };
     let ours = (largest.host / largest.rgb, Dependence::Predicted { from: "40 iterations/s of the host" });
     paper_row("radiosity/host-over-card", (CARD, Method::Pipeline), ours).map(Some)
-}
-
-fn table(points: &[Point]) -> Table {
-    let mut table = Table::of(
-        "Milliseconds per iteration, and nanoseconds per element",
-        "patches rgb_ms rgb_ns luminance_ms luminance_ns host_ms host_ns host_over_rgb",
-    );
-    for p in points {
-        table.push([
-            p.patches.into(),
-            Cell::measured(p.rgb),
-            Cell::measured(p.each(p.rgb)),
-            Cell::measured(p.luminance),
-            Cell::measured(p.each(p.luminance)),
-            Cell::measured(p.host),
-            Cell::measured(p.each(p.host)),
-            Cell::ratio(p.host / p.rgb),
-        ]);
-    }
-    table
 }
 
 /// Size from which the host is slower, interpolated linearly between two of the sizes.

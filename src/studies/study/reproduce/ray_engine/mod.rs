@@ -16,7 +16,6 @@ mod pipeline;
 pub(super) mod radeon_8500;
 mod shares;
 mod speed_ups;
-mod stated;
 mod sweeps;
 pub(super) mod table_1;
 pub(super) mod table_3;
@@ -25,8 +24,6 @@ pub(super) mod table_5;
 mod teapot;
 pub(super) mod vertex_variant;
 mod workload;
-
-use stated::{QUESTION, RATE, commands, how, speed_up};
 
 use super::error::{RunResult, figure, no_time};
 use super::shared::{Shared, SharedResult};

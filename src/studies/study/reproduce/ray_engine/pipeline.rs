@@ -12,7 +12,6 @@ use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{DrawCost, Level, Model};
 
 use super::{RunResult, no_time};
-use crate::report::{Cell, Table};
 use crate::study::StudyError;
 
 /// Side of the screen and of its textures, in pixels. The paper does not state it; the rate hardly depends on it.
@@ -69,32 +68,6 @@ pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f6
     let rays = f64::from(SIDE * SIDE);
     let back = model(device)?.read_back((rays * gamma) as u64);
     Ok(triangles * rays / (drawn.cost.total + back).seconds())
-}
-
-/// Table of the cost of a dual-textured pixel in each unit of some cards.
-pub(super) fn cost_table(devices: &[&str]) -> Result<Table, StudyError> {
-    let mut table = Table::of(
-        "A dual-textured pixel in the pipeline model",
-        "device texture_B depth_B color_B arithmetic_clocks texture_clocks output_clocks memory_clocks bound_by",
-    );
-    for &device in devices {
-        let drawn = dual_textured(device)?;
-        let clocks = model(device)?.clocks(&drawn.record);
-        let pixels = drawn.record.counts.fragments.generated as f64;
-        let each = |total: u64| Cell::measured(total as f64 / pixels);
-        table.push([
-            device.into(),
-            each(clocks.traffic.textures),
-            each(clocks.traffic.depth),
-            each(clocks.traffic.color),
-            each(clocks.arithmetic.0),
-            each(clocks.textures.0),
-            each(clocks.output.0),
-            each(clocks.memory.0),
-            drawn.cost.bottleneck.to_string().into(),
-        ]);
-    }
-    Ok(table)
 }
 
 /// Records the log of one draw of `quads` quads over the screen.

@@ -7,14 +7,12 @@ use super::{
 };
 use crate::atlas::Atlas;
 use crate::geom::Mesh;
-use crate::report::{Cell, Table};
+use crate::report::Table;
 use crate::scene::built::meshes;
 
-/// Models of Table 1: names, faces, and our stand-ins.
-pub(super) const MODELS: [(&str, u32, &str); 3] =
-    [("head", 7232, "stand-in-head"), ("dolphin", 21_952, "stand-in-dolphin"), ("bunny", 69_451, "stanford-bunny")];
-/// Bytes per texel of links: four half floats.
-const LINK_BYTES: f64 = 8.0;
+/// Models of Table 1, and our stand-ins with as many faces.
+pub(super) const MODELS: [(&str, &str); 3] =
+    [("head", "stand-in-head"), ("dolphin", "stand-in-dolphin"), ("bunny", "stanford-bunny")];
 
 const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} fixed links take {}, adaptive links {}. Adaptive links need one \
     sampler more than the card has, so a second pass reads the sum of the first; with link textures as tiles of a larger texture they take {} in a \
@@ -43,14 +41,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     held.explain(&mut rows[1..]);
     let tiled = held.settings.last().map_or(f64::NAN, |setting| setting.values[0]);
     let held = held.table("Lookups by storage of adaptive links", &rows[1..], (None, |value| value));
-    for (model, _, stand_in) in MODELS {
+    for (model, stand_in) in MODELS {
         rows.push(nodes(model, stand_in)?);
     }
     Ok(EntryFindings::new(
         [paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
         ["the authors' clustering of faces, and which of the two choices of links was timed."],
-        [storage(), programs(costs), held],
+        [programs(costs), held],
     ))
 }
 
@@ -67,26 +65,6 @@ fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
     let row = paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)?;
     let nodes = (2 * mesh.len() - 1) as f64;
     Ok(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"))
-}
-
-/// Table of all pairs and link textures by the size of the atlas.
-fn storage() -> Table {
-    let mut table = Table::of(
-        "Interactions and link textures in half precision, 16 links",
-        "atlas all_pairs links adaptive_MiB fixed_MiB",
-    );
-    for side in [512.0_f64, 1024.0] {
-        let texels = side * side;
-        let mebibytes = |textures: f64| Cell::measured(textures * texels * LINK_BYTES / f64::from(1 << 20));
-        table.push([
-            format!("{side} x {side}").into(),
-            Cell::measured(texels * texels),
-            Cell::measured(LINKS as f64 * texels),
-            mebibytes(LINKS as f64),
-            mebibytes(LINKS as f64 / 4.0),
-        ]);
-    }
-    table
 }
 
 /// Table of instructions and samplers of each variant, compared with the card's limits of 1024 and 16.

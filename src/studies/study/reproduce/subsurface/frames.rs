@@ -47,7 +47,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let printed = PrintedFrame::all()?;
     let (mut rows, mut frames) = (Vec::new(), Vec::new());
-    for (model, _, stand_in) in MODELS {
+    for (model, stand_in) in MODELS {
         let mesh = mesh(stand_in)?;
         for frame in printed.iter().filter(|frame| frame.model == model) {
             let cost = cost(CARD, &mesh, frame.side as u32)?;
@@ -105,7 +105,7 @@ fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Res
 
 /// Times of the three passes of the head at the smaller size.
 pub(in crate::study::reproduce) fn timed() -> Result<[TimedWork; 3], StudyError> {
-    let cost = cost(CARD, &mesh(MODELS[0].2)?, SIDES[0] as u32)?;
+    let cost = cost(CARD, &mesh(MODELS[0].1)?, SIDES[0] as u32)?;
     let gather = gather::cost(CARD, VARIANTS[OURS])?.seconds(SIDES[0]);
     let pass = |id, seconds: f64| TimedWork::new(id, CARD, Picoseconds((1e12 * seconds).round() as u64));
     Ok([
@@ -127,7 +127,7 @@ fn dominance(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Resul
 /// without synchronisation, of the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, StudyError> {
     let gather = gather::cost(OTHER_CARD, VARIANTS[OURS])?;
-    let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;
+    let cost = cost(OTHER_CARD, &mesh(MODELS[2].1)?, SIDES[0] as u32)?;
     let ours = (1.0 / cost.frame(gather.seconds(SIDES[0])), PREDICTED);
     paper_row("subsurface/figure-7", (OTHER_CARD, Method::Pipeline), ours)
 }

@@ -26,7 +26,7 @@ pub(super) struct PrintedFrame {
 impl PrintedFrame {
     /// All rows, model by model.
     pub(super) fn all() -> Result<Vec<Self>, StudyError> {
-        let all = MODELS.iter().flat_map(|(model, ..)| SIDES.map(|side| (*model, side)));
+        let all = MODELS.iter().flat_map(|(model, _)| SIDES.map(|side| (*model, side)));
         all.map(|(model, side)| Self::named(model, side)).collect()
     }
 
@@ -100,7 +100,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         ],
         rows,
         ["the format of the radiosity map, the choice of links, and whether waits for the display are in the times."],
-        [variants(costs)?, frames(&printed)],
+        [variants(costs)?],
     ))
 }
 
@@ -154,25 +154,4 @@ fn variants(costs: &[GatherCost]) -> Result<Table, StudyError> {
         table.push(std::iter::once(Cell::from(variant.name)).chain(times).chain([Cell::measured(per_link)]));
     }
     Ok(table)
-}
-
-/// Table 1 as printed, with derived values.
-fn frames(printed: &[PrintedFrame]) -> Table {
-    let mut table = Table::of(
-        "Table 1 as printed: frames, and pass 2 from shares in whole per cent",
-        "model faces atlas frames_per_s display_periods pass_2_% pass_2_ms",
-    );
-    for frame in printed {
-        let faces = MODELS.iter().find(|(model, ..)| *model == frame.model).map(|(_, faces, _)| *faces);
-        table.push([
-            frame.model.into(),
-            faces.into(),
-            format!("{0} x {0}", frame.side).into(),
-            Cell::decimals(frame.rate, 2),
-            (frame.periods() as u32).into(),
-            Cell::decimals(frame.shares[1], 0),
-            Cell::decimals(frame.milliseconds(2), 2),
-        ]);
-    }
-    table
 }

@@ -33,6 +33,6 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
     }
     let row = solved("one-representative-over-16", errors[0] / errors[3])?.confined([1.0, f64::INFINITY], FEWER);
     let [clusters, segments] = counts;
-    let sizes = [maps.len(), clusters, segments, models::points_per_cluster(size)];
+    let sizes = [maps.len(), clusters, segments, models::options(size, 1).points_per_cluster];
     Ok(EntryFindings::new([paragraph(HOW, sizes.map(|count| number(count as f64, 0)))], [row], [], [table]))
 }

@@ -16,6 +16,7 @@ use crate::card::frame_time::{FrameTime, frame_time};
 use crate::geom::teapot::teapot;
 use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
+use crate::study::reproduce::all_frequency::counts::COLUMNS;
 use crate::transfer::visibility::SegmentCensus;
 
 const CARD: &str = "r350";
@@ -30,8 +31,6 @@ const PRINTED: [(&str, usize); 4] = [
     ("all-frequency/fps-figure-7-low", TEAPOT),
     ("all-frequency/fps-figure-7-all", TEAPOT),
 ];
-/// Names of Table 1's columns in the figures of rates with drawing, in the order of [`TABLE_1`].
-const COLUMNS: [&str; 6] = ["bunny", "teapot", "tweety-diffuse", "tweety-glossy", "buddha-diffuse", "buddha-glossy"];
 /// Representatives per cluster, coefficients and number of segments, vertices per cluster, channels.
 const VECTORS: u64 = 16;
 const COEFFICIENTS: u64 = 256;
@@ -106,7 +105,7 @@ fn rate_row(id: &str, time: &FrameTime) -> Result<PaperRow, StudyError> {
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
-    let teapot = teapot(if size == ModelSize::Printed { 40 } else { 4 }).on(super::HOST)?;
+    let teapot = teapot(size.pick(40, 4)).on(super::HOST)?;
     let scene = FigureScene::new(&teapot, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
     let census = SegmentCensus::new(&scene.vertices, &scene.of_ground, &scene.hats);
     let omega = census.omega();
@@ -128,7 +127,7 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     let without = COLUMNS
         .iter()
         .zip(&TABLE_1)
-        .map(|(id, model)| rate_row(&format!("all-frequency/fps-{id}"), &time_of(model, None)?));
+        .map(|((_, id, _), model)| rate_row(&format!("all-frequency/fps-{id}"), &time_of(model, None)?));
     rows.extend(without.collect::<Result<Vec<_>, StudyError>>()?);
     let figures =
         [number(f64::from(GROUND_SIDE * GROUND_SIDE), 0), number(100.0 * omega, 0), number(RUN_PER_TRIANGLE, 1)];

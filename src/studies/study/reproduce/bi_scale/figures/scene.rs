@@ -27,10 +27,8 @@ pub(super) struct FigureSize {
 
 impl FigureSize {
     pub(super) fn new(models: ModelSize) -> Self {
-        match models {
-            ModelSize::Reduced => Self { coarser: 3, picture: [40, 30], texels: 16, views: 12, repeat: 2.0 },
-            ModelSize::Printed => Self { coarser: 1, picture: [160, 120], texels: 64, views: 12, repeat: 5.0 },
-        }
+        let printed = Self { coarser: 1, picture: [160, 120], texels: 64, views: 12, repeat: 5.0 };
+        models.pick(printed, Self { coarser: 3, picture: [40, 30], texels: 16, repeat: 2.0, ..printed })
     }
 }
 
