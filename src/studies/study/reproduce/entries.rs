@@ -1,7 +1,9 @@
-//! The list of entries.
+//! The list of entries, and a unit of work of each system for benches.
 
 use super::error::unknown;
-use super::{Paper, ReproduceEntry, StudyError, all_frequency, bi_scale, cpca, radiosity, ray_engine, subsurface};
+use super::{
+    Paper, ReproduceEntry, StudyError, TimedWork, all_frequency, bi_scale, cpca, radiosity, ray_engine, subsurface,
+};
 
 /// Entries, each with its paper, code, name and title; `recorded` if a file of `src/studies/records` has its record.
 macro_rules! entries {
@@ -109,4 +111,15 @@ pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, StudyError> {
     }
     let chosen = |entry: &&ReproduceEntry| wanted.is_empty() || wanted.iter().any(|name| names(name, entry));
     Ok(ENTRIES.iter().filter(chosen).copied().collect())
+}
+
+/// Times work as in rows, for benches in modelled time: intersections of the Ray Engine's kernels, a Jacobi iteration,
+/// the three passes of subsurface scattering, and frames of the systems of compressed transfer. Fails if a card rejects
+/// the work.
+pub fn timed() -> Result<Vec<TimedWork>, StudyError> {
+    let mut all = ray_engine::radeon_8500::timed_tests()?;
+    all.push(radiosity::timed()?);
+    all.extend(subsurface::frames::timed()?);
+    all.extend([cpca::timed()?, all_frequency::figures::timed()?, bi_scale::frames::timed()?]);
+    Ok(all)
 }

@@ -27,7 +27,6 @@ pub(super) fn papers_error(reason: &str) -> StudyError {
     StudyError::new("reproduce::papers", format!("printed figures of the papers: {reason}")).with_help(BUG)
 }
 
-/// Result of a run.
 pub(super) trait RunResult<T> {
     /// Converts a failure on a device to an entry's error: a machine rejects a draw, or a program does not assemble.
     fn on(self, device: &str) -> Result<T, StudyError>;

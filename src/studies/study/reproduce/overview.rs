@@ -6,7 +6,6 @@ use super::{MissClass, PaperRow, Reproduced, RowSource, RowVerdict};
 use crate::report::words::{counted, listed};
 use crate::report::{Findings, TallyEntry, Tone};
 
-/// Adds the conclusion and the tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = rows(found).collect();
     let evidence = chose_none(found);
@@ -42,7 +41,6 @@ fn counts(parts: &[(&str, usize)]) -> Option<String> {
     (*first > 0).then(|| shown.collect::<Vec<_>>().join("; ") + ".")
 }
 
-/// Returns `true` for a row with the value of a recorded run.
 fn is_recorded(row: &PaperRow) -> bool {
     row.source != RowSource::Computed
 }
@@ -51,7 +49,6 @@ fn needs_rounding(row: &PaperRow) -> bool {
     row.verdict() != RowVerdict::Contradictory && row.holds_by_rounding()
 }
 
-/// Tally of the verdicts, in order.
 pub(super) fn tally<'a>(rows: impl Iterator<Item = &'a PaperRow>) -> Vec<TallyEntry> {
     let verdicts: Vec<RowVerdict> = rows.map(PaperRow::verdict).collect();
     let entry = |verdict: &RowVerdict| TallyEntry {
@@ -111,7 +108,6 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
     (!counts.is_empty()).then(|| format!("Causes of misses: {}.", counts.join(", ")))
 }
 
-/// Names of the rows that differ from their record.
 fn differ(rows: &[&PaperRow]) -> Option<String> {
     let names: Vec<&str> = rows.iter().filter(|row| row.differs()).map(|row| row.target.id.as_str()).collect();
     (!names.is_empty()).then(|| format!("Not as recorded: {}.", names.join(", ")))

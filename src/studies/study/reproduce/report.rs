@@ -19,8 +19,8 @@ fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
 fn rows(found: &Reproduced) -> Table {
     let mut table = Table::of("The papers' figures and ours", COLUMNS);
     for (entry, row) in all(found) {
-        let [low, high] = ends(row.interval());
-        let [least, most] = ends(row.range());
+        let [low, high] = cells(row.interval());
+        let [least, most] = cells(row.range());
         let target = &row.target;
         table.push([
             entry.into(),
@@ -53,9 +53,8 @@ fn rows(found: &Reproduced) -> Table {
     table
 }
 
-fn ends(interval: Option<[f64; 2]>) -> [Cell; 2] {
-    let end = |value: Option<f64>| value.into();
-    [end(interval.map(|[low, _]| low)), end(interval.map(|[_, high]| high))]
+fn cells(interval: Option<[f64; 2]>) -> [Cell; 2] {
+    interval.map_or([Cell::Empty, Cell::Empty], |ends| ends.map(Cell::from))
 }
 
 const SHOWN: &str = "what place unit paper ours readings difference_% verdict missed_for bound source device method";
@@ -148,7 +147,6 @@ fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Table of the number of rows per verdict.
 fn tally_table(found: &Reproduced) -> Table {
     let mut table = Table::of("Tally", "verdict rows");
     tally(all_rows(found)).into_iter().for_each(|entry| table.push([entry.what.into(), entry.count.into()]));

@@ -6,7 +6,6 @@ use super::forms::{
 use super::{EntryFindings, PaperRow, Setting, Shared, StudyError, Sweep, number, paragraph, roughness, solved};
 use crate::all_frequency::factor::ProductErrors;
 
-/// Possible forms of a reflectance.
 type Forms = fn() -> Vec<Form>;
 
 /// The paper's reflectances: name in figure names, name, possible forms, and name of their sweep.

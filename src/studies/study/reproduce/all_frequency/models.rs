@@ -30,7 +30,6 @@ use crate::transfer::{Tangents, Vertices};
 pub(super) const SAMPLED_SEGMENTS: [usize; 3] = [0, 17, 21];
 /// Iterations per number of representatives on reduced models.
 pub(super) const REDUCED_ITERATIONS: usize = 2;
-/// Model of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableModel {
     Bunny,
@@ -39,7 +38,6 @@ pub(super) enum TableModel {
     Buddha,
 }
 
-/// Material of a model in Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableMaterial {
     Diffuse,
@@ -107,7 +105,6 @@ pub(super) struct CompressedModel {
     pub(super) by_segment: Vec<SegmentShares>,
 }
 
-/// Result of one coding.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct CodedModel {
     /// Bytes of representatives and weights, with every number in 16 bits.
@@ -186,44 +183,38 @@ impl ModelVisibility {
     }
 }
 
-/// Visibility of a model with and without the ground, computed on first use: stored pieces do not need it.
+/// Visibility of a model without and with the ground, computed on first use: stored pieces do not need it.
 pub(super) struct SeenModel {
     pub(super) model: TableModel,
     size: ModelSize,
-    alone: OnceCell<ModelVisibility>,
-    on_ground: OnceCell<ModelVisibility>,
+    seen: [OnceCell<ModelVisibility>; 2],
 }
 
 impl SeenModel {
     pub(super) const fn new(model: TableModel, size: ModelSize) -> Self {
-        Self { model, size, alone: OnceCell::new(), on_ground: OnceCell::new() }
+        Self { model, size, seen: [OnceCell::new(), OnceCell::new()] }
     }
 
-    /// For the model without ground.
-    pub(super) fn alone(&self) -> Result<&ModelVisibility, StudyError> {
-        on_first_use(&self.alone, || ModelVisibility::alone(self.model, self.size))
+    pub(super) fn get(&self, on_ground: bool) -> Result<&ModelVisibility, StudyError> {
+        let cell = &self.seen[usize::from(on_ground)];
+        if let Some(found) = cell.get() {
+            return Ok(found);
+        }
+        let found = if on_ground {
+            ModelVisibility::on_ground(self.model, false, self.size)?
+        } else {
+            ModelVisibility::alone(self.model, self.size)?
+        };
+        Ok(cell.get_or_init(|| found))
     }
-
-    /// For the model on a ground.
-    pub(super) fn on_ground(&self) -> Result<&ModelVisibility, StudyError> {
-        on_first_use(&self.on_ground, || ModelVisibility::on_ground(self.model, false, self.size))
-    }
-}
-
-fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, StudyError>) -> Result<&T, StudyError> {
-    if let Some(found) = cell.get() {
-        return Ok(found);
-    }
-    let found = compute()?;
-    Ok(cell.get_or_init(|| found))
 }
 
 /// Compresses the diffuse bunny of Table 1, reduced, in pieces that are stored if requested. Returns the model as text,
 /// and `true` if its visibility was computed. Fails if the model cannot be compressed, or its pieces cannot be stored.
 pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
-    let (shared, seen) =
-        (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));
-    let compress = || seen.alone()?.compressed(&Reflectance::Diffuse, SAMPLED_SEGMENTS, (&shared, "bunny"));
+    let shared = Shared::new(ModelSize::Reduced).keeping(kept);
+    let seen = SeenModel::new(TableModel::Bunny, ModelSize::Reduced);
+    let compress = || seen.get(false)?.compressed(&Reflectance::Diffuse, SAMPLED_SEGMENTS, (&shared, "bunny"));
     let model = shared.piece("bunny", compress)?;
-    Ok((format!("{model:?}"), seen.alone.get().is_some()))
+    Ok((format!("{model:?}"), seen.seen[0].get().is_some()))
 }

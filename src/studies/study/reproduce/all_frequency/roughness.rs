@@ -6,12 +6,10 @@ use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe};
 use crate::report::Table;
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
 
-/// Roughnesses, in ascending order.
 const ROUGHNESSES: [f64; 5] = [0.2, 0.25, 0.3, 0.4, 0.5];
 /// Mean FLIP error of spheres above which their difference counts as visible; we chose it before we computed any error.
 const SEEN: f64 = 0.05;
 
-/// Results of Figure 3's sweep.
 pub(super) struct Figure3 {
     pub(super) row: PaperRow,
     pub(super) tables: Vec<Table>,

@@ -6,7 +6,7 @@ use super::codings::{BITS, CODINGS, Coding};
 use super::models::{
     CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, TableMaterial, TableModel, ground_side,
 };
-use super::{Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paragraph, solved};
+use super::{Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, ends, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;
@@ -64,12 +64,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let [found, on_ground] = &runs;
     let total = |bytes: fn(&CompressedModel) -> f64| found.iter().map(bytes).sum::<f64>();
     rows.push(solved("ratio-haar", total(|model| model.raw) / total(|model| model.haar))?);
-    let counts = || found.iter().map(|model| model.vertices as f64);
+    let [least, most] = ends(found.iter().map(|model| model.vertices as f64));
     let options = SegmentOptions::default();
     let side = number(f64::from(ground_side(shared.models)), 0);
     let numbers = [
-        counts().fold(f64::INFINITY, f64::min),
-        counts().fold(0.0, f64::max),
+        least,
+        most,
         options.points_per_cluster as f64,
         options.vectors as f64,
         f64::from(CodeOptions::default().weight_bits),
@@ -93,7 +93,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 /// The columns without and with a ground, and the ground of the bunny's scene.
 fn computed(shared: &Shared) -> Result<([Vec<CompressedModel>; 2], CompressedGround), StudyError> {
     let (diffuse, cook, schlick) = (Diffuse.reflectance()?, Cook.reflectance()?, Schlick.reflectance()?);
-    let (mut alone, mut grounded) = (Vec::new(), Vec::new());
+    let mut runs = [Vec::new(), Vec::new()];
     let ground = shared.piece("ground", || CompressedGround::new(Bunny, &diffuse, shared))?;
     let mut seen = SeenModel::new(Bunny, shared.models);
     for (column, _, model, material) in TABLE_1 {
@@ -105,13 +105,13 @@ fn computed(shared: &Shared) -> Result<([Vec<CompressedModel>; 2], CompressedGro
             Cook => &cook,
             Schlick => &schlick,
         };
-        let [name, name_on_ground] = ["alone", "on-ground"].map(|run| format!("{column}-{run}"));
-        let compress =
-            |seen: &ModelVisibility, name: &str| seen.compressed(reflectance, SAMPLED_SEGMENTS, (shared, name));
-        alone.push(shared.piece(&name, || compress(seen.alone()?, &name))?);
-        grounded.push(shared.piece(&name_on_ground, || compress(seen.on_ground()?, &name_on_ground))?);
+        for (on_ground, run) in [(false, "alone"), (true, "on-ground")] {
+            let name = format!("{column}-{run}");
+            let compress = || seen.get(on_ground)?.compressed(reflectance, SAMPLED_SEGMENTS, (shared, &name));
+            runs[usize::from(on_ground)].push(shared.piece(&name, compress)?);
+        }
     }
-    Ok(([alone, grounded], ground))
+    Ok((runs, ground))
 }
 
 /// The ground of section 7: "the raw data was about 715MB which compressed down to 23.6MB".
@@ -171,8 +171,7 @@ fn values(found: &[CompressedModel], coding: usize, headers: bool) -> Vec<f64> {
         let shares = [model.omega, model.clustered / model.raw, bytes / model.clustered, bytes / model.raw];
         shares.into_iter().chain([model.coded[coding].squared_error]).map(|share| 100.0 * share).collect::<Vec<_>>()
     };
-    let ratios = || found.iter().map(|model| model.raw / bytes(model));
-    let extremes = [ratios().fold(f64::INFINITY, f64::min), ratios().fold(0.0, f64::max)];
+    let extremes = ends(found.iter().map(|model| model.raw / bytes(model)));
     found.iter().flat_map(of_model).chain(extremes).collect()
 }
 
@@ -228,7 +227,6 @@ fn by_representatives(found: &[CompressedModel]) -> Table {
     table
 }
 
-/// Table of the differences between the compressed segments.
 fn by_segment(found: &[CompressedModel]) -> Table {
     let headings = SAMPLED_SEGMENTS.iter().flat_map(|segment| [format!("coded_{segment}"), format!("error_{segment}")]);
     let headings: Vec<String> = ["model".to_owned()].into_iter().chain(headings).collect();

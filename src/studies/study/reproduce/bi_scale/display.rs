@@ -15,7 +15,6 @@ use crate::geom::Mesh;
 use crate::scene::Camera;
 use crate::transfer::Vertices;
 
-/// Card of the paper.
 pub(super) const CARD: &str = "gt200";
 /// Number of view directions per side.
 const VIEWS: usize = 12;
@@ -37,7 +36,6 @@ pub(super) fn picture(models: ModelSize) -> [u32; 2] {
     models.pick(PICTURE, [64, 48])
 }
 
-/// Camera of the bunnies.
 pub(super) fn of_bunny([width, height]: [u32; 2]) -> Result<Camera, StudyError> {
     Camera::new([3.0, -5.5, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.22, width, height).on(CARD)
 }

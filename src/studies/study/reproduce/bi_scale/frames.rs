@@ -49,7 +49,6 @@ impl PrintedFrames {
         FRAMES.iter().map(frames).collect()
     }
 
-    /// Seconds of a transfer.
     fn transfer(&self) -> f64 {
         let [view, light] = self.rates;
         1.0 / light - 1.0 / view
@@ -79,7 +78,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], []))
 }
 
-/// Time of a new view of the small bunny.
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     let mesh = BUNNY.mesh(1);
     let vertices = Vertices::new(&mesh, Tangents::Texture).on(CARD)?;
@@ -101,7 +99,7 @@ fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Resu
 fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, StudyError> {
     let [one, two] = [&all[0], &all[IN_TABLE_1]];
     let row = |(frames, other): (&PrintedFrames, &PrintedFrames)| {
-        let row = drawn(&frames.ids[0], run.time.per_second())?;
+        let row = drawn(&frames.ids[0], CARD, run.time.per_second())?;
         let how = format!("the same bunny on the same card in {}", other.place);
         let contradiction = Contradiction::between(&row.target, other.rates[0], &how);
         Ok(row.contradicted(contradiction))
@@ -113,7 +111,8 @@ fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, S
 fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], StudyError> {
     let from = Dependence::Predicted { from: "rates of table I, operations" };
     let comparable = (transfer / run.time.frame.seconds(), from);
-    let biclusters = &shared.get::<ClusteredModel>(BUNNY)?.biclusters;
+    let clustered = shared.get::<ClusteredModel>(BUNNY)?;
+    let biclusters = &clustered.biclusters;
     let gathered = biclusters.row_entries() as f64;
     let share = 100.0 * gathered / (gathered + 2.0 * biclusters.column_entries() as f64);
     Ok([paper_row("bi-scale/comparable", (CARD, Method::Pipeline), comparable)?, solved("gathering", share)?])

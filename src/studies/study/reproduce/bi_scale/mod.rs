@@ -14,7 +14,7 @@ use super::error::RunResult;
 use super::shared::Shared;
 use super::{
     Contradiction, Dependence, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, StudyError, TimedWork,
-    number, paper_row, paragraph, printed, printed_value,
+    drawn, number, paper_row, paragraph, printed, printed_value,
 };
 
 const COUNTS: &str = "Nothing is run. Each nonzero value costs two operations. A dense matrix takes 1 byte per value, biclusters 4 bytes per \
@@ -28,12 +28,6 @@ pub(super) fn counts(_: &Shared) -> Result<EntryFindings, StudyError> {
     Ok(EntryFindings::new([COUNTS.into()], [], [QUESTION], []))
 }
 
-/// Row for a value that is computed in f64 and does not use a printed value.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     super::solved(&format!("bi-scale/{id}"), ours)
-}
-
-/// Row for a rate or ratio on the emulated card, from no printed value.
-fn drawn(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
-    paper_row(id, (display::CARD, Method::Pipeline), (ours, Dependence::Predicted { from: "" }))
 }

@@ -19,7 +19,6 @@ impl PrintedScene {
         format!("bi-scale/{what}-{}", self.id)
     }
 
-    /// One of the scene's printed figures.
     pub(super) fn printed(&self, what: &str) -> Result<&'static PaperFigure, StudyError> {
         printed(&self.figure(what))
     }
@@ -28,7 +27,6 @@ impl PrintedScene {
         Ok(self.printed("vertices")?.value as usize)
     }
 
-    /// Number of rows of the matrix.
     pub(super) fn rows(&self) -> Result<usize, StudyError> {
         Ok(self.vertices()? * self.side * self.side)
     }

@@ -42,7 +42,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let (vertices, found) = (seen.vertices.len(), seen.clustered(scene.side)?);
         let run = view(scene, (mesh, texture_of), shared.models)?;
         rows.extend(scene_rows(scene, vertices, &found)?);
-        rows.push(drawn(&scene.figure("view"), run.time.per_second())?);
+        rows.push(drawn(&scene.figure("view"), CARD, run.time.per_second())?);
         let [width, height] = scene.picture;
         let waits = run.time.bottleneck.map_or_else(String::new, |bottleneck| bottleneck.to_string());
         views.push([

@@ -1,6 +1,6 @@
 //! Table II: the Stanford bunny, coarsened or refined to the three printed vertex counts.
 
-use super::display::{display, of_bunny, picture};
+use super::display::{CARD, display, of_bunny, picture};
 use super::models::{ClusteredModel, LOG2_SAMPLES, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{EntryFindings, PaperRow, Shared, StudyError, drawn, number, paragraph, solved};
@@ -34,7 +34,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
         } else {
             let run = display((&seen.mesh, &seen.vertices), scene.side, of_bunny(picture(shared.models))?)?;
-            rows.push(drawn(&format!("{}-2", scene.figure("view")), run.time.per_second())?);
+            rows.push(drawn(&format!("{}-2", scene.figure("view")), CARD, run.time.per_second())?);
         }
         rows.extend(scene_rows(scene, &found)?);
         ends.push((vertices as f64, found.biclusters.cost() as f64, found.operations_left()));

@@ -36,7 +36,7 @@ impl SharedResult for DrawnClusters {
 
     fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
         let (signal, clustering) = iterative(shared, at)?;
-        Self::new(signal, clustering)
+        Self::new(&signal, &clustering)
     }
 }
 

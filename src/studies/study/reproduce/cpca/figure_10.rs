@@ -29,13 +29,13 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let still = CpcaMethod::Static;
     let components = computed.compressed_to(1, ENCODINGS[0].2, still)?;
     let quantised = computed.compressed(ENCODINGS[1].1, 0, still)?;
-    let clusterings = [&components, &quantised, both];
+    let clusterings = [&components, &quantised, &*both];
     let errors = clusterings.map(|clustering| computed.error(clustering));
     let card = Profile::named(CARD)?;
     let mut times = [FrameTime::default(); 3];
     for ((time, clustering), (_, clusters, vectors, _)) in times.iter_mut().zip(clusterings).zip(ENCODINGS) {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
-        let drawn = DrawnClusters::new(computed, clustering)?;
+        let drawn = DrawnClusters::new(&computed, clustering)?;
         *time = modelled_from_clusters(&card, shared, (computed.paper.model, size), &drawn)?;
     }
     let mut table = encodings(&clusterings, errors, times.map(|time| time.per_second()))?;

@@ -35,7 +35,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let energy = computed.energy();
         let mut errors = Vec::new();
         for vectors in VECTORS {
-            let (error, drawn) = with(computed, vectors, eight)?;
+            let (error, drawn) = with(&computed, vectors, &eight)?;
             let sizes = (computed.paper.model, TransferSize { vectors, ..computed.paper.size });
             let time = modelled_from_clusters(&card, shared, sizes, &drawn)?;
             let frames = if vectors == computed.paper.size.vectors {

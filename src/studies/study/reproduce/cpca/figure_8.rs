@@ -36,7 +36,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (at, name, id, rate) in MODELS {
         let drawn = shared.get::<DrawnClusters>(at)?;
         let (model, size) = (SIGNALS[at].model, SIGNALS[at].size);
-        let on = |card: &Profile| modelled_from_clusters(card, shared, (model, size), drawn);
+        let on = |card: &Profile| modelled_from_clusters(card, shared, (model, size), &drawn);
         let time = on(&Profile::named(CARD)?)?;
         let head = [name.into(), Cell::decimals(drawn.overdraw[3], 3), printed(rate)?.cell()];
         table.push(head.into_iter().chain(time_cells(&time)));

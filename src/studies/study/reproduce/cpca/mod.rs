@@ -29,7 +29,7 @@ use drawn::{CARD, REGISTERS};
 use super::error::RunResult;
 use super::shared::{Shared, SharedResult};
 use super::{
-    Contradiction, Dependence, EntryFindings, HOST, Method, ModelSize, PaperRow, StudyError, TimedWork, number,
+    Contradiction, Dependence, EntryFindings, HOST, Method, ModelSize, PaperRow, StudyError, TimedWork, ends, number,
     paper_row, paragraph, printed, printed_value,
 };
 
@@ -47,7 +47,6 @@ fn equation(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (HOST, Method::Equation), (ours, Dependence::Counted))
 }
 
-/// Row for a value that is computed in f64 and does not use a printed value.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     super::solved(&format!("cpca/{id}"), ours)
 }

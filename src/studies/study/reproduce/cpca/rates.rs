@@ -49,7 +49,7 @@ pub(super) fn modelled_from_clusters(
     drawn: &DrawnClusters,
 ) -> Result<FrameTime, StudyError> {
     let groups = size.clusters.div_ceil(size.clusters_per_batch(REGISTERS).max(1));
-    modelled(card, *shared.get(model)?, size, (drawn.overdraw[BOTH], groups))
+    modelled(card, *shared.get::<MeshCost>(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
 /// Frames per second without compression, for which the host multiplies every matrix by the light: by equation, from
@@ -59,7 +59,6 @@ pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 
-/// Row for a modelled frame rate.
 pub(super) fn rate_row(id: &str, time: &FrameTime, from: &'static str) -> Result<PaperRow, StudyError> {
     ratio_row(id, (time.into(), time.per_second()), from)
 }
@@ -122,7 +121,6 @@ fn of_print(
     Ok((overdraw, modelled(card, mesh, size, (overdraw, size.clusters.div_ceil(fit)))?))
 }
 
-/// Time of a frame of the bird with both optimisations.
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     let PaperSignal { model, size, .. } = SIGNALS[BIRD];
     let (_, time) = of_print(&Profile::named(CARD)?, MeshCost::compute(&model, &Shared::default())?, size, ("bird", BOTH))?;

@@ -65,6 +65,11 @@ pub(super) fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     row(id, (HOST, Method::Solver), (ours, Dependence::Counted))
 }
 
+/// Returns the row for a value that is drawn on a card, from no printed value. Fails as [`row`] does.
+pub(super) fn drawn(id: &str, card: &'static str, ours: f64) -> Result<PaperRow, StudyError> {
+    row(id, (card, Method::Pipeline), (ours, Dependence::Predicted { from: "" }))
+}
+
 /// Returns the rows of an entry whose values are expressions of printed values, in the order of the file. Fails as
 /// [`row`] does.
 pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {

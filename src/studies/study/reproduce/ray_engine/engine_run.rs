@@ -16,7 +16,6 @@ use crate::study::StudyError;
 /// Computing card: fp32, like the simulator of section 5.4.
 const COMPUTES: &str = "ideal-fp32";
 
-/// Run of an engine over a workload.
 pub(super) struct Run {
     pub(super) counts: EngineCounts,
     log: Vec<Event>,

@@ -42,7 +42,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let drawn = pipeline::dual_textured(device)?.pixels_per_s() / MEGA;
         worked.push(line(id, device, [rates(device)?.fill_pixels_per_s / MEGA, drawn])?);
         if device == "nv20" {
-            rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Dependence::Predicted { from: "" }))?);
+            rows.push(super::drawn(id, device, drawn)?);
         }
     }
     for (device, id) in CARDS.into_iter().zip(TEN_TRIANGLES) {

@@ -6,7 +6,6 @@ use super::{EntryFindings, Shared, StudyError, pipeline, printed_value};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Chart, NamedChart, Series, Table};
 
-/// Names of the cards in the figure.
 const NAMES: [&str; 2] = ["GeForce3", "GeForce4 Ti4600"];
 /// Maximum number of triangles in the plot.
 const PLOTTED: u32 = 50;

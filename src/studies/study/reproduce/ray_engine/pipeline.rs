@@ -22,20 +22,17 @@ const QUADS: usize = 64;
 /// execute in one clock.
 const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
-/// Draw with its cost.
 pub(super) struct TimedDraw {
     pub(super) record: DrawRecord,
     pub(super) cost: DrawCost,
 }
 
 impl TimedDraw {
-    /// Fragments per second.
     pub(super) fn pixels_per_s(&self) -> f64 {
         self.record.counts.fragments.generated as f64 / self.cost.total.seconds()
     }
 }
 
-/// Pipeline model of a card.
 pub(super) fn model(device: &str) -> Result<Model, StudyError> {
     Model::new(Level::Pipeline, &Profile::named(device)?).map_err(no_time)
 }

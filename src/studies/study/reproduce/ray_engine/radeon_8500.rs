@@ -56,7 +56,6 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     ))
 }
 
-/// Rows for the rate, and the table of leaks.
 fn kernels() -> Result<([PaperRow; 2], [Table; 1]), StudyError> {
     let mesh = mesh(TRIANGLES)?;
     let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);

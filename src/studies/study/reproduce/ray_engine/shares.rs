@@ -32,12 +32,10 @@ pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, 
     Ok((rows, table))
 }
 
-/// Percentages by each reading.
 fn percents(shares: &[Share<'_>]) -> [Vec<f64>; 2] {
     READINGS.map(|(_, of)| shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect())
 }
 
-/// Chart of the printed fractions and of both readings.
 pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result<Chart, StudyError> {
     let series = |label: &str, values: Vec<f64>| Series {
         label: label.to_owned(),

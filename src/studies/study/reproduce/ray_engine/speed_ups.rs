@@ -15,7 +15,6 @@ use crate::report::{Cell, Table};
 /// Line of Tables 3 to 5 with its run. All three tables print the line with 5 to 15 triangles and 64 rays; it is one
 /// figure, with its row in Table 3.
 pub(super) struct SpeedUpRun {
-    /// Name in its table.
     pub(super) name: &'static str,
     /// Name of the table that prints the line.
     place: &'static str,
@@ -43,7 +42,6 @@ pub(crate) struct SpeedUps {
 }
 
 impl SpeedUps {
-    /// Lines of a table.
     pub(super) fn lines_of(&self, place: &'static str) -> Vec<&SpeedUpRun> {
         self.lines.iter().filter(|line| line.place == place).collect()
     }
@@ -91,7 +89,6 @@ fn lines() -> Vec<(&'static str, &'static str, &'static str, EngineParameters)> 
     ]
 }
 
-/// Rows of Tables 3 to 5 for the teapot room, with their sweeps.
 impl SharedResult for SpeedUps {
     type Key = ();
 
@@ -105,7 +102,7 @@ impl SharedResult for SpeedUps {
             let row = paper_row(id, (TIMES, Method::Engine), (ours, RATE))?;
             lines.push(SpeedUpRun { name, place, row, run: Arc::clone(run) });
         }
-        let (commands, host_leaf) = (sweeps::commands(room, &runs)?, sweeps::host_leaf(room, &runs)?);
+        let (commands, host_leaf) = (sweeps::commands(&room, &runs)?, sweeps::host_leaf(&room, &runs)?);
         for sweep in [&commands, &host_leaf] {
             sweep.explain(lines.iter_mut().map(|line| &mut line.row));
         }

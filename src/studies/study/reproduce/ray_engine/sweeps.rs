@@ -17,7 +17,6 @@ const HALVES: [u64; 4] = [2, 3, 4, 6];
 /// Triangles per leaf of the host's octree.
 const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
 
-/// Rays per second of runs.
 pub(super) fn rates(runs: &[Arc<Run>], host: &HostModel, commands: QueueFigures) -> Result<Vec<f64>, StudyError> {
     runs.par_iter().map(|run| rays_per_s(run, host, commands)).collect()
 }

@@ -19,8 +19,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.lines_of(PLACE);
     Ok(EntryFindings {
-        text: vec![how(), passes(&lines), octree(found)],
-        rows: std::iter::once(host_alone(room)?).chain(found.rows(PLACE)).chain([readback(&lines)?]).collect(),
+        text: vec![how(), passes(&lines), octree(&found)],
+        rows: std::iter::once(host_alone(&room)?).chain(found.rows(PLACE)).chain([readback(&lines)?]).collect(),
         questions: vec![
             QUESTION,
             "how full the leaves of the host's octree were when the host was timed alone, and whether the engine used the same octree.",
@@ -31,7 +31,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         ],
         charts: vec![NamedChart {
             name: "ray-engine-host-octree".into(),
-            chart: chart(found, &lines),
+            chart: chart(&found, &lines),
             caption: format!(
                 "Speed-ups of Table 3 by leaf size of the host-alone octree; printed values are drawn at the {} triangles of our rows.",
                 OCTREE_OF_ALL.most_triangles,

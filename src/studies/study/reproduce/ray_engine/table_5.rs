@@ -21,7 +21,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let lines = found.lines_of(PLACE);
     Ok(EntryFindings {
         text: vec![how(), size(&lines), FILL.into()],
-        rows: found.rows(PLACE).into_iter().chain(fill(room)?).collect(),
+        rows: found.rows(PLACE).into_iter().chain(fill(&room)?).collect(),
         questions: vec![
             QUESTION,
             "the cost of draws, uploads and read-backs in the authors' driver: a factor on our guesses moves all rows.",
@@ -32,7 +32,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         ],
         charts: vec![NamedChart {
             name: "ray-engine-table-5".into(),
-            chart: chart(found, &lines),
+            chart: chart(&found, &lines),
             caption: "Table 5, with command costs as stated and higher.".into(),
         }],
         ..EntryFindings::default()

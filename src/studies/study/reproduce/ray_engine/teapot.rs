@@ -21,7 +21,6 @@ const HOST_ALONE: f64 = CPU_ONLY_RAYS_PER_SECOND as f64;
 /// Seed of the rays' random order.
 const SEED: u64 = 2002;
 
-/// Open question about rows of all tables.
 pub(super) const QUESTION: &str = "the authors' scene, picture and octree, the cost of their driver's commands, and \
     how often their rays met the card.";
 
@@ -30,7 +29,6 @@ const HOW: &str = "The teapot room is rendered by Whitted ray tracing at {} x {}
     operation with the guessed weights of the host model, scaled so that the host alone casts the {} rays/s of Table 3's first row: the only \
     calibrated figure. Draws run at the GeForce4's fill rate, read-backs at its bus rate, commands at the guessed costs of every timeline.";
 
-/// Description of the computation of Tables 3 to 5.
 pub(super) fn how() -> String {
     let side = || CLASSICAL_TEAPOT.side.to_string();
     paragraph(HOW, [side(), side(), number(HOST_ALONE, 0)])

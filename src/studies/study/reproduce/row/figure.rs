@@ -36,30 +36,24 @@ pub enum Judgement {
 }
 
 /// Reason why a row is missed, if known. Only missed rows have one; it does not change the verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, strum::Display, strum::VariantArray)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantArray)]
 pub enum MissClass {
     /// The text allows several readings, or leaves a choice in the method open.
-    #[serde(rename = "reading open")]
     #[strum(to_string = "reading open")]
     ReadingOpen,
     /// The paper's model, scene, light or BRDF is not available.
-    #[serde(rename = "model lost")]
     #[strum(to_string = "model lost")]
     ModelLost,
     /// A time depends on hardware or a driver whose properties are not known.
-    #[serde(rename = "hardware timing unknown")]
     #[strum(to_string = "hardware timing unknown")]
     HardwareTiming,
     /// Our method or model deliberately differs from the paper's.
-    #[serde(rename = "ours differs")]
     #[strum(to_string = "ours differs")]
     OursDiffers,
     /// Our result has less error, storage or work than the printed one.
-    #[serde(rename = "ours differs, for the better")]
     #[strum(to_string = "ours differs, for the better")]
     OursBetter,
     /// Another section of the paper contradicts the figure, and our value agrees with neither.
-    #[serde(rename = "paper contradicts")]
     #[strum(to_string = "paper contradicts")]
     PaperContradicts,
 }

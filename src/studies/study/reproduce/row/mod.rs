@@ -9,7 +9,6 @@ mod contradiction;
 mod explanation;
 mod figure;
 mod method;
-mod source;
 mod sweep;
 mod verdict;
 
@@ -18,9 +17,10 @@ pub use contradiction::Contradiction;
 pub use explanation::Explanation;
 pub use figure::{Judgement, MissClass, Origin, PaperEquation, PaperFigure};
 pub use method::{Dependence, Method};
-pub use source::RowSource;
 pub use sweep::{Setting, Sweep};
 pub use verdict::RowVerdict;
+
+use super::prose::ends;
 
 /// Row: a value of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,25 @@ pub struct PaperRow {
     /// Set only by [`Sweep::explain`].
     explanation: Option<Explanation>,
     contradiction: Option<Contradiction>,
+}
+
+/// Source of a row's value.
+#[derive(Clone, Copy, Debug, PartialEq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum RowSource {
+    /// Computed in this run.
+    Computed,
+    /// Read from a recorded run at full size.
+    Recorded,
+    /// Computed in this run at full size; the recorded value has the same bits.
+    #[strum(to_string = "recorded and computed")]
+    Confirmed,
+    /// Computed in this run at full size; the recorded value has other bits.
+    #[strum(to_string = "computed, not as recorded")]
+    Differs {
+        /// Recorded value.
+        recorded: f64,
+    },
 }
 
 impl PaperRow {
@@ -119,8 +138,7 @@ impl PaperRow {
 
     /// Smallest and largest value over all readings; `None` if there is only one reading.
     pub fn range(&self) -> Option<[f64; 2]> {
-        let range = [self.values().fold(f64::INFINITY, f64::min), self.values().fold(f64::NEG_INFINITY, f64::max)];
-        (!self.readings.is_empty()).then_some(range)
+        (!self.readings.is_empty()).then(|| ends(self.values()))
     }
 
     /// All our values: the main value, then the other readings.

@@ -2,8 +2,8 @@
 
 use super::gather::{EIGHT, GatherCost, VARIANTS, Variant};
 use super::{
-    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, RunResult, Setting, Shared, StudyError, Sweep, number,
-    paper_row, paragraph,
+    CARD, Dependence, EntryFindings, LINKS, Method, RunResult, Setting, Shared, StudyError, Sweep, number, paper_row,
+    paragraph, solved,
 };
 use crate::atlas::Atlas;
 use crate::geom::Mesh;
@@ -21,9 +21,10 @@ const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} 
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
-    let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
-    let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
-    let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
+    let [fixed, adaptive] = [true, false].map(|is_fixed| {
+        let found = VARIANTS.iter().zip(costs.iter()).find(|(variant, _)| variant.fixed == is_fixed);
+        found.map_or(f64::NAN, |(_, cost)| cost.lookups)
+    });
     let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Dependence::Counted));
     // A texel of fixed links holds the factors of four links.
     let layout = [LINKS as f64 * 1.25; 2];
@@ -31,7 +32,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         lookups("subsurface/lookups-fixed", fixed)?.confined(layout, "the program uses the paper's layout of links");
     let mut rows = vec![of_fixed, lookups("subsurface/lookups-adaptive", adaptive)?];
     // The same links on the same map, in their own textures and as tiles.
-    let same = VARIANTS.iter().zip(costs).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
+    let same = VARIANTS.iter().zip(costs.iter()).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
     let setting = |(variant, cost): (&Variant, &GatherCost)| {
         let at = if variant.tiles.is_some() { "tiles" } else { "separate" };
         Setting { at: at.to_owned(), values: vec![cost.lookups] }
@@ -42,29 +43,22 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let tiled = held.settings.last().map_or(f64::NAN, |setting| setting.values[0]);
     let held = held.table("Lookups by storage of adaptive links", &rows[1..], (None, |value| value));
     for (model, stand_in) in MODELS {
-        rows.push(nodes(model, stand_in)?);
+        let mesh = mesh(stand_in)?;
+        let atlas = Atlas::new(&mesh, 512).on(CARD)?;
+        let row = solved(&format!("subsurface/nodes-{model}"), atlas.tree().nodes().len() as f64)?;
+        let nodes = (2 * mesh.len() - 1) as f64;
+        rows.push(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"));
     }
     Ok(EntryFindings::new(
         [paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
         ["the authors' clustering of faces, and which of the two choices of links was timed."],
-        [programs(costs), held],
+        [programs(&costs), held],
     ))
 }
 
-/// Stand-in for a model.
 pub(super) fn mesh(stand_in: &'static str) -> Result<Mesh, StudyError> {
     meshes::build(stand_in).ok_or_else(|| format!("no stand-in `{stand_in}`")).on(CARD)
-}
-
-/// Row for the number of nodes of the clustering: 2 T - 1.
-fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
-    let mesh = mesh(stand_in)?;
-    let atlas = Atlas::new(&mesh, 512).on(CARD)?;
-    let ours = (atlas.tree().nodes().len() as f64, Dependence::Counted);
-    let row = paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)?;
-    let nodes = (2 * mesh.len() - 1) as f64;
-    Ok(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"))
 }
 
 /// Table of instructions and samplers of each variant, compared with the card's limits of 1024 and 16.

@@ -9,12 +9,10 @@ use crate::study::reproduce::all_frequency::forms::{bare, quarter_of_half_vector
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
 pub(super) use crate::study::reproduce::all_frequency::models::ground_side as ground;
 
-/// Builds the stand-in for the paper's tweety.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
     TransferModel::Tweety.mesh(models.pick(1, 9))
 }
 
-/// Builds the stand-in for the paper's Buddha.
 pub(super) fn buddha(models: ModelSize) -> Mesh {
     TransferModel::Buddha.mesh(models.pick(1, 12))
 }

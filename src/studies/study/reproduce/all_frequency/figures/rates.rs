@@ -95,7 +95,6 @@ fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, Study
     frame_time(&profile, &log, &host).on(CARD)
 }
 
-/// Time of a frame of the bunny without a ground.
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     TimedWork::new("all-frequency/fps-bunny", CARD, time_of(&TABLE_1[0], None)?.frame)
 }

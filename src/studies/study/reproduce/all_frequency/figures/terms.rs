@@ -3,7 +3,6 @@
 use super::{EntryFindings, StudyError, models, solved};
 use crate::report::{Cell, Table};
 
-/// Numbers of terms.
 const TERMS: [usize; 7] = [1, 2, 4, 6, 8, 10, 16];
 
 const HOW: &str = "Figure 2 shows Cook-Torrance reflectance with more and more terms: in the textbook form, and as the \

@@ -11,7 +11,6 @@ use crate::study::prt::{BiScaleDrawing, BiScaleRendering, CausePictures};
 /// Order of the harmonics in low-frequency bi-scale transfer.
 pub(super) const ORDER: usize = 5;
 
-/// Colors of a figure.
 pub(super) struct DrawnFigure {
     pub(super) causes: CausePictures,
     /// Colors from low-frequency light.

@@ -8,7 +8,7 @@ use super::{EntryFindings, HOST, ModelSize, PaperRow, RunResult, Shared, StudyEr
 use crate::bi_scale::texture::PatchKind;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
-use crate::study::reproduce::sky::HARD_SUN;
+use crate::study::reproduce::stand_ins::HARD_SUN;
 use crate::transfer::visibility::Horizon;
 use drawn::{DrawnFigure, ORDER};
 use scene::{FigureSize, TexturedModel};

@@ -10,7 +10,6 @@ use crate::study::prt::{BiScaleRendering, LitView, SurfaceTexture, TexturedSurfa
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::DistantLight;
 
-/// Sizes of models, pictures and textures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FigureSize {
     /// Edge length of models, as a multiple of the paper's.
@@ -32,7 +31,6 @@ impl FigureSize {
     }
 }
 
-/// Model to draw.
 pub(super) struct TexturedModel {
     pub(super) name: &'static str,
     pub(super) mesh: Mesh,
