@@ -1,9 +1,11 @@
 //! The list of entries, and a unit of work of each system for benches.
 
-use super::error::unknown;
+use strum::VariantArray as _;
+
 use super::{
     Paper, ReproduceEntry, StudyError, TimedWork, all_frequency, bi_scale, cpca, radiosity, ray_engine, subsurface,
 };
+use crate::names::did_you_mean;
 
 /// Entries, each with its paper, code, name and title; `recorded` if a file of `src/studies/records` has its record.
 macro_rules! entries {
@@ -107,7 +109,11 @@ pub const ENTRIES: &[ReproduceEntry] = entries! {
 pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, StudyError> {
     let names = |name: &String, entry: &ReproduceEntry| [entry.id, entry.paper.id()].contains(&name.as_str());
     if let Some(found) = wanted.iter().find(|name| !ENTRIES.iter().any(|entry| names(name, entry))) {
-        return Err(unknown(found, &ENTRIES.iter().map(|entry| entry.id).collect::<Vec<_>>()));
+        let papers: Vec<&str> = Paper::VARIANTS.iter().map(|paper| paper.id()).collect();
+        let known = papers.iter().copied().chain(ENTRIES.iter().map(|entry| entry.id));
+        let help = format!("{}`crossbar reproduce --list` describes the entries", did_you_mean(found, known));
+        let what = format!("expected the name of a paper ({}) or of an entry, found `{found}`", papers.join(", "));
+        return Err(StudyError::new("reproduce::unknown", what).with_help(help));
     }
     let chosen = |entry: &&ReproduceEntry| wanted.is_empty() || wanted.iter().any(|name| names(name, entry));
     Ok(ENTRIES.iter().filter(chosen).copied().collect())

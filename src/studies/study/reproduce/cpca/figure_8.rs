@@ -51,7 +51,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         gains.push(100.0 * (newer.per_second() / time.per_second() - 1.0));
     }
     for (id, gains) in [("newer-card-uncompressed", plain_gains), ("newer-card", gains)] {
-        rows.push(newer_row(id, &gains)?);
+        // Both frames have the same work, so the gain is the ratio of clock rates, or 1 if the host is the bottleneck.
+        let ours = (gains[0], Dependence::Predicted { from: OWN_INPUTS });
+        let row = paper_row(&format!("cpca/{id}"), (NEWER, Method::Equation), ours)?;
+        rows.push(row.with_readings(gains[1..].iter().copied()));
     }
     let size = SIGNALS[HEAD].size;
     let sizes = [size.rows, size.clusters, size.vectors].map(|count| number(count as f64, 0));
@@ -82,12 +85,4 @@ fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, St
         found.push(row);
     }
     Ok(found)
-}
-
-/// Row for the gains of the newer card, on both models. Both frames have the same work, so the gain is the ratio of
-/// clock rates, or 1 if the host is the bottleneck.
-fn newer_row(id: &str, gains: &[f64]) -> Result<PaperRow, StudyError> {
-    let ours = (gains[0], Dependence::Predicted { from: OWN_INPUTS });
-    let row = paper_row(&format!("cpca/{id}"), (NEWER, Method::Equation), ours)?;
-    Ok(row.with_readings(gains[1..].iter().copied()))
 }

@@ -15,7 +15,7 @@ use crate::study::reproduce::row::{Bound, Judgement, MissClass, Origin, PaperEqu
 pub(super) struct PaperFile {
     /// Dates on which bounds were stated, with a digest of the statements.
     pub(super) stated: Vec<Stated>,
-    pub(super) group: Vec<FigureGroup>,
+    group: Vec<FigureGroup>,
 }
 
 /// Bounds that were stated on one day.
@@ -37,7 +37,7 @@ pub(super) struct FigureGroup {
     /// Changes of the statements of all its figures, oldest first.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
-    pub(super) figures: Vec<FileFigure>,
+    figures: Vec<FileFigure>,
 }
 
 /// Terms on which a figure is judged, and data of a row with an expression; from its group or its own.
@@ -105,6 +105,13 @@ pub(super) struct Change {
     pub(super) before: FigureTerms,
 }
 
+impl PaperFile {
+    /// All figures, each with its group.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (&FigureGroup, &FileFigure)> {
+        self.group.iter().flat_map(|group| group.figures.iter().map(move |figure| (group, figure)))
+    }
+}
+
 impl FileFigure {
     /// Terms of the figure: its own, otherwise its group's.
     pub(super) fn terms(&self, group: &FigureGroup) -> FigureTerms {
@@ -131,18 +138,16 @@ impl FileFigure {
     }
 }
 
-/// Parses a file into its figures; errors are sentences.
-pub(super) fn parse(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
-    let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
+/// Converts a file to its figures; errors are sentences.
+pub(super) fn figures(paper: Paper, file: &PaperFile) -> Result<Vec<PaperFigure>, String> {
     let mut figures: Vec<PaperFigure> = Vec::new();
     let first = file.stated.first().map_or("", |stated| &stated.date);
-    let entries = || file.group.iter().flat_map(|group| group.figures.iter().map(move |entry| (group, entry)));
     let in_figure = |entry: &FileFigure, reason: String| format!("figure `{}/{}`: {reason}", paper.id(), entry.id);
-    for (group, entry) in entries() {
+    for (group, entry) in file.entries() {
         let figure = figure((paper, first), group, entry, &figures).map_err(|reason| in_figure(entry, reason))?;
         figures.push(figure);
     }
-    for (at, (group, entry)) in entries().enumerate() {
+    for (at, (group, entry)) in file.entries().enumerate() {
         let equation = equation(paper, group, entry, &figures).map_err(|reason| in_figure(entry, reason))?;
         figures[at].equation = equation;
     }
@@ -151,9 +156,8 @@ pub(super) fn parse(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String
 
 /// Value of a figure by its name within the paper.
 fn named(paper: Paper, figures: &[PaperFigure], id: &str) -> Option<f64> {
-    let is_it =
-        |figure: &&PaperFigure| figure.id.strip_prefix(paper.id()).and_then(|id| id.strip_prefix('/')) == Some(id);
-    figures.iter().find(is_it).map(|figure| figure.value)
+    let id = format!("{}/{id}", paper.id());
+    figures.iter().find(|figure| figure.id == id).map(|figure| figure.value)
 }
 
 /// Equation of a figure that has an expression.

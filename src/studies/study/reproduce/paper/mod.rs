@@ -29,8 +29,9 @@ static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
 /// Checks a paper's file against its statement digests, and parses its figures; errors are sentences. Fails if the file
 /// is malformed, or its bounds differ from their statements.
 pub fn parse_figures(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
-    statement::verify(text)?;
-    file::parse(paper, text)
+    let file: file::PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    statement::verify(&file)?;
+    file::figures(paper, &file)
 }
 
 /// Returns the printed, implied and inferred figures of all papers, in the order of their files. Fails if a file is

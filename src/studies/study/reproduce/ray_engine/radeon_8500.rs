@@ -26,13 +26,11 @@ const TRIANGLES: usize = 2048;
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/radeon-8500";
 
-const PAIRS: &str = "Thousands of triangles are tested against {} x {} rays, so the pixel program determines the rate; read-back and vertices are \
-    negligible. R200 is assumed to issue one pair of a colour and an alpha instruction per clock in each of its {} pipelines, with two texture \
-    instructions beside it. No source states the first rate. It was chosen because with it, and not with two pairs per clock, our program comes near \
-    the printed figure. So this row is a calibration, by a whole number. It uses our program for rays of any origin in the two textures of section \
-    4.1; the program for rays of one origin is another reading. The printed figure is {} pipeline clocks per test. Our engine and studies store rays \
-    in 16 bits, two values per texel: that takes three textures, and two more pairs to join the values. Bytes make rays coarser, but not the holes \
-    between triangles larger: both programs lose about equally many of the same {} rays, rounded to bytes.";
+const PAIRS: &str = "Thousands of triangles are tested against {} x {} rays, so the pixel program determines the rate. R200 is assumed to issue one \
+    pair of a colour and an alpha instruction per clock in each of its {} pipelines. No source states this rate. It was chosen because with it, and \
+    not with two pairs per clock, our program comes near the printed figure, which is {} pipeline clocks per test. The row uses our program for rays \
+    of any origin in the two textures of section 4.1; the program for rays of one origin is another reading. Bytes make rays coarser, but not the \
+    holes between triangles larger: programs for bytes and for 16 bits lose about equally many of the same {} rays, rounded to bytes.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (rows, tables) = kernels()?;

@@ -15,10 +15,12 @@ const HEAD: &str = "# A run at full size, written by `crossbar reproduce --recor
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EntryRecord {
-    entry: String,
+    /// Name of the entry.
+    pub entry: String,
     text: Vec<String>,
     questions: Vec<String>,
-    made: RecordMade,
+    /// Provenance of the record.
+    pub made: RecordMade,
     #[serde(default)]
     row: Vec<RecordedRow>,
     #[serde(default)]
@@ -68,16 +70,6 @@ impl EntryRecord {
             row: found.rows.iter().filter(|row| row.target.equation.is_none()).map(RecordedRow::new).collect(),
             table: found.tables.iter().map(RecordedTable::new).collect(),
         }
-    }
-
-    /// Name of the entry.
-    pub fn entry(&self) -> &str {
-        &self.entry
-    }
-
-    /// Provenance of the record.
-    pub const fn made(&self) -> &RecordMade {
-        &self.made
     }
 
     /// Values in the row for a figure: ours, then the other readings. `None` if the figure has no row.

@@ -122,7 +122,7 @@ impl PaperRow {
 
     /// Returns `true` if our value could be `value` within the bound; always `false` if the text is too vague.
     pub fn admits(&self, value: f64) -> bool {
-        self.interval().is_some_and(|[low, high]| (low..=high).contains(&value))
+        self.bound.admits(self.target.value, self.target.rounding(), value)
     }
 
     /// Returns `true` if our value lies within the bound for every reading.
@@ -132,8 +132,8 @@ impl PaperRow {
 
     /// Returns `true` if the row holds only because the printed value was rounded.
     pub fn holds_by_rounding(&self) -> bool {
-        let printed = (self.target.value, self.target.rounding());
-        self.holds() && self.values().any(|value| self.bound.needs_rounding(printed, value))
+        let unrounded = |value: f64| self.bound.admits(self.target.value, 0.0, value);
+        self.holds() && self.bound != Bound::Print && !self.values().all(unrounded)
     }
 
     /// Smallest and largest value over all readings; `None` if there is only one reading.
@@ -187,11 +187,8 @@ impl PaperRow {
     /// Returns `true` if the paper contradicts itself and our value agrees with one of its values: no verdict can tell
     /// which of them is right. A value that agrees with neither is missed in any case.
     pub(super) fn is_contradictory(&self) -> bool {
-        let rounding = self.target.rounding();
-        let agrees = |printed: f64| {
-            let interval = self.bound.interval(printed, rounding);
-            interval.is_some_and(|[low, high]| self.values().all(|value| (low..=high).contains(&value)))
-        };
+        let agrees =
+            |printed: f64| self.values().all(|value| self.bound.admits(printed, self.target.rounding(), value));
         let found = self.contradiction.as_ref();
         found.is_some_and(|found| agrees(self.target.value) || found.value().is_some_and(agrees))
     }

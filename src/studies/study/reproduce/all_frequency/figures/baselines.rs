@@ -76,30 +76,23 @@ impl Methods<'_> {
     /// Colors of the model or the ground. Like segments, they are stored as a piece of the work.
     fn colors(
         &self,
-        subject: (&VisibilityMaps, &dyn ProductFunction, &Reflectance),
-        color: [f64; 3],
-        name: &str,
-    ) -> Result<MethodColors, StudyError> {
-        self.shared.piece(name, || self.computed(subject, color, name))
-    }
-
-    fn computed(
-        &self,
         (maps, product, reflectance): (&VisibilityMaps, &dyn ProductFunction, &Reflectance),
         color: [f64; 3],
         name: &str,
     ) -> Result<MethodColors, StudyError> {
-        let scene = self.scene;
-        let subject = BaselineSubject { vertices: &scene.vertices, maps, hats: &scene.hats, product };
-        let exact = FixedView(subject).radiance(scene.eye(), &[self.light.texels()]).remove(0);
-        let harmonics = HarmonicTransfer::new(subject, ORDER);
-        let harmonics = harmonics.radiance(scene.eye(), &harmonics.light(self.light.texels()));
-        let colored = |colors: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
-            colors.into_iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * color[channel])).collect()
-        };
-        let surface = Surface { scene, maps, reflectance, color, pieces: (self.shared, name) };
-        let quarters = HaarLight::new(&self.light, Segmentation::Quarters);
-        let ours = surface.of_code(&surface.coded(self.options)?.0, &quarters)?;
-        Ok(vec![colored(exact), ours, colored(harmonics)])
+        self.shared.piece(name, || {
+            let scene = self.scene;
+            let subject = BaselineSubject { vertices: &scene.vertices, maps, hats: &scene.hats, product };
+            let exact = FixedView(subject).radiance(scene.eye(), &[self.light.texels()]).remove(0);
+            let harmonics = HarmonicTransfer::new(subject, ORDER);
+            let harmonics = harmonics.radiance(scene.eye(), &harmonics.light(self.light.texels()));
+            let colored = |colors: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
+                colors.into_iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * color[channel])).collect()
+            };
+            let surface = Surface { scene, maps, reflectance, color, pieces: (self.shared, name) };
+            let quarters = HaarLight::new(&self.light, Segmentation::Quarters);
+            let ours = surface.of_code(&surface.coded(self.options)?.0, &quarters)?;
+            Ok(vec![colored(exact), ours, colored(harmonics)])
+        })
     }
 }
