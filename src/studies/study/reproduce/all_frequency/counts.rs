@@ -51,8 +51,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let value = |what: &str, of: &str| printed_value(&format!("all-frequency/{what}-{of}"));
         let (thousands, omega) = (value("vertices", model)?, value("omega", model)? / 100.0);
         // Multiplications per frame.
-        let of_clusters =
-            value("clusters", column)? * N as f64 * (terms * Segmentation::Quarters.len()) as f64 * 3.0;
+        let of_clusters = value("clusters", column)? * N as f64 * (terms * Segmentation::Quarters.len()) as f64 * 3.0;
         let of_vertices = 1e3 * thousands * 24.0 * omega * (N * terms * 3) as f64;
         let ours = (rate / (of_clusters + of_vertices), Dependence::Calibrated { on: RATE });
         rows.push(row(&format!("fps-alone-{column}"), ours)?);

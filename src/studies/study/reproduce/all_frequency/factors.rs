@@ -1,8 +1,6 @@
 //! Section 3: errors of ten terms and of spherical harmonics for two reflectances, and Figure 3.
 
-use super::forms::{
-    Form, ORDERS, TERMS, at_equal_angles, cook_torrance, errors, errors_at_equal_angles, schlick,
-};
+use super::forms::{Form, ORDERS, TERMS, at_equal_angles, cook_torrance, errors, errors_at_equal_angles, schlick};
 use super::{EntryFindings, PaperRow, Setting, Shared, StudyError, Sweep, number, paragraph, roughness, solved};
 use crate::all_frequency::factor::ProductErrors;
 

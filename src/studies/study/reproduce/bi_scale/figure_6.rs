@@ -2,9 +2,7 @@
 
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
-use super::{
-    EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paragraph, printed_value, solved,
-};
+use super::{EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paragraph, printed_value, solved};
 use crate::bi_scale::bicluster::{SEED, bicluster};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::report::{Cell, Table};

@@ -9,8 +9,12 @@ const ORDER: usize = 5;
 use HemisphereProjection::{EvenReflection, OddReflection, ZeroHemisphere};
 
 /// Prefixes of figures' names, projections, and orders of their targets.
-const PROJECTIONS: [(&str, HemisphereProjection, usize); 4] =
-    [("zero", ZeroHemisphere, 5), ("odd-8", OddReflection, 8), ("even-7", EvenReflection, 7), ("even-5", EvenReflection, 5)];
+const PROJECTIONS: [(&str, HemisphereProjection, usize); 4] = [
+    ("zero", ZeroHemisphere, 5),
+    ("odd-8", OddReflection, 8),
+    ("even-7", EvenReflection, 7),
+    ("even-5", EvenReflection, 5),
+];
 
 const HOW: &str = "The Gram matrix of the harmonics over the hemisphere, its spectrum and the errors of projections are computed in f64. Odd and \
     even reflection follow the formulas: the paper's words in parentheses are swapped. Errors are squared errors over the hemisphere, of functions \

@@ -6,8 +6,8 @@ use refsim::timing::host::HostOperation;
 use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters, MeshCost};
 use super::signals::{BIRD, PaperSignal, SIGNALS};
 use super::{
-    CARD, Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, RunResult, Shared, SharedResult, StudyError, TimedWork, paper_row,
-    printed, printed_value,
+    CARD, Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, RunResult, Shared, SharedResult, StudyError,
+    TimedWork, paper_row, printed, printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
 use crate::cpca::on_card::model::TransferSize;
@@ -123,7 +123,8 @@ fn of_print(
 
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     let PaperSignal { model, size, .. } = SIGNALS[BIRD];
-    let (_, time) = of_print(&Profile::named(CARD)?, MeshCost::compute(&model, &Shared::default())?, size, ("bird", BOTH))?;
+    let (_, time) =
+        of_print(&Profile::named(CARD)?, MeshCost::compute(&model, &Shared::default())?, size, ("bird", BOTH))?;
     TimedWork::new("cpca/rate-bird-both", CARD, time.frame)
 }
 

@@ -214,7 +214,8 @@ fn figure(
         (None, Some(reason)) => Judgement::Not(reason),
         _ => return Err("expected one of `bound` and `unjudged`".to_owned()),
     };
-    let class = |text: &String| text.parse::<MissClass>().map_err(|_| format!("expected a class of misses, found `{text}`"));
+    let class =
+        |text: &String| text.parse::<MissClass>().map_err(|_| format!("expected a class of misses, found `{text}`"));
     let missed = entry.missed.as_ref().map(class).transpose()?;
     let changed = entry.changes(group).next_back().map(|change| change.date.as_str());
     let stated = changed.or(entry.stated.as_deref()).unwrap_or(first).to_owned();

@@ -28,6 +28,6 @@ mod workload;
 use super::error::{RunResult, figure, no_time};
 use super::shared::{Shared, SharedResult};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn, number, paper_row, paragraph,
-    printed, printed_value,
+    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn, number, paper_row,
+    paragraph, printed, printed_value,
 };

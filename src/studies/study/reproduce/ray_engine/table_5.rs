@@ -26,10 +26,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             QUESTION,
             "the cost of draws, uploads and read-backs in the authors' driver: a factor on our guesses moves all rows.",
         ],
-        tables: vec![
-            table(&lines, PLACE),
-            found.table(&found.commands, "Speed-ups by a factor on all command costs"),
-        ],
+        tables: vec![table(&lines, PLACE), found.table(&found.commands, "Speed-ups by a factor on all command costs")],
         charts: vec![NamedChart {
             name: "ray-engine-table-5".into(),
             chart: chart(&found, &lines),

@@ -11,6 +11,6 @@ use gather::{CARD, LINKS};
 use super::error::{RunResult, no_time};
 use super::shared::Shared;
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn,
-    ends, number, paper_row, paragraph, printed_value, solved,
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn, ends,
+    number, paper_row, paragraph, printed_value, solved,
 };

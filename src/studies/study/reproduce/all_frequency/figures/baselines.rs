@@ -55,7 +55,8 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
         }
         ratios.push(harmonics / ours);
     }
-    let sizes = [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, methods.options.points_per_cluster, ORDER];
+    let sizes =
+        [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, methods.options.points_per_cluster, ORDER];
     Ok(EntryFindings::new(
         [paragraph(HOW, sizes.map(|size| number(size as f64, 0)))],
         [solved("harmonics-over-ours", ratios[0])?.with_readings(ratios[1..].iter().copied())],
