@@ -1,9 +1,11 @@
-//! Entries of the reproduction, and their findings.
+//! Entries of the reproduction, their findings, and work that benches time.
 
 use std::rc::Rc;
 
+use refsim::timing::Picoseconds;
+
 use super::shared::Shared;
-use super::{ModelSize, Paper, PaperRow, RecordStatus, StudyError, equations};
+use super::{ModelSize, Paper, PaperRow, RecordStatus, StudyError, equations, printed};
 use crate::kept::KeptResults;
 use crate::report::{NamedChart, Table};
 
@@ -74,3 +76,26 @@ impl ReproduceEntry {
 
 /// Entries with their findings.
 pub type Reproduced = Vec<(ReproduceEntry, EntryFindings)>;
+
+/// Work of a system with its modelled time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimedWork {
+    /// Name of the printed figure, as in `radiosity/jacobi-rate`.
+    pub figure: &'static str,
+    /// Printed value, with its unit and its section of the paper.
+    pub printed: String,
+    /// Card.
+    pub device: &'static str,
+    /// Number of items, such as ray-triangle tests; 1 for a frame or a pass.
+    pub items: u64,
+    /// Modelled time of all items.
+    pub time: Picoseconds,
+}
+
+impl TimedWork {
+    pub(super) fn new(figure: &'static str, device: &'static str, time: Picoseconds) -> Result<Self, StudyError> {
+        let found = printed(figure)?;
+        let printed = format!("{} {} ({})", found.text(), found.unit, found.place);
+        Ok(Self { figure, printed, device, items: 1, time })
+    }
+}

@@ -27,7 +27,6 @@ mod shared;
 mod stand_ins;
 mod subsurface;
 mod summary;
-mod timed_work;
 
 use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
@@ -36,7 +35,7 @@ use stand_ins::ModelSize;
 
 use crate::study::StudyError;
 pub use entries::{ENTRIES, choose, timed};
-pub use entry::{EntryFindings, ReproduceEntry, Reproduced};
+pub use entry::{EntryFindings, ReproduceEntry, Reproduced, TimedWork};
 use paper::{HOST, drawn, equations, row as paper_row, solved, value as printed_value};
 pub use paper::{figures, printed};
 pub use papers::Paper;
@@ -46,7 +45,6 @@ pub use row::{
     Bound, Contradiction, Dependence, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure,
     PaperRow, RowSource, RowVerdict, Setting, Sweep,
 };
-pub use timed_work::TimedWork;
 
 /// Functions that tests call directly, because no short run reaches their cases.
 #[doc(hidden)]

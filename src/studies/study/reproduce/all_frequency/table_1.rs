@@ -6,9 +6,7 @@ use super::codings::{BITS, CODINGS, Coding};
 use super::models::{
     CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, TableMaterial, TableModel, ground_side,
 };
-use super::{
-    Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, ends, number, paragraph, solved,
-};
+use super::{Dependence, EntryFindings, PaperRow, Shared, StudyError, ends, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;

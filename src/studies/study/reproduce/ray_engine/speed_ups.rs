@@ -3,14 +3,22 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+use refsim::timing::host::{HostModel, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
-use super::engine_run::Run;
+use super::engine_run::{Run, rays_per_s};
 use super::teapot::{RATE, TeapotRoom, plus_card, speed_up};
-use super::workload::TIMES;
-use super::{Dependence, Method, PaperRow, Shared, SharedResult, StudyError, Sweep, paper_row, sweeps};
+use super::workload::{OCTREE, TIMES};
+use super::{Dependence, Method, PaperRow, Setting, Shared, SharedResult, StudyError, Sweep, paper_row};
 use crate::ray_engine::engine::{EngineParameters, Readback};
 use crate::report::{Cell, Table};
+use crate::tracer::octree::OctreeParameters;
+
+/// Factors for the guessed costs of commands, in halves: 1, 1.5, 2 and 3.
+const HALVES: [u64; 4] = [2, 3, 4, 6];
+/// Triangles per leaf of the host's octree.
+const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
 
 /// Line of Tables 3 to 5 with its run. All three tables print the line with 5 to 15 triangles and 64 rays; it is one
 /// figure, with its row in Table 3.
@@ -96,18 +104,54 @@ impl SharedResult for SpeedUps {
         let (room, stated) = (shared.get::<TeapotRoom>(())?, lines());
         let engines: Vec<EngineParameters> = stated.iter().map(|(.., engine)| engine.clone()).collect();
         let runs = room.runs(&engines)?;
-        let ours = sweeps::rates(&runs, &room.host, QueueFigures::default())?;
+        let ours = rates(&runs, &room.host, QueueFigures::default())?;
         let mut lines = Vec::new();
         for (((place, name, id, _), run), ours) in stated.into_iter().zip(&runs).zip(ours) {
             let row = paper_row(id, (TIMES, Method::Engine), (ours, RATE))?;
             lines.push(SpeedUpRun { name, place, row, run: Arc::clone(run) });
         }
-        let (commands, host_leaf) = (sweeps::commands(&room, &runs)?, sweeps::host_leaf(&room, &runs)?);
+        let (commands, host_leaf) = (commands(&room, &runs)?, host_leaf(&room, &runs)?);
         for sweep in [&commands, &host_leaf] {
             sweep.explain(lines.iter_mut().map(|line| &mut line.row));
         }
         Ok(Self { lines, commands, host_leaf })
     }
+}
+
+fn rates(runs: &[Arc<Run>], host: &HostModel, commands: QueueFigures) -> Result<Vec<f64>, StudyError> {
+    runs.par_iter().map(|run| rays_per_s(run, host, commands)).collect()
+}
+
+/// Sweep of all costs of commands by a common factor. The bus and the card are unchanged.
+fn commands(room: &TeapotRoom, runs: &[Arc<Run>]) -> Result<Sweep, StudyError> {
+    let setting = |halves: u64| {
+        let values = rates(runs, &room.host, scaled(halves))?;
+        Ok(Setting { at: (halves as f64 / 2.0).to_string(), values })
+    };
+    let settings = HALVES.into_iter().map(setting).collect::<Result<_, StudyError>>()?;
+    Ok(Sweep { name: "command costs", parameter: "factor", settings })
+}
+
+fn scaled(halves: u64) -> QueueFigures {
+    let mut figures = QueueFigures::default();
+    for row in QueueFigures::default().rows().into_iter().filter(|row| row.unit == "ps") {
+        if let Some(figure) = figures.figure_mut(&row.key) {
+            *figure = *figure * halves / 2;
+        }
+    }
+    figures
+}
+
+/// Sweep of the host-alone octree by the triangles of its leaves; the engine keeps its own octree. The host is
+/// recalibrated for each setting, so that its time for the new counts is the printed one.
+fn host_leaf(room: &TeapotRoom, runs: &[Arc<Run>]) -> Result<Sweep, StudyError> {
+    let setting = |most_triangles: usize| {
+        let alone = room.work.alone_with(OctreeParameters { most_triangles, ..OCTREE });
+        let values = rates(runs, &alone.calibrate(HostWeights::default())?, QueueFigures::default())?;
+        Ok(Setting { at: most_triangles.to_string(), values })
+    };
+    let settings = LEAVES.into_iter().map(setting).collect::<Result<_, StudyError>>()?;
+    Ok(Sweep { name: "leaves of the host's octree", parameter: "triangles", settings })
 }
 
 /// First row of Tables 3 to 5, which calibrates the host's speed.
