@@ -78,7 +78,8 @@ pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
     for figure in figures()? {
         let Some(equation) = figure.equation.as_ref().filter(|equation| equation.entry == entry) else { continue };
         let by = (equation.device.as_str(), Method::Equation);
-        let row = row(&figure.id, by, (equation.ours, equation.dependence()))?;
+        let dependence = Dependence::new(equation.chose.as_deref(), equation.uses.as_deref());
+        let row = row(&figure.id, by, (equation.ours, dependence))?;
         let contradiction =
             equation.contradicts.as_ref().and_then(|how| Contradiction::between(figure, equation.ours, how));
         rows.push(row.with_readings(equation.readings.iter().copied()).contradicted(contradiction));

@@ -139,11 +139,7 @@ impl RecordedRow {
     }
 
     fn row(&'static self) -> Result<PaperRow, StudyError> {
-        let dependence = match (&self.calibrated_on, &self.predicted_from) {
-            (Some(on), _) => Dependence::Calibrated { on },
-            (None, Some(from)) => Dependence::Predicted { from },
-            (None, None) => Dependence::Counted,
-        };
+        let dependence = Dependence::new(self.calibrated_on.as_deref(), self.predicted_from.as_deref());
         let row = paper_row(&self.figure, (&self.device, self.method), (self.ours, dependence))?;
         let mut row = row.with_readings(self.readings.iter().copied()).contradicted(self.contradiction.clone());
         row.source = RowSource::Recorded;

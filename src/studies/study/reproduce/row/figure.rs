@@ -1,6 +1,6 @@
 //! Printed values of a paper, with their origins.
 
-use super::{Bound, Dependence};
+use super::Bound;
 use crate::report::Cell;
 use crate::study::reproduce::Paper;
 
@@ -104,17 +104,6 @@ pub struct PaperEquation {
     pub chose: Option<String>,
     /// Description of the computation, if a value that does not round to the printed one contradicts it.
     pub contradicts: Option<String>,
-}
-
-impl PaperEquation {
-    /// Dependence of the value on printed values.
-    pub fn dependence(&'static self) -> Dependence {
-        match (&self.chose, &self.uses) {
-            (Some(on), _) => Dependence::Calibrated { on },
-            (None, Some(from)) => Dependence::Predicted { from },
-            (None, None) => Dependence::Counted,
-        }
-    }
 }
 
 impl PaperFigure {
