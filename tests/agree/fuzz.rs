@@ -116,9 +116,3 @@ fn summary(counts: &Counts) -> String {
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
-
-pub(crate) fn times_are_seconds_minutes_or_hours() {
-    let seconds = |text| duration(text).map(|d| d.as_secs());
-    assert_eq!(["90", "5s", "30m", "1h"].map(seconds), [Some(90), Some(5), Some(1800), Some(3600)]);
-    assert_eq!(["", "h", "1d", "-1", "1.5h"].map(seconds), [None; 5]);
-}

@@ -56,11 +56,28 @@ pub(crate) fn refused_line(line: &str) -> String {
     refused(&line.split_whitespace().collect::<Vec<_>>())
 }
 
-/// Words of the message of a refused run in `folder`, where it must leave nothing.
-pub(crate) fn refused_in(folder: &Path, arguments: &[&str]) -> String {
-    let entries = || std::fs::read_dir(folder).expect("a folder").count();
-    let before = entries();
-    let said = crossbar_in(folder, arguments, "").refusal(arguments);
-    assert_eq!(entries(), before, "{arguments:?} left something behind");
-    said
+/// Messages of refused runs of a command in fresh folders with these files, for one snapshot; no run leaves anything.
+pub(crate) fn refusals(
+    command: &[&str],
+    files: &[(&str, impl AsRef<[u8]>)],
+    cases: &[(&'static str, &[&str])],
+) -> String {
+    listed(cases.iter().map(|(name, arguments)| {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        for (file, bytes) in files {
+            std::fs::write(folder.path().join(file), bytes).expect("written");
+        }
+        let ran = crossbar_in(folder.path(), &[command, arguments].concat(), "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
+        assert_eq!(names_in(folder.path()).len(), files.len(), "{name} left something behind");
+        (*name, ran.stderr)
+    }))
+}
+
+/// The names of a folder's entries, sorted.
+pub(crate) fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder").flatten();
+    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::answers::listed;
+use crate::answers::{listed, refusals};
 use crate::{ProgramOutput, case::CASES, case::example, crossbar_in};
 
 /// Runs the program on `text` as `case.toml` in a new folder.
@@ -111,12 +111,7 @@ fn bad_sides() {
         ("no_pixel", &["--pixel", "4"]),
         ("pixel_and_registers", &["--pixel", "1,1", "--registers"]),
     ];
-    let said = listed(cases.map(|(name, arguments)| {
-        let ran = on(&plain, &[&["compare", "case.toml"], arguments].concat());
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
-        (name, ran.stderr)
-    }));
-    insta::assert_snapshot!(said);
+    insta::assert_snapshot!(refusals(&["compare", "case.toml"], &[("case.toml", plain)], &cases));
 }
 
 #[test]

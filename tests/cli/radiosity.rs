@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::answers::listed;
+use crate::answers::{names_in, refusals};
 use crate::{ProgramOutput, crossbar_in};
 
 fn radiosity(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
@@ -23,11 +23,7 @@ fn what_it_says_and_writes() {
     let (ran, folder) = radiosity(&arguments);
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     insta::assert_snapshot!("radiosity_tables", ran.stdout);
-    let mut written: Vec<String> = std::fs::read_dir(folder.path().join("out/radiosity"))
-        .expect("a folder")
-        .map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned())
-        .collect();
-    written.sort();
+    let written = names_in(&folder.path().join("out/radiosity"));
     insta::assert_snapshot!("radiosity_files", written.join("\n"));
     let page = std::fs::read_to_string(folder.path().join("out/radiosity/index.html")).expect("a page");
     assert_eq!(page.matches("<img").count(), 6 * 2 + 4 + 2, "two pictures a way, one error on a card, two frames");
@@ -122,17 +118,7 @@ fn bad_input() {
         ("no_patches", &["cornell-room", "--patches", "0"]),
         ("unknown_view", &["cornell-room", "--view", "behind"]),
     ];
-    let said = listed(cases.map(|(name, arguments)| {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        for (file, text) in FILES {
-            std::fs::write(folder.path().join(file), text).expect("written");
-        }
-        let ran = crossbar_in(folder.path(), &[&["radiosity"], arguments].concat(), "");
-        assert_eq!(ran.code, Some(2), "{name}: {}", ran.stderr);
-        assert!(!folder.path().join("out").exists(), "{name} left something behind");
-        (name, ran.stderr)
-    }));
-    insta::assert_snapshot!(said);
+    insta::assert_snapshot!(refusals(&["radiosity"], &FILES, &cases));
 }
 
 /// Every command accepts a model with triangles without area, and reports their number.

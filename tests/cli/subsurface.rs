@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use crate::answers::words;
+use crate::answers::{names_in, words};
 use crate::generated::{filled, hold};
 use crate::{ProgramOutput, crossbar_in};
 
@@ -21,35 +21,14 @@ fn subsurface(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     (crossbar_in(folder.path(), &[&SMALL[..], more].concat(), ""), folder)
 }
 
-fn files(folder: &tempfile::TempDir) -> Vec<String> {
-    let entries = std::fs::read_dir(folder.path().join("out/subsurface")).expect("a folder").flatten();
-    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
-}
-
 #[test]
 fn what_it_says_and_writes() {
-    let more = [
-        "--choice",
-        "fixed",
-        "--choice",
-        "adaptive",
-        "--links",
-        "4,16",
-        "--map",
-        "8bit",
-        "--map",
-        "fp32",
-        "--light",
-        "directional:1,1,1:2,2,1",
-        "--light",
-        "ambient:0.1,0.1,0.2",
-    ];
-    let (ran, folder) = subsurface(&more);
+    let more = "--choice fixed --choice adaptive --links 4,16 --map 8bit --map fp32 --light directional:1,1,1:2,2,1 \
+                --light ambient:0.1,0.1,0.2";
+    let (ran, folder) = subsurface(&more.split_whitespace().collect::<Vec<_>>());
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     insta::assert_snapshot!("subsurface_tables", ran.stdout);
-    insta::assert_snapshot!("subsurface_files", files(&folder).join("\n"));
+    insta::assert_snapshot!("subsurface_files", names_in(&folder.path().join("out/subsurface")).join("\n"));
     let page = std::fs::read_to_string(folder.path().join("out/subsurface/index.html")).expect("a page");
     assert_eq!(page.matches("<img").count(), 3 + 2 + 8 + 8, "lead, maps, ways, their errors");
     let faces = std::fs::read_to_string(folder.path().join("out/subsurface/faces.csv")).expect("a table");

@@ -146,38 +146,31 @@ fn another_mesh_is_refused() {
 
 #[test]
 fn parts_that_do_not_go_together_are_not_written() {
-    let refused = |file: &PrtFile| {
-        let mut out = Vec::new();
-        let error = write_prt(file, &mut out).expect_err("refused");
-        assert!(out.is_empty(), "nothing is written");
-        error.to_string()
-    };
     let file = small();
-    let meaning = |channels, exit_functions: &[u16], light_order| PrtMeaning::Transfer {
-        channels,
-        exit_functions: exit_functions.to_vec(),
-        light_order,
-        includes_albedo: false,
+    let meaning = |channels, exit_functions: &[u16], light_order| {
+        let exit_functions = exit_functions.to_vec();
+        let meaning = PrtMeaning::Transfer { channels, exit_functions, light_order, includes_albedo: false };
+        PrtFile { meaning, ..file.clone() }
     };
-    let with = |meaning| PrtFile { meaning, ..file.clone() };
-    assert_eq!(refused(&with(meaning(2, &[0], 2))), "channels: expected 1 or 3, found 2");
-    assert_eq!(refused(&with(meaning(1, &[0], 11))), "light order: expected 1 to 10, found 11");
-    let functions = "exit functions: expected at least one of 0 to 99, in increasing order, found";
-    for list in [&[][..], &[0, 0], &[1, 0], &[100]] {
-        assert!(refused(&with(meaning(1, list, 2))).starts_with(functions), "{list:?}");
-    }
-    assert_eq!(refused(&with(meaning(1, &[0], 2))), "numbers per point: expected 4, found 8");
-    let empty = PrtFile { transfer: None, clustering: None, ..file.clone() };
-    assert_eq!(refused(&empty), "contents: expected transfer or clusters, found neither");
-    let mesh = file.mesh.map(|mesh| MeshDigest { vertices: 13, ..mesh });
-    assert_eq!(refused(&PrtFile { mesh, ..file.clone() }), "vertices of the mesh: expected 12, found 13");
-    let other = PrtFile { transfer: Some(torus_signal(11, 8, 1)), ..file.clone() };
-    let shapes = "clusters: expected 11 points of 8 numbers, found 12 points of 8 numbers";
-    assert_eq!(refused(&other), shapes);
-    let made = |line: &str| refused(&PrtFile { provenance: Some(line.to_owned()), ..file.clone() });
-    let expected = "provenance: expected a line of 1 to 4096 bytes without control characters, found";
-    for line in ["", "two\nlines", "\u{9b}31m", &"x".repeat(4097)] {
-        assert!(made(line).starts_with(expected), "{line:?}");
+    let made = |line: &str| PrtFile { provenance: Some(line.to_owned()), ..file.clone() };
+    for file in [
+        meaning(2, &[0], 2),
+        meaning(1, &[0], 11),
+        meaning(1, &[], 2),
+        meaning(1, &[0, 0], 2),
+        meaning(1, &[1, 0], 2),
+        meaning(1, &[100], 2),
+        meaning(1, &[0], 2),
+        PrtFile { transfer: None, clustering: None, ..file.clone() },
+        PrtFile { mesh: file.mesh.map(|mesh| MeshDigest { vertices: 13, ..mesh }), ..file.clone() },
+        PrtFile { transfer: Some(torus_signal(11, 8, 1)), ..file.clone() },
+        made(""),
+        made("two\nlines"),
+        made("\u{9b}31m"),
+        made(&"x".repeat(4097)),
+    ] {
+        let mut out = Vec::new();
+        assert!(write_prt(&file, &mut out).is_err() && out.is_empty(), "{file:?}");
     }
 }
 
@@ -228,22 +221,10 @@ proptest! {
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
     }
 
-    /// Arbitrary bytes after the magic number, and changed members with valid checksums, are refused or read without a
-    /// panic.
+    /// Changed members with valid checksums are refused or read without a panic.
     #[test]
-    fn noise_is_no_file(noise in prop::collection::vec(any::<u8>(), 0..200), which: prop::sample::Index, at: prop::sample::Index, with: u8) {
-        prop_assert!(parsed(&[MAGIC, &noise].concat()).is_err());
+    fn forged_members_do_no_harm(which: prop::sample::Index, at: prop::sample::Index, with: u8) {
         forgery_does_no_harm(&bytes(&small()), (which, at, with), parsed, bytes);
-    }
-
-    #[test]
-    fn arrays_of_numpy_come_back(columns in 1..6_usize, rows in 1..9_usize, seed in any::<u32>()) {
-        let values = (0..(rows * columns) as u32).map(|i| f32::from_bits(seed.wrapping_mul(i + 1) & 0xbfff_ffff));
-        let table = NumberTable { columns, values: values.collect() };
-        let mut bytes = Vec::new();
-        write_npy(&table, &mut bytes).expect("written");
-        let back = parse_npy(&bytes, name()).expect("a table");
-        prop_assert_eq!(back, table);
     }
 }
 
