@@ -206,17 +206,6 @@ fn ideal_devices_take_any_format() {
     assert!(Version::ALL.iter().all(|v| ideal.supports(*v)));
 }
 
-#[test]
-fn unknown_names_get_an_error_that_lists_the_known() {
-    let text = |r: Result<Profile, DeviceError>| r.unwrap_err().to_string();
-    insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 fx5800 fx5900 ideal-<format>");
-    insta::assert_snapshot!(text(Profile::named("ideal-q7")), @"device `ideal-q7`: expected a number format after `ideal-`");
-    let mut nv20 = Profile::named("nv20").unwrap();
-    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of border-storage color-clamp color-iterator constants depth-rounding dot filter-arithmetic filter-fraction-bits filter-weight-rounding lod-fraction-bits lrp mad mipmap-rounding missing-channels registers rounding signed-texel-minimum subpixel-bits subpixel-rounding target-rounding texcrd-overflow texel-values vertex-format");
-    insta::assert_snapshot!(nv20.set_switch("mad", "x").unwrap_err(), @"switch `mad` of device `nv20`: expected one of two-roundings fused, found `x`");
-    assert_eq!(nv20, Profile::named("nv20").unwrap());
-}
-
 /// Tests of a card's arithmetic therefore need not be repeated for its variants.
 #[test]
 fn variants_differ_from_their_card_in_rates_alone() {

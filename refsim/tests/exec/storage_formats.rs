@@ -232,21 +232,23 @@ fn narrow_accumulators_round_products_once() {
 
 #[test]
 fn formats_that_do_not_fit_are_refused() {
-    let refusal = |registers: &str, storage: Storage, own: &str| {
+    for (registers, storage, own) in [
+        ("fp24", Some(Storage::Temporaries), "s15.16"),
+        ("s3.12", Some(Storage::Outputs), "fp16"),
+        ("fp32", Some(Storage::Colors), "e8m0"),
+        ("s3.12", Some(Storage::Coordinates), "s3.28"),
+        // Registers refuse formats that executors cannot compute with.
+        ("fp32", None, "e8m0"),
+        ("fp32", None, "fp16:rst"),
+    ] {
         let mut profile = running::ideal(registers);
         let before = profile.clone();
-        let error = profile.set_storage_format(storage, Some(format(own))).expect_err("a refusal");
-        assert_eq!(profile, before);
-        error.to_string()
-    };
-    assert_eq!(
-        refusal("fp24", Storage::Temporaries, "s15.16"),
-        "temporaries of device `ideal-fp24`, whose registers are e7m16: expected a format whose numbers the registers \
-         have, found s15.16"
-    );
-    assert!(refusal("s3.12", Storage::Outputs, "fp16").contains("expected a format whose numbers the registers have"));
-    assert!(refusal("fp32", Storage::Colors, "e8m0").contains("found e8m0"));
-    assert!(refusal("s3.12", Storage::Coordinates, "s3.28").contains("whose numbers single precision has"));
+        let set = match storage {
+            Some(storage) => profile.set_storage_format(storage, Some(format(own))),
+            None => profile.set_format(format(own)),
+        };
+        assert!(set.is_err() && profile == before, "{registers} {own}");
+    }
     let mut profile = running::ideal("s3.12");
     profile.set_storage_format(Storage::Coordinates, Some(Format::FP16)).expect("a format of single precision");
     let accumulator = |registers: &str, own: &str| running::ideal(registers).set_accumulator(Some(format(own)));
@@ -301,9 +303,9 @@ fn device_files_have_formats_of_storages_and_sums() {
     assert_eq!(profile.rules.accumulator, Some(format("e8m13")));
     profile.set_format(Format::FP32).expect("a format of registers");
     assert_eq!(profile.to_device_file(&[]), "device = \"ideal-fp32\"\n");
-    let message = |text: &str| Profile::from_device_file(text).unwrap_err().to_string();
-    assert!(message("device = \"r200\"\n[storage]\ntexels = \"fp16\"").starts_with("texels of device `r200`"));
-    assert!(message("device = \"r200\"\n[storage]\nsamples = \"fp16\"").contains("unknown field `samples`"));
+    let refused = |text: &str| Profile::from_device_file(text).is_err();
+    assert!(refused("device = \"r200\"\n[storage]\ntexels = \"fp16\""));
+    assert!(refused("device = \"r200\"\n[storage]\nsamples = \"fp16\""));
 }
 
 #[test]
@@ -321,15 +323,4 @@ fn storages_that_a_program_does_not_use_are_found() {
     assert_eq!(unused("ps_1_3\ntexcoord t0\nmov r0, t0"), ["constants", "texels", "colors"]);
     assert_eq!(unused("ps_1_3\ntex t0\nmov r0, t0"), ["constants", "colors"]);
     assert_eq!(unused("!!FP1.0\nTEX o[COLR], f[TEX0], TEX0, 2D;\nEND"), ["temporaries", "constants", "colors"]);
-}
-
-/// Registers refuse formats that executors cannot compute with, and stay unchanged.
-#[test]
-fn registers_refuse_scales_and_stochastic_rounding() {
-    let mut profile = running::ideal("fp32");
-    let before = profile.clone();
-    for text in ["e8m0", "fp16:rst"] {
-        assert!(profile.set_format(format(text)).is_err(), "{text}");
-    }
-    assert_eq!(profile, before);
 }
