@@ -228,25 +228,10 @@ fn note_state(seen: &mut SeenFeatures, program: &Program) {
 }
 
 fn wanted_state() -> Vec<String> {
-    let kinds = [
-        "Material",
-        "Emission",
-        "Shininess",
-        "Light",
-        "LightPosition",
-        "LightAttenuation",
-        "SpotDirection",
-        "LightHalf",
-        "LightModelAmbient",
-        "SceneColor",
-        "LightProduct",
-        "TextureEnvironment",
-        "FogColor",
-        "FogParams",
-        "FogFactors",
-        "DepthRange",
-    ];
-    let mut out = each("state", kinds);
+    let kinds = "Material Emission Shininess Light LightPosition LightAttenuation SpotDirection LightHalf \
+                 LightModelAmbient SceneColor LightProduct TextureEnvironment FogColor FogParams FogFactors \
+                 DepthRange";
+    let mut out = each("state", kinds.split(' '));
     out.extend(each("fog", FogMode::ALL.map(Some).into_iter().chain([None])));
     // Executors treat a matrix row like any constant, so not all combinations of matrix, form and row must occur.
     out.extend(each("matrix", ["ModelView", "Projection", "Mvp", "Texture", "Program"]));

@@ -48,7 +48,6 @@ fn main() -> std::process::ExitCode {
         coverage::suites_have_names_of_their_own,
         fuzz::fuzz,
         planted::a_planted_difference_is_cut_down,
-        planted::every_shape_of_geometry_covers_pixels,
         radiosity::every_pass_is_the_hosts,
         radiosity::full_blocks_are_the_hosts,
         steps::executors_run_out_of_steps_at_the_same_place,

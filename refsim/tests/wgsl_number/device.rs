@@ -242,32 +242,10 @@ pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
 }
 
 pub(crate) fn every_pair_of_short_formats(gpu: &Arc<Gpu>) {
-    let formats: Vec<Format> = [
-        "e3m2",
-        "s1.2",
-        "e2m2:rdn:nvovf:nv",
-        "e3m2:rtz:ftz:sat",
-        "s2.2:rdn:wrap",
-        "s0.4:rna",
-        "e4m1:rna",
-        "n1.3:rna",
-        "n0.4:rdn:wrap",
-        "s2.2:rup",
-        "s1.3:rod:wrap",
-        "n1.3:rod",
-        "n0.4:rup",
-        "e3m2:rup",
-        "e2m3:rod:ftz",
-        "e3m2fn",
-        "e2m1fn:rup:nv",
-        "e3m3fn:rod:nvovf",
-        "e4m2fn:sat",
-        "e2m3fnuz:rup:ftz",
-        "e3m2fnuz",
-    ]
-    .iter()
-    .map(|f| f.parse().expect("a format"))
-    .collect();
+    let texts = "e3m2 s1.2 e2m2:rdn:nvovf:nv e3m2:rtz:ftz:sat s2.2:rdn:wrap s0.4:rna e4m1:rna n1.3:rna \
+                 n0.4:rdn:wrap s2.2:rup s1.3:rod:wrap n1.3:rod n0.4:rup e3m2:rup e2m3:rod:ftz e3m2fn \
+                 e2m1fn:rup:nv e3m3fn:rod:nvovf e4m2fn:sat e2m3fnuz:rup:ftz e3m2fnuz";
+    let formats: Vec<Format> = texts.split(' ').map(|f| f.parse().expect("a format")).collect();
     // The short form computes with two operands in every third format only.
     let step = by_form(3, 1);
     let mut items = Vec::new();
