@@ -163,26 +163,6 @@ fn parallax_moves_points_by_their_depth() {
     assert_eq!(patch.response([0.5, 0.5], view, DVec3::new(-0.96, 0.0, 0.28)), [0.0; 3]);
 }
 
-/// Under uniform light 1, a Lambert surface reflects its albedo times twice the mean cosine of the directions, which is
-/// 1 + 2 / k^2 for k x k directions and even k.
-#[test]
-fn white_furnace() {
-    let albedo = [0.25, 0.5, 1.0];
-    let patch = MesoPatch::plain(MesoMaterial::diffuse(albedo)).expect("a patch");
-    for side in [2, 8, 12, 16] {
-        let sampling = TextureSampling { size: 2, view: directions(3), light: directions(side), samples: 1 };
-        let texture = patch.texture(&sampling, &mut |_, _| ()).expect("a texture");
-        let lights = side * side;
-        for (view, texel) in [(0, 0), (4, 3), (8, 1)] {
-            for (channel, albedo) in albedo.into_iter().enumerate() {
-                let sum: f64 = (0..lights).map(|light| f64::from(texture.patch(view, light)[texel][channel])).sum();
-                let found = sum * TAU / lights as f64;
-                assert_relative_eq!(found, albedo * (1.0 + 2.0 / lights as f64), max_relative = 1e-6);
-            }
-        }
-    }
-}
-
 /// Shadows only remove light: no point of a white patch reflects more than it receives, up to the error of 32 x 32
 /// directions for a tilted cosine; a rough surface reflects less.
 #[test]
