@@ -90,7 +90,7 @@ fn mismatches_are_printed_and_counted() {
 fn mismatches_for_machines() {
     let lines = "3C00 3C00 4001 00\n3C00 3C00 4000 00\n3C00 3C00 4002 00\n";
     let ran = alu("add --format fp16 --verify --json", lines);
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!(report["passed"], 1);
     assert_eq!(report["failed"], 2);
     assert_eq!(report["mismatches"][1]["line"], 3);
@@ -158,23 +158,6 @@ fn matrix_units_take_the_vectors_as_they_are() {
     }
     let wrong = alu("dot --unit volta-f16 --verify", "3C00 3C00 00000000 3f800001\n");
     assert_eq!((wrong.code, wrong.stdout.lines().count()), (Some(1), 2), "{}", wrong.stdout);
-    for (unit, line) in [
-        ("hopper-f16", "3C0 3C00 00000000"),
-        ("hopper-f16", "3C00 3C003C00 00000000"),
-        ("hopper-f16", "3C00 3C00"),
-        ("hopper-f16", "3C00 3C00 3C00"),
-        ("hopper-fp8", "fp8 e4m3 38 38 00000000"),
-        ("blackwell-f8f6f4", "e2m3 e2m3 40 40 00000000"),
-        ("blackwell-nvf4", "1 1 00000000 38 3838"),
-        ("hopper-f16", "3C00 3C00 0000000000000000"),
-    ] {
-        let ran = alu(&format!("dot --unit {unit}"), line);
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{unit} {line}: {}", ran.stderr);
-    }
-    assert_eq!(alu("add --unit hopper-f16", "").code, Some(2));
-    for (arguments, input) in [("--state modern", ""), ("--stage pixel", ""), ("--verify", "3C00 3C00 00000000 3F8000")]
-    {
-        assert_eq!(alu(&format!("dot --unit hopper-f16 {arguments}"), input).code, Some(2), "{arguments}");
-    }
-    assert_eq!(alu("add", "").code, Some(2));
+    let short = alu("dot --unit hopper-f16 --verify", "3C00 3C00 00000000 3F8000");
+    assert_eq!(short.code, Some(2), "{}", short.stdout);
 }

@@ -1,7 +1,6 @@
 //! `crossbar atlas`: its output, its files, and refusals.
 
 use crossbar::io::load_mesh;
-use serde_json::Value;
 
 use crate::answers::names_in;
 use crate::{crossbar, crossbar_in};
@@ -21,7 +20,7 @@ fn what_it_writes() {
     let arguments = ["atlas", TEAPOT, "--side", "64", "--size", "32x24", "--out", "atlas", "--json"];
     let ran = crossbar_in(folder.path(), &arguments, "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-    let document: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let document = ran.json();
     assert_eq!(document["side"], 64);
     assert_eq!(document["levels"].as_array().map(Vec::len), Some(7));
     insta::assert_snapshot!("atlas_files", names_in(&folder.path().join("atlas")).join("\n"));

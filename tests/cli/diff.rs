@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
 
-use crate::answers::{listed, refusals};
+use crate::answers::{folder_with, listed, refusals};
 use crate::{ProgramOutput, crossbar_in};
 
 /// A color gradient of 16 x 12 pixels.
@@ -43,22 +43,13 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// A folder with these pictures.
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    for (name, bytes) in files() {
-        std::fs::write(folder.path().join(name), bytes).expect("written");
-    }
-    folder
-}
-
 fn diff(folder: &Path, arguments: &[&str]) -> ProgramOutput {
     crossbar_in(folder, &[&["diff"], arguments].concat(), "")
 }
 
 #[test]
 fn what_it_says() {
-    let folder = folder();
+    let folder = folder_with(&files());
     let cases: [(&str, &[&str], i32); 8] = [
         ("equal", &["a.exr", "a.exr"], 0),
         ("one_pixel", &["a.png", "changed.png"], 1),
@@ -99,10 +90,10 @@ fn bad_input() {
 
 #[test]
 fn maps_and_numbers_are_written() {
-    let folder = folder();
+    let folder = folder_with(&files());
     let ran = diff(folder.path(), &["a.exr", "brighter.exr", "--out", "maps", "--scale", "0.1", "--json"]);
     assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let found = ran.json();
     assert_eq!((&found["equal"], &found["held"], &found["scale"]), (&false.into(), &false.into(), &0.1.into()));
     assert_eq!((&found["channels"][2]["channel"], &found["channels"][2]["mean"]), (&"R".into(), &0.25.into()));
     assert!(found["flip"]["mean"].as_f64().is_some_and(|mean| mean > 0.0 && mean < 1.0), "{found}");

@@ -26,7 +26,7 @@ fn what_it_says() {
     insta::assert_snapshot!("render_cornell_box", ran.transcript());
     let engine = ["cornell-box", "--size", "16x16", "--samples", "1", "--caster", "engine", "--json"];
     let (ran, _folder) = render(&engine);
-    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let found = ran.json();
     assert_eq!(found["pixels"], 256);
     assert_eq!(found["not_finite"], 0);
     assert_eq!(found["rays"]["total"], found["engine"]["rays"]);

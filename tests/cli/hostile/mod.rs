@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 
 use rayon::prelude::*;
 
-use crate::answers::words;
+use crate::answers::{folder_with, names_in, words};
 use crate::commands::copy_of_the_repository;
 use crate::{ProgramOutput, crossbar_in, tree};
 
@@ -20,64 +20,12 @@ const HOSTILE: &[&str] = &[
     "", " ", "nan", "inf", "-inf", "1e39", "-1e39", "1e400", "1e300", "-1", "0", "-0", "1,nan,2", "-1,-1", "0x0",
     "1e9x1e9", ",", "=", "a=", "=1,1,1", "--", "-", ".", "..", "/", "a\nb", "🫖",
 ];
-const LONG: &[&str] = &[
-    "4294967296",
-    "18446744073709551616",
-    "99999999999999999999x1",
-    "a=1e39,0,0",
-    "nowhere/at.all",
-    "\u{202e}x",
-    "\u{1b}[2J",
-];
+const LONG: &str =
+    "4294967296 18446744073709551616 99999999999999999999x1 a=1e39,0,0 nowhere/at.all \u{202e}x \u{1b}[2J";
 
 /// Each command, with arguments that fail before any computation, whatever the options; the tests check messages and
 /// leftover files.
-const COMMANDS: &[&str] = &[
-    "all-frequency card nowhere.npz --model nowhere.obj",
-    "all-frequency compress nowhere.npz --model nowhere.obj --out y.npz",
-    "all-frequency error nowhere.npz nowhere.npz --model nowhere.obj",
-    "all-frequency factor --table nowhere.csv",
-    "all-frequency lighting --light nowhere.hdr",
-    "all-frequency precompute nowhere.obj --out x.npz",
-    "all-frequency render nowhere.npz --model nowhere.obj",
-    "all-frequency show nowhere.npz",
-    "alu add --format fp99",
-    "atlas nowhere.obj",
-    "bi-scale bicluster nowhere.mtx",
-    "bi-scale card nowhere.npz --model nowhere.obj --texture mail",
-    "bi-scale precompute nowhere.obj --out x.npz",
-    "bi-scale render nowhere.npz --model nowhere.obj --texture mail",
-    "bi-scale show nowhere.mtx",
-    "bi-scale texture nowhere.png --out b.npy",
-    "check nowhere.psa",
-    "compare nowhere.toml",
-    "cpca card nowhere.npz --model nowhere.obj",
-    "cpca compress nowhere.npz --out y.npz",
-    "cpca error nowhere.npz nowhere.npz",
-    "cpca precompute nowhere.obj --out x.npz",
-    "cpca render nowhere.npz --model nowhere.obj",
-    "cpca show nowhere.npz",
-    "devices nowhere",
-    "diff nowhere.png nowhere.exr",
-    "intersect --mesh nowhere.obj",
-    "leaky-teapot --device nowhere",
-    "man nowhere",
-    "materials nowhere",
-    "matmul nowhere.npy nowhere.npy --unit hopper-fp8",
-    "measure nowhere.csv --device r200",
-    "precision nowhere.toml",
-    "precision --fpcore nowhere.fpcore",
-    "radiosity nowhere.obj",
-    "render nowhere.obj",
-    "reproduce nowhere",
-    "run nowhere.toml",
-    "scene nowhere",
-    "subsurface nowhere.obj --mm-per-unit 1 --material marble",
-    "timeline nowhere.toml",
-    "page nowhere",
-    "tour nowhere",
-    "units nowhere",
-];
+const COMMANDS: &str = include_str!("commands.txt");
 
 /// Commands without options that take values.
 const WITHOUT_VALUES: [&str; 1] = ["completions"];
@@ -95,10 +43,7 @@ fn said(folder: &Path, arguments: &[OsString]) -> ProgramOutput {
 
 /// Asserts that the program prints one complete message, without repetitions and control characters, and nothing else.
 fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    for (name, bytes) in files {
-        fs::write(folder.path().join(name), bytes).expect("a file");
-    }
+    let folder = folder_with(files);
     let ProgramOutput { code, stdout, stderr } = said(folder.path(), arguments);
     assert_eq!((code, stdout.as_str()), (Some(2), ""), "{arguments:?}: {stderr}");
     let errors = stderr.lines().filter(|line| line.to_lowercase().starts_with("error:")).count();
@@ -110,8 +55,7 @@ fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     assert_eq!(twice(&stderr), None, "{arguments:?}: {stderr}");
     let digits = stderr.split(|c: char| !c.is_ascii_digit()).map(str::len).max();
     assert!(digits < Some(30), "{arguments:?}: a number that nobody reads: {stderr}");
-    let left: Vec<_> =
-        fs::read_dir(folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
+    let left = names_in(folder.path());
     assert_eq!(left.len(), files.len(), "{arguments:?} left {left:?}");
     stderr
 }
@@ -128,9 +72,9 @@ fn twice(stderr: &str) -> Option<String> {
 /// Every command line with each of its options that takes a value.
 fn all_options() -> Vec<(Vec<&'static str>, String)> {
     let commands = tree::commands();
-    let own = COMMANDS.iter().flat_map(|base| {
+    let own = COMMANDS.lines().flat_map(|base| {
         let options = tree::options(&tree::command_of(base, &commands).1);
-        options.into_iter().filter(|(_, takes_value)| *takes_value).map(move |(option, _)| (*base, option))
+        options.into_iter().filter(|(_, takes_value)| *takes_value).map(move |(option, _)| (base, option))
     });
     let global = ("alu add --format fp99", "--threads".to_owned());
     own.chain([global]).map(|(base, option)| (base.split(' ').collect(), option)).collect()
@@ -139,7 +83,7 @@ fn all_options() -> Vec<(Vec<&'static str>, String)> {
 #[test]
 fn every_command_is_here() {
     let commands = tree::commands();
-    let of_table: Vec<&str> = COMMANDS.iter().map(|base| tree::command_of(base, &commands).0.as_str()).collect();
+    let of_table: Vec<&str> = COMMANDS.lines().map(|base| tree::command_of(base, &commands).0.as_str()).collect();
     for (name, _) in &commands {
         assert!(of_table.contains(&name.as_str()) || WITHOUT_VALUES.contains(&name.as_str()), "{name}: add it");
     }
@@ -152,7 +96,7 @@ fn hostile_values() {
     let step = by_form(12, 1);
     for (number, (base, option)) in all_options().into_iter().enumerate() {
         let base = || base.iter().map(OsString::from).chain([OsString::from(&option)]);
-        let values = HOSTILE.iter().chain(LONG).skip(number % step).step_by(step);
+        let values = HOSTILE.iter().copied().chain(LONG.split(' ')).skip(number % step).step_by(step);
         runs.extend(values.map(|value| base().chain([OsString::from(value)]).collect()));
         #[cfg(unix)]
         {
