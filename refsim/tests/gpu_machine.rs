@@ -14,15 +14,14 @@ mod sums;
 
 use environment::by_form;
 use random::Random;
+use refsim::exec::Constants;
 use refsim::exec::gpu::{BINDINGS, Gpu};
 use refsim::exec::wgsl::follow::{ENTRY, FRAGMENT, HEAD, STEP_WORDS, UNFINISHED, module};
 use refsim::exec::wgsl::kernel::RESUMES;
-use refsim::exec::Constants;
 use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
-use refsim::num::Format;
 use refsim::raster::{Primitive, Vertex};
-use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
-use running::{bits, checked, ideal};
+use refsim::texture::{Image, SamplerState, TexelFormat};
+use running::{bits, checked, ideal, image};
 use std::fmt::Debug;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -107,8 +106,7 @@ fn memory_follows(gpu: &Arc<Gpu>) {
 
 fn texture(random: &mut Random) -> Image {
     let values: Vec<[u32; 4]> = (0..64).map(|_| bits([0; 4].map(|_| random.between(0.0, 1.0)))).collect();
-    let kind = TextureKind::D2;
-    Image::from_values(TexelFormat::Rgba8, kind, [8, 8, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
+    image(TexelFormat::Rgba8, [8; 2], &values)
 }
 
 /// The buffers of a trace yield the first fragment of each pixel, in several dispatches if the trace is long.

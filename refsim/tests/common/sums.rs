@@ -2,13 +2,12 @@
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use crate::random::Random;
-use crate::running::{checked, ideal};
+use crate::running::{checked, ideal, image, quads, screen};
 use refsim::device::{AddMode, MadMode, Profile};
 use refsim::exec::Constants;
-use refsim::machine::{DrawCall, Machine, VertexSource};
+use refsim::machine::Machine;
 use refsim::num::{DotOrder, Format, Rounding};
-use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
-use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{SamplerState, TexelFormat};
 
 /// Width and height of the target, in pixels.
 const SIDE: u32 = 24;
@@ -75,17 +74,12 @@ pub(crate) fn pixels(machine: &mut Machine, profile: &Profile, text: &str, textu
     let side = textures[0].len().isqrt() as u32;
     let program = checked(text, profile);
     let target = machine.create_target(TexelFormat::Rgba32f, side, side).unwrap();
-    let vertices = full_screen_quad(|u, v| [[u, v, 0.0, 1.0]]);
-    let constants = Constants::default();
-    let source = VertexSource::Transformed(&vertices);
-    let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
+    let (vertices, constants) = (screen(), Constants::default());
+    let mut call = quads(&vertices, &program, &constants, target);
     for (sampler, values) in textures.iter().enumerate() {
-        let (format, kind, extents) = (TexelFormat::Rgba32f, TextureKind::D2, [side, side, 1]);
-        let image = Image::from_values(format, kind, extents, Format::FP32, values, TargetRounding::Nearest).unwrap();
-        let texture = machine.create_texture(image).unwrap();
+        let texture = machine.create_texture(image(TexelFormat::Rgba32f, [side; 2], values)).unwrap();
         call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
     }
-    call.center = PixelCenter::OpenGl;
     machine.draw(&call).unwrap();
     machine.read_back(target).unwrap().bytes().to_vec()
 }

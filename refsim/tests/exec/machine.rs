@@ -4,49 +4,41 @@ mod mipmaps;
 mod mistakes;
 
 use crate::random::Random;
-use crate::running::{bits, checked, constants, ideal};
+use crate::running::{self, bits, checked, constants, ideal, image};
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{
     AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
 };
-use refsim::num::Format;
 use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask};
 use refsim::raster::{Primitive, Vertex};
-use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{Filter, Image, Region, SamplerState, TexelFormat};
 
 /// Corners of a quad that covers a target of `n` x `n` pixels; its coordinates hit the texel centers of an n x n
 /// texture.
-fn screen(n: u32) -> Vec<Vertex> {
+pub(crate) fn screen(n: u32) -> Vec<Vertex> {
     // Shifted up and left by half a pixel, because Direct3D 9 has pixel centers at integers.
     let step = 1.0 / n as f32;
-    let corner = |x: f32, y: f32, u: f32, v: f32| Vertex {
-        position: bits([x - step, y + step, 0.5, 1.0]),
-        texcoords: [bits([u, v, 0.0, 1.0]); 8],
-        colors: [bits([0.25, 0.5, 0.75, 1.0]); 2],
-        ..Vertex::default()
+    let corner = |vertex: Vertex| {
+        let [x, y, ..] = vertex.position.map(f32::from_bits);
+        let (position, colors) = (bits([x - step, y + step, 0.5, 1.0]), [bits([0.25, 0.5, 0.75, 1.0]); 2]);
+        Vertex { position, colors, ..vertex }
     };
-    vec![
-        corner(-1.0, 1.0, 0.0, 0.0),
-        corner(1.0, 1.0, 1.0, 0.0),
-        corner(1.0, -1.0, 1.0, 1.0),
-        corner(-1.0, -1.0, 0.0, 1.0),
-    ]
+    running::screen().map(corner).to_vec()
 }
 
 fn gradient(n: u32) -> Image {
     let values: Vec<[u32; 4]> =
         (0..n * n).map(|i| bits([(i % n) as f32 / 255.0, (i / n) as f32 / 255.0, 0.5, 1.0])).collect();
-    let kind = TextureKind::D2;
-    Image::from_values(TexelFormat::Rgba8, kind, [n, n, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
+    image(TexelFormat::Rgba8, [n; 2], &values)
 }
 
 fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
     (image.raw(0, 0, y, x) as u32).to_le_bytes()
 }
 
-/// A draw of quads.
+/// A draw of quads with pixel centers at integers.
 fn quads<'a>(
     vertices: &'a [Vertex],
     program: &'a CheckedProgram,
