@@ -15,7 +15,8 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
     assert_eq!(document["families"][0]["one_minimal"], true, "{document}");
     let device = fs::read_to_string(root.path().join("out/mixed.toml")).expect("a device");
     assert!(device.starts_with("device = \"nv25\"") && device.contains("# lrp r0, t0, c0, c1"), "{device}");
-    let compared = "compare docs/examples/lerp.toml --left-device out/mixed.toml --right-device nv25 --right-format fp32";
+    let compared =
+        "compare docs/examples/lerp.toml --left-device out/mixed.toml --right-device nv25 --right-format fp32";
     let compared = run(&compared.split(' ').collect::<Vec<_>>());
     assert_eq!(compared.code, Some(0), "{}", compared.transcript());
     // Formats of a changed program have no effect, and a warning says so.

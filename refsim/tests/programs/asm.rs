@@ -10,7 +10,8 @@ use std::{collections::BTreeSet, fmt::Write as _, fs, path::PathBuf};
 /// The texts of a folder of shaders, with their names.
 pub(crate) fn texts(folder: &str) -> Vec<(String, String)> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fixtures/shaders").join(folder);
-    let paths = fs::read_dir(folder).expect("the fixtures are there").map(|entry| entry.expect("a readable folder").path());
+    let paths =
+        fs::read_dir(folder).expect("the fixtures are there").map(|entry| entry.expect("a readable folder").path());
     let read = |path: PathBuf| {
         let name = path.file_name().expect("a file").to_string_lossy().into_owned();
         (name, fs::read_to_string(&path).expect("a readable text"))

@@ -98,7 +98,8 @@ fn values_have_types() {
     assert_eq!(bytes(&parsed(&example).expect("a file")), example);
     let newer = with_metadata(&example, |text| text.replace("\"version\":1", "\"version\":3"));
     assert_eq!(parsed(&newer).expect_err("a newer version"), "b.npz: version: expected 1, found 3");
-    for (from, to) in [("\"rows\":560", "\"rows\":0"), ("\"fraction_bits\":2", "\"fraction_bits\":31"), ("\"side\":4", "\"side\":3")]
+    for (from, to) in
+        [("\"rows\":560", "\"rows\":0"), ("\"fraction_bits\":2", "\"fraction_bits\":31"), ("\"side\":4", "\"side\":3")]
     {
         assert!(parsed(&with_metadata(&example, |text| text.replace(from, to))).is_err(), "{to}");
     }
@@ -133,4 +134,3 @@ proptest! {
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
     }
 }
-

@@ -69,7 +69,8 @@ fn each_open_switch_has_a_probe_that_the_page_lists() {
     let (_, after) = rest.split_once("<!-- /probes -->").expect("the end mark");
     let expected = format!("{before}<!-- probes -->\n\n{table}\n<!-- /probes -->{after}");
     hold(&file("docs/measuring.md"), &expected);
-    let in_folder = |folder: PathBuf| fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let in_folder =
+        |folder: PathBuf| fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
     for probe in in_folder(file("fixtures/probes/open")).flat_map(in_folder) {
         assert!(places.contains(&probe), "{} belongs to no open switch", probe.display());
     }

@@ -3,8 +3,8 @@
 
 use crate::support::plate;
 use approx::assert_relative_eq;
-use crossbar::quadrature::SIXTEEN;
 use crossbar::atlas::Atlas;
+use crossbar::quadrature::SIXTEEN;
 use crossbar::subsurface::{Dipole, Reference};
 use glam::DVec3;
 
@@ -102,7 +102,8 @@ fn pairs_of_texels_have_equation_10_at_any_size() {
             let mm_per_unit = texel_mm * f64::from(SIDE);
             let reference = Reference::new(&atlas, mm_per_unit, &dipole).expect("a scale");
             for j in i..i + 3 {
-                let expected = parallelograms(&dipole, sides.map(|side| mm_per_unit * side), apart(&atlas, sides, [i, j]));
+                let expected =
+                    parallelograms(&dipole, sides.map(|side| mm_per_unit * side), apart(&atlas, sides, [i, j]));
                 let found = reference.factor(i as usize, j as usize);
                 let within = 0.01 * dipole.total();
                 assert!((found - expected).abs() < within, "{texel_mm} mm, texel {j}: {found}, expected {expected}");

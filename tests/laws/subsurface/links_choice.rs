@@ -46,7 +46,9 @@ fn links_tile_the_atlas_and_gather_the_row_sum() {
             assert!(covered.iter().all(|count| *count == 1), "{choice:?} at {texel:?}: {covered:?}");
             assert_relative_eq!(found[0], sum, max_relative = 1e-13);
             assert_relative_eq!(found[1], *whole, max_relative = 0.01);
-            if let LinkChoice::Adaptive { count @ ..=64 } = choice {
+            if let LinkChoice::Adaptive { count } = choice
+                && count <= 64
+            {
                 assert_eq!((links.per_texel(), used), (count, 1 + (count - 1) / 3 * 3));
             }
         }

@@ -59,9 +59,8 @@ fn figures_that_do_not_fit_are_refused() {
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(6), &mut caster(&mesh), false).expect("traced");
     let response = Response::diffuse(0.5, rays.rule()).expect("a response");
-    let is_refused = |responses: &[Response], order, bounces| {
-        Transfer::new(&vertices, &rays, responses, order, bounces).is_err()
-    };
+    let is_refused =
+        |responses: &[Response], order, bounces| Transfer::new(&vertices, &rays, responses, order, bounces).is_err();
     let fits = [response.clone()];
     assert!(is_refused(&fits, 11, 0) && is_refused(&fits, 0, 0), "orders");
     assert!(is_refused(&[], 5, 0), "no material");
