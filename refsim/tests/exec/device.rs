@@ -243,19 +243,22 @@ fn counts_of_a_measured_figure_support_its_value() {
     let figures = Profile::from_toml("nv20", NV20).expect("a card").figures();
     let counted = figures.iter().find(|row| row.key.ends_with("subpixel-bits")).and_then(|row| row.counts.as_ref());
     assert_eq!(counted.map(ToString::to_string).as_deref(), Some("NV2A: 4 52, 8 16 of 52"));
-    let wrong = |problem: &str, figure: &str| {
-        let error = Profile::from_toml("nv20", &NV20.replace(whole, figure)).expect_err(figure).to_string();
-        assert!(error.contains("subpixel-bits") && error.contains(problem), "{figure}: {error}");
-    };
     assert!(Profile::from_toml("nv20", &NV20.replace(whole, r#""sibling""#)).is_ok());
-    for part in [r#" of = "NV2A","#, " all = 52,"] {
-        wrong("counts consist of `of`, `all` and `right`", &whole.replace(part, ""));
+    for (from, to) in [
+        // Counts have three parts, and a figure that was measured, here or on a sibling.
+        (r#" of = "NV2A","#, ""),
+        (" all = 52,", ""),
+        ("sibling", "guess"),
+        ("sibling", "kin"),
+        ("sibling", "documented"),
+        // The value predicts more than another hypothesis, and every hypothesis is a value of the switch.
+        ("4 = 52, ", ""),
+        ("8 = 16", "8 = 52"),
+        ("all = 52", "all = 51"),
+        ("8 = 16", "7 = 16"),
+    ] {
+        let figure = whole.replace(from, to);
+        let error = Profile::from_toml("nv20", &NV20.replace(whole, &figure)).expect_err(&figure).to_string();
+        assert!(error.contains("subpixel-bits"), "{figure}: {error}");
     }
-    for word in ["guess", "kin", "documented"] {
-        wrong("only a figure that was measured, here or on a sibling, has counts", &whole.replace("sibling", word));
-    }
-    for (from, to) in [("4 = 52, ", ""), ("8 = 16", "8 = 52"), ("all = 52", "all = 51")] {
-        wrong("the value must predict more than another hypothesis", &whole.replace(from, to));
-    }
-    wrong("every value of the switch", &whole.replace("8 = 16", "7 = 16"));
 }

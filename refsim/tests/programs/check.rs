@@ -83,46 +83,6 @@ fn verdict(text: &str, device: &str) -> Result<(), String> {
 }
 
 #[test]
-fn the_shapes_that_an_intersection_kernel_needs_are_legal_on_r200() {
-    let text = "ps_1_4
-def c0, 0, 1, 0, 1
-texld r0, t0
-texld r1, t0
-texcrd r2.rgb, t1
-sub r3.rgb, r0_bx2, r2
-dp3 r5.r, -r3, r2
-+mov r4.a, r0.b
-dp3 r5.g, r1, r2
-mul_x2 r4.r, r1_bx2.g, r2.b
-mad r4.g, -r1.b, r2.r, r4.r
-phase
-texcrd r1.rgb, r5
-texcrd r2.rgb, t2
-texkill r3
-texdepth r5
-dp3 r0.r, r3, r2
-+mov r0.a, c0.a
-cmp r1.a, r0.r, c0.a, c0.r
-mul r0.rgb, r4.r, r1.g
-+mul r0.a, r0.a, r1.a
-mov r0.rgb, v0
-+cmp r0.a, r1.g, r0.a, c0.r
-";
-    verdict(text, "r200").unwrap();
-    verdict(text, "ideal-fp32").unwrap();
-    // All components of r5 are read, tested and no longer needed.
-    let text = "ps_1_4
-texcrd r5.rgb, t0
-mul r5.rgb, r5, c0
-phase
-texkill r5
-texdepth r5
-mov r0, c0
-";
-    verdict(text, "r200").unwrap();
-}
-
-#[test]
 fn texcrd_passes_on_no_more_than_there_is() {
     let text = |read: &str| {
         format!("ps_1_4\ntexld r1, t0\nmov r5.rg, r1\nphase\ntexcrd r2.rgb, r5\nmov r0, c0\nmov r0.rgb, r2.{read}\n")
