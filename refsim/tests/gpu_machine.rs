@@ -97,7 +97,7 @@ fn memory_follows(gpu: &Arc<Gpu>) {
     image(machines, first);
     draw(machines, first);
     machines[1].update_texture(first, &drawn).unwrap_err();
-    both(machines, |machine| machine.release_texture(first));
+    both(machines, |machine| machine.release_texture(first).unwrap());
     // Reuses the memory of the first on the GPU.
     let third = create(machines, TexelFormat::Rgba16f, 0.125);
     draw(machines, third);

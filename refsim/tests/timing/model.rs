@@ -8,7 +8,7 @@ use refsim::event::{DrawRecord, Event, FlowConstants, ProgramWork};
 use refsim::exec::Constants;
 use refsim::machine::{AttributeStream, DrawCall, ExecutorKind, Machine, StepRate, VertexSource, VertexStreams};
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{Primitive, Vertex};
+use refsim::raster::Primitive;
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{Bottleneck, Clocks, Level, Model, Picoseconds, TimingError};
 
