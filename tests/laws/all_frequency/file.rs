@@ -70,8 +70,7 @@ fn what_is_written_is_read_in_all_its_parts() {
         save_all_frequency(&file, &path).expect("saved");
         assert!(load_all_frequency(&path, Some(&file.mesh)).is_ok());
         let other = MeshDigest { triangle_crc: !file.mesh.triangle_crc, ..file.mesh };
-        let error = load_all_frequency(&path, Some(&other)).expect_err("refused").to_string();
-        assert!(error.contains("expected transfer of a mesh with"), "{error}");
+        assert!(load_all_frequency(&path, Some(&other)).is_err());
     }
 }
 
