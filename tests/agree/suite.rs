@@ -294,3 +294,12 @@ pub(crate) fn all() -> Vec<Suite> {
     out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.short()));
     out
 }
+
+/// Case `first` + `n` of one of the suites whose names fit, drawn once on a target of at most `side` x `side` pixels.
+pub(crate) fn small_case(fits: impl Fn(&str) -> bool, n: u64, first: u64, side: u32) -> Case {
+    let suites: Vec<Suite> = all().into_iter().filter(|suite| fits(&suite.name)).collect();
+    let mut case = suites[(n as usize * 61) % suites.len()].case(first + n);
+    (case.scene.draws, case.scene.second_pass) = (1, false);
+    case.scene.size = case.scene.size.map(|length| length.min(side));
+    case
+}
