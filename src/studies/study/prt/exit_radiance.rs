@@ -29,16 +29,12 @@ impl<'a> Lit<'a> {
     /// Exit coefficients M l for a matrix, or for some of its rows: red, green and blue per row.
     fn product(&self, matrix: &[f64]) -> Vec<[f64; 3]> {
         let rows = self.functions.len();
-        let dot = |row: &[f64], channel: usize| {
-            row.iter().zip(&self.light.channels()[channel]).map(|(m, l)| m * l).sum::<f64>()
+        let dot = |row: usize, channel: usize| -> f64 {
+            let first = (channel % self.channels * rows + row) * self.columns;
+            let row = &matrix[first..first + self.columns];
+            row.iter().zip(&self.light.channels()[channel]).map(|(m, l)| m * l).sum()
         };
-        let row = |row: usize| {
-            [0, 1, 2].map(|channel| {
-                let first = (channel % self.channels * rows + row) * self.columns;
-                dot(&matrix[first..first + self.columns], channel)
-            })
-        };
-        (0..rows).map(row).collect()
+        (0..rows).map(|row| [0, 1, 2].map(|channel| dot(row, channel))).collect()
     }
 
     /// The exit coefficients of every vertex, from uncompressed transfer.
@@ -73,8 +69,7 @@ impl<'a> Lit<'a> {
 
     /// Radiance of every vertex towards the eye.
     pub(in crate::study) fn radiance(&self, exit: &[Vec<[f64; 3]>], vertices: &Vertices, eye: DVec3) -> Vec<[f64; 3]> {
-        let order = (1..=MAX_ORDER).find(|order| self.functions.iter().all(|&f| usize::from(f) < order * order));
-        let order = order.unwrap_or(MAX_ORDER);
+        let order = usize::from(self.functions.iter().copied().max().unwrap_or(0)).isqrt() + 1;
         let towards = |vertex: usize| {
             if self.functions == [0] {
                 return exit[vertex].first().copied().unwrap_or_default();

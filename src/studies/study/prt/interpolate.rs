@@ -7,7 +7,6 @@ use crate::card::SeenPixel;
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
 use crate::geom::{Hit, Mesh, Ray};
-use crate::picture::Picture;
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
 use crate::transfer::Vertices;
@@ -20,7 +19,7 @@ pub(in crate::study) struct SeenSurface {
 impl SeenSurface {
     /// Casts a camera's rays, front faces only.
     pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
-        Self::of_parts(&[(mesh, vertices)], camera)
+        Self::of_parts([(mesh, vertices)], camera)
     }
 
     /// Uses the surface points that a device's rasterizer produced.
@@ -30,7 +29,7 @@ impl SeenSurface {
     }
 
     /// Finds the nearest of several meshes; vertex indices continue from mesh to mesh.
-    pub(super) fn of_parts(parts: &[(&Mesh, &Vertices)], camera: &Camera) -> Self {
+    pub(super) fn of_parts<'a>(parts: impl IntoIterator<Item = (&'a Mesh, &'a Vertices)>, camera: &Camera) -> Self {
         let rays = camera.rays();
         let mut nearest: Vec<Option<(f32, [u32; 3], DVec3)>> = vec![None; rays.len()];
         let mut first = 0;
@@ -106,11 +105,6 @@ impl SeenSurface {
         };
         self.pixels.iter().map(move |pixel| pixel.map(|(corners, weights)| corners[nearest(weights)]))
     }
-}
-
-pub(in crate::study) fn linear_picture(camera: &Camera, colors: &[[f64; 3]]) -> Picture {
-    let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
-    Picture::rgb(camera.width(), camera.height(), &single)
 }
 
 /// Barycentric weights of a point in a triangle's plane; clamped to the edge if rounding moves it outside.

@@ -140,22 +140,14 @@ impl Precomputation<'_> {
     }
 
     fn check(&self) -> Result<(), StudyError> {
-        let glossy = |(material, brdf): (usize, &Brdf)| match brdf {
-            Brdf::Lambert { .. } => None,
-            found => {
-                let what = format!(
-                    "expected diffuse materials for diffuse transfer, found {found:?} as material {material} (counted \
-                     from 0)"
-                );
-                let help = "ask for glossy transfer, or give a diffuse reflectance for all";
-                Some(StudyError::new("crossbar::prt::glossy", what).with_help(help))
-            }
-        };
-        let mut all = self.channels.iter().flat_map(|(_, brdfs)| brdfs.iter().enumerate());
-        match self.exit {
-            ExitRadiance::Diffuse => all.find_map(glossy).map_or(Ok(()), Err),
-            ExitRadiance::Glossy { .. } => Ok(()),
-        }
+        let mut materials = self.channels.iter().flat_map(|(_, brdfs)| brdfs.iter().enumerate());
+        let glossy = materials.find(|(_, brdf)| !matches!(brdf, Brdf::Lambert { .. }));
+        let (ExitRadiance::Diffuse, Some((material, found))) = (&self.exit, glossy) else { return Ok(()) };
+        let what = format!(
+            "expected diffuse materials for diffuse transfer, found {found:?} as material {material} (counted from 0)"
+        );
+        let help = "ask for glossy transfer, or give a diffuse reflectance for all";
+        Err(StudyError::new("crossbar::prt::glossy", what).with_help(help))
     }
 
     fn responses(&self, rule: &DirectionRule, channel: usize, brdfs: &[Brdf]) -> Result<ChannelResponses, InputError> {
@@ -192,15 +184,11 @@ impl Precomputation<'_> {
 /// Joins all channels into one signal: point by point, channel by channel.
 fn together(channels: Vec<Transfer>) -> Result<Signal, InputError> {
     let size = channels.first().map_or(0, |one| one.row_count() * one.column_count());
-    let count = channels.len();
-    let mut parts: Vec<Vec<f32>> = channels.into_iter().map(Transfer::into_values).collect();
-    if let ([values], _) = (&mut parts[..], count) {
-        return Signal::new(size, std::mem::take(values));
-    }
+    let parts: Vec<Vec<f32>> = channels.into_iter().map(Transfer::into_values).collect();
     let points = parts.first().map_or(0, |part| part.len() / size.max(1));
-    let mut values = Vec::with_capacity(points * count * size);
+    let mut values = Vec::with_capacity(points * parts.len() * size);
     for point in 0..points {
         parts.iter().for_each(|part| values.extend_from_slice(&part[point * size..(point + 1) * size]));
     }
-    Signal::new(count * size, values)
+    Signal::new(parts.len() * size, values)
 }

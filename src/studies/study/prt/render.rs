@@ -1,9 +1,8 @@
 //! Pictures of a model under distant light, from its transfer.
 
-use super::compression_error::CompressionError;
 use super::exit_radiance::{Lit, no_transfer};
 use super::interpolate::SeenSurface;
-use super::lit_view::LitView;
+use super::lit_view::{LitView, mean};
 use crate::clustering::Signal;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
@@ -40,8 +39,16 @@ impl Study for Rendering {
         progress("radiance", 1, 2);
         let drawn = self.colors(&seen, None)?;
         let radiance = |direction| self.light.radiance(direction);
-        let (mut found, exposure) = self.view.findings("Precomputed radiance transfer", &drawn, radiance)?;
-        self.conclude(&seen, &mut found);
+        let (mut found, exposure) =
+            self.view.findings("Precomputed radiance transfer", &drawn, radiance, seen.count())?;
+        let least = self.light.extremes().map(|channel| channel.least);
+        if least.iter().any(|&radiance| radiance < 0.0) {
+            let [red, green, blue] = least.map(|radiance| shown(radiance, Quantity::Measured));
+            let order = self.light.order();
+            found.conclusion(format!(
+                "At order {order} the light rings: its least radiance is {red}, {green}, {blue} (red, green, blue)."
+            ));
+        }
         if let Some(original) = &self.original {
             self.compare(&seen, original, &drawn, exposure, &mut found)?;
         }
@@ -62,18 +69,6 @@ impl Rendering {
         Ok(seen.colors(&lit.radiance(&exit, &self.vertices, wide(self.view.camera.eye())), [0.0; 3]))
     }
 
-    fn conclude(&self, seen: &SeenSurface, found: &mut Findings) {
-        found.conclusion(self.view.sentence(seen.count()));
-        let least = self.light.extremes().map(|channel| channel.least);
-        if least.iter().any(|&radiance| radiance < 0.0) {
-            let [red, green, blue] = least.map(|radiance| shown(radiance, Quantity::Measured));
-            let order = self.light.order();
-            found.conclusion(format!(
-                "At order {order} the light rings: its least radiance is {red}, {green}, {blue} (red, green, blue)."
-            ));
-        }
-    }
-
     /// Compares pictures from the original and from the clusters.
     fn compare(
         &self,
@@ -86,25 +81,23 @@ impl Rendering {
         let whole = self.colors(seen, Some(original))?;
         let (mut pictures, difference, largest) =
             self.view.against_original(drawn, &whole, exposure, "compressed less original")?;
-        let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
         let ratio = (squares(&mut difference.iter().copied()) / squares(&mut whole.iter().map(mean))).sqrt();
-        let mut table = Table::new("Compressed against original", &["figure", "value"]);
-        table.push([
-            "root mean square difference, relative to the picture's root mean square (%)".into(),
-            Cell::measured(100.0 * ratio),
+        let of_picture = "root mean square difference, relative to the picture's root mean square (%)";
+        let mut table = Table::new("Compressed against original", &["figure", "value"]).with([
+            [of_picture.into(), Cell::measured(100.0 * ratio)],
+            ["largest difference (radiance)".into(), Cell::measured(largest)],
         ]);
-        table.push(["largest difference (radiance)".into(), Cell::measured(largest)]);
         if let Some(clustering) = &self.file.clustering {
-            let error = CompressionError::new(original, clustering);
-            table.push([
-                "squared error of transfer, relative to its squares (%)".into(),
-                Cell::measured(100.0 * error.relative()),
-            ]);
-            let most = error.squared[error.largest()];
+            let error = clustering.squared_error(original);
+            let relative = if error > 0.0 { error / original.sum_of_squares() } else { 0.0 };
+            let of_transfer = "squared error of transfer, relative to its squares (%)";
+            table.push([of_transfer.into(), Cell::measured(100.0 * relative)]);
+            let squared: Vec<f64> =
+                (0..original.points()).map(|point| clustering.squared_error_of(point, original)).collect();
+            let most = squared.iter().copied().fold(0.0, f64::max);
             if most > 0.0 {
-                let of_vertex: Vec<[f64; 3]> =
-                    error.squared.iter().map(|squared| [(squared / most).sqrt(); 3]).collect();
+                let of_vertex: Vec<[f64; 3]> = squared.iter().map(|squared| [(squared / most).sqrt(); 3]).collect();
                 let map: Vec<f64> =
                     seen.colors(&of_vertex, [f64::NAN; 3]).into_iter().map(|[value, ..]| value).collect();
                 let caption = "error of each vertex's transfer, relative to the largest; pale is large";
@@ -121,10 +114,8 @@ impl Rendering {
     /// Adds a picture of the cluster of each pixel's nearest vertex.
     fn clusters(&self, seen: &SeenSurface, found: &mut Findings) {
         let Some(clustering) = &self.file.clustering else { return };
-        let color = |vertex: Option<u32>| {
-            let Some(vertex) = vertex else { return [0; 3] };
-            cluster_color(clustering.of_point()[vertex as usize])
-        };
+        let color =
+            |vertex: Option<u32>| vertex.map_or([0; 3], |vertex| cluster_color(clustering.of_point()[vertex as usize]));
         let image = rgb8(self.view.camera.width(), self.view.camera.height(), seen.nearest().map(color));
         found.heading("Clusters");
         let caption = format!("{} clusters, each in a color of its own", clustering.subspaces().len());

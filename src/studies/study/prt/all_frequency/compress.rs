@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
+
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
@@ -13,8 +15,6 @@ use crate::transfer::Vertices;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
-
-use super::tally::{CompressionTally, SegmentTally};
 
 /// Transfer to be compressed, and options.
 #[derive(Debug)]
@@ -33,6 +33,39 @@ pub struct SegmentedCompression<'a> {
     pub code: CodeOptions,
     /// Folder of finished segments, and the prefix of their names.
     pub kept: Option<(&'a KeptResults, &'a str)>,
+}
+
+/// Error and size of a segment.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SegmentTally {
+    /// Index of the segment.
+    pub segment: usize,
+    /// Number of vertices at which the segment is not 0.
+    pub vertices: usize,
+    /// Number of clusters of these vertices.
+    pub clusters: usize,
+    /// Sum of squares of the segment's transfer.
+    pub squares: f64,
+    /// Squared error of compression.
+    pub squared_error: f64,
+    /// Squared error after coding.
+    pub coded_squared_error: f64,
+    /// Time of transfer, compression and coding, in seconds.
+    pub seconds: [f64; 3],
+}
+
+/// Errors and sizes of all segments.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CompressionTally {
+    /// Segment by segment, without empty ones.
+    pub segments: Vec<SegmentTally>,
+}
+
+impl CompressionTally {
+    /// Sums a figure over segments.
+    pub fn sum(&self, of: impl Fn(&SegmentTally) -> f64) -> f64 {
+        self.segments.iter().map(of).sum()
+    }
 }
 
 impl SegmentedCompression<'_> {

@@ -2,10 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::cause_pictures::CausePictures;
-use super::causes::Causes;
-use super::light::LocalLight;
-use super::subject::{BiScaleRendering, SurfaceTexture, no_mesh_transfer};
+use super::causes::CausePictures;
+use super::subject::{BiScaleRendering, LocalLight, SurfaceTexture, no_mesh_transfer};
 use super::surface::SurfacePixel;
 use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::shade::TextureLookup;
@@ -74,6 +72,6 @@ impl<'a> BiScaleDrawing<'a> {
         drawn: &[[f64; 3]],
         progress: &mut ProgressFn<'_>,
     ) -> Result<CausePictures, StudyError> {
-        Ok(Causes::new(self.rendering, &self.meaning)?.pictures(&self.pixels, (cube, drawn), progress))
+        CausePictures::new(self.rendering, &self.meaning, &self.pixels, (cube, drawn), progress)
     }
 }

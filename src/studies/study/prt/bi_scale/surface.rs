@@ -65,31 +65,24 @@ impl TexturedSurface {
         rays.par_iter().zip(&hits).map(|(ray, hit)| Some(self.pixel(ray, hit.as_ref()?, eye))).collect()
     }
 
+    /// The shaded point where a ray hits.
     fn pixel(&self, ray: &Ray, hit: &Hit, eye: DVec3) -> SurfacePixel {
-        let corners = self.vertices.triangles()[hit.triangle as usize];
+        let triangle = hit.triangle as usize;
+        let corners = self.vertices.triangles()[triangle];
         let places = corners.map(|corner| wide(self.vertices.positions()[corner as usize]));
         let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
-        self.shown(hit.triangle, (at, weights(at, places).to_array()), eye)
-    }
-
-    /// The shaded point of a triangle, from its position and barycentric weights.
-    fn shown(&self, triangle: u32, (at, weights): (DVec3, [f64; 3]), eye: DVec3) -> SurfacePixel {
-        let corners = self.vertices.triangles()[triangle as usize];
+        let weights = weights(at, places).to_array();
         let frame = pixel_frame(&self.vertices, corners, weights);
-        let texture = self.mesh.texcoords().unwrap_or_default();
+        let coordinates = self.mesh.texcoords().unwrap_or_default();
         let mut place = [0.0; 2];
-        for (corner, weight) in self.mesh.triangles()[triangle as usize].into_iter().zip(weights) {
-            for (into, along) in place.iter_mut().zip(texture[corner as usize]) {
+        for (corner, weight) in self.mesh.triangles()[triangle].into_iter().zip(weights) {
+            for (into, along) in place.iter_mut().zip(coordinates[corner as usize]) {
                 *into += weight * self.repeat * f64::from(along);
             }
         }
         // If the eye lies on the surface, there is no view direction; no picture is drawn from there.
         let view = frame.to_local(unit(eye - at).unwrap_or(frame.normal()));
-        SurfacePixel {
-            triangle,
-            texture: self.texture_of[triangle as usize] as usize,
-            frame,
-            shaded: ShadedPixel { corners, weights, place, view },
-        }
+        let shaded = ShadedPixel { corners, weights, place, view };
+        SurfacePixel { triangle: hit.triangle, texture: self.texture_of[triangle] as usize, frame, shaded }
     }
 }

@@ -1,18 +1,13 @@
 //! Difference of a card's picture from the host's, per pixel of the card's raster.
 
-use serde_json::json;
-
 use crate::card::SeenPixel;
-use crate::error::InputError;
 use crate::picture::metrics::{ErrorSums, value_error};
+use crate::report::Cell;
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
-use crate::report::{Cell, Findings, NamedPicture, false_color};
-use crate::scene::Camera;
-use crate::study::prt::interpolate::linear_picture;
 
 /// Number of steps between the codes of an 8-bit picture, from black to white.
-const STEPS: f64 = 255.0;
+pub(super) const STEPS: f64 = 255.0;
 
 /// Errors of the pixels that show the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,7 +19,7 @@ pub struct PixelErrors {
     /// Number of pixels that are not finite where the expected ones are, or the reverse.
     pub not_finite: u64,
     /// RMS over the finite pixels, in 255ths.
-    finite_rms: f64,
+    pub(super) finite_rms: f64,
 }
 
 impl PixelErrors {
@@ -49,84 +44,24 @@ impl PixelErrors {
         let [rms, largest] = self.off_255ths.map(Cell::measured);
         [rms, largest, Cell::percent(100.0 * self.visible)]
     }
-}
-
-/// Clamps pixels as a fixed-point target does, if `is_clamped`.
-pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
-    let held = |color: &[f64; 3]| if is_clamped { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
-    pixels.iter().map(held).collect()
-}
-
-/// A card's picture and the host's, both exposed.
-pub(super) struct ComparedPicture<'a> {
-    /// Numbers in the target.
-    pub(super) drawn: &'a [[f64; 3]],
-    /// Pixels in double precision, neither clamped nor quantised.
-    pub(super) host: &'a [[f64; 3]],
-    pub(super) is_clamped: bool,
-    pub(super) errors: PixelErrors,
-}
-
-impl<'a> ComparedPicture<'a> {
-    /// Compares pictures at visible surface points. If the target or the vertices hold fixed-point fractions, the
-    /// host's picture is clamped too.
-    pub(super) fn new(
-        seen: &[Option<SeenPixel>],
-        drawn: &'a [[f64; 3]],
-        host: &'a [[f64; 3]],
-        is_clamped: bool,
-    ) -> Self {
-        Self { drawn, host, is_clamped, errors: PixelErrors::of(seen, drawn, &held(host, is_clamped)) }
-    }
 
     /// Sentence about the errors of the card, compared with the host's computation `from` the same numbers.
     pub(super) fn sentence(&self, card: &str, from: &str) -> String {
-        let [rms, largest] = self.errors.off_255ths.map(|steps| shown(steps, Quantity::Measured));
-        let not_finite = match self.errors.not_finite {
+        let [rms, largest] = self.off_255ths.map(|steps| shown(steps, Quantity::Measured));
+        let not_finite = match self.not_finite {
             0 => String::new(),
             count => format!(" {} not finite.", counted(count, "pixel is", "pixels are")),
         };
         format!(
             "{card}: off by {rms} 255ths (root mean square; largest {largest}) of what the host computes in double \
              precision from {from}; {} of the pixels by more than one.{not_finite}",
-            percent(self.errors.visible)
+            percent(self.visible)
         )
     }
+}
 
-    /// Adds both pictures and their difference.
-    pub(super) fn report(
-        &self,
-        camera: &Camera,
-        title: String,
-        from: &str,
-        found: &mut Findings,
-    ) -> Result<(), InputError> {
-        let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
-            let channels = found.iter().zip(expected).map(|(&found, &expected)| value_error(found, expected));
-            channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
-        };
-        let difference: Vec<f64> = self.drawn.iter().zip(&held(self.host, self.is_clamped)).map(worst).collect();
-        let range = (4.0 * self.errors.finite_rms / STEPS).max(1.0 / STEPS);
-        let scale = shown(STEPS * range, Quantity::Measured);
-        let host = format!("the host in double precision, from {from}");
-        let caption = format!(
-            "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more{}",
-            false_color::not_finite(&difference)
-        );
-        found.pictures(vec![
-            NamedPicture::new("card", linear_picture(camera, self.drawn).display(1.0)?, title),
-            NamedPicture::new("host", linear_picture(camera, self.host).display(1.0)?, host),
-            NamedPicture::new("difference", false_color::signed(camera.width(), &difference, range), caption),
-        ]);
-        found.keep_layers("card", linear_picture(camera, self.drawn));
-        let PixelErrors { off_255ths, visible: visible_share, not_finite, .. } = self.errors;
-        let [rms, largest] = off_255ths.map(|steps| Cell::measured(steps).json());
-        found.field(
-            "difference",
-            json!({
-                "rms_255ths": rms, "largest_255ths": largest, "visible_share": visible_share, "not_finite": not_finite
-            }),
-        );
-        Ok(())
-    }
+/// Clamps pixels as a fixed-point target does, if `is_clamped`.
+pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
+    let held = |color: &[f64; 3]| if is_clamped { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
+    pixels.iter().map(held).collect()
 }

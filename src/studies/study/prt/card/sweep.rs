@@ -1,4 +1,5 @@
-//! Varies one number format, map or target at a time; everything else is computed almost without rounding.
+//! Errors of a picture by the step that causes them, and of variants: one number format, map or target is changed at a
+//! time, and everything else is computed almost without rounding.
 
 use super::difference::PixelErrors;
 use crate::report::digits::{Quantity, shown};
@@ -6,6 +7,10 @@ use crate::report::{Cell, Findings, FoundTable, Table};
 
 /// Axes whose rows are not single changes: the unchanged picture, and whole cards.
 const NOT_ALONE: [&str; 2] = ["none", "card"];
+
+const BLAME: &str = "Each row is the error of one step from light to picture, in 255ths of white: the picture against \
+    the same picture with that step exact. All rows but the card's are computed by the host in double precision, pixel \
+    by pixel of the card's raster, from what is interpolated between vertices.";
 
 /// A variant of a picture, with its errors.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,17 +29,22 @@ pub struct PictureVariant {
 pub fn variants_table(variants: &[PictureVariant]) -> Table {
     let counts = variants.iter().any(|variant| variant.below_zero.is_some());
     let last = if counts { "below_zero" } else { "" };
-    let mut table = Table::of("What shows", &format!("what choice rms_255ths largest_255ths visible_% {last}"));
-    for PictureVariant { axis, choice, errors, below_zero } in variants {
+    let row = |PictureVariant { axis, choice, errors, below_zero }: &PictureVariant| {
         let [rms, largest, visible] = errors.cells();
-        let below_zero = below_zero.map_or(Cell::Empty, Cell::from);
-        table.push([(*axis).into(), choice.clone().into(), rms, largest, visible, below_zero]);
-    }
-    table
+        [(*axis).into(), choice.clone().into(), rms, largest, visible, (*below_zero).into()]
+    };
+    Table::of("What shows", &format!("what choice rms_255ths largest_255ths visible_% {last}"))
+        .with(variants.iter().map(row))
+}
+
+/// The name with the largest root mean square error, and this error.
+fn worst<T>(of: impl Iterator<Item = (T, PixelErrors)>) -> Option<(T, String)> {
+    let worst = of.max_by(|(_, a), (_, b)| a.off_255ths[0].total_cmp(&b.off_255ths[0]));
+    worst.map(|(name, errors)| (name, shown(errors.off_255ths[0], Quantity::Measured)))
 }
 
 /// Adds the table, the variant with the largest error, and the variants without visible errors.
-pub(super) fn report_sweep(variants: &[PictureVariant], explained: &'static str, found: &mut Findings) {
+pub(super) fn report_sweep(variants: &[PictureVariant], explained: &str, found: &mut Findings) {
     let alone = || variants.iter().filter(|variant| !NOT_ALONE.contains(&variant.axis));
     let name = |variant: &PictureVariant| format!("{} {}", variant.axis, variant.choice);
     let hidden: Vec<String> = alone().filter(|variant| variant.errors.visible == 0.0).map(name).collect();
@@ -43,10 +53,21 @@ pub(super) fn report_sweep(variants: &[PictureVariant], explained: &'static str,
     } else {
         format!("Changes that are visible in no pixel, each alone: {}.", hidden.join("; "))
     });
-    if let Some(worst) = alone().max_by(|a, b| a.errors.off_255ths[0].total_cmp(&b.errors.off_255ths[0])) {
-        let rms = shown(worst.errors.off_255ths[0], Quantity::Measured);
-        found.conclusion(format!("The largest error is that of {}: {rms} 255ths root mean square.", name(worst)));
+    if let Some((name, rms)) = worst(alone().map(|variant| (name(variant), variant.errors))) {
+        found.conclusion(format!("The largest error is that of {name}: {rms} 255ths root mean square."));
     }
     found.heading("What shows");
     found.explained_table(FoundTable::from(variants_table(variants)).csv("precision").field("precision"), explained);
+}
+
+/// Adds a row per step from light to picture with its error, and the step with the largest error.
+pub(super) fn report_blame(blames: &[(&'static str, PixelErrors)], found: &mut Findings) {
+    let row = |(step, errors): &(&'static str, PixelErrors)| [Cell::from(*step)].into_iter().chain(errors.cells());
+    let table = Table::of("Error of the picture by step", "step rms_255ths largest_255ths visible_%")
+        .with(blames.iter().map(row));
+    if let Some((step, rms)) = worst(blames.iter().copied()) {
+        found.conclusion(format!("The largest error is that of this step: {step}, {rms} 255ths root mean square."));
+    }
+    found.heading("Error by step");
+    found.explained_table(FoundTable::from(table).csv("blame").field("blame"), BLAME);
 }

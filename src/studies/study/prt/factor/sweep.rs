@@ -53,9 +53,8 @@ impl BrdfFactors {
             sphere::radiance(&|view, light| factors.product(view, light)),
         ];
         let exposure = sphere::exposure(&original);
-        let screens = [&original, &drawn].map(|radiance| ScreenPicture::new(&sphere::picture(radiance), exposure));
-        let [one, other] = screens;
-        let seen = flip(&one?, &other?, PIXELS_PER_DEGREE);
+        let screen = |radiance: &[f64]| ScreenPicture::new(&sphere::picture(radiance), exposure);
+        let seen = flip(&screen(&original)?, &screen(&drawn)?, PIXELS_PER_DEGREE);
         Ok(SweptRoughness {
             roughness,
             relative_squared_error: found.relative_squared_error(found.terms()),
@@ -66,15 +65,9 @@ impl BrdfFactors {
 }
 
 pub(in crate::study) fn roughness_table(rows: &[SweptRoughness], title: &str) -> Table {
-    let mut table = Table::of(title, "roughness relative_squared_error rms max flip_of_spheres");
-    for row in rows {
-        table.push([
-            row.roughness.into(),
-            Cell::error(row.relative_squared_error),
-            Cell::error(row.errors.rms),
-            Cell::error(row.errors.max),
-            Cell::error(row.flip),
-        ]);
-    }
-    table
+    let row = |row: &SweptRoughness| {
+        let errors = [row.relative_squared_error, row.errors.rms, row.errors.max, row.flip].map(Cell::error);
+        [Cell::from(row.roughness)].into_iter().chain(errors)
+    };
+    Table::of(title, "roughness relative_squared_error rms max flip_of_spheres").with(rows.iter().map(row))
 }
