@@ -1,14 +1,14 @@
-//! `crossbar all-frequency`: transfer for light of all frequencies, one file per verb.
+//! `crossbar all-frequency`: transfer for light of all frequencies.
 
-mod card;
 mod compress;
-mod error;
+mod draw;
 mod factor;
-mod file;
 mod lighting;
 mod precompute;
-mod render;
 mod show;
+
+use std::io;
+use std::path::{Component, Path, PathBuf, absolute};
 
 use super::{CommandLine, Out, Verdict, study};
 
@@ -43,10 +43,9 @@ enum Verb {
     Lighting(lighting::Args),
     Precompute(precompute::Args),
     Compress(compress::Args),
-    Error(error::Args),
     Show(show::Args),
-    Render(render::Args),
-    Card(card::Args),
+    Render(draw::Render),
+    Card(draw::Card),
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
@@ -55,10 +54,18 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
         Verb::Lighting(args) => lighting::run(args)?,
         Verb::Precompute(args) => precompute::run(args)?,
         Verb::Compress(args) => compress::run(args, command_line)?,
-        Verb::Error(args) => error::run(args)?,
         Verb::Show(args) => show::run(args)?,
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
     };
     study::show(&found, out)
+}
+
+/// Relative path from a file's folder to another file.
+fn path_from(file: &Path, to: &Path) -> io::Result<String> {
+    let [file, to] = [absolute(file)?, absolute(to)?];
+    let (from, to) = (file.parent().unwrap_or(&file).components(), to.components());
+    let shared = from.clone().zip(to.clone()).take_while(|(a, b)| a == b).count();
+    let up = from.skip(shared).map(|_| Component::ParentDir);
+    Ok(up.chain(to.skip(shared)).collect::<PathBuf>().to_string_lossy().into_owned())
 }

@@ -5,20 +5,21 @@ use std::path::PathBuf;
 use refsim::machine::ExecutorKind;
 use serde_json::json;
 
-use super::file::{angle, load_creased};
+use super::file::angle;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
 use crate::bi_scale::transfer::transfer_matrix;
 use crate::cli::model_name::transfer_model_help;
 use crate::cli::study::written;
-use crate::cli::transfer::model::{note_vertices, refused, vertices};
-use crate::cli::transfer::values::TangentsArg;
+use crate::cli::transfer::model::{load, note_vertices, refused};
+use crate::cli::transfer::values::tangents;
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::geom::Sides;
 use crate::options::number;
 use crate::report::Findings;
 use crate::study::caster::CasterOptions;
+use crate::transfer::Tangents;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
@@ -52,8 +53,8 @@ pub(super) struct Args {
 
     /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
     /// axis X,Y,Z
-    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
-    tangents: TangentsArg,
+    #[arg(long, value_name = "FROM", default_value = "any", value_parser = tangents, allow_hyphen_values = true)]
+    tangents: Tangents,
 
     /// The file to write
     #[arg(long, value_name = "X.npz")]
@@ -64,12 +65,11 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
+    let (side, path) = (args.directions, args.out.as_path());
     let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
-    let model = load_creased(&args.model, tangents, args.crease)?;
-    let vertices = vertices(&model, tangents)?;
+    let (model, vertices) = load(&args.model, args.tangents, args.crease, refused)?;
     let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon: Horizon::Geometry };
     let bar = ProgressBar::new("visibility", 1).quicker("fewer `--directions`");
     let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;

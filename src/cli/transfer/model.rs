@@ -10,49 +10,45 @@ use crate::cli::{Problem, model_file};
 use crate::error::InputError;
 use crate::report::Findings;
 use crate::scene::Material;
+use crate::study::prt::creased;
 use crate::transfer::file::{MeshDigest, require_mesh};
 use crate::transfer::{Tangents, Vertices};
 
-/// Loads the model. If tangents come from texture coordinates, a file is read as a mesh without materials, since scenes
-/// have no texture coordinates.
-pub(in crate::cli) fn load(path: &Path, tangents: Tangents) -> miette::Result<Model> {
-    if tangents == Tangents::Texture && path.is_file() {
-        return Ok(Model::plain(model_file::mesh(path)?));
+/// Loads the model, and its vertices, at which transfer is computed. If tangents come from texture coordinates, a file
+/// is read as a mesh without materials, since scenes have no texture coordinates. A crease angle in degrees recomputes
+/// normals, smooth over edges up to this angle. `refused` converts the reason why there can be no vertices.
+pub(in crate::cli) fn load(
+    path: &Path,
+    tangents: Tangents,
+    crease: Option<f64>,
+    refused: impl FnOnce(InputError) -> Problem,
+) -> miette::Result<(Model, Vertices)> {
+    let mut model = match tangents == Tangents::Texture && path.is_file() {
+        true => Model::plain(model_file::mesh(path)?),
+        false => model_name::model(path)?,
+    };
+    if let Some(degrees) = crease {
+        model.mesh = creased(&model.mesh, degrees);
     }
-    model_name::model(path)
+    let vertices = Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?;
+    Ok((model, vertices))
 }
 
-/// The vertices at which transfer is computed.
-pub(in crate::cli) fn vertices(model: &Model, tangents: Tangents) -> miette::Result<Vertices> {
-    Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
-}
-
-/// The model of a file's mesh, with its vertices: the file's points.
+/// The model of a file's mesh, with its vertices, which are the file's points.
 pub(in crate::cli) fn model_of(
     path: &Path,
     mesh: Option<MeshDigest>,
     model: &Path,
+    crease: Option<f64>,
 ) -> miette::Result<(Model, Vertices, MeshDigest)> {
-    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
-    let model = load(model, tangents)?;
-    let (vertices, digest) = vertices_of(path, mesh, &model)?;
-    Ok((model, vertices, digest))
-}
-
-/// The vertices of the model from which a file was computed.
-pub(in crate::cli) fn vertices_of(
-    path: &Path,
-    mesh: Option<MeshDigest>,
-    model: &Model,
-) -> miette::Result<(Vertices, MeshDigest)> {
-    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
     let other = |error: InputError| {
         Problem::usage(error.to_string(), format!("name the model that {} was computed from", path.display()))
     };
-    let vertices = Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(other)?;
+    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
+    let (model, vertices) = load(model, tangents, crease, other)?;
     let digest = MeshDigest::new(&vertices);
     require_mesh(path, &digest, mesh)?;
-    Ok((vertices, digest))
+    Ok((model, vertices, digest))
 }
 
 /// Adds unusual vertices of a model to the findings of `precompute`: vertices without a triangle, vertices without a
@@ -78,15 +74,11 @@ pub(in crate::cli) fn materials_of(path: &Path, model: &Model) -> miette::Result
     if !path.is_file() {
         return Ok((model.materials.clone(), model.material_of.clone()));
     }
-    let with_materials = model_name::model(path)?;
-    if with_materials.material_of.len() != model.mesh.len() {
-        let what = format!(
-            "{}: expected {} triangles with materials, found {}",
-            path.display(),
-            model.mesh.len(),
-            with_materials.material_of.len()
-        );
+    let Model { materials, material_of, .. } = model_name::model(path)?;
+    let [expected, found] = [model.mesh.len(), material_of.len()];
+    if expected != found {
+        let what = format!("{}: expected {expected} triangles with materials, found {found}", path.display());
         return Err(Problem::usage(what, "name the model's own file, not a scene").into());
     }
-    Ok((with_materials.materials, with_materials.material_of))
+    Ok((materials, material_of))
 }

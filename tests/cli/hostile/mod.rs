@@ -34,7 +34,6 @@ const LONG: &[&str] = &[
 const COMMANDS: &[&str] = &[
     "all-frequency card nowhere.npz --model nowhere.obj",
     "all-frequency compress nowhere.npz --model nowhere.obj --out y.npz",
-    "all-frequency error nowhere.npz nowhere.npz --model nowhere.obj",
     "all-frequency factor --table nowhere.csv",
     "all-frequency lighting --light nowhere.hdr",
     "all-frequency precompute nowhere.obj --out x.npz",
@@ -52,7 +51,6 @@ const COMMANDS: &[&str] = &[
     "compare nowhere.toml",
     "cpca card nowhere.npz --model nowhere.obj",
     "cpca compress nowhere.npz --out y.npz",
-    "cpca error nowhere.npz nowhere.npz",
     "cpca precompute nowhere.obj --out x.npz",
     "cpca render nowhere.npz --model nowhere.obj",
     "cpca show nowhere.npz",

@@ -216,7 +216,6 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--clusters=5@0,1 --vectors=1@0,1 --method=adaptive@0,1 --model=white-box@0,1 --reclassify=0@0,1 \
                   --out=other.npz@0,1 --model-up=y --strict@2",
     },
-    Tried { bases: &["cpca error docs/examples/step.npz docs/examples/step_small.npz"], options: "" },
     Tried { bases: &["cpca show docs/examples/step_small.npz"], options: "" },
     Tried {
         bases: &[
@@ -270,13 +269,6 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --bits=8@0 --resume=kept@0 \
                   --out=other.npz@0 --model-up=y --strict@1",
-    },
-    Tried {
-        bases: &[
-            "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model docs/examples/step.obj",
-            "all-frequency error docs/examples/step_all.npz docs/examples/step_all_small.npz --model odd.obj",
-        ],
-        options: "--model=white-box --model-up=y --strict@1",
     },
     Tried { bases: &["all-frequency show docs/examples/step_all_small.npz"], options: "" },
     Tried {
