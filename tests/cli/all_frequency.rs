@@ -137,18 +137,12 @@ fn what_does_not_go_together_is_refused() {
         ),
         ("cpca show docs/examples/step_all.npz", "`crossbar all-frequency` takes it"),
         ("all-frequency show docs/examples/step_biclusters.npz", "`crossbar bi-scale` takes it"),
-        ("cpca compress docs/examples/step_all.npz --out OUT", "`crossbar all-frequency` takes it"),
         ("bi-scale bicluster docs/examples/step.npz --out OUT", "`crossbar cpca` takes it"),
-        ("bi-scale render docs/examples/step.npz --model white-box --texture mail", "`crossbar cpca` takes it"),
         ("all-frequency compress docs/examples/signal.csv --model white-box --out OUT", "expected a .npz file"),
         ("cpca precompute docs/examples/step.obj --ground 8 --out OUT", "unexpected argument '--ground'"),
         (
             "all-frequency compress docs/examples/step_all_small.npz --model docs/examples/step.obj --out OUT",
             "expected visibility",
-        ),
-        (
-            "all-frequency card docs/examples/step_small.npz --model docs/examples/step.obj --way colors --out OUT",
-            "`crossbar cpca` takes it",
         ),
         (
             "all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original \

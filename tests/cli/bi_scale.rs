@@ -37,18 +37,6 @@ fn biclusters_sum_to_transfer() {
     assert_eq!(made, again, "the sum of the biclusters");
 }
 
-#[test]
-fn what_cannot_be_done_is_said() {
-    for (arguments, said) in [
-        (format!("bi-scale bicluster {BICLUSTERS}"), "expected a matrix, found biclusters only"),
-        ("bi-scale bicluster docs/examples/step.npz".to_owned(), "`crossbar cpca` takes it"),
-        ("bi-scale show docs/examples/step_all.npz".to_owned(), "`crossbar all-frequency` takes it"),
-    ] {
-        let words = refused_line(&arguments);
-        assert!(words.contains(said), "{arguments}: {words}");
-    }
-}
-
 const COURT: &str = "docs/examples/court.obj";
 const COURT_BICLUSTERS: &str = "docs/examples/court_biclusters.npz";
 
@@ -188,6 +176,7 @@ fn textures_that_do_not_fit_are_refused() {
             "name the model that docs/examples/court_biclusters.npz was computed from",
         ),
         ("bi-scale bicluster docs/examples/rays.csv".to_owned(), "name a Matrix Market file (.mtx)"),
+        (format!("bi-scale bicluster {BICLUSTERS}"), "expected a matrix, found biclusters only"),
         (
             format!("bi-scale render {BICLUSTERS} --model {COURT} --texture mail --size 8x6"),
             "found that of 70 vertices",

@@ -84,13 +84,13 @@ impl Study for BiScaleOnCard {
         progress("host", 1, 3);
         let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.view.camera)?;
         let doubles: Vec<[f64; 3]> = local.local.iter().map(|rgb| rgb.map(f64::from)).collect();
-        let linear = self.exact(&doubles, &seen, 1.0, options.edges);
+        let linear = self.exact(&doubles, &seen, 1.0);
         let host = HostPicture::new((card, &self.view), "the same local light", seen, linear);
         progress("card", 2, 3);
         let drawn = self.draw(&local.local, options, card.format, host.exposure)?;
         let title = "Bi-scale transfer on a card";
         let (mut found, errors) = host.findings(title, &drawn.pixels, card.is_clamped(), of_texels(cube.texels()))?;
-        let whole = self.exact(&exact, &host.seen, host.exposure, options.edges);
+        let whole = self.exact(&exact, &host.seen, host.exposure);
         let of_light = PixelErrors::of(&host.seen, &host.pixels, &whole);
         let blames = [
             ("the card: storage, filters, arithmetic, target", errors),
@@ -162,11 +162,11 @@ impl BiScaleOnCard {
         Ok(Drawn { pixels: texels.colors(), counts: card.counts(), log })
     }
 
-    /// Equation 3 in f64, exposed, neither clamped nor quantised. Pixels without a surface are 0.
-    fn exact(&self, local: &[[f64; 3]], seen: &[Option<SeenPixel>], exposure: f64, edges: BlockEdges) -> Vec<[f64; 3]> {
+    /// Equation 3 in f64 without seams, exposed, neither clamped nor quantised. Pixels without a surface are 0.
+    fn exact(&self, local: &[[f64; 3]], seen: &[Option<SeenPixel>], exposure: f64) -> Vec<[f64; 3]> {
         let (mesh, eye) = (self.mesh(), self.view.camera.eye());
         let of = |seen: &Option<SeenPixel>| {
-            let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, eye, edges, &seen));
+            let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, eye, BlockEdges::Wrapped, &seen));
             color.map(|value| exposure * value)
         };
         seen.par_iter().map(of).collect()
@@ -226,7 +226,7 @@ impl BiScaleOnCard {
         host: &HostPicture<'_>,
         progress: &mut ProgressFn<'_>,
     ) -> Result<Vec<PictureVariant>, StudyError> {
-        let expected = self.exact(exact, &host.seen, host.exposure, BlockEdges::Wrapped);
+        let expected = self.exact(exact, &host.seen, host.exposure);
         let (mut variants, mut local) = (Vec::new(), self.local(light, FINE.0)?.local);
         let (mut light_format, ways) = (FINE.0, ways());
         let count = ways.len() as u64;
