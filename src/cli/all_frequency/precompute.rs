@@ -5,17 +5,14 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use miette::IntoDiagnostic;
-use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use super::path_from;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::ProductFactors;
 use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
-use crate::cli::model_name::transfer_model_help;
 use crate::cli::study::written;
-use crate::cli::transfer::model::{load, note_vertices, refused};
-use crate::cli::transfer::values::tangents;
+use crate::cli::transfer::model::{ModelArgs, note_rays, note_vertices, refused};
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::error::InputError;
@@ -25,7 +22,6 @@ use crate::options::number;
 use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
-use crate::study::caster::CasterOptions;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
@@ -47,9 +43,8 @@ The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes t
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    // Names come from the one list of built models, `meshes`.
-    #[arg(value_name = "MODEL", help = transfer_model_help())]
-    model: PathBuf,
+    #[command(flatten)]
+    of: ModelArgs,
 
     /// Output of `crossbar all-frequency factor`: view_factors.npy and light_factors.npy in a folder [default: the one
     /// term of a diffuse surface]
@@ -60,26 +55,13 @@ pub(super) struct Args {
     /// ground.npz and ground.obj: the ground's own file and its model
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(2..=1024))]
     ground: Option<u32>,
-
-    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
-    /// axis X,Y,Z
-    #[arg(long, value_name = "FROM", default_value = "any", value_parser = tangents, allow_hyphen_values = true)]
-    tangents: Tangents,
-
-    /// The file to write
-    #[arg(long, value_name = "X.npz")]
-    out: PathBuf,
-
-    #[command(flatten)]
-    caster: CasterOptions,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let path = args.out.as_path();
-    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
+    let path = args.of.out.as_path();
     let reflectance =
         args.reflectance.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
-    let (model, vertices) = load(&args.model, args.tangents, None, refused)?;
+    let (caster, model, vertices) = args.of.load(None)?;
     let ground = args.ground.map(|side| Ground::new(&model.mesh, side)).transpose()?;
     let joined = ground.as_ref().map(|ground| vertices.joined(&ground.vertices));
     let (count, all) = (vertices.len() as u32, joined.as_ref().unwrap_or(&vertices));
@@ -148,12 +130,9 @@ fn write_sight(
         "vertices": vertices.len(), "terms": terms, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
         "segments_shadowed": census.shadowed, "segments_nonempty": census.nonempty,
-        "directions_above": counts.above, "rays_traced": counts.traced, "directions_visible": counts.visible,
-        "unclear_vertices": counts.unclear,
     }));
     found.print(format!("vertices  {}, {terms} terms of reflectance", counted(vertices.len())));
-    let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
-    found.print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon see light"));
+    note_rays(found, &counts);
     found.print(format!(
         "segments  {:.1} % hold transfer; of 24, at least {} and on average {:.2} lie below the horizon",
         100.0 * census.omega(),

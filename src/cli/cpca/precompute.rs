@@ -1,16 +1,13 @@
 //! `crossbar cpca precompute`: transfer at the vertices of a model.
 
-use std::path::PathBuf;
-
 use clap::ValueEnum;
-use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use crate::cli::materials::published;
-use crate::cli::model_name::{Model, transfer_model_help};
+use crate::cli::model_name::Model;
 use crate::cli::study::written;
-use crate::cli::transfer::model::{load, note_vertices, refused};
-use crate::cli::transfer::values::{brdf, tangents};
+use crate::cli::transfer::model::{ModelArgs, note_vertices};
+use crate::cli::transfer::values::brdf;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
 use crate::cpca::transfer::{Incident, ScatteringOptions, TransferCounts};
@@ -19,12 +16,11 @@ use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::report::Findings;
 use crate::scene::Material;
-use crate::study::caster::CasterOptions;
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 use crate::subsurface::Dipole;
+use crate::transfer::Vertices;
 use crate::transfer::brdf::{Brdf, ExitBasis};
 use crate::transfer::file::save_prt;
-use crate::transfer::{Tangents, Vertices};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -58,9 +54,8 @@ enum KindArg {
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    // Names come from the one list of built models, `meshes`.
-    #[arg(value_name = "MODEL", help = transfer_model_help())]
-    model: PathBuf,
+    #[command(flatten)]
+    of: ModelArgs,
 
     /// Kind of transfer at a vertex
     #[arg(long, value_enum, value_name = "KIND", default_value = "diffuse")]
@@ -93,11 +88,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "C", default_value = "scalar", value_parser = channels_of())]
     channels: &'static [usize],
 
-    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
-    /// axis X,Y,Z
-    #[arg(long, value_name = "FROM", default_value = "any", value_parser = tangents, allow_hyphen_values = true)]
-    tangents: Tangents,
-
     /// Size D of the quadrature over each hemisphere, 18 to 255. From 40 on D / 2 + 1 rings of D + 2 directions
     /// of different heights; below, rings of D + 1 directions, each ring of one height
     #[arg(long, value_name = "D", default_value_t = 44, value_parser = number::whole::<u16>(18..=255))]
@@ -106,13 +96,6 @@ pub(super) struct Args {
     /// Bounces: interreflections before the reflection towards the eye
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = number::whole::<u32>(0..=100))]
     bounces: u32,
-
-    /// The file to write
-    #[arg(long, value_name = "X.npz")]
-    out: PathBuf,
-
-    #[command(flatten)]
-    caster: CasterOptions,
 }
 
 /// Values of `--channels`: the channels of transfer; red, green and blue are 0, 1 and 2.
@@ -136,9 +119,8 @@ fn rows(text: &str) -> Result<ExitBasis, String> {
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let exit = exit(args)?;
-    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let scatterer = scatterer(args)?;
-    let (model, vertices) = load(&args.model, args.tangents, None, refused)?;
+    let (caster, model, vertices) = args.of.load(None)?;
     let precomputation = Precomputation {
         mesh: &model.mesh,
         vertices: &vertices,
@@ -152,7 +134,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");
     let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;
     let found = precomputation.run_by(&mut caster, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
-    save_prt(&found.file, &args.out).map_err(Problem::from)?;
+    save_prt(&found.file, &args.of.out).map_err(Problem::from)?;
     let mut findings = findings(args, &vertices, &found);
     if let Some(record) = caster.record() {
         let host = precomputation.run(&mut |what, done, of| bar.show(format!("{what} of the host"), done, of))?;
@@ -227,6 +209,6 @@ fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
         (unclear.len(), "vertices lie on triangles that face each other"),
     ];
     note_vertices(&mut found, vertices, &more);
-    written(&mut found, [("out", Some(args.out.as_path()))]);
+    written(&mut found, [("out", Some(args.of.out.as_path()))]);
     found
 }

@@ -1,23 +1,56 @@
 //! The model of a `.npz` file: its mesh, and the vertices to which the transfer belongs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use refsim::machine::ExecutorKind;
 use serde_json::json;
 
-use crate::cli::model_name::{self, Model};
+use super::values::tangents;
+use crate::cli::model_name::{self, Model, transfer_model_help};
 use crate::cli::words::counted;
 use crate::cli::{Problem, model_file};
 use crate::error::InputError;
 use crate::report::Findings;
 use crate::scene::Material;
+use crate::study::caster::{CasterChoice, CasterOptions};
 use crate::study::prt::creased;
 use crate::transfer::file::{MeshDigest, require_mesh};
+use crate::transfer::visibility::VisibilityCounts;
 use crate::transfer::{Tangents, Vertices};
+
+/// A model whose transfer is computed, and the file for it.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct ModelArgs {
+    // Names come from the one list of built models, `meshes`.
+    #[arg(value_name = "MODEL", help = transfer_model_help())]
+    model: PathBuf,
+
+    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
+    /// axis X,Y,Z
+    #[arg(long, value_name = "FROM", default_value = "any", value_parser = tangents, allow_hyphen_values = true)]
+    tangents: Tangents,
+
+    /// The file to write
+    #[arg(long, value_name = "X.npz")]
+    pub(in crate::cli) out: PathBuf,
+
+    #[command(flatten)]
+    caster: CasterOptions,
+}
+
+impl ModelArgs {
+    /// The caster, the model, and its vertices.
+    pub(in crate::cli) fn load(&self, crease: Option<f64>) -> miette::Result<(CasterChoice, Model, Vertices)> {
+        let caster = self.caster.choose(ExecutorKind::Batch.into())?;
+        let (model, vertices) = load(&self.model, self.tangents, crease, refused)?;
+        Ok((caster, model, vertices))
+    }
+}
 
 /// Loads the model, and its vertices, at which transfer is computed. If tangents come from texture coordinates, a file
 /// is read as a mesh without materials, since scenes have no texture coordinates. A crease angle in degrees recomputes
 /// normals, smooth over edges up to this angle. `refused` converts the reason why there can be no vertices.
-pub(in crate::cli) fn load(
+fn load(
     path: &Path,
     tangents: Tangents,
     crease: Option<f64>,
@@ -62,6 +95,16 @@ pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, m
     for (count, what) in of_model.iter().chain(more).filter(|(count, _)| *count > 0) {
         found.print(format!("note      {} {what}", counted(*count)));
     }
+}
+
+/// Adds the counts of traced visibility.
+pub(in crate::cli) fn note_rays(found: &mut Findings, counts: &VisibilityCounts) {
+    found.fields(json!({
+        "directions_above": counts.above, "rays_traced": counts.traced, "directions_visible": counts.visible,
+        "unclear_vertices": counts.unclear,
+    }));
+    let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
+    found.print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon see light"));
 }
 
 /// Reason why the transfer of a model cannot be computed.

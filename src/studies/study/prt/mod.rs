@@ -5,7 +5,6 @@
 mod all_frequency;
 mod bi_scale;
 mod card;
-mod exit_radiance;
 mod factor;
 mod interpolate;
 mod lit_view;
@@ -25,13 +24,13 @@ pub use card::{
     AllFrequencyOnCard, BiScaleOnCard, CardSetting, OnCard, PictureVariant, PixelErrors, factored_precision,
     variants_table,
 };
-pub(super) use exit_radiance::Lit;
 pub use factor::{BrdfFactors, FactorSubject};
 pub(super) use factor::{SweptRoughness, roughness_table};
 pub(super) use interpolate::SeenSurface;
 pub use lit_view::LitView;
 pub(super) use lit_view::{auto_exposure, light_picture, linear_picture, of_texels};
 pub use precompute::{ExitRadiance, Precomputation, Precomputed, Scatterer};
+pub(super) use render::Lit;
 pub use render::Rendering;
 
 library_errors! {

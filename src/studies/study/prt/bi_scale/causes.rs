@@ -3,8 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::subject::{BiScaleRendering, LocalLight, no_mesh_transfer};
-use super::surface::SurfacePixel;
+use super::subject::{BiScaleRendering, LocalLight, SurfacePixel, no_mesh_transfer};
 use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::paper;
 use crate::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene};

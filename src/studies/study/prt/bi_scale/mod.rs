@@ -2,12 +2,9 @@
 //! errors.
 
 mod causes;
-mod drawing;
 mod render;
 mod subject;
-mod surface;
 
 pub(in crate::study) use causes::CausePictures;
-pub(in crate::study) use drawing::BiScaleDrawing;
-pub use subject::{BiScaleRendering, SurfaceTexture};
-pub use surface::{TexturedSurface, creased};
+pub(in crate::study) use render::BiScaleDrawing;
+pub use subject::{BiScaleRendering, SurfaceTexture, TexturedSurface, creased};

@@ -3,10 +3,9 @@
 
 use serde_json::json;
 
-use super::difference::PixelErrors;
+use super::errors::{PictureVariant, PixelErrors, report_blame, report_sweep};
 use super::factored::{exact_pixels, factored_precision, seen_by, ways_of_precision};
 use super::setting::{CardSetting, HostPicture, report_sizes};
-use super::sweep::{PictureVariant, report_blame, report_sweep};
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
 use crate::all_frequency::on_card::{

@@ -6,9 +6,8 @@ use refsim::event::Event;
 use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
-use super::difference::{PixelErrors, held};
+use super::errors::{PictureVariant, PixelErrors, held, report_blame, report_sweep};
 use super::setting::{CardSetting, HostPicture, report_sizes};
-use super::sweep::{PictureVariant, report_blame, report_sweep};
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::kernels::BlockEdges;

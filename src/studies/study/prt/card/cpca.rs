@@ -7,9 +7,8 @@ use refsim::event::Event;
 use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
-use super::difference::{PixelErrors, held};
+use super::errors::{PictureVariant, PixelErrors, held, report_sweep};
 use super::setting::{CardSetting, HostPicture, report_sizes};
-use super::sweep::{PictureVariant, report_sweep};
 use crate::card::{MeshView, SeenPixel, seen_pixels};
 use crate::clustering::Clustering;
 use crate::cpca::on_card::time::host_of_section_7;
@@ -17,7 +16,7 @@ use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, WeightFo
 use crate::geom::vector::wide;
 use crate::report::{Cell, Findings, Provenance};
 use crate::sphere::HarmonicLight;
-use crate::study::prt::exit_radiance::no_transfer;
+use crate::study::prt::render::no_transfer;
 use crate::study::prt::{Lit, LitView, SeenSurface, no_cpca_card};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::Vertices;

@@ -6,8 +6,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::difference::PixelErrors;
-use super::sweep::PictureVariant;
+use super::errors::{PictureVariant, PixelErrors};
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
 use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products, vertex_radiance};
 use crate::all_frequency::on_card::{

@@ -6,15 +6,13 @@
 mod all_frequency;
 mod bi_scale;
 mod cpca;
-mod difference;
+mod errors;
 mod factored;
 mod setting;
-mod sweep;
 
 pub use all_frequency::AllFrequencyOnCard;
 pub use bi_scale::BiScaleOnCard;
 pub use cpca::OnCard;
-pub use difference::PixelErrors;
+pub use errors::{PictureVariant, PixelErrors, variants_table};
 pub use factored::factored_precision;
 pub use setting::CardSetting;
-pub use sweep::{PictureVariant, variants_table};

@@ -8,7 +8,7 @@ use refsim::texture::TexelFormat;
 use refsim::timing::host::{HostError, HostModel};
 use serde_json::json;
 
-use super::difference::{PixelErrors, STEPS, held};
+use super::errors::{PixelErrors, STEPS, held};
 use crate::card::SeenPixel;
 use crate::card::frame_time::{FrameTime, FrameTimeError, frame_time};
 use crate::error::InputError;

@@ -3,8 +3,7 @@
 mod report;
 mod sphere;
 mod subject;
-mod sweep;
 mod tables;
 
 pub use subject::{BrdfFactors, FactorSubject};
-pub(in crate::study) use sweep::{SweptRoughness, roughness_table};
+pub(in crate::study) use subject::{SweptRoughness, roughness_table};
