@@ -79,7 +79,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     write_sight(&vertices, of_model, reflectance, (path, None), &mut found)?;
     note_vertices(&mut found, &vertices, &[]);
     caster.record().iter().for_each(|record| record.report(&mut found));
-    let below = ground.map(|ground| -> miette::Result<_> {
+    let below = ground.as_ref().map(|ground| -> miette::Result<_> {
         let [path, model] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
         let name = path_from(&path, &model).into_diagnostic()?;
         let (maps, mut below) = (of_ground.counted_from(count), Findings::new("Visibility"));

@@ -112,8 +112,9 @@ impl TextureArgs {
     }
 
     /// The files of the picture: transfer, textures, light and model.
-    fn files<'a>(&'a self, out: &'a Path, transfer: &'a PathBuf, picture: &'a PictureArgs) -> StudyFiles<'a> {
-        let files = self.texture.iter().filter(|texture| texture.patch().is_none()).map(|texture| &texture.source);
+    fn files<'a>(&'a self, out: &'a Path, transfer: &'a Path, picture: &'a PictureArgs) -> StudyFiles<'a> {
+        let files = self.texture.iter().filter(|texture| texture.patch().is_none());
+        let files = files.map(|texture| texture.source.as_path());
         StudyFiles::new(Some(out), picture.inputs([transfer].into_iter().chain(files)))
     }
 

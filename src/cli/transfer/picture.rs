@@ -38,8 +38,11 @@ pub(in crate::cli) struct PictureArgs {
 
 impl PictureArgs {
     /// The input files of a picture: these, and the files of light and model.
-    pub(in crate::cli) fn inputs<'a>(&'a self, files: impl IntoIterator<Item = &'a PathBuf>) -> Vec<&'a Path> {
-        let files = files.into_iter().map(PathBuf::as_path);
+    pub(in crate::cli) fn inputs<'a, P: AsRef<Path> + ?Sized + 'a>(
+        &'a self,
+        files: impl IntoIterator<Item = &'a P>,
+    ) -> Vec<&'a Path> {
+        let files = files.into_iter().map(P::as_ref);
         files.chain(self.light.file()).chain(model_name::named_file(&self.model)).collect()
     }
 

@@ -9,9 +9,10 @@ use crate::clustering::{Clustering, Signal};
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
-use crate::picture::rgb8;
+use crate::picture::{RgbImage, rgb8};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color};
+use crate::scene::Camera;
 use crate::sphere::{HarmonicLight, MAX_ORDER, harmonics};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::Vertices;
@@ -116,18 +117,21 @@ impl Rendering {
     /// Adds a picture of the cluster of each pixel's nearest vertex.
     fn clusters(&self, seen: &SeenSurface, found: &mut Findings) {
         let Some(clustering) = &self.file.clustering else { return };
-        let color =
-            |vertex: Option<u32>| vertex.map_or([0; 3], |vertex| cluster_color(clustering.of_point()[vertex as usize]));
-        let image = rgb8(self.view.camera.width(), self.view.camera.height(), seen.nearest().map(color));
+        let of_vertex = |vertex: u32| Some(clustering.of_point()[vertex as usize]);
+        let image = cluster_picture(seen, &self.view.camera, of_vertex);
         found.heading("Clusters");
         let caption = format!("{} clusters, each in a color of its own", clustering.subspaces().len());
         found.pictures(vec![NamedPicture::new("clusters", image, caption)]);
     }
 }
 
-pub(in crate::study) fn cluster_color(cluster: u32) -> [u8; 3] {
+/// The cluster of each pixel's nearest vertex, each in a color of its own; black if there is none.
+pub(super) fn cluster_picture(seen: &SeenSurface, camera: &Camera, of_vertex: impl Fn(u32) -> Option<u32>) -> RgbImage {
     let random = CounterRng::new(0);
-    [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3)
+    let color =
+        |cluster: u32| [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3);
+    let colors = seen.nearest().map(|vertex| vertex.and_then(&of_vertex).map_or([0; 3], color));
+    rgb8(camera.width(), camera.height(), colors)
 }
 
 /// Meaning of the numbers at a vertex, and a light with the same number of functions.

@@ -3,10 +3,9 @@
 use serde_json::json;
 
 use super::model::LitModel;
-use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
-use crate::study::prt::render::cluster_color;
+use crate::study::prt::render::cluster_picture;
 use crate::study::prt::{SeenSurface, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::light::LightTruncation;
@@ -99,13 +98,9 @@ impl LitModel {
         let pictures = largest.into_iter().take(CLUSTER_PICTURES).map(|part| {
             let mut of_vertex = vec![None; self.model.vertices.len()];
             for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
-                of_vertex[vertex as usize] = Some(cluster);
+                of_vertex[vertex as usize] = Some(u32::from(cluster));
             }
-            let color = |vertex: Option<u32>| {
-                let cluster = vertex.and_then(|vertex| of_vertex.get(vertex as usize).copied().flatten());
-                cluster.map_or([0; 3], |cluster| cluster_color(u32::from(cluster)))
-            };
-            let image = rgb8(self.view.camera.width(), self.view.camera.height(), seen.nearest().map(color));
+            let image = cluster_picture(seen, &self.view.camera, |vertex| *of_vertex.get(vertex as usize)?);
             let name = format!("clusters-{}", part.segment);
             let caption =
                 format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
