@@ -47,7 +47,6 @@ impl LitArgs {
         StudyFiles::new(Some(out), self.picture.inputs(files))
     }
 
-    /// The model under its light.
     fn load(&self) -> miette::Result<LitModel> {
         let file = load_all_frequency(&self.file, None)?;
         let (model, mesh) = part(file, &self.file, &self.picture.model)?;
@@ -144,7 +143,6 @@ Examples:
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/all_frequency.md explains all of it.";
 
-/// The part of the work that the card does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum WayArg {
     /// None: the host computes vertex colors, which are interpolated

@@ -31,10 +31,8 @@ docs/papers/all_frequency.md explains the options.";
 
 /// Isotropy of Schlick's model, as in the paper.
 const ISOTROPY: f64 = 0.2;
-/// Exponent of Phong's model.
 const EXPONENT: f64 = 20.0;
 
-/// Reflectance models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum ModelArg {
     /// Cook and Torrance 1982
@@ -126,7 +124,6 @@ impl Args {
         given::refuse(foreign, &format!("other models than {name}"), "leave it out, or choose another `--brdf`")
     }
 
-    /// The model with its name.
     fn model(&self, model: ModelArg) -> Result<(&'static str, FactorSubject), Problem> {
         self.refuse_others(model)?;
         let [roughness, fresnel] = [self.roughness, self.fresnel];

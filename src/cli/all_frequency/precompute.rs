@@ -95,11 +95,9 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// A ground below a model.
 struct Ground {
     mesh: Mesh,
     vertices: Vertices,
-    /// The model on it.
     scene: Mesh,
 }
 

@@ -72,7 +72,6 @@ impl FromStr for TextureArg {
 }
 
 impl TextureArg {
-    /// The kind of a named patch.
     fn patch(&self) -> Option<PatchKind> {
         self.source.to_str().and_then(|name| name.parse().ok())
     }
@@ -160,7 +159,6 @@ impl TextureArgs {
     }
 }
 
-/// Error for a model that cannot have textures.
 fn no_coordinates(model: &Path, error: impl Display) -> Problem {
     Problem::usage(format!("{}: {error}", model.display()), "name a model with texture coordinates (`vt`)")
 }

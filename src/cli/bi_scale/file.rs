@@ -79,7 +79,6 @@ pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
     table
 }
 
-/// Values with their counts, as JSON.
 pub(super) fn values_document(values: &[(f64, u64)]) -> Vec<Value> {
     values.iter().map(|(value, count)| json!({ "value": value, "count": count })).collect()
 }

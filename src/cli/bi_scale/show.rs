@@ -71,7 +71,6 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// Writes the matrix of a file in text form.
 fn write_text(file: &BiScaleFile, name: &Path, path: &Path) -> Result<(), Problem> {
     let refused = |error: String| Problem::usage(error, "name another file");
     let sum = match (&file.matrix, &file.biclusters) {

@@ -61,7 +61,6 @@ pub(super) struct Args {
     sheet: Option<PathBuf>,
 }
 
-/// The name of a patch without relief.
 const PLAIN: &str = "plain";
 /// Maximum length of a table of heights, in bytes (1 GiB).
 const MAX_BYTES: u64 = 1 << 30;
@@ -111,7 +110,6 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     Ok(found)
 }
 
-/// Loads a patch by its name, or from a file of heights.
 fn patch_of(source: &Path) -> miette::Result<MesoPatch> {
     let name = source.to_str().unwrap_or_default();
     if let Ok(kind) = name.parse::<PatchKind>() {

@@ -33,7 +33,6 @@ CSV and NumPy arrays hold a row per point. The output file holds the clusters an
 
 /// Maximum number of iterations per number of vectors, and maximum number of rounds of redistribution.
 const ITERATIONS: usize = 10;
-/// Seed of the start points.
 const SEED: u64 = 1;
 
 /// Compress transfer, or any signal, by clustered principal components
@@ -113,7 +112,6 @@ impl Args {
         self.method.unwrap_or(CpcaMethod::Iterative)
     }
 
-    /// Options of the compression.
     fn options(&self, signal: &Signal) -> Result<CpcaOptions, Problem> {
         let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
         let (clusters, vectors) = (self.clusters.unwrap_or(256), self.vectors.unwrap_or(most.min(8)));

@@ -19,7 +19,6 @@ Examples:
 
 The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
-/// Number of eigenvalues in a table.
 const EIGENVALUES: usize = 4;
 
 /// Show the contents of a .npz file: header, clusters with spectra
@@ -69,7 +68,6 @@ fn all(file: &PrtFile, found: &mut Findings) {
     found.table(spectra(clustering));
 }
 
-/// Table of clusters with their sizes and largest eigenvalues.
 fn spectra(clustering: &Clustering) -> Table {
     let mut headings = vec!["cluster".to_owned(), "points".to_owned(), "vectors".to_owned()];
     headings.extend((1..=EIGENVALUES).map(|number| format!("eigenvalue {number}")));

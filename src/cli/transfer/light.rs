@@ -17,12 +17,10 @@ use crate::tracer::HostTracer;
 use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
 
-/// Forms of light.
 pub(in crate::cli) const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
      radius), sky:X,Y,Z (towards the sun), red-and-blue, scene:SCENE@X,Y,Z (as seen from a place in a \
      scene), a lat-long, angular-probe, cube-cross or cube-strip picture (EXR, HDR, PNG); for all-frequency and \
      bi-scale also a table of a cube's texels (.csv) or of small sources (.sources.csv)";
-/// The default light.
 pub(in crate::cli) const DEFAULT_LIGHT: &str = "sky:1,-1,1";
 
 /// Samples per texel of light in a scene.
@@ -88,7 +86,6 @@ impl DistantLightArg {
         }
     }
 
-    /// A short name of the light.
     pub(in crate::cli) fn name(&self) -> String {
         match self {
             Self::Constant(_) => "a constant light".to_owned(),

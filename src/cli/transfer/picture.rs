@@ -46,7 +46,6 @@ impl PictureArgs {
         files.chain(self.light.file()).chain(model_name::named_file(&self.model)).collect()
     }
 
-    /// The view of the model under the light.
     pub(in crate::cli) fn view(&self, mesh: &Mesh) -> miette::Result<LitView> {
         let (model, light) = (self.model.display().to_string(), self.light.name());
         Ok(LitView { model, light, camera: self.eye.framing(mesh, self.size)?, exposure: self.exposure })

@@ -33,7 +33,6 @@ pub struct LitView {
 }
 
 impl LitView {
-    /// Returns the exposure for linear radiance of pixels.
     pub(super) fn exposure_of(&self, linear: &[[f64; 3]]) -> f64 {
         self.exposure.unwrap_or_else(|| auto_exposure(linear))
     }
@@ -42,17 +41,8 @@ impl LitView {
         format!("{} under {}", self.model, self.light)
     }
 
-    /// The pixels of the camera as a picture.
     pub(super) fn picture(&self, colors: &[[f64; 3]]) -> Picture {
         linear_picture(&self.camera, colors)
-    }
-
-    /// Picture of the light, from its radiance by direction.
-    pub(super) fn light_picture(
-        &self,
-        radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
-    ) -> Result<NamedPicture, InputError> {
-        light_picture("light", &self.light, radiance)
     }
 
     /// Findings that begin with a drawn picture, a picture of its light, and the sentence about the number of pixels
@@ -69,7 +59,7 @@ impl LitView {
         found.taken_from(self.camera.world_to_camera());
         let picture = self.picture(drawn);
         let shown = NamedPicture::new("picture", picture.display(exposure)?, self.caption());
-        found.pictures(vec![shown, self.light_picture(radiance)?]);
+        found.pictures(vec![shown, light_picture("light", &self.light, radiance)?]);
         found.keep_layers("picture", picture);
         found.field("exposure", json!(exposure));
         let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
@@ -96,7 +86,6 @@ impl LitView {
     }
 }
 
-/// Mean of a color's channels.
 pub(super) fn mean(color: &[f64; 3]) -> f64 {
     color.iter().sum::<f64>() / 3.0
 }

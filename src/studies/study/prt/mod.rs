@@ -39,13 +39,11 @@ library_errors! {
     LightSizeError => "crossbar::prt::segments";
 }
 
-/// Error of a card that should display compressed transfer.
 pub(super) fn no_cpca_card(error: CardError) -> StudyError {
     let help = "`crossbar cpca render` draws on the host, without a card's limits; `crossbar devices` lists cards";
     StudyError::from(error).with_help(help)
 }
 
-/// Error of a card that should display all-frequency transfer.
 pub(super) fn no_all_frequency_card(error: CardError) -> StudyError {
     StudyError::from(error).with_help(
         "`--way colors` runs on every card; `crossbar all-frequency render` draws on the host, without a card's limits",

@@ -72,7 +72,6 @@ impl Rendering {
         Ok(seen.colors(&lit.radiance(&exit, &self.vertices, wide(self.view.camera.eye())), [0.0; 3]))
     }
 
-    /// Compares pictures from the original and from the clusters.
     fn compare(
         &self,
         seen: &SeenSurface,
@@ -211,7 +210,6 @@ impl<'a> Lit<'a> {
     }
 }
 
-/// Error for a signal that is not transfer.
 pub(super) fn no_transfer() -> StudyError {
     let help = "compress a file that `crossbar cpca precompute` wrote";
     StudyError::new("crossbar::prt::meaning", "expected transfer, found a signal that is not transfer").with_help(help)

@@ -60,7 +60,6 @@ fn conclude(drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
 }
 
 impl LitModel {
-    /// Compares pictures of coded and uncompressed transfer.
     fn compare(
         &self,
         seen: &SeenSurface,

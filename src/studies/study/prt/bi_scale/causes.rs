@@ -108,7 +108,6 @@ impl CausePictures {
         if whole > 0.0 { 100.0 * (differences(one, other).squares() / whole).sqrt() } else { 0.0 }
     }
 
-    /// Table with a row per cause.
     pub(in crate::study) fn table(&self, title: &str) -> Table {
         let row = |(step, cause): (&[Vec<[f64; 3]>], &(&str, String))| {
             [
@@ -122,7 +121,6 @@ impl CausePictures {
         table.with(self.pictures.windows(2).zip(&self.causes).map(row))
     }
 
-    /// Reports the pictures, with the ray-traced picture.
     pub(super) fn report(
         &self,
         rendering: &BiScaleRendering,
@@ -155,7 +153,6 @@ impl CausePictures {
     }
 }
 
-/// Differences over all channels.
 fn differences(one: &[[f64; 3]], other: &[[f64; 3]]) -> ErrorSums {
     let mut sums = ErrorSums::default();
     one.iter().flatten().zip(other.iter().flatten()).for_each(|(&a, &b)| sums.add(value_error(a, b), 1.0));

@@ -89,7 +89,6 @@ impl<'a> BiScaleDrawing<'a> {
         Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.view.camera), lookups })
     }
 
-    /// The light's texels.
     pub(in crate::study) fn cube(&self) -> Result<CubeLight, InputError> {
         self.rendering.light.cube()
     }

@@ -81,7 +81,6 @@ impl LocalLight {
     }
 }
 
-/// Error for a file whose matrix is not the transfer of a mesh.
 pub(super) fn no_mesh_transfer() -> StudyError {
     let help = "name what `crossbar bi-scale precompute` wrote, or its biclusters";
     let what = "expected transfer of a mesh, found another matrix";

@@ -110,7 +110,6 @@ fn coarser(of: CodeOptions) -> impl Iterator<Item = (&'static str, u8, CodeOptio
 }
 
 impl AllFrequencyOnCard {
-    /// The model, then the ground.
     fn meshes<'a>(&'a self, transferred: &'a [TransferredRadiance]) -> Vec<TransferredMesh<'a>> {
         self.lit.parts().zip(transferred).map(|(part, transferred)| part.on_card(transferred)).collect()
     }

@@ -64,7 +64,6 @@ struct CardLight {
     log: Vec<Event>,
 }
 
-/// A picture drawn by the card.
 struct Drawn {
     pixels: Vec<[f64; 3]>,
     counts: DisplayCounts,
@@ -115,7 +114,6 @@ impl BiScaleOnCard {
         TexturedMesh { vertices, coordinates, textures, texture_of }
     }
 
-    /// The directions of light of a texture.
     fn directions(&self) -> usize {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
@@ -146,7 +144,6 @@ impl BiScaleOnCard {
         Ok(CardLight { local, counts: card.counts(), log })
     }
 
-    /// Draws the display pass.
     fn draw(
         &self,
         local: &[[f32; 3]],

@@ -153,7 +153,6 @@ fn sizes(card: &PrtCard<'_>, transfer: &CompressedTransfer<'_>) -> impl Iterator
     rows.map(|(what, number)| (what, number.into())).into_iter().chain([("overdraw", overdraw)])
 }
 
-/// A variant of the reference picture.
 struct Choice {
     /// The varied setting.
     axis: &'static str,

@@ -64,7 +64,6 @@ pub(super) fn exact_pixels(
     seen.par_iter().map(pixel).collect()
 }
 
-/// Choices for a reflectance of several terms.
 fn choices_of_products(terms: usize) -> Vec<Choice> {
     let all_channels = SetLayout { terms, channels: 3, view: ViewNumbers::default() };
     // One channel per pass if three do not fit.
@@ -126,7 +125,6 @@ fn choices(meshes: &[TransferredMesh<'_>]) -> Vec<Choice> {
     all
 }
 
-/// Number of pictures of [`factored_precision`].
 pub(super) fn ways_of_precision(meshes: &[TransferredMesh<'_>]) -> u64 {
     choices(meshes).len() as u64
 }

@@ -16,7 +16,7 @@ use crate::picture::metrics::value_error;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::study::StudyError;
-use crate::study::prt::LitView;
+use crate::study::prt::{LitView, light_picture};
 use crate::study::timeline_trace;
 
 /// The card that draws.
@@ -172,12 +172,11 @@ impl<'a> HostPicture<'a> {
                             "not_finite": errors.not_finite },
             "exposure": self.exposure,
         }));
-        found.pictures(vec![self.view.light_picture(light)?]);
+        found.pictures(vec![light_picture("light", &self.view.light, light)?]);
         Ok((found, errors))
     }
 }
 
-/// Adds a table of sizes and counts.
 pub(super) fn report_sizes(sizes: impl IntoIterator<Item = (&'static str, Cell)>, found: &mut Findings) {
     let rows = sizes.into_iter().map(|(what, number)| [what.into(), number]);
     found.heading("What is drawn");

@@ -39,7 +39,6 @@ pub(super) fn radiance(f: &(dyn Fn(DVec3, DVec3) -> f64 + Sync)) -> Vec<f64> {
     (0..SIZE * SIZE).into_par_iter().map(pixel).collect()
 }
 
-/// Radiances as a grey picture.
 pub(super) fn picture(radiance: &[f64]) -> Picture {
     let pixels: Vec<[f32; 3]> = radiance.iter().map(|&value| [value as f32; 3]).collect();
     Picture::rgb(SIZE, SIZE, &pixels)

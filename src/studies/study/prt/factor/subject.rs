@@ -66,7 +66,6 @@ impl FactorSubject {
         }
     }
 
-    /// The table of f.
     pub(super) fn table(
         &self,
         sampling: &FactorSampling,
@@ -82,7 +81,6 @@ impl FactorSubject {
 /// Pixels per degree of the observer: a screen 0.7 m wide with 3,840 pixels seen from 0.7 m, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 
-/// Result for one roughness.
 pub(in crate::study) struct SweptRoughness {
     pub(in crate::study) roughness: f64,
     pub(in crate::study) relative_squared_error: f64,
