@@ -17,7 +17,7 @@ use crate::clustering::CpcaMethod;
 use crate::kept::{KeptResults, KeptWork, SpentTime};
 use crate::options::number;
 use crate::report::{Cell, Findings, Table};
-use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
+use crate::study::prt::{SegmentTally, SegmentedCompression};
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::SegmentCensus;
 
@@ -114,12 +114,12 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
 fn findings(
     args: &Args,
     (coded, taken): (&CodedTransfer, usize),
-    tally: &CompressionTally,
+    tallies: &[SegmentTally],
     census: &SegmentCensus,
     raw: u64,
 ) -> Findings {
     let mut found = Findings::new("Transfer by segments");
-    found.table(segments(&tally.segments));
+    found.table(segments(tallies));
     let segment = |part: &SegmentTally| {
         json!({
             "segment": part.segment, "vertices": part.vertices, "clusters": part.clusters, "squares": part.squares,
@@ -131,10 +131,11 @@ fn findings(
     // Weights and representatives in single precision.
     let clustered = 4 * (all + weights) as u64;
     let blocks: usize = coded.segments.iter().map(|part| part.representatives.block_count()).sum();
-    let squares = tally.sum(|part| part.squares);
-    let after = tally.sum(|part| part.coded_squared_error) / squares;
-    let before = tally.sum(|part| part.squared_error) / squares;
-    let [transfer, clusters, code] = [0, 1, 2].map(|step| tally.sum(|part| part.seconds[step]));
+    let sum = |of: &dyn Fn(&SegmentTally) -> f64| tallies.iter().map(of).sum::<f64>();
+    let squares = sum(&|part| part.squares);
+    let after = sum(&|part| part.coded_squared_error) / squares;
+    let before = sum(&|part| part.squared_error) / squares;
+    let [transfer, clusters, code] = [0, 1, 2].map(|step| sum(&|part| part.seconds[step]));
     found.fields(json!({
         "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
@@ -146,7 +147,7 @@ fn findings(
                              "weights": size.weights, "steps": size.steps, "clusters": size.clusters } },
         "squared_error": after, "squared_error_before_coding": before,
         "seconds": { "transfer": transfer, "clusters": clusters, "code": code },
-        "segments": tally.segments.iter().map(segment).collect::<Vec<_>>(),
+        "segments": tallies.iter().map(segment).collect::<Vec<_>>(),
     }));
     let percent = |part: f64, whole: f64| 100.0 * part / whole;
     found.print(format!("segments  {:.1} % of all hold transfer", 100.0 * census.omega()));

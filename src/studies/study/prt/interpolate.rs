@@ -10,6 +10,7 @@ use crate::geom::{Hit, Mesh, Ray};
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
 use crate::transfer::Vertices;
+use crate::transfer::brdf::ExitBasis;
 
 /// The surface point at each pixel: corners of a triangle and weights with sum 1, or `None`.
 pub(in crate::study) struct SeenSurface {
@@ -71,19 +72,14 @@ impl SeenSurface {
     }
 
     /// Radiance of each pixel: exit coefficients towards the view vector, both interpolated as on a card, but without
-    /// rounding. `functions` evaluates the functions of exit radiance at a direction.
-    pub(super) fn radiance(
-        &self,
-        exit: &[Vec<[f64; 3]>],
-        view: &[DVec3],
-        functions: &(dyn Fn(DVec3, &mut [f64]) + Sync),
-    ) -> Vec<[f64; 3]> {
+    /// rounding.
+    pub(super) fn radiance(&self, exit: &[Vec<[f64; 3]>], view: &[DVec3], basis: &ExitBasis) -> Vec<[f64; 3]> {
         let color = |pixel: &Option<([u32; 3], DVec3)>| {
             let Some((corners, weights)) = pixel else { return [0.0; 3] };
             let parts = || corners.iter().zip(weights.to_array());
             let towards = parts().map(|(&corner, weight)| weight * view[corner as usize]).sum::<DVec3>();
             let mut y = vec![0.0; exit[corners[0] as usize].len()];
-            functions(towards.normalize_or_zero(), &mut y);
+            basis.values(towards.normalize_or_zero(), &mut y);
             let of = |row: usize, channel: usize| -> f64 {
                 parts().map(|(&corner, weight)| weight * exit[corner as usize][row][channel]).sum()
             };

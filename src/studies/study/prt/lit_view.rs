@@ -116,7 +116,7 @@ pub(in crate::study) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
     if mean > 0.0 { MIDDLE_GREY / mean } else { 1.0 }
 }
 
-fn single_picture(width: u32, height: u32, colors: &[[f64; 3]]) -> Picture {
+pub(super) fn single_picture(width: u32, height: u32, colors: &[[f64; 3]]) -> Picture {
     let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
     Picture::rgb(width, height, &single)
 }

@@ -17,7 +17,7 @@ use crate::card::frame_time::FrameTimeError;
 use crate::study::StudyError;
 use crate::study::error::library_errors;
 
-pub use all_frequency::{CompressionTally, LitModel, LitPart, SegmentTally, SegmentedCompression};
+pub use all_frequency::{LitModel, LitPart, SegmentTally, SegmentedCompression};
 pub(super) use bi_scale::{BiScaleDrawing, CausePictures};
 pub use bi_scale::{BiScaleRendering, SurfaceTexture, TexturedSurface, creased};
 pub use card::{

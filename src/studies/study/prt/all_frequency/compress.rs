@@ -54,20 +54,6 @@ pub struct SegmentTally {
     pub seconds: [f64; 3],
 }
 
-/// Errors and sizes of all segments.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CompressionTally {
-    /// Segment by segment, without empty ones.
-    pub segments: Vec<SegmentTally>,
-}
-
-impl CompressionTally {
-    /// Sums a figure over segments.
-    pub fn sum(&self, of: impl Fn(&SegmentTally) -> f64) -> f64 {
-        self.segments.iter().map(of).sum()
-    }
-}
-
 impl SegmentedCompression<'_> {
     /// Bytes of raw transfer in single precision, of all 24 segments at all vertices.
     pub fn raw_bytes(&self) -> u64 {
@@ -75,9 +61,9 @@ impl SegmentedCompression<'_> {
         4 * self.vertices.len() as u64 * numbers as u64
     }
 
-    /// Compresses and codes all segments. Fails if transfer cannot be computed, compressed or coded, or finished
+    /// Compresses and codes all segments; empty ones are left out. Fails if transfer cannot be computed, compressed or coded, or finished
     /// segments cannot be stored or read back.
-    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
+    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, Vec<SegmentTally>), StudyError> {
         let hats = LinearBasis::new(self.hats);
         let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
         let count = Segmentation::Quarters.count();
@@ -97,7 +83,7 @@ impl SegmentedCompression<'_> {
         let (segments, tallies) = found.into_iter().flatten().unzip();
         let (rows, coefficients) = (self.reflectance.terms(), Segmentation::Quarters.len());
         let coded = CodedTransfer { rows, coefficients, vertices: self.vertices.len(), options: self.code, segments };
-        Ok((coded, CompressionTally { segments: tallies }))
+        Ok((coded, tallies))
     }
 
     /// Compresses and codes a segment, whose transfer took `seconds` to compute.

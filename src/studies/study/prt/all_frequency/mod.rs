@@ -5,6 +5,6 @@ mod compress;
 mod model;
 mod render;
 
-pub use compress::{CompressionTally, SegmentTally, SegmentedCompression};
+pub use compress::{SegmentTally, SegmentedCompression};
 pub(super) use model::singles;
 pub use model::{LitModel, LitPart};

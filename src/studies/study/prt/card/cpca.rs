@@ -110,7 +110,7 @@ impl OnCard {
         let (eye, vertices) = (wide(self.view.camera.eye()), &self.vertices);
         let towards = |vertex: usize| vertices.frames()[vertex].to_local(eye - wide(vertices.positions()[vertex]));
         let view: Vec<DVec3> = (0..vertices.len()).map(towards).collect();
-        SeenSurface::by_raster(seen).radiance(exit, &view, &|direction, y| basis.values(direction, y))
+        SeenSurface::by_raster(seen).radiance(exit, &view, basis)
     }
 
     /// Draws a picture: the card, radiance times exposure per pixel as the target holds it, and the work of host and

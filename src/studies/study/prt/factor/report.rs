@@ -9,7 +9,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
 use crate::report::{Findings, FoundTable, NamedPicture};
 use crate::sphere::function_count;
-use crate::study::prt::lit_view::signed_picture;
+use crate::study::prt::lit_view::{auto_exposure, signed_picture};
 use crate::study::{ProgressFn, Study, StudyError};
 
 impl Study for BrdfFactors {
@@ -91,8 +91,8 @@ impl BrdfFactors {
             self.subject.with_product(|product| sphere::radiance(&|view, light| product.value(view, light).min(limit)));
         let of_table = sphere::radiance(&|view, light| table.interpolated(view, light));
         let of_terms = sphere::radiance(&|view, light| factors.product(view, light));
-        let exposure = sphere::exposure(&of_table);
-        let named = |name: &str, radiance: &[f64], caption: String| -> Result<NamedPicture, StudyError> {
+        let exposure = auto_exposure(&of_table);
+        let named = |name: &str, radiance: &[[f64; 3]], caption: String| -> Result<NamedPicture, StudyError> {
             Ok(NamedPicture::new(name, sphere::picture(radiance).display(exposure)?, caption))
         };
         let mut pictures = Vec::new();
@@ -101,7 +101,7 @@ impl BrdfFactors {
         }
         pictures.push(named("table", &of_table, "f interpolated from its table".to_owned())?);
         pictures.push(named("approximation", &of_terms, format!("by terms: {}", factors.terms()))?);
-        let difference: Vec<f64> = of_terms.iter().zip(&of_table).map(|(terms, table)| terms - table).collect();
+        let difference: Vec<f64> = of_terms.iter().zip(&of_table).map(|(terms, table)| terms[0] - table[0]).collect();
         let largest = difference.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         if largest > 0.0 {
             pictures.push(signed_picture("difference", "terms minus table:", sphere::SIZE, &difference, largest));

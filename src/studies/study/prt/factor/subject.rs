@@ -8,6 +8,7 @@ use crate::error::{InputError, ensure};
 use crate::picture::metrics::{ScreenPicture, flip};
 use crate::report::{Cell, Table};
 use crate::study::StudyError;
+use crate::study::prt::auto_exposure;
 use crate::transfer::brdf::Brdf;
 
 /// A reflectance to be factored.
@@ -121,8 +122,8 @@ impl BrdfFactors {
             sphere::radiance(&|view, light| lobe.value(view, light).min(limit)),
             sphere::radiance(&|view, light| factors.product(view, light)),
         ];
-        let exposure = sphere::exposure(&original);
-        let screen = |radiance: &[f64]| ScreenPicture::new(&sphere::picture(radiance), exposure);
+        let exposure = auto_exposure(&original);
+        let screen = |radiance: &[[f64; 3]]| ScreenPicture::new(&sphere::picture(radiance), exposure);
         let seen = flip(&screen(&original)?, &screen(&drawn)?, PIXELS_PER_DEGREE);
         Ok(SweptRoughness {
             roughness,

@@ -7,6 +7,7 @@ use super::scene::FigureScene;
 use super::{EntryFindings, Shared, StudyError, models, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::report::{Cell, Table};
+use crate::study::prt::SegmentTally;
 
 /// Numbers of representatives; the last is the paper's.
 const VECTORS: [usize; 4] = [1, 4, 8, 16];
@@ -26,7 +27,8 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (mut errors, mut counts) = (Vec::new(), [0, 0]);
     for vectors in VECTORS {
         let (coded, tally) = surface.coded(models::options(size, vectors))?;
-        let squared = tally.sum(|part| part.coded_squared_error) / tally.sum(|part| part.squares);
+        let sum = |of: fn(&SegmentTally) -> f64| tally.iter().map(of).sum::<f64>();
+        let squared = sum(|part| part.coded_squared_error) / sum(|part| part.squares);
         table.push([vectors.into(), Cell::measured(squared)]);
         errors.push(squared);
         counts = [coded.clusters(), coded.segments.len()];
