@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use miette::IntoDiagnostic;
 use serde_json::json;
 
-use super::path_from;
+use super::precompute::path_from;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency, save_all_frequency};

@@ -7,9 +7,6 @@ mod lighting;
 mod precompute;
 mod show;
 
-use std::io;
-use std::path::{Component, Path, PathBuf, absolute};
-
 use super::{CommandLine, Out, Verdict, study};
 
 const EXAMPLES: &str = "\
@@ -59,13 +56,4 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
         Verb::Card(args) => return study::run(args, command_line, out),
     };
     study::show(&found, out)
-}
-
-/// Relative path from a file's folder to another file.
-fn path_from(file: &Path, to: &Path) -> io::Result<String> {
-    let [file, to] = [absolute(file)?, absolute(to)?];
-    let (from, to) = (file.parent().unwrap_or(&file).components(), to.components());
-    let shared = from.clone().zip(to.clone()).take_while(|(a, b)| a == b).count();
-    let up = from.skip(shared).map(|_| Component::ParentDir);
-    Ok(up.chain(to.skip(shared)).collect::<PathBuf>().to_string_lossy().into_owned())
 }

@@ -1,13 +1,13 @@
 //! `crossbar all-frequency precompute`: visibility at the vertices of a model.
 
 use std::fmt::Display;
+use std::io;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf, absolute};
 
 use miette::IntoDiagnostic;
 use serde_json::json;
 
-use super::path_from;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::ProductFactors;
 use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
@@ -143,6 +143,15 @@ fn write_sight(
     }
     written(found, [("out", Some(path))]);
     Ok(())
+}
+
+/// Relative path from a file's folder to another file.
+pub(super) fn path_from(file: &Path, to: &Path) -> io::Result<String> {
+    let [file, to] = [absolute(file)?, absolute(to)?];
+    let (from, to) = (file.parent().unwrap_or(&file).components(), to.components());
+    let shared = from.clone().zip(to.clone()).take_while(|(a, b)| a == b).count();
+    let up = from.skip(shared).map(|_| Component::ParentDir);
+    Ok(up.chain(to.skip(shared)).collect::<PathBuf>().to_string_lossy().into_owned())
 }
 
 /// Reads the factors that `crossbar all-frequency factor` wrote into a folder.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::card::SeenPixel;
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
-use crate::geom::{Hit, Mesh, Ray};
+use crate::geom::{Hit, Mesh};
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
 use crate::transfer::Vertices;
@@ -36,20 +36,14 @@ impl SeenSurface {
         let mut first = 0;
         for (mesh, vertices) in parts {
             let (hits, _) = HostTracer::new(mesh, Sides::Front).nearest_all(&rays);
-            let pixel = |(ray, hit): (&Ray, &Option<Hit>)| {
-                let hit = hit.as_ref()?;
+            nearest.par_iter_mut().zip(&rays).zip(&hits).for_each(|((nearest, ray), hit)| {
+                let is_nearer = |hit: &&Hit| nearest.is_none_or(|(before, ..)| hit.t < before);
+                let Some(hit) = hit.as_ref().filter(is_nearer) else { return };
                 let corners = vertices.triangles()[hit.triangle as usize];
                 let places = corners.map(|corner| wide(vertices.positions()[corner as usize]));
                 let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
-                Some((hit.t, corners.map(|corner| corner + first), weights(at, places)))
-            };
-            let found: Vec<_> = rays.par_iter().zip(&hits).map(pixel).collect();
-            for (nearest, found) in nearest.iter_mut().zip(found) {
-                let is_nearer = |&(t, ..): &(f32, [u32; 3], DVec3)| nearest.is_none_or(|(before, ..)| t < before);
-                if let Some(found) = found.filter(is_nearer) {
-                    *nearest = Some(found);
-                }
-            }
+                *nearest = Some((hit.t, corners.map(|corner| corner + first), weights(at, places)));
+            });
             first += vertices.len() as u32;
         }
         let pixels = nearest.into_iter().map(|pixel| pixel.map(|(_, corners, weights)| (corners, weights)));
@@ -90,16 +84,7 @@ impl SeenSurface {
 
     /// The vertex with the largest weight at each pixel.
     pub(in crate::study) fn nearest(&self) -> impl Iterator<Item = Option<u32>> + '_ {
-        let nearest = |weights: DVec3| {
-            if weights.x >= weights.max_element() {
-                0
-            } else if weights.y >= weights.z {
-                1
-            } else {
-                2
-            }
-        };
-        self.pixels.iter().map(move |pixel| pixel.map(|(corners, weights)| corners[nearest(weights)]))
+        self.pixels.iter().map(|pixel| pixel.map(|(corners, weights)| corners[weights.max_position()]))
     }
 }
 
