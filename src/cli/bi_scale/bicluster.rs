@@ -115,8 +115,8 @@ fn made(matrix: &SparseMatrix) -> Result<Biclustering, InputError> {
     bicluster(matrix, SEED, &mut found)
 }
 
-/// Bytes by layout: dense as bytes and as floats; compressed rows with columns and values of 2 and 1 bytes, and of 4 and
-/// 4; biclusters with 4 bytes per row and 4 + 4 per column, as in the paper.
+/// Bytes by layout: dense as bytes and as floats; compressed rows with columns and values of 2 and 1 bytes, and of 4
+/// and 4; biclusters with 4 bytes per row and 4 + 4 per column, as in the paper.
 fn bytes(matrix: &SparseMatrix, biclusters: &Biclustering) -> [u64; 5] {
     let [rows, columns, nonzeros] = [matrix.rows(), matrix.columns(), matrix.nonzeros()].map(|count| count as u64);
     let begins = 4 * (rows + 1);

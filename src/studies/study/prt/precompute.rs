@@ -92,7 +92,7 @@ impl Precomputed {
     }
 }
 
-/// Responses of a channel's materials, and responses to light that enters the medium below the surface, with its dipole.
+/// Responses of a channel's materials, and to light that enters the medium below the surface, with its dipole.
 type ChannelResponses = (Vec<Response>, Option<(Vec<Response>, Dipole)>);
 
 impl Precomputation<'_> {

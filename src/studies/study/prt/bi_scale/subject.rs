@@ -59,8 +59,8 @@ pub(in crate::study) struct LocalLight {
 }
 
 impl LocalLight {
-    /// The light times a file's transfer, by its biclusters in f32 if it has any, otherwise by its matrix in f64; `None`
-    /// without both. Panics if the transfer does not have one column per light texel.
+    /// The light times a file's transfer, by its biclusters in f32 if it has any, otherwise by its matrix in f64;
+    /// `None` without both. Panics if the transfer does not have one column per light texel.
     pub(super) fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
         let light = side_by_side(light_vectors(light));

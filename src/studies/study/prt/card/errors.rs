@@ -1,5 +1,5 @@
-//! Errors of a card's picture: per pixel of its raster, by the step that causes them, and of variants, in which one number
-//! format, map or target is changed at a time, and everything else is computed almost without rounding.
+//! Errors of a card's picture: per pixel of its raster, by the step that causes them, and of variants, in which one
+//! number format, map or target is changed at a time, and everything else is computed almost without rounding.
 
 use crate::card::SeenPixel;
 use crate::picture::metrics::{ErrorSums, value_error};
