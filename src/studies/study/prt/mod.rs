@@ -1,6 +1,7 @@
-//! Precomputed radiance transfer: from a model to a file ([`Precomputation`]), pictures ([`Rendering`]), pictures by
-//! an emulated card ([`OnCard`]), and factors of a reflectance ([`BrdfFactors`]). The same for all-frequency transfer: [`SegmentedCompression`], [`LitModel`],
-//! [`AllFrequencyOnCard`]. For bi-scale transfer: [`BiScaleRendering`], [`BiScaleOnCard`].
+//! Precomputed radiance transfer: from a model to a file ([`Precomputation`]), pictures ([`Rendering`]), pictures by an
+//! emulated card ([`OnCard`]), and factors of a reflectance ([`BrdfFactors`]). The same for all-frequency transfer:
+//! [`SegmentedCompression`], [`LitModel`], [`AllFrequencyOnCard`]. For bi-scale transfer: [`BiScaleRendering`],
+//! [`BiScaleOnCard`].
 
 mod all_frequency;
 mod bi_scale;

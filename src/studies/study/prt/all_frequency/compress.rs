@@ -61,8 +61,8 @@ impl SegmentedCompression<'_> {
         4 * self.vertices.len() as u64 * numbers as u64
     }
 
-    /// Compresses and codes all segments; empty ones are left out. Fails if transfer cannot be computed, compressed or coded, or finished
-    /// segments cannot be stored or read back.
+    /// Compresses and codes all segments; empty ones are left out. Fails if transfer cannot be computed, compressed or
+    /// coded, or finished segments cannot be stored or read back.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, Vec<SegmentTally>), StudyError> {
         let hats = LinearBasis::new(self.hats);
         let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);

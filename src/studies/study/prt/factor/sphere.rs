@@ -15,8 +15,8 @@ pub(super) const SIZE: u32 = 160;
 /// the eye looks along y.
 const LIGHTS: [(DVec3, f64); 2] = [(DVec3::new(-0.5, -0.6, 0.62), PI), (DVec3::new(0.9, 0.35, 0.1), 0.5 * PI)];
 
-/// Radiance of each pixel towards the eye, grey, rows from the top; 0 outside the sphere. `f` is reflectance times cosine,
-/// by local view and light directions; tangents run along the circles of latitude.
+/// Radiance of each pixel towards the eye, grey, rows from the top; 0 outside the sphere. `f` is reflectance times
+/// cosine, by local view and light directions; tangents run along the circles of latitude.
 pub(super) fn radiance(f: &(dyn Fn(DVec3, DVec3) -> f64 + Sync)) -> Vec<[f64; 3]> {
     let at = |place: u32| (2.0 * f64::from(place) + 1.0) / f64::from(SIZE) - 1.0;
     let pixel = |pixel: u32| {
