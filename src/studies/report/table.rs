@@ -33,6 +33,13 @@ impl Table {
         Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
 
+    /// Adds rows, each as [`Table::push`] does.
+    #[must_use]
+    pub fn with<R: IntoIterator<Item = Cell>>(mut self, rows: impl IntoIterator<Item = R>) -> Self {
+        rows.into_iter().for_each(|row| self.push(row));
+        self
+    }
+
     /// Adds a row; missing cells are empty, surplus ones are dropped.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();

@@ -6,7 +6,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::shade::{Shader, exit_radiance};
-use crate::study::prt::{CompressionTally, SegmentedCompression};
+use crate::study::prt::{SegmentTally, SegmentedCompression};
 use crate::transfer::light::HaarLight;
 use crate::transfer::visibility::VisibilityMaps;
 
@@ -23,7 +23,7 @@ pub(super) struct Surface<'a> {
 
 impl Surface<'_> {
     /// Compresses and encodes the transfer.
-    pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, CompressionTally), StudyError> {
+    pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, Vec<SegmentTally>), StudyError> {
         let (shared, name) = self.pieces;
         let name = format!("{name}-{}-", options.vectors);
         let compression = SegmentedCompression {

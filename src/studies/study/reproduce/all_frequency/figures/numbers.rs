@@ -7,6 +7,7 @@ use super::scene::FigureScene;
 use super::{EntryFindings, Shared, StudyError, models, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::report::{Cell, Table};
+use crate::study::prt::SegmentTally;
 
 const TERMS: [usize; 7] = [1, 2, 4, 6, 8, 10, 16];
 
@@ -45,7 +46,8 @@ pub(super) fn figure_5(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (mut errors, mut counts) = (Vec::new(), [0, 0]);
     for vectors in VECTORS {
         let (coded, tally) = surface.coded(models::options(size, vectors))?;
-        let squared = tally.sum(|part| part.coded_squared_error) / tally.sum(|part| part.squares);
+        let sum = |of: fn(&SegmentTally) -> f64| tally.iter().map(of).sum::<f64>();
+        let squared = sum(|part| part.coded_squared_error) / sum(|part| part.squares);
         table.push([vectors.into(), Cell::measured(squared)]);
         errors.push(squared);
         counts = [coded.clusters(), coded.segments.len()];
