@@ -371,7 +371,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--expr=x/3 --fpcore=fixtures/fpbench/suite.fpcore --range=x=2..3 --samples=31 --seed=5 --draw=reals \
                   --uniform=f0=0.5,0.5,0.5 --goal=mean_relative<=0.01 --held-back=docs/examples/lerp.toml --device=r300 --switch=mad=fused --family=fixed --budget=7 \
-                  --costs=docs/examples/multiplier_area.csv --out=other",
+                  --out=other",
     },
     Tried { bases: &["page --out OUT"], options: "--out=other --emulator=missing.wasm" },
 ];

@@ -139,11 +139,6 @@ impl<'a> Runs<'a> {
         Ok(self.subject.measure(device, Some(&self.goal.measure))?)
     }
 
-    /// Measures everything for the report, outside of the budget.
-    pub(super) fn shown(&self, device: &Profile) -> Result<Measured, StudyError> {
-        self.subject.measure(device, None)
-    }
-
     fn spend(&mut self) -> Result<(), RunError> {
         if self.made >= self.budget {
             return Err(RunError::Budget);
