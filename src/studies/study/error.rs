@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
+use miette::{Diagnostic, LabeledSpan, SourceCode};
 use refsim::device::DeviceError;
 
 use crate::error::InputError;
@@ -121,14 +121,6 @@ impl Diagnostic for StudyError {
         self.0.help.as_ref().map(|help| Box::new(help) as _).or_else(|| self.shown()?.help())
     }
 
-    fn severity(&self) -> Option<Severity> {
-        self.shown()?.severity()
-    }
-
-    fn url<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.shown()?.url()
-    }
-
     fn source_code(&self) -> Option<&dyn SourceCode> {
         self.shown()?.source_code()
     }
@@ -139,10 +131,6 @@ impl Diagnostic for StudyError {
 
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
         self.shown()?.related()
-    }
-
-    fn diagnostic_source(&self) -> Option<&dyn Diagnostic> {
-        self.shown()?.diagnostic_source()
     }
 }
 

@@ -98,7 +98,7 @@ impl Study for Parameters {
         progress("pictures", 0, 1);
         let view = MeshView { camera, exposure, format: TexelFormat::Bgra8 };
         let maps = PrtCardOptions { map_format: TexelFormat::Rgba16Snorm, ..PrtCardOptions::default() };
-        let (glossy, time) = bunny.timed(&bunny_light, (&radeon, &executor), &view, &maps)?;
+        let (glossy, time) = bunny.draw(&bunny_light, (&radeon, &executor), &view, &maps)?;
         clock.step("the bunny", &radeon, "a frame".to_owned(), time);
         let floats = MeshView { format: TexelFormat::Rgba32f, ..view };
         let (marble, time) =

@@ -31,7 +31,7 @@ pub(super) fn glossy_bunny() -> Result<System, StudyError> {
     Ok(System::picture("Clustered principal components: a glossy bunny", move |input, profile, executor| {
         // The paper's card sums clusters by blending, which it cannot do with floats.
         let view = MeshView { camera: cameras[input], exposure: 0.8, format: TexelFormat::Bgra8 };
-        let colors = model.draw(&light, (profile, executor), &view, &PrtCardOptions::default())?;
+        let (colors, _) = model.draw(&light, (profile, executor), &view, &PrtCardOptions::default())?;
         // The 8-bit codes, which were read in single precision.
         Ok(colors.into_iter().map(|color| color.map(|value| (255.0 * value).round() / 255.0)).collect())
     }))
