@@ -180,21 +180,32 @@ impl Args {
         Ok(study)
     }
 
+    /// The study of a case or a system.
     fn precision(&self, case: &Path) -> miette::Result<Precision> {
+        let both = vec![FormatFamily::Float, FormatFamily::Fixed];
+        Ok(Precision {
+            subject: self.subject(case)?,
+            goal: self.goal.clone(),
+            families: self.family.clone().map_or(both, |Families(families)| families),
+            budget: self.budget.unwrap_or(BUDGET),
+        })
+    }
+
+    fn subject(&self, case: &Path) -> miette::Result<Box<dyn PrecisionSubject>> {
         if let Some(system) = self.system() {
             let of_cases = [("--held-back", self.held_back.is_some()), ("--uniform", !self.uniform.is_empty())];
             given::refuse(of_cases, "cases", "leave it out: a system has inputs of its own")?;
             let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
-            return Ok(self.of(system.subject(profile)?));
+            return Ok(system.subject(profile)?);
         }
         let systems: Vec<&str> = PaperSystem::iter().map(Into::into).collect();
         given::require_file(case, "system", &systems, "toml")?;
-        let mut subject = self.case(case)?;
+        let name = case.file_stem().unwrap_or_default().to_string_lossy();
+        let mut subject = CaseSubject::new(self.setup(case, &self.uniform)?, &name)?;
         if let Some(path) = &self.held_back {
-            let (other, _) = self.setup(path, &[])?;
-            subject = subject.holding_back(&other, &path.display().to_string())?;
+            subject = subject.holding_back(&self.setup(path, &[])?, &path.display().to_string())?;
         }
-        Ok(self.of(Box::new(subject)))
+        Ok(Box::new(subject))
     }
 
     /// The system that is named in place of a case.
@@ -202,27 +213,10 @@ impl Args {
         self.case.as_ref()?.to_str()?.parse().ok()
     }
 
-    fn case(&self, path: &Path) -> miette::Result<CaseSubject> {
-        let (setup, name) = self.setup(path, &self.uniform)?;
-        Ok(CaseSubject::new(setup, &name)?)
-    }
-
-    /// A case on the device that the options choose, and its name.
-    fn setup(&self, path: &Path, uniforms: &[Uniform]) -> miette::Result<(Setup, String)> {
+    /// A case on the device that the options choose.
+    fn setup(&self, path: &Path, uniforms: &[Uniform]) -> miette::Result<Setup> {
         let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
         let (switches, uniforms) = (self.switch.clone(), uniforms.to_vec());
-        let overrides = Overrides { device, switches, uniforms, ..Overrides::default() };
-        let setup = Setup::read_with(path, &overrides)?;
-        Ok((setup, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
-    }
-
-    fn of(&self, subject: Box<dyn PrecisionSubject>) -> Precision {
-        let both = vec![FormatFamily::Float, FormatFamily::Fixed];
-        Precision {
-            subject,
-            goal: self.goal.clone(),
-            families: self.family.clone().map_or(both, |Families(families)| families),
-            budget: self.budget.unwrap_or(BUDGET),
-        }
+        Ok(Setup::read_with(path, &Overrides { device, switches, uniforms, ..Overrides::default() })?)
     }
 }

@@ -10,7 +10,6 @@ use refsim::num::{Format, Unpacked, from_f64, from_parts, ops, to_f64, unpack};
 
 use super::graph::{Graph, Operation};
 use super::real::{Dyadic, End, Function, Real, RealInterval, apply};
-use super::special::special;
 
 /// Numbers of bits of computations over the reals, tried in this order until the rounded result is decided.
 pub(super) const PRECISIONS: [u64; 8] = [96, 192, 384, 768, 1536, 3072, 6144, 12_288];
@@ -238,7 +237,7 @@ impl Arithmetic {
         let is_regular = |bits: &u64| matches!(self.decode(*bits), FormatNumber::Finite(x) if !x.is_zero());
         let special = || {
             let values: Vec<f64> = operands.iter().map(|&bits| self.value(bits)).collect();
-            self.rounded(special(function, &values))
+            self.rounded(function.special(&values))
         };
         if !operands.iter().all(is_regular) {
             return special();
@@ -267,7 +266,7 @@ impl Arithmetic {
                 matches!(function, F::Add | F::Subtract | F::Multiply | F::Divide | F::Sqrt | F::Negate | F::Abs);
             return is_exact.then(|| {
                 let values: Vec<f64> = operands.iter().map(|&bits| f64::from_bits(bits)).collect();
-                self.rounded(special(function, &values))
+                self.rounded(function.special(&values))
             });
         }
         let Self::Number(format) = self else { return None };

@@ -13,6 +13,7 @@ use crossbar_studies::report::Verdict;
 use crossbar_studies::study::Study as _;
 use crossbar_studies::study::precision::{CaseSubject, FormatFamily, Precision, PrecisionSubject};
 use refsim::device::{Profile, takes_format};
+use refsim::isa::Program;
 use refsim::num::Format;
 use serde_json::Value;
 
@@ -79,14 +80,11 @@ impl Layout {
     /// Layouts with one bit less: floats keep at least two exponent bits and a mantissa bit, fixed point a bit in
     /// addition to its sign.
     fn narrower(self) -> Vec<String> {
-        let (family, floor) = (self.family, if self.family == FormatFamily::Float { [2, 1] } else { [0, 0] });
         let digits = self.digits.checked_sub(1).map(|digits| Self { digits, ..self });
         let range = self.range.checked_sub(1).map(|range| Self { range, ..self });
-        let is_legal = |less: &Self| {
-            let [range, digits] = floor;
-            less.range >= range
-                && less.digits >= digits
-                && (family == FormatFamily::Float || less.range + less.digits > 0)
+        let is_legal = |less: &Self| match self.family {
+            FormatFamily::Float => less.range >= 2 && less.digits >= 1,
+            FormatFamily::Fixed => less.range + less.digits > 0,
         };
         digits.into_iter().chain(range).filter(is_legal).map(|less| less.to_string()).collect()
     }
@@ -105,14 +103,23 @@ fn digits(cell: &Value) -> Option<u8> {
     cell.as_str().map(|text| Layout::of(text).digits)
 }
 
-/// Device for a subject with one program: registers in single precision, and a format per instruction.
-fn device_with(subject: &dyn PrecisionSubject, formats: &[String]) -> Profile {
+/// Device of the exact run: registers in single precision.
+fn exact_device(subject: &dyn PrecisionSubject) -> Profile {
     let mut device = subject.profile().clone();
     let single = Format::FP32.with_specials(device.rules.format.specials);
     device.set_format(single).expect("single precision is a format of registers");
-    let program = subject.programs()[0].program;
-    let places = (0..program.instructions.len()).filter(|at| takes_format(&program.instructions[*at]));
-    let own = places.zip(formats).map(|(at, text)| (at, text.parse().expect("a format"))).collect();
+    device
+}
+
+/// Instructions that can have their own format.
+fn places(program: &Program) -> impl Iterator<Item = usize> {
+    (0..program.instructions.len()).filter(|at| takes_format(&program.instructions[*at]))
+}
+
+/// Device for a subject with one program, with a format per instruction.
+fn device_with(subject: &dyn PrecisionSubject, formats: &[String]) -> Profile {
+    let (mut device, program) = (exact_device(subject), subject.programs()[0].program);
+    let own = places(program).zip(formats).map(|(at, text)| (at, text.parse().expect("a format"))).collect();
     assert!(device.set_instruction_formats(program, own));
     device
 }
