@@ -4,7 +4,7 @@ use super::bits::{FormatBits, FormatFamily, NAMED};
 use super::curve::Curve;
 use super::goal::Goal;
 use super::half::{HalfExpression, half_expressions};
-use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
+use super::instructions::{InstructionNeeds, blame, fewest_bits, loss};
 use super::runs::{RunError, Runs};
 use super::search::{MixedFormats, STARTS, assignment, search};
 use super::subject::PrecisionSubject;
@@ -32,8 +32,8 @@ pub struct Precision {
 #[derive(Debug)]
 pub(super) struct FamilyOutcome {
     pub(super) curve: Curve,
-    /// Format with one bit less than the smallest uniform format.
-    pub(super) blamed: Option<BlamedFormat>,
+    /// Format with one bit less than the smallest uniform format; blame divides its loss among the instructions.
+    pub(super) blamed: Option<FormatBits>,
     /// Findings by instruction.
     pub(super) needs: Vec<InstructionNeeds>,
     /// Assignment with the fewest bits that was found.
@@ -188,11 +188,12 @@ impl FamilyOutcome {
 
     /// Computes the blame of each instruction; returns their indices, least blamed first.
     fn share_blame(&mut self, minimum: FormatBits, runs: &mut Runs<'_>) -> Result<Vec<usize>, RunError> {
-        let blamed = blamed_format(minimum, runs)?;
-        self.blamed = Some(blamed);
-        for (place, needs) in self.needs.iter_mut().enumerate() {
-            blame(needs, place, blamed, runs)?;
-        }
+        runs.step("blame");
+        // The narrowest format has no narrower neighbor.
+        let bits = minimum.narrower().next().unwrap_or(minimum);
+        let all = loss(runs, &runs.uniform(bits))?;
+        self.blamed = Some(bits);
+        blame(&mut self.needs, (bits, all), runs)?;
         let blame = |place: &usize| self.needs[*place].blame.unwrap_or(0.0);
         let mut order: Vec<usize> = (0..self.needs.len()).collect();
         order.sort_by(|a, b| blame(a).total_cmp(&blame(b)));

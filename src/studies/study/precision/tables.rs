@@ -142,7 +142,7 @@ pub(super) fn family(found: &mut Findings, family: &FamilyOutcome, runs: &Runs<'
             "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
              Blame is the share of the loss with all instructions in {} that remains if only this one is; regained is \
              the share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
-            blamed.bits,
+            blamed,
             percent(sum),
             additivity(sum),
         ));
