@@ -1,4 +1,4 @@
-//! Tests of the steps after a search: held-back input and refutations.
+//! Tests of held-back input.
 
 use crossbar_studies::study::StudyError;
 
@@ -28,12 +28,4 @@ fn mixed_formats_are_tried_on_input_that_was_held_back() {
     let other = holding_back(&sum(0.25).replace("rgba32f", "rgba8"), &sum(0.25));
     let message = other.err().expect("no codes").to_string();
     assert_eq!(message, "other: expected a case with the measure `largest_codes`, found none");
-}
-
-#[test]
-fn a_refutation_has_its_place() {
-    let study = study(&sum(0.25), "largest_absolute=0", &[FormatFamily::Float]);
-    let document = document(&study);
-    let places = column(&document, "refuted_float", "largest_error_at_column_row");
-    assert!(!places.is_empty() && places.iter().all(|place| place.is_string()), "{document}");
 }
