@@ -100,7 +100,7 @@ pub(super) struct ProductRow {
 }
 
 /// Everything that was computed.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct ProductOutcome {
     pub(super) shape: [usize; 3],
     pub(super) depths: Vec<usize>,
@@ -128,14 +128,8 @@ impl MatrixProduct {
         let ([rows, depth], columns) = (self.factors[0].shape()?, self.factors[1].shape()?[1]);
         let depths: Vec<usize> = (0..POINTS).rev().map(|half| depth >> half).filter(|&depth| depth > 0).collect();
         let steps = (self.units.len() * self.promotions.len() + 1) as u64;
-        let mut outcome = ProductOutcome {
-            shape: [rows, depth, columns],
-            depths: depths.clone(),
-            rows: Vec::new(),
-            blame: None,
-            fewest_bits: None,
-            rarest_promotion: None,
-        };
+        let mut outcome =
+            ProductOutcome { shape: [rows, depth, columns], depths: depths.clone(), ..ProductOutcome::default() };
         let against = self.against.map(|unit| self.operands(&unit)).transpose()?;
         for (index, unit) in self.units.iter().enumerate() {
             progress(unit.name, outcome.rows.len() as u64, steps);
