@@ -9,7 +9,7 @@ use super::uniform::{self, Uniform};
 use super::{given, switch};
 use crate::case::{Overrides, Setup};
 use crate::options::number;
-use crate::options::one_of::{OneOf, one_of};
+use crate::options::one_of::{OneOf, one_of, variants};
 use crate::study::Study;
 use crate::study::precision::{
     CaseSubject, ExpressionStudy, FormatFamily, Goal, InputDraw, PaperSystem, Precision, PrecisionSubject,
@@ -72,7 +72,7 @@ pub(super) struct Args {
     seed: Option<u64>,
 
     /// Distribution of the inputs of an expression [default: floats]
-    #[arg(long, value_parser = draws())]
+    #[arg(long, value_parser = variants::<InputDraw>())]
     draw: Option<InputDraw>,
 
     /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 for expressions and where no
@@ -121,13 +121,6 @@ fn families() -> OneOf<Families> {
         ("float", "Floats", Families(vec![FormatFamily::Float])),
         ("fixed", "Fixed point", Families(vec![FormatFamily::Fixed])),
         ("both", "Both", Families(both)),
-    ])
-}
-
-fn draws() -> OneOf<InputDraw> {
-    one_of([
-        ("floats", "Every number of the format is equally likely, as in Herbie", InputDraw::Floats),
-        ("reals", "Every real number of the range is equally likely, then rounded", InputDraw::Reals),
     ])
 }
 

@@ -13,6 +13,7 @@ use crate::shader::ShaderError;
 ///
 /// A library's error that is a diagnostic is shown unchanged. Others have a code that names the failed step of the
 /// study. [`Self::downcast_ref`] returns the library's error.
+#[derive(Debug)]
 pub struct StudyError(Box<ErrorParts>);
 
 #[derive(Debug, Default)]
@@ -85,12 +86,6 @@ impl StudyError {
             Some(Cause::Diagnostic(error)) => Some(&**error),
             _ => None,
         }
-    }
-}
-
-impl fmt::Debug for StudyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(&self.0, f)
     }
 }
 
