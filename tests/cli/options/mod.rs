@@ -77,6 +77,7 @@ fn every_option_is_in_the_table() {
 fn every_option_changes_something_or_is_refused() {
     let step = by_form(18, 1);
     let lines = TABLE.iter().enumerate().flat_map(|(row, tried)| (0..tried.bases.len()).map(move |at| (row, at)));
+    let lines = lines.filter(|&(row, at)| cfg!(feature = "wgsl") || !TABLE[row].bases[at].contains("wgsl"));
     let mut pairs = 0;
     let lines: Vec<(usize, usize, Vec<TriedOption>)> = lines
         .map(|(row, at)| {
@@ -92,7 +93,7 @@ fn every_option_changes_something_or_is_refused() {
     let told: Vec<OptionFaults> = lines.par_iter().map(|(row, at, options)| tell(*row, *at, options)).collect();
     let faults: Vec<&String> = told.iter().flat_map(|told| &told.faults).collect();
     assert!(faults.is_empty(), "{faults:#?}");
-    if step == 1 {
+    if step == 1 && cfg!(feature = "wgsl") {
         let accepted: BTreeSet<(usize, &str)> = told.iter().flat_map(|told| told.accepted.clone()).collect();
         for (row, tried) in TABLE.iter().enumerate() {
             for TriedOption { name, .. } in tried.options() {
