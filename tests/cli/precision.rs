@@ -40,9 +40,8 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
 }
 
 #[test]
-fn goals_and_costs_that_cannot_be_used_are_explained() {
+fn goals_that_cannot_be_used_are_explained() {
     let root = copy_of_the_repository();
-    fs::write(root.path().join("short.csv"), "bits,cost\n8,1\n").expect("a file");
     let case = fs::read_to_string(root.path().join("docs/examples/lerp.toml")).expect("a case");
     fs::write(root.path().join("other.toml"), case.replace("lrp r0, t0, c0, c1", "mul r0, t0, c0")).expect("a file");
     let run = |options: &[&str]| {
@@ -54,7 +53,6 @@ fn goals_and_costs_that_cannot_be_used_are_explained() {
         run(&["--goal", "leaks"]),
         run(&["--goal", "largest_codes<0"]),
         run(&["--budget", "0"]),
-        run(&["--costs", "short.csv"]),
         run(&["--held-back", "other.toml"]),
         run(&["--held-back", "missing.toml"]),
         crossbar_in(root.path(), &["precision", "cpca", "--held-back", "docs/examples/lerp.toml"], "").transcript(),
