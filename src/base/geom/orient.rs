@@ -47,7 +47,6 @@ impl Mesh {
     }
 
     /// Flips triangles: exchanges their second and third corners. Ids that do not exist are ignored.
-    #[must_use]
     pub fn turned_round(mut self, triangles: &[u32]) -> Self {
         self.turn_round(triangles);
         self

@@ -68,19 +68,16 @@ impl DisagreementKind {
     ];
 
     /// Returns `true` if an existing surface was missed, for this ray and all nearby rays: a hole.
-    #[must_use]
     pub const fn is_leak(self) -> bool {
         matches!(self, Self::Leak | Self::LeakThrough)
     }
 
     /// Returns `true` if a surface was hit that does not exist, for this ray and all nearby rays.
-    #[must_use]
     pub const fn is_false_hit(self) -> bool {
         matches!(self, Self::NoSuchTriangle | Self::FalseHit | Self::BackFace | Self::WrongTriangle)
     }
 
     /// Name: `leak`, `wrong neighbour`.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::NoSuchTriangle => "no such triangle",
@@ -187,9 +184,6 @@ fn found<S: serde::Serializer>(hit: &Option<Hit>, serializer: S) -> Result<S::Ok
 
 impl Disagreement {
     /// Returns the ray with its original bits.
-    ///
-    /// # Errors
-    /// [`InputError`] if the fields have been changed and are not a valid ray any more.
     pub fn ray(&self) -> Result<Ray, InputError> {
         Ray::new(self.origin, self.direction)
     }
@@ -197,7 +191,6 @@ impl Disagreement {
     /// Returns `true` if rounding explains the result: it is correct for a ray within a few ULPs, or it names a
     /// neighbour of the correct triangle and such a ray passes their common edge or vertex, or the two t are equal
     /// within the tolerance.
-    #[must_use]
     pub fn is_rounding(&self) -> bool {
         match self.kind {
             DisagreementKind::Silhouette | DisagreementKind::Start | DisagreementKind::NearTie => true,
@@ -207,7 +200,6 @@ impl Disagreement {
     }
 
     /// Formats the ray and [`Disagreement::corners`] as Rust source for a test; numbers read back to the same bits.
-    #[must_use]
     pub fn literal(&self) -> String {
         let Self { origin, direction, .. } = self;
         let ray = format!("let ray = Ray::new({origin:?}, {direction:?}).unwrap();");

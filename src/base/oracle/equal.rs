@@ -109,9 +109,6 @@ pub fn bits_equal(left: &[f32], right: &[f32]) -> Result<(), Unequal> {
 
 /// Checks that corresponding numbers of two lists are at most `most` steps of f32 apart. +0 and -0 are 0 steps apart,
 /// and so are two NaN; any other distance from NaN or infinity is too large.
-///
-/// # Errors
-/// [`Unequal`] names the first and the largest difference.
 pub fn within_ulps(left: &[f32], right: &[f32], most: u32) -> Result<(), Unequal> {
     let unit = if most == 1 { "ULP" } else { "ULPs" };
     let check = EqualityCheck { what: "numbers", beyond: format!("by more than {most} {unit}") };
@@ -123,9 +120,6 @@ pub fn within_ulps(left: &[f32], right: &[f32], most: u32) -> Result<(), Unequal
 }
 
 /// Checks that two lists of hits are equal: triangles, and t to the bit.
-///
-/// # Errors
-/// [`Unequal`] names the first and the largest difference: a different triangle counts as larger than a different t.
 pub fn hits_equal(left: &[Option<Hit>], right: &[Option<Hit>]) -> Result<(), Unequal> {
     let check = EqualityCheck { what: "hits", beyond: "in their bits".to_owned() };
     let apart = |l: Option<Hit>, r: Option<Hit>| match (l, r) {
@@ -143,9 +137,6 @@ pub fn hits_equal(left: &[Option<Hit>], right: &[Option<Hit>]) -> Result<(), Une
 }
 
 /// Asserts [`bits_equal`].
-///
-/// # Panics
-/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_bits_eq(left: &[f32], right: &[f32]) {
     if let Err(unequal) = bits_equal(left, right) {
@@ -154,9 +145,6 @@ pub fn assert_bits_eq(left: &[f32], right: &[f32]) {
 }
 
 /// Asserts [`within_ulps`].
-///
-/// # Panics
-/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_within_ulps(left: &[f32], right: &[f32], most: u32) {
     if let Err(unequal) = within_ulps(left, right, most) {
@@ -165,9 +153,6 @@ pub fn assert_within_ulps(left: &[f32], right: &[f32], most: u32) {
 }
 
 /// Asserts [`hits_equal`].
-///
-/// # Panics
-/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_hits_eq(left: &[Option<Hit>], right: &[Option<Hit>]) {
     if let Err(unequal) = hits_equal(left, right) {

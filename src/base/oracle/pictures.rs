@@ -87,9 +87,6 @@ pub fn images_equal<S: Sample, const N: usize>(
 }
 
 /// Asserts [`images_equal`].
-///
-/// # Panics
-/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_images_equal<S: Sample, const N: usize>(width: usize, left: &[[S; N]], right: &[[S; N]], most: u32) {
     if let Err(unequal) = images_equal(width, left, right, most) {

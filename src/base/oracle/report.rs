@@ -37,43 +37,36 @@ impl Report {
     }
 
     /// Number of rays judged.
-    #[must_use]
     pub fn rays(&self) -> usize {
         self.rays
     }
 
     /// Number of rays that hit something in exact arithmetic.
-    #[must_use]
     pub fn surface(&self) -> usize {
         self.surface
     }
 
     /// Number of rays for which a hit was found.
-    #[must_use]
     pub fn hits(&self) -> usize {
         self.hits
     }
 
     /// Returns `true` if every result is correct.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.disagreements.is_empty()
     }
 
     /// Wrong results, worst first: by [`DisagreementKind`], then by the error of t, then by index.
-    #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
     }
 
     /// Number of wrong results of one kind.
-    #[must_use]
     pub fn count(&self, kind: DisagreementKind) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind == kind).count()
     }
 
     /// Number of holes: [`DisagreementKind::Leak`] and [`DisagreementKind::LeakThrough`].
-    #[must_use]
     pub fn leaks(&self) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind.is_leak()).count()
     }
@@ -84,13 +77,11 @@ impl Report {
     }
 
     /// Returns the report reduced to some kinds.
-    #[must_use]
     pub fn only(self, wanted: impl Fn(DisagreementKind) -> bool) -> Self {
         self.retain(|wrong| wanted(wrong.kind))
     }
 
     /// Returns the report reduced to some disagreements.
-    #[must_use]
     pub fn retain(mut self, wanted: impl Fn(&Disagreement) -> bool) -> Self {
         self.disagreements.retain(wanted);
         self

@@ -28,13 +28,11 @@ impl Tolerance {
     pub const ANY_T: Self = Self::ulps(u32::MAX);
 
     /// Accepts t within this many steps of f32.
-    #[must_use]
     pub const fn ulps(ulps: u32) -> Self {
         Self { ulps, absolute: 0.0 }
     }
 
     /// Also accepts t within this distance, in multiples of the ray's direction.
-    #[must_use]
     pub const fn or_absolute(self, absolute: f64) -> Self {
         Self { absolute, ..self }
     }

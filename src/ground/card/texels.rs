@@ -37,8 +37,7 @@ impl Texels {
         self.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
     }
 
-    /// A rectangle texture, each value rounded once into the format. Fails if the extents are 0 or too large, or the
-    /// texels do not fill them.
+    /// A rectangle texture, each value rounded once into the format.
     fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
         let extents = extents([self.width, self.height]);
         if format == TexelFormat::Rgba32f {
@@ -82,8 +81,7 @@ impl Texels {
         levels.map(of).collect()
     }
 
-    /// A new texture on a card with these texels. Fails with [`MachineError`] if the texture is impossible, or the card
-    /// does not support the format.
+    /// A new texture on a card with these texels.
     pub fn upload(&self, machine: &mut Machine, format: TexelFormat) -> Result<TextureId, MachineError> {
         machine.create_texture(self.to_image(format)?)
     }
@@ -93,21 +91,18 @@ impl Texels {
         machine.update_texture(texture, &self.to_image(format)?)
     }
 
-    /// Reads back the contents of a target, for which the host waits. Fails with [`MachineError`] if the card has no
-    /// such target.
+    /// Reads back the contents of a target, for which the host waits.
     pub fn read_back(machine: &Machine, target: TextureId) -> Result<Self, MachineError> {
         Ok(Self::from_image(machine.read_back(target)?))
     }
 }
 
-/// A target filled with zeros that can be read as a texture. Fails with [`MachineError`] if the extents are 0 or too
-/// large, or the card cannot draw into the format.
+/// A target filled with zeros that can be read as a texture.
 pub fn new_target(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) -> Result<TextureId, MachineError> {
     machine.create_target_from(Image::new(format, TextureKind::Rectangle, extents(size), 1)?)
 }
 
-/// A texture from texels in order, each number rounded once into the format. Fails with [`MachineError`] if the texels
-/// do not fill the extents, or the card does not support the format.
+/// A texture from texels in order, each number rounded once into the format.
 pub fn new_texture(
     machine: &mut Machine,
     format: TexelFormat,

@@ -16,14 +16,12 @@ pub const MAX_BYTES: u64 = 1 << 26;
 const HEADER: [&str; 6] = ["face", "row", "column", "r", "g", "b"];
 const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 
-/// Reads the texels of a cube map from a file, by face, row and column. Fails with an [`InputError`] that names the
-/// path and, where known, the line.
+/// Reads the texels of a cube map from a file, by face, row and column.
 pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     parse_cube_table(&read_file(path, "table of light", MAX_BYTES)?, path, side)
 }
 
-/// Reads the texels of a cube map from bytes; `name` is the file's name in messages. Fails with an [`InputError`] that
-/// names the line where known. Panics if the side is 0.
+/// Reads the texels of a cube map from bytes; `name` is the file's name in messages.
 pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     assert!(side > 0, "a texel along an edge");
     let place_of = |at: usize| [at / (side * side), at / side % side, at % side];

@@ -7,8 +7,7 @@ use std::path::Path;
 use super::read_limited;
 use crate::error::{FilePlace, InputError, input_error};
 
-/// The contents of a file of at most `limit` bytes; `what` is the kind of file in messages. Fails with [`InputError`]
-/// for a file that cannot be opened or read, or is longer.
+/// The contents of a file of at most `limit` bytes; `what` is the kind of file in messages.
 pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>, InputError> {
     let read = read_limited(path, limit).map_err(|source| unreadable_error(what, path, source))?;
     read.ok_or_else(|| too_long_error(what, path, limit))

@@ -282,16 +282,14 @@ fn half(word: u64) -> f64 {
     f64::from_bits(size.to_bits() | sign)
 }
 
-/// Writes a table as an array of little-endian f4, in version 1. Panics if the number of values is not a multiple of
-/// the columns.
+/// Writes a table as an array of little-endian f4, in version 1.
 pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
     let NumberTable { columns, values } = table;
     assert!(*columns > 0 && values.len().is_multiple_of(*columns), "whole rows");
     write_npy_array(&[values.len() / columns, *columns], values, out)
 }
 
-/// Writes numbers of any shape as an array of little-endian f4, in version 1. Panics if the number of values differs
-/// from the shape's product, or the axes do not fit into a header.
+/// Writes numbers of any shape as an array of little-endian f4, in version 1.
 pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> io::Result<()> {
     assert_eq!(values.len(), shape.iter().product::<usize>(), "as many as the shape says");
     out.write_all(&beginning("<f4", shape))?;

@@ -37,8 +37,7 @@ pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), InputError> 
     if fits { Ok(()) } else { Err(too_long_error("model", name, MAX_BYTES)) }
 }
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics. Fails with an [`InputError`] that
-/// names the line where known.
+/// Reads a mesh from bytes; `name` is the file's name in messages.
 pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_obj(bytes, name, true).map(|(mesh, _)| mesh)
 }

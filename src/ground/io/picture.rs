@@ -22,8 +22,7 @@ pub struct PictureFile {
 }
 
 impl PictureFile {
-    /// Reads a file; its first bytes, not its name, determine the format. Fails with an [`InputError`] that names the
-    /// path, also if [`PictureSize::of`] rejects the file.
+    /// Reads a file; its first bytes, not its name, determine the format.
     pub fn open(path: &Path) -> Result<Self, InputError> {
         let bytes = read_file(path, "picture", MAX_BYTES)?;
         match PictureSize::of(&bytes) {

@@ -29,8 +29,7 @@ const NUMBERS: [&[&str]; 8] =
 /// Names of the used list of a face.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics. Fails with an [`InputError`] that
-/// names the line or element where known.
+/// Reads a mesh from bytes; `name` is the file's name in messages.
 pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_ply(bytes, name, true).map(|(mesh, _)| mesh)
 }

@@ -42,8 +42,7 @@ fn unreadable(path: &Path, source: io::Error) -> InputError {
     unreadable_error("rays", path, source)
 }
 
-/// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid. Fails with an
-/// [`InputError`] that names the line where known.
+/// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid.
 pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, InputError> {
     read_rays(bytes, name)
 }

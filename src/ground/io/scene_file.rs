@@ -103,8 +103,7 @@ pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<Model
     Ok((scene, notes))
 }
 
-/// Reads the mesh's path, the views and the lights from a scene file's text. Fails with [`InputError`]; the mesh is not
-/// read.
+/// Reads the mesh's path, the views and the lights from a scene file's text.
 pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLight>), InputError> {
     let file: File = toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
@@ -148,8 +147,7 @@ pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLi
     Ok((file.mesh, views, lights))
 }
 
-/// The three files of a scene, `stem.toml`, `stem.obj` and `stem.mtl`, with their names. Fails with
-/// [`io::ErrorKind::InvalidInput`] if a material's name cannot be written (see [`super::write_scene`]).
+/// The three files of a scene, `stem.toml`, `stem.obj` and `stem.mtl`, with their names.
 pub fn scene_files(scene: &Scene, stem: &str) -> io::Result<Vec<(String, Vec<u8>)>> {
     let (mesh, library) = (format!("{stem}.obj"), format!("{stem}.mtl"));
     let [mut file, mut obj, mut mtl] = [Vec::new(), Vec::new(), Vec::new()];

@@ -21,8 +21,7 @@ const TRIANGLE: usize = 50;
 
 type Corners = [[f32; 3]; 3];
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics, and allocates memory in proportion to
-/// the file's length only. Fails with an [`InputError`] that names the line or triangle where known.
+/// Reads a mesh from bytes; `name` is the file's name in messages.
 pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_stl(bytes, name, true).map(|(mesh, _)| mesh)
 }

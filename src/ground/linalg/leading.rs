@@ -26,8 +26,7 @@ pub struct LeadingEigen {
 impl LeadingEigen {
     /// Decomposes a symmetric matrix (only the lower triangle is read): computes the eigenvectors of its `count`
     /// largest eigenvalues, or of all if it has fewer. The function is inlined, so that the caller can compile it for
-    /// wider vector instructions, which change no bit. Fails with [`InputError`] if an element is not finite, the
-    /// iteration does not converge, or a pair does not satisfy A v = lambda v. Panics if the matrix is not square.
+    /// wider vector instructions, which change no bit.
     #[inline(always)]
     pub fn new(matrix: &Matrix, count: usize) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");

@@ -32,8 +32,7 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
 
 impl PictureSize {
     /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. The size of an EXR
-    /// file is its largest layer's. Fails with [`InputError`] for a broken header, for a size beyond the limits, and
-    /// for more pixels than the file's bytes can encode.
+    /// file is its largest layer's.
     pub fn of(bytes: &[u8]) -> Result<Self, InputError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::size(bytes),
@@ -53,8 +52,7 @@ impl Picture {
     /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
     /// linear): sRGB values, or linear values if a gAMA or cICP chunk specifies the decoding. Radiance HDR gives linear
     /// values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file, the first layer is read; the
-    /// picture has the size of the display window, with 0 outside the layer's pixels. Fails with [`InputError`]; the
-    /// errors of [`PictureSize::of`] come before any pixel is decoded.
+    /// picture has the size of the display window, with 0 outside the layer's pixels.
     pub fn decode(bytes: &[u8]) -> Result<Self, InputError> {
         PictureSize::of(bytes)?;
         match format_of(bytes) {
@@ -75,8 +73,7 @@ impl Picture {
     }
 }
 
-/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, not converted to linear light. Fails
-/// with [`InputError`]; the errors of [`PictureSize::of`] come before any pixel is decoded.
+/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, not converted to linear light.
 pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, InputError> {
     size_of(bytes, PictureFormat::Png)?;
     Ok(decoded(bytes, PictureFormat::Png)?.into_rgba16())

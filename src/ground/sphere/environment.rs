@@ -12,8 +12,7 @@ use crate::quadrature::{GaussPoint, gauss_legendre};
 
 impl HarmonicLight {
     /// Projects a picture of the whole sphere, with constant radiance over each pixel. Its shape determines its layout.
-    /// Pixels that show no direction are not read. Fails with [`InputError`] if no layout has this shape, the picture
-    /// has no color, or a pixel is NaN or infinite. Panics if the order is not 1 to 10.
+    /// Pixels that show no direction are not read.
     pub fn from_picture(order: usize, picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self::projected(project(&grid, order, &pixels)))
@@ -28,8 +27,7 @@ pub struct EnvironmentPicture {
 }
 
 impl EnvironmentPicture {
-    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read. Fails with
-    /// [`InputError`] if no layout has this shape, the picture has no color, or a pixel is NaN or infinite.
+    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read.
     pub fn new(picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self { grid, pixels })

@@ -31,8 +31,7 @@ pub struct Extremes {
 
 impl Extremes {
     /// Finds the extremes of the function with these coefficients, by local search from the best samples of a grid with
-    /// a spacing of a sixth of the shortest wavelength. Panics if the number of coefficients is not a square of 1 to
-    /// 10.
+    /// a spacing of a sixth of the shortest wavelength.
     pub fn of(coefficients: &[f64]) -> Self {
         let order = order_of(coefficients);
         let grid = DirectionRule::sphere(6 * order);

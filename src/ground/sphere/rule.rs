@@ -27,8 +27,7 @@ pub struct DirectionRule {
 }
 
 impl DirectionRule {
-    /// Creates a rule over the sphere. Degree 2n - 2 integrates products of two functions of order n. Panics if the
-    /// degree exceeds [`MAX_DEGREE`].
+    /// Creates a rule over the sphere. Degree 2n - 2 integrates products of two functions of order n.
     pub fn sphere(degree: usize) -> Self {
         Self::between(-1.0, degree)
     }
@@ -46,7 +45,6 @@ impl DirectionRule {
     ///
     /// Each column integrates polynomials in z exactly. The part of azimuthal frequency m of a polynomial in x, y and z
     /// is a polynomial in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.
-    /// Panics if the size exceeds [`MAX_DEGREE`].
     pub fn spread(size: usize, degree: usize) -> Self {
         assert!(size <= MAX_DEGREE, "a size of at most {MAX_DEGREE}, not {size}");
         let (rings, pairs) = (size / 2 + 1, size / 2 + 1);

@@ -32,8 +32,7 @@ use geometry::Geometry;
 use material::Materials;
 
 /// Reads a scene from the bytes of a glTF file; `name` is the file's name in messages, and `beside` reads a file in the
-/// same folder. The scene has no views and no point lights. Never panics. Fails with an [`InputError`] that names the
-/// part of the file, counted from 0 as in the format.
+/// same folder. The scene has no views and no point lights.
 pub fn parse_gltf(
     bytes: &[u8],
     name: &Path,

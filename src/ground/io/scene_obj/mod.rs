@@ -29,8 +29,7 @@ use crate::error::InputError;
 use crate::scene::Scene;
 use reader::SceneReader;
 
-/// Reads a scene from bytes; `name` is the file's name in messages, and `library` reads a material library. Never
-/// panics. Fails with an [`InputError`] that names the line where known.
+/// Reads a scene from bytes; `name` is the file's name in messages, and `library` reads a material library.
 pub fn parse_scene(
     bytes: &[u8],
     name: &Path,

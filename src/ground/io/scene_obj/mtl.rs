@@ -34,8 +34,7 @@ const INDEX: f32 = 1.5;
 /// Tolerance of `Kd` + `Ks` above 1, for the rounding of numbers that sum to 1.
 const ROUNDING: f32 = 1e-6;
 
-/// Reads the materials of a library, in order; `name` is the file's name in messages. Never panics. Fails with an
-/// [`InputError`] that names the line where known.
+/// Reads the materials of a library, in order; `name` is the file's name in messages.
 pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, InputError> {
     read_mtl(bytes, name, None)
 }
