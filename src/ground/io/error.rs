@@ -1,7 +1,6 @@
 //! Errors of reading files.
 
 use std::fmt::Display;
-use std::io;
 use std::path::Path;
 
 use super::read_limited;
@@ -9,15 +8,12 @@ use crate::error::{FilePlace, InputError, input_error};
 
 /// The contents of a file of at most `limit` bytes; `what` is the kind of file in messages.
 pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>, InputError> {
-    let read = read_limited(path, limit).map_err(|source| unreadable_error(what, path, source))?;
+    let read = read_limited(path, limit).map_err(|source| {
+        input_error!("crossbar::file::unreadable" =>
+            "cannot read the {what} {}", path.display(); help "check the path, and that you may read the file")
+        .with_source(source)
+    })?;
     read.ok_or_else(|| too_long_error(what, path, limit))
-}
-
-/// Error: the file cannot be opened or read.
-pub(super) fn unreadable_error(what: &str, path: &Path, source: io::Error) -> InputError {
-    input_error!("crossbar::file::unreadable" =>
-        "cannot read the {what} {}", path.display(); help "check the path, and that you may read the file")
-    .with_source(source)
 }
 
 /// Error: the file exceeds the size limit.
