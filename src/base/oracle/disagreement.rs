@@ -242,7 +242,7 @@ impl fmt::Display for ShownVector {
 }
 
 /// Shortest text that reads back to the same f32, with an exponent if the number is far from 1.
-pub(super) fn short(x: f32) -> String {
+fn short(x: f32) -> String {
     let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
     if plain { format!("{x}") } else { format!("{x:e}") }
 }
