@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::bi_scale::texture::{HeightField, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
 use crate::cli::{Problem, given};
-use crate::io::{PictureFile, load_numbers};
+use crate::io::{load_numbers, load_picture};
 
 /// The name of a patch without relief.
 const PLAIN: &str = "plain";
@@ -41,10 +41,9 @@ fn of_file(path: &Path) -> miette::Result<MesoPatch> {
         let table = load_numbers::<f64>(path, "table of heights", MAX_BYTES)?;
         (table.columns, table.values)
     } else {
-        let file = PictureFile::open(path)?;
-        let [side, rows] = [file.size().width, file.size().height].map(|side| side as usize);
+        let picture = load_picture(path)?;
+        let [side, rows] = [picture.width(), picture.height()].map(|side| side as usize);
         HeightField::check_side(side.max(rows)).map_err(|error| no_heights(path, &error))?;
-        let picture = file.decode()?;
         let linear = picture.linear().map_err(|error| no_heights(path, &error))?;
         let mean = |rgb: &[f32; 3]| rgb.iter().map(|&value| f64::from(value)).sum::<f64>() / 3.0;
         let heights: Vec<f64> = linear.iter().map(|rgb| PICTURE_DEPTH * mean(rgb)).collect();

@@ -42,7 +42,7 @@ pub use npz::{NpzReader, NpzWriter};
 pub use number::{NumberError, parse_f32, parse_f64, to_f32};
 pub use number_table::{NumberTable, TableNumber, parse_number_table};
 pub use obj::{parse_obj, write_obj};
-pub use picture::PictureFile;
+pub use picture::load_picture;
 pub use ply::parse_ply;
 pub use rays::{load_rays, parse_rays, write_hits};
 pub use scene_file::{scene_files, write_scene_file};
