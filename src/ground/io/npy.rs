@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::error::read_file;
 use super::number_table::{NumberTable, TableNumber, parse_number_table};
-use super::{NumberError, quoted};
+use super::quoted;
 use crate::error::{InputError, input_error};
 
 /// The first bytes of such a file.
@@ -102,28 +102,26 @@ pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<Numb
     if data.is_empty() {
         return Err(size_error(name, "a shape", format!("{shape:?}")));
     }
-    let is_big = descr.starts_with('>');
     let values = match descr.as_str() {
-        "<f4" | ">f4" => data
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&b| T::of_single(if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) }))
-            .collect(),
-        "<f8" | ">f8" => doubles(data, is_big, T::of_double).map_err(|(index, bits)| {
-            input_error!("crossbar::npy::range" =>
-                "number {index} (counted from 0) is too large for a 32-bit float: {:e}", f64::from_bits(bits))
-            .at(name)
-        })?,
+        "<f4" | ">f4" => {
+            let of = if descr == "<f4" { f32::from_le_bytes } else { f32::from_be_bytes };
+            data.as_chunks().0.iter().map(|&bytes| T::of_single(of(bytes))).collect()
+        }
+        "<f8" | ">f8" => {
+            let of = if descr == "<f8" { f64::from_le_bytes } else { f64::from_be_bytes };
+            let numbers = data.as_chunks().0.iter().map(|&bytes| of(bytes)).enumerate();
+            let narrowed = numbers.map(|(index, number)| {
+                T::of_double(number).map_err(|_| {
+                    input_error!("crossbar::npy::range" =>
+                        "number {index} (counted from 0) is too large for a 32-bit float: {number:e}")
+                    .at(name)
+                })
+            });
+            narrowed.collect::<Result<_, _>>()?
+        }
         _ => return Err(type_error(name, &descr)),
     };
     Ok(NumberArray { shape, values })
-}
-
-fn doubles<T>(data: &[u8], is_big: bool, read: fn(f64) -> Result<T, NumberError>) -> Result<Vec<T>, (usize, u64)> {
-    let bytes = data.as_chunks().0.iter().enumerate();
-    let numbers = bytes.map(|(i, &b)| (i, if is_big { f64::from_be_bytes(b) } else { f64::from_le_bytes(b) }));
-    numbers.map(|(i, number)| read(number).map_err(|_| (i, number.to_bits()))).collect()
 }
 
 /// The text of the header, and the bytes that follow it.

@@ -19,7 +19,7 @@ use std::io;
 use std::path::Path;
 
 pub use mtl::parse_mtl;
-pub(super) use reader::plain_scene;
+pub(super) use reader::{DEFAULT, GREY, flat_where_unknown, plain_scene};
 pub use write::{write_mtl, write_scene};
 
 use super::lines::{logical_lines, not_utf_16, statement};

@@ -16,9 +16,9 @@ use crate::io::error::{material_error, scene_error};
 use crate::scene::{Material, Scene};
 
 /// Name of the material of faces without a material.
-const DEFAULT: &str = "default";
+pub(in super::super) const DEFAULT: &str = "default";
 /// Reflectance of materials that no library defines.
-const GREY: f32 = 0.5;
+pub(in super::super) const GREY: f32 = 0.5;
 /// Largest difference of a normal's squared length from 1 for which the normal is not rescaled.
 const SLACK: f64 = 1e-4;
 
@@ -163,7 +163,7 @@ impl SceneReader {
 }
 
 /// The normals of a triangle's corners; if a corner has none, the triangle is flat.
-fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
+pub(in super::super) fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
     if corners.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { corners }
 }
 
