@@ -101,12 +101,14 @@ impl Mesh {
         self.triangles = ids.iter().map(|&id| self.triangles[id as usize]).collect();
     }
 
-    pub(super) fn turn_round(&mut self, triangles: &[u32]) {
+    /// Flips triangles: exchanges their second and third corners. Ids that do not exist are ignored.
+    pub fn turned_round(mut self, triangles: &[u32]) -> Self {
         for &triangle in triangles {
             if let Some([_, b, c]) = self.triangles.get_mut(triangle as usize) {
                 std::mem::swap(b, c);
             }
         }
+        self
     }
 
     fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), InputError> {

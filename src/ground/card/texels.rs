@@ -62,23 +62,21 @@ impl Texels {
                 let texel = |bytes: &[u8]| [value(bytes), 1.0, 1.0, 1.0];
                 Self { width, height, texels: image.bytes().chunks_exact(4).map(texel).collect() }
             }
-            _ => Self::from_fn([width, height], |x, y| {
-                let texel = image.texel(0, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
-                texel.to_format(Format::FP32).map(f32::from_bits)
-            }),
+            _ => Self::level_of(image, 0, [width, height]),
         }
+    }
+
+    fn level_of(image: &Image, level: u32, size: [usize; 2]) -> Self {
+        Self::from_fn(size, |x, y| {
+            let texel = image.texel(level, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
+            texel.to_format(Format::FP32).map(f32::from_bits)
+        })
     }
 
     /// The texels of all levels of an image, finest first.
     pub fn levels_of(image: &Image) -> Vec<Self> {
         let levels = (0..).zip(image.levels());
-        let of = |(level, size): (u32, &refsim::texture::Level)| {
-            Self::from_fn([size.width as usize, size.height as usize], |x, y| {
-                let texel = image.texel(level, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
-                texel.to_format(Format::FP32).map(f32::from_bits)
-            })
-        };
-        levels.map(of).collect()
+        levels.map(|(level, size)| Self::level_of(image, level, [size.width as usize, size.height as usize])).collect()
     }
 
     /// A new texture on a card with these texels.
