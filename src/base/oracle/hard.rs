@@ -81,7 +81,6 @@ impl AsRef<Ray> for HardRay {
 
 /// Ray that an oracle can judge: a [`Ray`], a [`HardRay`], or a type of your own with an aim.
 pub trait JudgedRay: AsRef<Ray> {
-    /// Returns the aim, if known.
     fn aim(&self) -> Option<Aim> {
         None
     }
@@ -153,13 +152,11 @@ fn spread(each: usize, rays: impl Fn(u64, usize) -> Vec<Ray>) -> Vec<Ray> {
     (0..EYES).flat_map(|eye| rays(eye as u64, (each + eye) / EYES)).collect()
 }
 
-/// Selects at most `most` rays, at even distances.
 fn some(aimed: Vec<Aimed>, most: usize) -> Vec<Ray> {
     let step = aimed.len().div_ceil(most.max(1)).max(1);
     aimed.into_iter().step_by(step).take(most).map(|aimed| aimed.ray).collect()
 }
 
-/// Center and size of a mesh.
 struct MeshExtent {
     middle: DVec3,
     size: f64,
@@ -183,12 +180,10 @@ impl MeshExtent {
     }
 }
 
-/// Rounds to the nearest finite f32 coordinates.
 fn in_f32(point: DVec3) -> [f32; 3] {
     narrow(point.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())))
 }
 
-/// Triangle with a point on it.
 struct AimedTriangle {
     corners: [DVec3; 3],
     point: [f32; 3],

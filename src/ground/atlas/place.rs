@@ -120,7 +120,6 @@ impl FacePlace {
         self.weights_of(u, v, least)
     }
 
-    /// Local coordinates (u, v), each from 0 to 1, at texel coordinates.
     fn local(&self, x: f64, y: f64) -> [f64; 2] {
         let part = |at: f64, from: u32, texels: u32| {
             let part = (at - f64::from(from)) / f64::from(texels);

@@ -43,7 +43,6 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
-/// Number of connected parts of a set of faces.
 fn parts(linked: &[u32], set: u32) -> u32 {
     let (mut left, mut count) = (set, 0);
     while left != 0 {

@@ -23,7 +23,6 @@ const MENDED: f64 = 1.0 / 16.0;
 /// Number of flat cuts that are tried.
 const DIRECTIONS: u32 = 6;
 
-/// Two halves: `true` marks the second.
 struct Halves {
     second: Vec<bool>,
     /// Difference of the halves' demands, as a fraction of their sum.
@@ -80,7 +79,6 @@ fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) ->
     best.map(|(_, second)| second)
 }
 
-/// Two directions orthogonal to each other and to a normal.
 fn plane(normal: DVec3) -> [DVec3; 2] {
     let right = unit(least_axis(normal).cross(normal)).unwrap_or(DVec3::X);
     [right, normal.cross(right)]

@@ -31,7 +31,6 @@ pub struct MeshView {
 }
 
 impl From<Camera> for MeshView {
-    /// A picture of unscaled radiances in single precision.
     fn from(camera: Camera) -> Self {
         Self { camera, exposure: 1.0, format: TexelFormat::Rgba32f }
     }

@@ -90,7 +90,6 @@ impl<'a> RasterizedEyes<'a> {
         Ok(Self { camera, seen: seen.into_iter().map(|seen| seen.map(hit)).collect(), behind, drawn: 0 })
     }
 
-    /// Pixel through whose center the ray passes.
     fn pixel(&self, ray: &Ray) -> Option<usize> {
         let (camera, direction) = (&self.camera, wide(ray.direction()));
         let across = |axis: DVec3| direction.dot(axis) / axis.dot(axis);

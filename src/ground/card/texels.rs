@@ -37,7 +37,6 @@ impl Texels {
         self.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
     }
 
-    /// A rectangle texture, each value rounded once into the format.
     fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
         let extents = extents([self.width, self.height]);
         if format == TexelFormat::Rgba32f {

@@ -60,7 +60,6 @@ pub fn write_cube_table(texels: &[[f64; 3]], side: usize) -> String {
     text
 }
 
-/// The index of a row's texel, and its radiance.
 fn parse_texel(record: &csv::ByteRecord, side: usize) -> Result<(usize, [f64; 3]), InputError> {
     let fields: Vec<&[u8]> = record.iter().collect();
     let [face, row, column, r, g, b] = fields[..] else {

@@ -107,7 +107,6 @@ pub fn write_matrix_market(
     Ok(())
 }
 
-/// Numbers of rows, columns and entries; rows and columns are within 32 bits.
 fn sizes(line: &[u8]) -> Option<[usize; 3]> {
     let [rows, columns, count] = words(line)[..] else { return None };
     let [rows, columns, count] = [whole(rows)?, whole(columns)?, whole(count)?];
@@ -119,7 +118,6 @@ fn whole(word: &[u8]) -> Option<usize> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Row and column, counted from 0, and value.
 fn entry(text: &[u8], [rows, columns]: [usize; 2]) -> Result<(u32, u32, f64), InputError> {
     let wrong = |expected: &str, found: &[u8]| {
         input_error!("crossbar::matrix_market::entry" =>

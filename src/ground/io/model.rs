@@ -143,7 +143,6 @@ fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
     (wrong, notes.into_iter().filter(|(count, _)| *count > 0).map(|(_, note)| note).collect())
 }
 
-/// A function that reads files from the folder of a model.
 fn beside(model: &Path) -> impl FnMut(&Path) -> io::Result<Vec<u8>> + '_ {
     let folder = model.parent().unwrap_or(Path::new(""));
     move |file| {

@@ -124,7 +124,6 @@ pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<Numb
     Ok(NumberArray { shape, values })
 }
 
-/// The text of the header, and the bytes that follow it.
 fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), InputError> {
     let Some(rest) = bytes.strip_prefix(MAGIC) else {
         let found = quoted(&bytes[..bytes.len().min(MAGIC.len())]);
@@ -148,7 +147,6 @@ fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), Input
     rest.split_at_checked(length).ok_or_else(|| cut("the header", length, rest.len()))
 }
 
-/// The dictionary of the header.
 #[derive(Debug, Default)]
 struct Header {
     descr: String,
@@ -268,7 +266,6 @@ pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Res
     })
 }
 
-/// Converts a half-precision bit pattern.
 fn half(word: u64) -> f64 {
     let (sign, field, fraction) = ((word >> 15) << 63, word >> 10 & 31, word & 1023);
     let size = match field {

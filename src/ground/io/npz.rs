@@ -151,7 +151,6 @@ pub struct NpzWriter<'a> {
     zip: ZipWriter<StreamWriter<&'a mut dyn Write>>,
 }
 
-/// Number of bytes per write.
 const BUFFERED: usize = 1 << 16;
 
 impl<'a> NpzWriter<'a> {
@@ -214,7 +213,6 @@ impl<'a> NpzWriter<'a> {
         Ok(())
     }
 
-    /// Writes the lowest `size` bytes of each value.
     fn put(
         &mut self,
         name: &str,

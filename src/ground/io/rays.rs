@@ -21,7 +21,6 @@ use crate::geom::Ray;
 /// Longest file that is read, in bytes (1 GiB).
 pub const MAX_BYTES: u64 = 1 << 30;
 
-/// The columns of a ray table.
 const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
 /// Reads rays from a file.

@@ -102,7 +102,6 @@ impl Lower {
         Ok(Self { rows: lower().map(|row| row.iter().map(|value| value * scale).collect()).collect(), scale })
     }
 
-    /// Infinity norm of the whole matrix: its maximum absolute row sum.
     fn infinity_norm(&self) -> f64 {
         let mut sums = vec![0.0; self.rows.len()];
         for (i, row) in self.rows.iter().enumerate() {
@@ -127,7 +126,6 @@ impl Lower {
         product
     }
 
-    /// Infinity norm of A v - lambda v.
     fn residual(&self, vector: &[f64], value: f64) -> f64 {
         let product = self.times(vector);
         largest(product.iter().zip(vector).map(|(product, v)| (product - value * v).abs()))

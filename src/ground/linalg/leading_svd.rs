@@ -126,7 +126,6 @@ impl LeadingSvd {
     }
 }
 
-/// Matrix without rows, with this number of columns.
 fn none(elements: usize) -> Matrix {
     Matrix::zeros([0, elements]).expect("no elements")
 }

@@ -127,7 +127,6 @@ struct Windows {
 }
 
 impl Windows {
-    /// Coordinates on an axis that both windows contain.
     fn shared(&self, axis: usize) -> Range<i64> {
         let [[from, to], [first, last]] = [self.data, self.display].map(|window| {
             let (start, size) = if axis == 0 {

@@ -17,7 +17,6 @@ const RADIANCE: &[u8] = b"#?RADIANCE";
 const RGBE: &[u8] = b"#?RGBE";
 const SAMPLE_BYTES: u64 = 4;
 
-/// The format of a file by its first bytes.
 fn format_of(bytes: &[u8]) -> Result<PictureFormat, InputError> {
     const SIGNATURES: [(&[u8], PictureFormat); 4] = [
         (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
@@ -135,7 +134,6 @@ fn check_size(bytes: &[u8], format: PictureFormat) -> Result<(), InputError> {
     require_length(format, [columns, rows], least, bytes.len())
 }
 
-/// Decodes a file whose size has been checked.
 fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, InputError> {
     let (mut reader, mut limits) = (reader(bytes, format), Limits::default());
     limits.max_image_width = Some(MAX_SIDE);

@@ -39,7 +39,6 @@ impl EnvironmentPicture {
     }
 }
 
-/// Reads the pixels of a picture of the whole sphere, and its layout.
 fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), InputError> {
     let [width, height] = [picture.width(), picture.height()];
     let layout = EnvironmentLayout::of(width, height).ok_or_else(|| {
@@ -95,7 +94,6 @@ fn project(grid: &LayoutGrid, order: usize, pixels: &[[f32; 3]]) -> [Vec<f64>; 3
     std::array::from_fn(|channel| (0..count).map(|i| by_row.iter().map(|row| row[channel][i]).sum()).collect())
 }
 
-/// Computes the means of all harmonics over a texel.
 fn texel(
     grid: &LayoutGrid,
     texel: [usize; 2],
@@ -124,7 +122,6 @@ fn texel(
     }
 }
 
-/// Gauss rule for a texel of a picture with `side`^2 texels.
 fn rule_for(side: usize) -> Vec<GaussPoint> {
     gauss_legendre(match side {
         0..24 => 8,

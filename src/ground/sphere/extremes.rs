@@ -9,7 +9,6 @@ use super::rule::DirectionRule;
 
 /// Number of samples from which the search starts.
 const STARTS: usize = 16;
-/// Maximum number of steps of the search.
 const MAX_STEPS: usize = 100;
 /// Minimum step, in radians; over such a step the value at a smooth peak does not change.
 const SHORTEST_STEP: f64 = 1e-10;

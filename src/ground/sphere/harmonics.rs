@@ -8,7 +8,6 @@ use glam::DVec3;
 /// Maximum order: order n has n bands, l = 0 to n - 1, and n^2 functions.
 pub const MAX_ORDER: usize = 10;
 
-/// Factors of the recurrences, by l and m.
 struct Recurrence {
     /// y_mm without the factor (x + iy)^m, by m.
     diagonal: [f64; MAX_ORDER],

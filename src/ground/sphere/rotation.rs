@@ -90,7 +90,6 @@ impl HarmonicRotation {
     }
 }
 
-/// Number of elements of all bands below l.
 fn first_of_band(l: usize) -> usize {
     (0..l).map(|l| (2 * l + 1) * (2 * l + 1)).sum()
 }

@@ -108,7 +108,6 @@ impl DirectionRule {
         self.directions.is_empty()
     }
 
-    /// Iterates over the rings: their directions and weights.
     fn rings(&self) -> impl Iterator<Item = impl Iterator<Item = (DVec3, f64)>> {
         let rings = self.directions.chunks(self.azimuths).zip(self.weights.chunks(self.azimuths));
         rings.map(|(directions, weights)| directions.iter().copied().zip(weights.iter().copied()))

@@ -57,7 +57,6 @@ impl AccessorReader<'_> {
         }
     }
 
-    /// The bytes of each element, as slices.
     fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, InputError> {
         let (count, size) = (accessor.count(), accessor.size());
         let outside = |what: &'static str| self.wrong(accessor, what, "bytes beyond it");
@@ -122,7 +121,6 @@ impl AccessorReader<'_> {
     }
 }
 
-/// An unsigned little-endian integer of 1, 2 or 4 bytes.
 fn whole(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
 }

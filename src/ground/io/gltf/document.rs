@@ -13,7 +13,6 @@ use crate::io::error::{part_error, syntax_error};
 const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
-/// Attributes of vertices that are read.
 const ATTRIBUTES: [&str; 3] = ["POSITION", "NORMAL", "TEXCOORD_0"];
 /// Properties that are ignored wherever they occur, as are those whose names end in `Texture`.
 const PASSED_OVER: [&str; 8] =

@@ -53,7 +53,6 @@ pub(super) fn read_mtl(
     reader.materials.iter().map(|read| assemble(read, name, notes.as_deref_mut())).collect()
 }
 
-/// The materials read so far.
 struct MtlReader<'a> {
     name: &'a Path,
     /// True if reflectances above 1 are accepted, to be scaled later.
@@ -62,7 +61,6 @@ struct MtlReader<'a> {
     seen: BTreeSet<String>,
 }
 
-/// The statements of a material.
 struct MaterialText {
     line: usize,
     name: String,
@@ -137,7 +135,6 @@ impl MtlReader<'_> {
     }
 }
 
-/// Creates a material from its statements.
 fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNote>>) -> Result<Material, InputError> {
     let MaterialText { line, name, .. } = read;
     let (line, name) = (*line, name.as_str());
@@ -193,7 +190,6 @@ fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNo
     Ok(Material { name: name.into(), surface, emission })
 }
 
-/// The largest reflectance over the channels of a material with these colors.
 fn largest_reflectance(model: u8, diffuse: Option<Color>, specular: Option<Color>) -> f32 {
     let (diffuse, specular) = (diffuse.unwrap_or_default(), specular.unwrap_or_default());
     let of = |channel: usize| match model {

@@ -167,7 +167,6 @@ pub(in super::super) fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3];
     if corners.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { corners }
 }
 
-/// The materials of all libraries by their names.
 struct MaterialNames {
     whole: BTreeMap<String, u32>,
     /// Names without comments; `None` if several materials share a name.

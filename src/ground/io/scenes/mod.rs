@@ -13,7 +13,6 @@ use super::scene_obj::parse_scene;
 use crate::scene::Scene;
 use crate::scene::built::rooms::{CornellBox, cornell};
 
-/// Source of a scene.
 enum SceneSource {
     /// The scene file, the compressed OBJ file and the material library.
     Files(&'static str, &'static [u8], &'static str),

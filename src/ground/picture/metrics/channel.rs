@@ -72,7 +72,6 @@ pub fn signed_differences(
     Ok(pairs(left, right, names)?.into_iter().map(signed).collect())
 }
 
-/// Two channels with the same name.
 #[derive(Clone, Copy)]
 struct ChannelPair<'a> {
     left: &'a PictureChannel,
