@@ -32,17 +32,6 @@ fn s3_12_leaks_fp32_does_not_and_the_formats_between_are_ordered() {
 }
 
 #[test]
-fn rays_at_seams_leak_even_in_fp32() {
-    let (_, rate) = scale();
-    let outcome = study(&parameters(16, rate, formats(&["fp32", "fp16"])));
-    let edges = &outcome.rows[0].edges;
-    assert!(edges.surface > 1000, "many rays are aimed at shared edges: {edges:?}");
-    let share = edges.leak_share();
-    assert!(share > 0.005 && share < 0.2, "the equations of neighbours do not agree on the edge: {share}");
-    assert!(outcome.rows[1].edges.leak_share() > share, "fp16 leaks more");
-}
-
-#[test]
 fn scalar_and_batch_give_the_same_study() {
     let (mut small, batch) = small_study();
     small.executor = ExecutorKind::Scalar.into();
