@@ -8,14 +8,10 @@ use refsim::machine::ExecutorKind;
 
 use super::teapot_study::{assert_same, formats, parameters, small_study, study};
 
-/// Size and tessellation: small by default, the program's defaults with `CROSSBAR_FULL=1`.
-fn scale() -> (u32, u32) {
-    by_form((128, 6), (512, 8))
-}
-
 #[test]
 fn s3_12_leaks_fp32_does_not_and_the_formats_between_are_ordered() {
-    let (size, rate) = scale();
+    // Small by default, the program's defaults with `CROSSBAR_FULL=1`.
+    let (size, rate) = by_form((128, 6), (512, 8));
     let mut configurations = vec![Configuration::device("r200").expect("a card")];
     configurations.extend(formats(&["fp16", "fp24", "fp32"]));
     let outcome = study(&parameters(size, rate, configurations));

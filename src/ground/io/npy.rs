@@ -4,6 +4,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use serde::Deserialize;
+use toml::de::ValueDeserializer;
+
 use super::error::read_file;
 use super::number_table::{NumberTable, TableNumber, parse_number_table};
 use super::quoted;
@@ -75,7 +78,10 @@ impl<'a> NpyView<'a> {
 /// Reads the header of an array.
 pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, InputError> {
     let (text, data) = split(bytes, name)?;
-    let header = Header::parse(text).map_err(|(what, expected)| header_error(name, what, expected, quoted(text)));
+    let header = Header::parse(text).ok_or_else(|| {
+        let expected = "a Python dictionary of `descr`, `fortran_order` and `shape`";
+        header_error(name, "the header", expected, quoted(text))
+    });
     let Header { descr, fortran_order, shape } = header?;
     if fortran_order {
         return Err(input_error!("crossbar::npy::order" =>
@@ -147,7 +153,8 @@ fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), Input
     rest.split_at_checked(length).ok_or_else(|| cut("the header", length, rest.len()))
 }
 
-#[derive(Debug, Default)]
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Header {
     descr: String,
     fortran_order: bool,
@@ -155,67 +162,15 @@ struct Header {
 }
 
 impl Header {
-    /// Parses the header; on failure returns the faulty part and what was expected.
-    fn parse(text: &[u8]) -> Result<Self, (&'static str, &'static str)> {
-        let text = std::str::from_utf8(text).map_err(|_| ("the header", "a Python dictionary in ASCII"))?;
-        let inside = text.trim().strip_prefix('{').and_then(|text| text.strip_suffix('}'));
-        let mut rest = inside.ok_or(("the header", "a Python dictionary"))?.trim();
-        let (mut descr, mut order, mut shape) = (None, None, None);
-        while !rest.is_empty() {
-            let (key, after) = string(rest).ok_or(("a key of the header", "a string"))?;
-            let value = after.trim_start().strip_prefix(':').ok_or(("a key of the header", "`:` behind it"))?.trim();
-            rest = match key {
-                "descr" => keep(&mut descr, string(value), "`descr`", "one string, such as '<f4'")?,
-                "fortran_order" => keep(&mut order, boolean(value), "`fortran_order`", "True or False, once")?,
-                "shape" => keep(&mut shape, tuple(value), "`shape`", "a tuple of whole numbers, once")?,
-                _ => return Err(("the header", "no keys but `descr`, `fortran_order` and `shape`")),
-            };
-            rest = match rest.trim_start() {
-                "" => "",
-                more => more.strip_prefix(',').ok_or(("the header", "`,` between its entries"))?.trim_start(),
-            };
+    /// Reads a Python dictionary as an inline table of TOML, which differs from it in a few characters.
+    fn parse(text: &[u8]) -> Option<Self> {
+        let inside = std::str::from_utf8(text).ok()?.trim().strip_prefix('{')?.strip_suffix('}')?.trim_end();
+        let mut table = format!("{{{}}}", inside.strip_suffix(',').unwrap_or(inside));
+        for (python, toml) in [("(", "["), (")", "]"), (":", "="), ("False", "false"), ("True", "true")] {
+            table = table.replace(python, toml);
         }
-        Ok(Self {
-            descr: descr.ok_or(("the header", "a key `descr`"))?.to_owned(),
-            fortran_order: order.ok_or(("the header", "a key `fortran_order`"))?,
-            shape: shape.ok_or(("the header", "a key `shape`"))?,
-        })
+        Self::deserialize(ValueDeserializer::parse(&table).ok()?).ok()
     }
-}
-
-/// Stores a value, unless one is stored already; returns the text after it.
-fn keep<'a, T>(
-    slot: &mut Option<T>,
-    found: Option<(T, &'a str)>,
-    what: &'static str,
-    expected: &'static str,
-) -> Result<&'a str, (&'static str, &'static str)> {
-    match found {
-        Some((value, rest)) if slot.is_none() => {
-            *slot = Some(value);
-            Ok(rest)
-        }
-        _ => Err((what, expected)),
-    }
-}
-
-fn string(text: &str) -> Option<(&str, &str)> {
-    let quote = text.chars().next().filter(|quote| matches!(quote, '\'' | '"'))?;
-    text[1..].split_once(quote)
-}
-
-fn boolean(text: &str) -> Option<(bool, &str)> {
-    let is_true = text.strip_prefix("True").map(|rest| (true, rest));
-    is_true.or_else(|| text.strip_prefix("False").map(|rest| (false, rest)))
-}
-
-fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
-    let (inside, rest) = text.strip_prefix('(')?.split_once(')')?;
-    let inside = inside.trim();
-    let inside = inside.strip_suffix(',').unwrap_or(inside);
-    let numbers = inside.split(',').map(str::trim).filter(|_| !inside.is_empty());
-    // Python 2 writes long integers with the suffix L.
-    Some((numbers.map(|n| n.strip_suffix('L').unwrap_or(n).parse().ok()).collect::<Option<_>>()?, rest))
 }
 
 /// The numbers of a NumPy array or of comma-separated values; `name` is the file's name in messages.

@@ -24,7 +24,7 @@ fn all_versions_and_types_are_read() {
         };
         values.iter().flat_map(one).collect()
     };
-    for (version, shape, columns) in [(1, "(2, 3)", 3), (2, "(3, 1, 2L)", 2), (3, "(6,)", 1)] {
+    for (version, shape, columns) in [(1, "(2, 3)", 3), (2, "(3, 1, 2)", 2), (3, "(6,)", 1)] {
         for descr in ["<f4", ">f4", "<f8", ">f8"] {
             let header = format!(" {{\"descr\": '{descr}', 'shape': {shape}, 'fortran_order': False}}  \n");
             let expected = NumberTable { columns, values: values.to_vec() };
