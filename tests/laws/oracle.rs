@@ -101,10 +101,6 @@ fn the_report_reads_well() {
     let oracle = Oracle::new(&mesh, Sides::Front, Tolerance::ulps(1));
     let report = oracle.judge(&rays, &found).expect("one answer a ray");
     insta::assert_snapshot!("report", report);
-    let json = serde_json::to_value(&report).expect("JSON");
-    insta::assert_snapshot!("report_counts", serde_json::to_string(&json["counts"]).expect("JSON"));
-    insta::assert_snapshot!("report_worst_in_json", serde_json::to_string(&json["worst"][1]).expect("JSON"));
-    assert!(json["worst"][3]["found"]["t"].is_null(), "JSON has no NaN: {json}");
     let leaks = report.only(DisagreementKind::is_leak);
     assert_eq!((leaks.leaks(), leaks.disagreements().len()), (2, 2));
 }
@@ -143,8 +139,6 @@ fn long_reports_are_cut() {
     let text = report.to_string();
     assert_eq!(text.lines().count(), 3 + 10 * 2, "{text}");
     assert!(text.ends_with("and 1490 more"), "{text}");
-    let json = serde_json::to_value(&report).expect("JSON");
-    assert_eq!((json["worst"].as_array().map(Vec::len), json["not_listed"].as_u64()), (Some(1000), Some(500)));
     assert_eq!(report.disagreements().len(), 1500);
 }
 

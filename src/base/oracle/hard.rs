@@ -3,7 +3,6 @@
 use std::fmt;
 
 use glam::DVec3;
-use serde::Serialize;
 
 use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
 use crate::geom::random::CounterRng;
@@ -12,8 +11,7 @@ use crate::geom::{Mesh, Ray};
 
 /// Aim of a hard ray.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Aim {
     /// From outside at a point of a shared edge.
     Edge,

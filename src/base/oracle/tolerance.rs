@@ -14,7 +14,7 @@ use crate::geom::classify::t_error;
 /// let tolerance = Tolerance::ulps(4).or_absolute(1e-6);
 /// assert_eq!(tolerance.to_string(), "t within 4 ULPs or 1e-6");
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Maximum number of f32 steps from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: any t.
     pub ulps: u32,

@@ -76,7 +76,6 @@ fn the_ends_of_f32_do_no_harm() {
                 let text = report.to_string();
                 let longest = text.lines().map(str::len).max().unwrap_or(0);
                 assert!(longest < 400 && text.lines().count() < 30, "{longest} bytes in a line of\n{text}");
-                assert!(serde_json::to_string(&report).is_ok());
             }
         }
     }
