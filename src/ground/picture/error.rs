@@ -8,16 +8,12 @@ pub(super) const MAX_SIDE: u32 = 16384;
 pub(super) const MAX_DECODED_BYTES: u64 = 1 << 30;
 
 /// File format of pictures.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
-pub enum PictureFormat {
-    /// Portable Network Graphics: sRGB values of 8 or 16 bits.
+#[derive(Clone, Copy, PartialEq, Eq, strum::Display)]
+pub(super) enum PictureFormat {
     #[strum(to_string = "PNG")]
     Png,
-    /// Radiance's RGBE: linear light with a shared exponent.
     #[strum(to_string = "Radiance HDR")]
     Hdr,
-    /// OpenEXR: named channels of half floats, single floats and integers.
     #[strum(to_string = "EXR")]
     Exr,
 }

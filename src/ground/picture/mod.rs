@@ -15,7 +15,7 @@ mod png;
 mod read;
 
 pub use self::channels::{ChannelUnit, Picture, PictureChannel, Samples};
-pub use self::error::{NO_COLOR, PictureFormat};
+pub use self::error::NO_COLOR;
 pub use self::exr::{exr, exr_with_notes};
 pub use self::hdr::hdr;
 pub use self::notes::PictureNotes;
