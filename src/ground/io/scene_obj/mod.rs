@@ -5,9 +5,8 @@
 //! material is in no library is grey with a note, or rejected if `strict`. Libraries are in the model's folder
 //! ([`mtl`]).
 //!
-//! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no material
-//! has that name, a word that begins with `#` begins a comment, also in the MTL file. If no such library can be read, a
-//! `mtllib` line is read as a list of names, each of which ends in `.mtl`.
+//! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no such
+//! library can be read, a `mtllib` line is read as a list of names, each of which ends in `.mtl`.
 //!
 //! [`write`] creates text that reads back with the same bits.
 
