@@ -1,12 +1,15 @@
 //! Scenes: triangles with materials and normals, lights, and named views.
 
+use serde::Deserialize;
+
 use super::{Camera, Color, Material};
 use crate::error::{InputError, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::{area_vector, narrow, unit, wide};
 
 /// Point light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PointLight {
     /// Position.
     pub position: [f32; 3],
@@ -16,7 +19,8 @@ pub struct PointLight {
 }
 
 /// Named view of a scene. [`View::camera`] creates its camera for a picture size.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct View {
     /// Name on the command line.
     pub name: String,
