@@ -163,7 +163,10 @@ fn assertions_say_what_differs() {
     });
     let payload = payload.expect_err("it panics");
     let said = payload.downcast_ref::<String>().expect("words");
-    assert!(said.ends_with("| aim | rays | leak through to what is behind |\n|---|---|---|\n| edge | 1 | 1 |"), "{said}");
+    assert!(
+        said.ends_with("| aim | rays | leak through to what is behind |\n|---|---|---|\n| edge | 1 | 1 |"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -64,11 +64,7 @@ impl DirectionRule {
     }
 
     /// A rule from the height and weight of each direction, and the fraction of a step by which it is turned.
-    fn built(
-        degree: usize,
-        [rings, azimuths]: [usize; 2],
-        node: impl Fn(usize, usize) -> ((f64, f64), f64),
-    ) -> Self {
+    fn built(degree: usize, [rings, azimuths]: [usize; 2], node: impl Fn(usize, usize) -> ((f64, f64), f64)) -> Self {
         let mut rule = Self { directions: Vec::new(), weights: Vec::new(), degree, azimuths };
         for (ring, azimuth) in (0..rings).flat_map(|ring| (0..azimuths).map(move |azimuth| (ring, azimuth))) {
             let ((z, weight), turn) = node(ring, azimuth);

@@ -21,7 +21,9 @@ fn a_line_is_a_texel_in_any_order() {
 fn bad_tables_are_named() {
     let error = |line: &str| parse(&format!("face,row,column,r,g,b\n{TAIL}{line}\n")).expect_err("no map");
     assert_eq!(parse(""), Err("l.csv:1: expected the header `face,row,column,r,g,b`, found ``".to_owned()));
-    for line in ["0,0,0,1,1", "6,0,0,1,1,1", "up,0,0,1,1,1", "0,1,0,1,1,1", "0,0,-1,1,1,1", "0,0,0,1,nan,1", "0,0,0,1,1,x"] {
+    for line in
+        ["0,0,0,1,1", "6,0,0,1,1,1", "up,0,0,1,1,1", "0,1,0,1,1,1", "0,0,-1,1,1,1", "0,0,0,1,nan,1", "0,0,0,1,1,x"]
+    {
         assert!(error(line).starts_with("l.csv:7: expected "), "{}", error(line));
     }
     assert_eq!(error("1,0,0,1,1,1"), "l.csv:7: the texel at face 1, row 0, column 0 stands on line 2 too");

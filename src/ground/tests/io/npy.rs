@@ -83,7 +83,8 @@ fn what_is_not_read_is_named() {
     let wide = parse_npy::<f64>(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
     assert_eq!(wide.values, [1e39], "f64 holds it");
     let twice = "{'shape': (1,), 'shape': (1,)}";
-    for header in [twice, "", "{", "{'descr'}", "{'x': 1}", "{'shape': (-1,)}", "[1]", "{'shape': (1,) 'descr': '<f4'}"] {
+    for header in [twice, "", "{", "{'descr'}", "{'x': 1}", "{'shape': (-1,)}", "[1]", "{'shape': (1,) 'descr': '<f4'}"]
+    {
         assert!(error(header, &[]).contains("expected"), "{header}");
     }
     assert!(parse(b"PK").is_err() && parse(&file(4, "", &[])).is_err());
