@@ -79,6 +79,7 @@ impl AsRef<Ray> for HardRay {
 
 /// Ray that an oracle can judge: a [`Ray`], a [`HardRay`], or a type of your own with an aim.
 pub trait JudgedRay: AsRef<Ray> {
+    /// The aim, if known.
     fn aim(&self) -> Option<Aim> {
         None
     }
