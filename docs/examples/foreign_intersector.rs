@@ -1,8 +1,8 @@
-//! Other people's intersectors before the oracle: the crates `bvh`, `obvhs` and `parry3d`, and this project's own host
+//! The oracle judges other people's intersectors, the crates `bvh`, `obvhs` and `parry3d`, and this project's own host
 //! tracer.
 //!
 //! `cargo run --release -p crossbar-benches --example foreign_intersector` prints the tables of foreign_intersector.md;
-//! a test holds the page to them.
+//! a test checks that the page has the same tables.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::fmt::Write as _;
@@ -21,11 +21,11 @@ fn main() {
 /// Somebody's intersector over a mesh: rays in, hits out.
 pub(crate) type Intersector<'a> = Box<dyn FnMut(&Ray) -> Option<Hit> + 'a>;
 
-/// Intersector under test, and the sides of a triangle that it sees.
+/// Intersectors under test, and the sides of a triangle that each can hit.
 pub(crate) const LIBRARIES: [(&str, Sides); 4] =
     [("bvh 0.13", Sides::Front), ("obvhs 0.4", Sides::Both), ("parry3d 0.31", Sides::Both), ("crossbar", Sides::Both)];
 
-/// The intersector of one of them.
+/// The intersector of this name.
 pub(crate) fn intersector<'a>(name: &str, mesh: &'a Mesh) -> Intersector<'a> {
     match name {
         "bvh 0.13" => with_bvh(mesh),
@@ -38,7 +38,7 @@ pub(crate) fn intersector<'a>(name: &str, mesh: &'a Mesh) -> Intersector<'a> {
     }
 }
 
-/// A triangle as `bvh` wants it.
+/// A triangle with the fields that `bvh` needs.
 struct Shape {
     id: u32,
     corners: [[f32; 3]; 3],
@@ -71,7 +71,7 @@ fn with_bvh(mesh: &Mesh) -> Intersector<'_> {
     Box::new(move |ray| {
         let [x, y, z] = ray.direction().map(f64::from);
         let length = (x * x + y * y + z * z).sqrt();
-        // It normalises directions, so its distances are lengths.
+        // `bvh` normalises directions, so its distances are lengths.
         let foreign = bvh::ray::Ray::new(ray.origin().into(), ray.direction().into());
         let mut first: Option<Hit> = None;
         for shape in tree.traverse_iterator(&foreign, &shapes) {
@@ -102,7 +102,7 @@ fn with_obvhs(mesh: &Mesh) -> Intersector<'_> {
     })
 }
 
-/// Its triangle test among all pairs: no tree of its own.
+/// Runs the triangle test of `parry3d` on all pairs, without a tree.
 fn with_parry(mesh: &Mesh) -> Intersector<'_> {
     use parry3d::query::details::local_ray_intersection_with_triangle as intersection;
     let corners: Vec<_> = mesh.iter_corners().map(|[a, b, c]| [a.into(), b.into(), c.into()]).collect();
@@ -119,7 +119,7 @@ fn with_parry(mesh: &Mesh) -> Intersector<'_> {
     })
 }
 
-/// What counts as a wrong surface in the tables.
+/// The number of wrong surfaces, as counted in the tables.
 fn wrong(report: &Report) -> usize {
     [
         DisagreementKind::FalseHit,
@@ -132,7 +132,7 @@ fn wrong(report: &Report) -> usize {
     .sum()
 }
 
-/// Two thousand hard rays of each kind at the teapot of 2,256 triangles: surfaces missed, and wrong ones found.
+/// Up to 2,000 hard rays of each kind at the teapot of 2,256 triangles: missed surfaces, and wrong surfaces.
 pub(crate) fn teapot_table() -> String {
     let mesh = teapot(6).expect("a teapot");
     let rays = hard_rays(&mesh, 2000, 1);
@@ -153,7 +153,7 @@ pub(crate) fn teapot_table() -> String {
     out
 }
 
-/// Squares that the walls divide each side into.
+/// Number of squares into which the walls divide each side.
 const CELLS: u32 = 6;
 
 /// Walls in the planes x, y and z = 0 to 6, each of 36 squares of two triangles.
@@ -175,8 +175,8 @@ pub(crate) fn walls() -> Mesh {
     Mesh::new((0..side * side * side).map(point).collect(), triangles).expect("indices in range")
 }
 
-/// Rays along the axes from the middle of every cell: free of all walls, in the plane of one, along the line of two.
-/// The zeros have these signs, the first component's before the second's.
+/// Rays along the axes from the middle of every cell: away from all walls, in the plane of a wall, or along the line of
+/// two walls. `minus` tells which of the two zeros of a direction are -0.
 pub(crate) fn wall_rays(free: [bool; 2], minus: [bool; 2]) -> Vec<Ray> {
     let mut rays = Vec::new();
     for cell in 0..CELLS * CELLS * CELLS {
@@ -197,7 +197,7 @@ pub(crate) fn wall_rays(free: [bool; 2], minus: [bool; 2]) -> Vec<Ray> {
     rays
 }
 
-/// Holes seen among the walls, by where the ray runs and the signs of its zeros.
+/// Counts holes in the walls, by the place of the ray and the signs of its zeros.
 pub(crate) fn walls_table() -> String {
     let mesh = walls();
     let mut out = String::from("| holes in 1,296 rays | zeros |");

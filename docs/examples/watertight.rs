@@ -1,7 +1,7 @@
-//! A watertight intersector, and one that leaks, before the oracle.
+//! The oracle judges a watertight intersector, and one that leaks.
 //!
-//! `cargo run --release -p crossbar-gi-base --example watertight` prints what docs/examples/foreign_intersector.md says of
-//! them; `tests/watertight.rs` holds the page to it. Needs the crate without its features.
+//! `cargo run --release -p crossbar-gi-base --example watertight` prints the tables of
+//! docs/examples/foreign_intersector.md; `tests/watertight.rs` checks the page. Needs no features of the crate.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use crossbar::elementary::on_circle;
@@ -12,7 +12,7 @@ fn main() {
     print!("{}", tables());
 }
 
-/// Wrong answers of the two tests to 984 rays of each aim at a closed mesh.
+/// Counts wrong answers of the two tests for up to 984 rays of each aim at a closed mesh.
 pub(crate) fn tables() -> String {
     let mesh = closed_surface(1.37);
     let oracle = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T);
@@ -29,7 +29,7 @@ pub(crate) fn tables() -> String {
 /// Intersection of a ray with a triangle, in the arithmetic under test.
 pub(crate) type TriangleTest = fn(&Ray, [[f32; 3]; 3]) -> Option<f32>;
 
-/// Intersector under test.
+/// Intersectors under test.
 pub(crate) const TESTS: [(&str, TriangleTest); 2] = [("Woop", woop), ("Moeller-Trumbore", moeller_trumbore)];
 
 /// The first hit among all triangles.
@@ -39,7 +39,7 @@ pub(crate) fn nearest(mesh: &Mesh, ray: &Ray, test: impl Fn(&Ray, [[f32; 3]; 3])
     hits.reduce(|first, hit| if hit.t < first.t { hit } else { first })
 }
 
-/// A closed, rippled ring of 1,830 vertices and 3,660 triangles, of some size.
+/// A closed, rippled ring of 1,830 vertices and 3,660 triangles, scaled by `size`.
 pub(crate) fn closed_surface(size: f64) -> Mesh {
     const AROUND: u32 = 61;
     const ACROSS: u32 = 30;
@@ -62,10 +62,10 @@ pub(crate) fn closed_surface(size: f64) -> Mesh {
 }
 
 /// The watertight test of Woop, Benthin and Wald (Journal of Computer Graphics Techniques 2(1), 2013), both sides: the
-/// triangle sheared so that the ray runs along the z axis, edge functions in f32, and in f64 where one is zero.
+/// triangle is sheared so that the ray runs along the z axis; edge functions are in f32, or in f64 if one is zero.
 pub(crate) fn woop(ray: &Ray, corners: [[f32; 3]; 3]) -> Option<f32> {
     let (origin, direction) = (ray.origin(), ray.direction());
-    // The axis along which the ray is longest; the other two change places where it runs backwards.
+    // The axis with the largest component of the direction; the other two change places if this component is negative.
     let longest = |best: usize, axis: usize| if direction[axis].abs() > direction[best].abs() { axis } else { best };
     let kz = [1, 2].into_iter().fold(0, longest);
     let (mut kx, mut ky) = ((kz + 1) % 3, (kz + 2) % 3);
@@ -98,7 +98,7 @@ pub(crate) fn woop(ray: &Ray, corners: [[f32; 3]; 3]) -> Option<f32> {
 }
 
 /// The test of Moeller and Trumbore (Journal of Graphics Tools 2(1), 1997), both sides: barycentric coordinates that
-/// each triangle computes from its own edges, so that two neighbours round one edge differently.
+/// each triangle computes from its own edges, so two neighbours round their common edge differently.
 pub(crate) fn moeller_trumbore(ray: &Ray, [a, b, c]: [[f32; 3]; 3]) -> Option<f32> {
     let sub = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let dot = |p: [f32; 3], q: [f32; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];

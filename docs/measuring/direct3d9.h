@@ -1,4 +1,4 @@
-/* Direct3D 9, a part of runner.c. Token streams are assembled here: the system has no assembler. */
+/* Direct3D 9, a part of runner.c. It assembles token streams, because the system has no assembler. */
 #define COBJMACROS
 #include <d3d9.h>
 
@@ -13,7 +13,7 @@ static void assemble(const Program *program, DWORD *token) {
                  {"rcp", 6},     {"dp3", 8},     {"dp4", 9},           {"lrp", 18},        {"dcl", 31},
                  {"dcl_2d", 31}, {"texcrd", 64}, {"dcl_position", 31}, {"dcl_color0", 31}, {"texkill", 65},
                  {"tex", 66},    {"texld", 66},  {"texdepth", 87},     {"phase", 0xfffd}};
-    static const char kinds[] = "rvctPD..Cos"; /* by the number of the type; s is 10, the depth (o) is not used */
+    static const char kinds[] = "rvctPD..Cos"; /* indexed by type; s is 10, the depth (o) is not used */
     *token++ = (program->vertex ? 0xfffe0000u : 0xffff0000u) | (DWORD)program->major << 8 | (DWORD)program->minor;
     for (const Step *step = program->step; step < program->step + program->count; step++) {
         DWORD *first = token++, code = 0;
@@ -53,7 +53,7 @@ static void open_card(void) {
     present.SwapEffect = D3DSWAPEFFECT_DISCARD;
     present.hDeviceWindow = window;
     HRESULT result = E_FAIL;
-    /* A card without vertex programs has the processor's. */
+    /* For a card without vertex programs, the processor runs them. */
     for (int hardware = 1; hardware >= 0 && FAILED(result); hardware--)
         result = IDirect3D9_CreateDevice(interface9, 0, D3DDEVTYPE_HAL, window,
                                          D3DCREATE_FPU_PRESERVE | (hardware ? D3DCREATE_HARDWARE_VERTEXPROCESSING
@@ -67,8 +67,8 @@ static void open_card(void) {
         LOWORD(card.DriverVersion.HighPart), HIWORD(card.DriverVersion.LowPart), LOWORD(card.DriverVersion.LowPart));
 }
 
-/* vs_1_1: declares v0 to v4 as position, two colors and two coordinates, and moves each to its output. Through it
- * colors reach the card as floats. */
+/* vs_1_1: declares v0 to v4 as position, two colors and two coordinates, and moves each to its output. It
+ * passes colors to the card as floats. */
 static const DWORD through[] = {0xfffe0101, 31, 0x80000000, 0x900f0000, 31,    0x8000000a, 0x900f0001, 31, 0x8001000a,
                                 0x900f0002, 31, 0x80000005, 0x900f0003, 31,    0x80010005, 0x900f0004, 1,  0xc00f0000,
                                 0x90e40000, 1,  0xd00f0000, 0x90e40001, 1,     0xd00f0001, 0x90e40002, 1,  0xe00f0000,
@@ -78,7 +78,7 @@ static const D3DVERTEXELEMENT9 elements[] = {
     {0, 32, D3DDECLTYPE_FLOAT4, 0, D3DDECLUSAGE_COLOR, 1},    {0, 48, D3DDECLTYPE_FLOAT4, 0, D3DDECLUSAGE_TEXCOORD, 0},
     {0, 64, D3DDECLTYPE_FLOAT4, 0, D3DDECLUSAGE_TEXCOORD, 1}, D3DDECL_END()};
 
-/* Makes the texture of a probe. `rgba8` is made as `bgra8`, which all cards have: the channels are the same. */
+/* Makes the texture of a probe. `rgba8` is made as `bgra8`, which all cards have, with the same channels. */
 static int make_texture(const Probe *probe, IDirect3DTexture9 **texture) {
     int narrow = !strcmp(probe->format, "bgr565"), is_signed = !strcmp(probe->format, "rgba8s");
     D3DLOCKED_RECT locked;
@@ -121,7 +121,7 @@ static int make_texture(const Probe *probe, IDirect3DTexture9 **texture) {
     return 1;
 }
 
-/* What a draw makes, and gives back however it ends. */
+/* Objects that a draw creates, and releases however it ends. */
 typedef struct {
     IDirect3DPixelShader9 *pixel;
     IDirect3DVertexShader9 *vertex;

@@ -1,9 +1,9 @@
-/* OpenGL through GLX, a part of runner.c. ps_1_x is drawn by ATI_fragment_shader on r200, whose units it names one by
- * one; ps_2_0, and programs that only move, by ARB_fragment_program; vs_1_1 by ARB_vertex_program. */
+/* OpenGL through GLX, a part of runner.c. ATI_fragment_shader runs ps_1_x on r200, unit by unit of that card;
+ * ARB_fragment_program runs ps_2_0 and programs that only move; ARB_vertex_program runs vs_1_1. */
 #include <GL/gl.h>
 #include <GL/glx.h>
 
-/* What lies behind OpenGL 1.3, asked of the driver. */
+/* Functions beyond OpenGL 1.3, which the driver provides on request. */
 /* clang-format off */
 #define FUNCTIONS(F)                                                          \
     F(PFNGLGENPROGRAMSARBPROC, glGenProgramsARB)                              \
@@ -37,7 +37,7 @@ static int has(const char *name) {
     return found != NULL;
 }
 
-/* What the X server refuses ends the program as other errors do. */
+/* An error of the X server ends the program, as other errors do. */
 static int on_error(Display *display, XErrorEvent *event) {
     char text[128];
     XGetErrorText(display, event->error_code, text, sizeof text);
@@ -46,7 +46,7 @@ static int on_error(Display *display, XErrorEvent *event) {
 }
 
 static void open_card(void) {
-    /* Two buffers, so that nothing that is drawn is shown. */
+    /* Two buffers, so that no drawing is shown. */
     /* clang-format off */
     int wish[] = {GLX_DRAWABLE_TYPE, GLX_PBUFFER_BIT, GLX_RENDER_TYPE, GLX_RGBA_BIT, GLX_DOUBLEBUFFER, True,
                   GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8, GLX_ALPHA_SIZE, 8, GLX_DEPTH_SIZE, 0, None};
@@ -57,7 +57,7 @@ static void open_card(void) {
     if (!display) die("no display: start it under X, or set DISPLAY");
     XSetErrorHandler(on_error);
     GLXFBConfig *all = glXChooseFBConfig(display, DefaultScreen(display), wish, &count);
-    for (int i = 0; i < count; i++) { /* 8 bits a channel and no anti-aliasing, and 16 bits of depth if there are */
+    for (int i = 0; i < count; i++) { /* 8 bits per channel, no anti-aliasing, 16 bits of depth if possible */
         static const int what[4] = {GLX_RED_SIZE, GLX_GREEN_SIZE, GLX_BLUE_SIZE, GLX_ALPHA_SIZE};
         int depth = 0, fits = 1;
         for (int c = 0; c < 4; c++) glXGetFBConfigAttrib(display, all[i], what[c], &bits[c]), fits &= bits[c] == 8;
@@ -73,7 +73,7 @@ static void open_card(void) {
     if (!extensions) die("the driver names no OpenGL extensions");
 #define LOAD(type, name) name##_ = (type)glXGetProcAddressARB((const GLubyte *)#name);
     FUNCTIONS(LOAD)
-    /* Direct3D draws pixels whose centers lie on an upper edge. Where this driver draws those on a lower one instead,
+    /* Direct3D draws pixels whose centers lie on an upper edge. If this driver draws those on a lower edge instead,
      * everything is drawn upside down. */
     unsigned char below[4];
     glViewport(0, 0, 2, 2);
@@ -85,7 +85,7 @@ static void open_card(void) {
         (const char *)glGetString(GL_VENDOR), (const char *)glGetString(GL_VERSION));
 }
 
-/* Whether a ps_1_x program only moves what it reads, so that no unit of a card computes with its numbers. */
+/* True if a ps_1_x program only moves values that it reads, so that no unit of a card computes with them. */
 static int only_moves(const Program *program) {
     for (int i = 0; i < program->count; i++)
         if (strcmp(program->step[i].name, "mov") && strncmp(program->step[i].name, "tex", 3)) return 0;
@@ -127,7 +127,7 @@ static int use_ati(const Program *program) {
             else glSampleMapATI_(to, unit, GL_SWIZZLE_STR_ATI);
             continue;
         }
-        if (!strcmp(step->name, "phase")) continue; /* the second reads of coordinates begin it */
+        if (!strcmp(step->name, "phase")) continue; /* the second reads of coordinates start it */
         for (int i = 0; i < step->sources; i++) {
             const Operand *operand = &step->from[i];
             GLuint number = (GLuint)operand->number;
@@ -164,7 +164,7 @@ static int use_ati(const Program *program) {
     return 1;
 }
 
-/* ---- ARB programs: the same lines in other words. Constants are set from outside, as above. ---- */
+/* ---- ARB programs: the same instructions in another syntax. Constants are set from outside, as above. ---- */
 
 static int use_arb(const Program *program, GLenum stage, const char *extension) {
     static char text[1 << 12];
@@ -226,7 +226,7 @@ static int make_texture(const Probe *probe) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, *probe->address ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, *probe->address ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, probe->linear ? GL_LINEAR : GL_NEAREST);
-    /* The four names between mipmaps follow each other: + 1 for linear within a level, + 2 between levels. */
+    /* The four mipmap filters have consecutive numbers: + 1 is linear within a level, + 2 between levels. */
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                     *probe->mip     ? GL_NEAREST_MIPMAP_NEAREST + probe->linear + 2 * (*probe->mip == 'l')
                     : probe->linear ? GL_LINEAR
@@ -271,8 +271,8 @@ static int draw(const Probe *probe, Image *image) {
                 return refuse("OpenGL itself clamps the colors of its vertices: needs Direct3D 9");
     glDisable(GL_FRAGMENT_PROGRAM_ARB), glDisable(GL_VERTEX_PROGRAM_ARB), glDisable(GL_FRAGMENT_SHADER_ATI);
     glGetError();
-    /* A register of ATI_fragment_shader reads the texture unit of its number: ps_1_1's t0 is kept as the third, beside
-     * r0 and r1, and its texture is bound there. */
+    /* Register n of ATI_fragment_shader reads texture unit n: ps_1_1's t0 is the third register, after r0 and r1, and
+     * its texture is bound to the third unit. */
     for (GLenum unit = GL_TEXTURE2; unit >= GL_TEXTURE0; unit -= 2) glActiveTexture(unit), glDisable(GL_TEXTURE_2D);
     if (r200 && probe->pixel.minor == 1) glActiveTexture(GL_TEXTURE2);
     glGenTextures(1, &texture);

@@ -16,7 +16,7 @@ typedef float Vector[4];
 typedef struct {
     char kind;
     int number, swizzle[4], negated;
-} Operand; /* kind: r c v t s, C oC, P oPos, D oD */
+} Operand; /* kind: r, c, v, t or s; C for oC, P for oPos, D for oD */
 typedef struct {
     char name[16];
     Operand to, from[3];
@@ -63,7 +63,7 @@ static int refuse(const char *format, ...) {
     return 0;
 }
 
-/* The table, as text: it reaches the disk when all of it is known. */
+/* The table as text; it is written to disk when it is complete. */
 static char *table;
 static size_t written, room;
 
@@ -99,7 +99,7 @@ static const char *read_register(const char *text, Operand *operand) {
     return operand->number < 8 ? text : NULL;
 }
 
-/* Reads the components behind a point: a swizzle, the last of which is repeated, and the mask that they are. */
+/* Reads the letters after a dot, both as a swizzle (whose last letter is repeated) and as a mask. */
 static const char *read_components(const char *text, int swizzle[4], int *mask) {
     int count = 0;
     *mask = 15;
@@ -113,7 +113,7 @@ static const char *read_components(const char *text, int swizzle[4], int *mask) 
     return text;
 }
 
-/* Splits `name_x2 dst, src, ...`; 0 if it is not understood. */
+/* Splits `name_x2 dst, src, ...`; returns 0 if it does not know the line. */
 static int read_step(Program *program, char *line) {
     static const char *const names[] = {"mov",   "add", "sub",    "mul",          "mad",       "lrp",      "rcp",
                                         "dp3",   "dp4", "tex",    "texld",        "texcrd",    "texdepth", "texkill",
@@ -161,15 +161,15 @@ static int read_step(Program *program, char *line) {
     return 1;
 }
 
-/* ---- Probes: a part of TOML. What is not known is an error: no probe is drawn otherwise than it is written. ---- */
+/* ---- Probes: a subset of TOML. Unknown lines are errors, so no probe is drawn differently from its text. ---- */
 
-/* Reads all numbers of a text, over brackets and commas; returns how many. */
+/* Reads all numbers of a text, skips brackets and commas, and returns how many numbers it read. */
 static int read_numbers(const char *text, double *numbers, int most) {
     int count = 0;
     while (*(text += strspn(text, "[], "))) {
         char *end;
         if (count == most) return most + 1;
-        numbers[count++] = strtof(text, &end); /* also of `inf`, which Windows's strtod does not know */
+        numbers[count++] = strtof(text, &end); /* reads `inf`, too; Windows's strtod does not */
         if (end == text) return -1;
         text = end;
     }
@@ -178,7 +178,7 @@ static int read_numbers(const char *text, double *numbers, int most) {
 
 static int read_word(const char *value, char word[16]) { return sscanf(value, "\"%15[^\"]\"", word) == 1; }
 
-/* Reads `{ name = [numbers], ... }` into a corner. A vertex program reads by number, as its two `dcl` lines say. */
+/* Reads `{ name = [numbers], ... }` into a corner. A vertex program numbers its inputs, as its two `dcl` lines say. */
 static int read_attributes(const Probe *probe, const char *text, Vector corner[ATTRIBUTES]) {
     for (text += strspn(text, "{ "); *text && *text != '}'; text += strspn(text, ", ")) {
         char name[16], list[128];
@@ -196,7 +196,7 @@ static int read_attributes(const Probe *probe, const char *text, Vector corner[A
     return 1;
 }
 
-/* Reads a line `key = value` of a section; 0 if it is not understood. */
+/* Reads a line `key = value` of a section; returns 0 if it does not know the line. */
 static int read_line(Probe *probe, const char *section, const char *key, const char *value) {
     char word[16] = "";
     double numbers[256];
@@ -230,7 +230,7 @@ static int read_line(Probe *probe, const char *section, const char *key, const c
     }
     if (KEY("[geometry]", "primitive")) return probe->strips = 3, !strcmp(word, "triangles");
     if (KEY("[geometry]", "attributes")) {
-        /* They stand behind the vertices, which have none of them but their position. */
+        /* These follow the vertices in the file; a vertex itself has only its position. */
         Vector common[ATTRIBUTES];
         memset(common, 0, sizeof common);
         if (!read_attributes(probe, value, common)) return 0;
@@ -302,7 +302,7 @@ static void read_probe(const char *path, Probe *probe) {
 
 /* ---- The interfaces. Each has `open_card`, which writes remarks on the card and its driver, and `draw`. ---- */
 
-/* The channels of a texel as a texture of 4 bytes or 2 takes them; codes of signed channels are two's complement. */
+/* Packs the channels of a texel for a texture of 4 or 2 bytes per texel; signed channels are two's complement. */
 static unsigned pack(const double texel[4], int narrow, int red, int blue) {
     unsigned code[4];
     for (int i = 0; i < 4; i++) code[i] = (unsigned)(int)texel[i] & 255;
@@ -320,7 +320,7 @@ static unsigned pack(const double texel[4], int narrow, int red, int blue) {
 
 static int by_name(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-/* Lists the probes of a folder, or the one that is named; returns how many. */
+/* Lists the probes of a folder, or a single given file; returns how many there are. */
 static int list_probes(const char *place, char *paths[256]) {
     int count = 0;
     DIR *listing = opendir(place);
@@ -341,7 +341,7 @@ static int list_probes(const char *place, char *paths[256]) {
     return count;
 }
 
-/* Writes what the probes gave; returns how many were drawn. */
+/* Draws the probes and writes their codes to the table; returns how many probes were drawn. */
 static int measure(char *const *paths, int count) {
     static Image image;
     static Probe probes[256];
@@ -383,7 +383,7 @@ int main(int count, char **arguments) {
     if (!file) die("cannot write %s: %s", arguments[2], strerror(errno));
     size_t kept = fwrite(table, 1, written, file);
     if (fclose(file) || kept != written) {
-        remove(arguments[2]); /* a part of a table is none */
+        remove(arguments[2]); /* no table is better than part of one */
         die("cannot write %s: %s", arguments[2], strerror(errno));
     }
     return 0;

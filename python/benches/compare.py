@@ -3,7 +3,7 @@
     pip install crossbar-gi gfloat ml_dtypes apytypes trimesh embreex
     python python/benches/compare.py
 
-Prints the tables of docs/python.md. Times are of the processor, on one thread, of the shortest of several runs.
+Prints the tables of docs/python.md. Times are processor times on one thread, from the shortest of several runs.
 """
 
 import importlib.metadata
@@ -23,7 +23,7 @@ N = 100_000
 
 
 def shortest(work, seconds=1.0):
-    """The shortest of several runs, in nanoseconds per element."""
+    """The time of the shortest of several runs, in nanoseconds per element."""
     best, end = float("inf"), time.perf_counter() + seconds
     while time.perf_counter() < end:
         start = time.process_time()
@@ -72,7 +72,7 @@ def products():
 
 
 def first_hits():
-    """Hard and ordinary rays on a sphere of trimesh; first hits of Embree in single precision."""
+    """Compare exact first hits with Embree's (single precision), for ordinary and hard rays on a trimesh sphere."""
     import trimesh
     from trimesh.ray.ray_pyembree import RayMeshIntersector
 

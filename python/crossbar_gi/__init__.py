@@ -1,14 +1,14 @@
-"""Crossbar for Python: arrays in, arrays out.
+"""Crossbar for Python, on NumPy arrays.
 
-- :func:`oracle`, :func:`hard_rays`: exact first hits of rays on a mesh, and other people's hits held against them.
+- :func:`oracle`, :func:`hard_rays`: exact first hits of rays on a mesh, and comparison of other hits with them.
 - :class:`Format`, :func:`round`, :func:`add`, :func:`mul`, :func:`fma`, :func:`dot`, ...: arithmetic in any number
   format, each result rounded once.
-- :func:`matmul`, :func:`units`, :func:`dot` with a ``unit``: what the matrix units of GPUs make of a product.
+- :func:`matmul`, :func:`units`, :func:`dot` with a ``unit``: products as the matrix units of GPUs compute them.
 - :func:`run`, :func:`compare`, :func:`diff`: shaders on emulated graphics cards of 2001 to 2008, bit for bit.
-- :func:`reproduce`, :func:`precision`: the studies, as records.
+- :func:`reproduce`, :func:`precision`: the studies, as lists of dictionaries.
 
-What is computed is the same on every computer, for any number of threads. Work of more than an instant runs without
-the interpreter's lock, on all cores, and Ctrl-C ends it.
+Results are the same on every computer and with any number of threads. Long work runs on all cores without the
+interpreter's lock; Ctrl-C interrupts it.
 """
 
 from ._native import __version__

@@ -1,4 +1,4 @@
-# The compiled part: see python/src. Users call the Python modules in this folder.
+# The compiled part, from python/src. Users call the Python modules in this folder instead.
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Shaders and cases on emulated graphics cards: pictures, results of every instruction, differences of two sides."""
+"""Shaders and cases on emulated graphics cards: pictures, results of each instruction, comparison of two sides."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ SHADER_SIZE = (64, 64)
 class Run:
     """The results of a draw."""
 
-    #: Targets, each float64 of shape (height, width, 4): red, green, blue, alpha as numbers, rows from the top.
+    #: Targets, each float64 of shape (height, width, 4): red, green, blue and alpha as numbers; rows go from the top.
     targets: list[NDArray[np.float64]]
     #: Depth buffer, float64 of shape (height, width), or None.
     depth: NDArray[np.float64] | None
     #: Counts of the draw: ``fragments_shaded``, ``texture_reads``, ``bytes_read``, ...
     counts: dict[str, int]
-    #: Modelled time on the card in microseconds, ``rates_us`` and ``pipeline_us``; None if a figure of the card is
-    #: unknown. docs/timing.md says what the models omit.
+    #: Modelled times on the card in microseconds: ``rates_us`` and ``pipeline_us``; None if a figure of the card is
+    #: unknown. docs/timing.md lists what the models omit.
     modelled: dict[str, float | None]
-    #: The probes of the case, each with ``passed``.
+    #: The probes of the case, each with a field ``passed``.
     probes: list[dict[str, Any]]
-    #: Device, format of the pixel registers, switches, and the rest of the document.
+    #: The JSON document of the draw: device, format of the pixel registers, switches, and more.
     document: dict[str, Any]
     #: Warnings about the case.
     warnings: list[str]
@@ -53,7 +53,7 @@ class Run:
         return f"<Run on {self.document['device']} in {self.document['format']}: {sizes}>"
 
     def trace(self, x: int, y: int) -> list[dict[str, Any]]:
-        """Results of every instruction at a pixel, on the reference executor.
+        """The results of every instruction at a pixel, from the reference executor.
 
         Args:
             x: Column, from the left.
@@ -88,7 +88,7 @@ class Run:
 
 
 def _toml(value: Any) -> str:
-    """A value as TOML on one line. JSON's strings, numbers and lists are TOML's."""
+    """A value as TOML on one line. TOML and JSON write strings, numbers and lists alike."""
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml(item)}" for key, item in value.items()) + " }"
     if isinstance(value, (np.ndarray, np.generic)):
@@ -193,15 +193,15 @@ def run(
         case: The path of a case file, its text, a dictionary with its fields (docs/cases.md; paths in it are relative
             to the working directory), or the text of a pixel shader. A shader alone is drawn over the whole target,
             with ``t0`` from (0, 0) to (1, 1).
-        device: A card in place of the case's: ``"r300"``, ``"nv30"``, ..., or a device file. A shader alone runs on
-            r200, or nv35 for OpenGL; with a ``format`` but no device, on a device without limits that has this format.
+        device: A card that replaces the case's: ``"r300"``, ``"nv30"``, ..., or a device file. Without it, a shader
+            alone runs on r200 (OpenGL: nv35), or, with a ``format``, on a device without limits in this format.
         format: The number format of the pixel registers.
         switches: Switches of the device, by name.
-        inputs: Constants ``c0`` ... of the pixel program, 4 numbers each, and textures ``t0`` ..., arrays of shape
-            (height, width, 4), red, green, blue, alpha, rounded to their texel formats; they replace those of the case.
+        inputs: Constants ``c0``, ... of the pixel program (4 numbers each) and textures ``t0``, ... (arrays of shape
+            (height, width, 4), rounded to their texel formats); they replace the case's constants and textures.
         size: Width and height of the target, for a shader alone.
         target: Texel format of target and textures, for a shader alone.
-        executor: ``"batch"``, or ``"scalar"``, the reference; both give the same bits.
+        executor: ``"batch"``, or ``"scalar"`` (the reference); both give the same bits.
         step_budget: Maximum number of instructions that a pixel may execute.
 
     Raises:
@@ -222,18 +222,18 @@ def compare(
     pixel: tuple[int, int] | None = None,
     registers: bool = False,
 ) -> dict[str, Any]:
-    """Run a case on two sides, and find the first difference, down to the instruction.
+    """Run a case on two sides, and find the first difference and its instruction.
 
     Args:
         case: As for :func:`run`.
         left: Settings of the left side that replace the case's: ``device``, ``format``, ``switches``, ``executor``.
-        right: The same for the right side, ``{"format": "fp32"}`` for example. By default the left side runs on the
-            reference executor, and the right side likewise, or on the batch executor if it differs in nothing else.
+        right: The same for the right side: ``{"format": "fp32"}``, for example. Both sides run on the reference
+            executor by default; if their settings are equal, the right side runs on the batch executor.
         inputs: As for :func:`run`, on both sides.
         size: As for :func:`run`.
         target: As for :func:`run`.
-        pixel: Trace this pixel (column, row), even if the targets do not differ there.
-        registers: Trace every pixel.
+        pixel: The pixel (column, row) to trace, even if the targets do not differ there.
+        registers: True to trace every pixel.
 
     Returns:
         The document of ``crossbar compare --json`` (docs/compare.md): ``equal``, ``different`` (pixels), ``surfaces``,
@@ -261,15 +261,15 @@ def compare(
 class Difference:
     """The difference of two pictures."""
 
-    #: Structural similarity of the luma, 1 for equal pictures; None for pictures smaller than 11 x 11 pixels.
+    #: Structural similarity (SSIM) of the luma: 1 for equal pictures, None for pictures smaller than 11 x 11 pixels.
     ssim: float | None
-    #: Mean FLIP: the difference visible to an observer who flips between the pictures, 0 (none) to 1.
+    #: Mean FLIP: the difference seen by an observer who flips between the pictures, from 0 (none) to 1.
     flip: float
     #: Largest FLIP of a pixel.
     flip_maximum: float
     #: FLIP of each pixel, shape (height, width).
     flip_map: NDArray[np.float64]
-    #: Root mean square difference of all channels.
+    #: Root mean square of the differences of all channels.
     rmse: float
     #: Largest difference of a channel of a pixel.
     maximum: float
@@ -288,15 +288,15 @@ def diff(a: ArrayLike, b: ArrayLike, *, srgb: bool = False, exposure: float = 1.
     """Compare two pictures as an observer perceives them.
 
     Args:
-        a: Shape (height, width, 3 or 4); alpha is ignored. Linear light, or with ``srgb`` display values from 0 to 1;
-            arrays of uint8 are display values from 0 to 255.
+        a: Shape (height, width, 3 or 4); alpha is ignored. Floats are linear light or, with ``srgb``, display values
+            from 0 to 1; uint8 numbers are display values from 0 to 255.
         b: The same shape.
-        srgb: True for display values.
-        exposure: Factor for linear light.
+        srgb: True if the floats are display values.
+        exposure: Factor by which linear light is multiplied.
         ppd: Pixels per degree of the observer.
 
     Raises:
-        ValueError: for other shapes, or NaN.
+        ValueError: if a shape is wrong, or a number is NaN.
     """
     pictures = []
     for name, picture in (("a", np.asarray(a)), ("b", np.asarray(b))):
@@ -310,7 +310,7 @@ def diff(a: ArrayLike, b: ArrayLike, *, srgb: bool = False, exposure: float = 1.
             raise ValueError(f"expected numbers, found NaN in {name}[{y}, {x}, {channel}]")
         pictures.append(picture)
     if pictures[0].shape != pictures[1].shape:
-        raise ValueError(f"expected two pictures of one size, found {pictures[0].shape} and {pictures[1].shape}")
+        raise ValueError(f"expected two pictures of the same size, found {pictures[0].shape} and {pictures[1].shape}")
     if not (ppd > 0 and exposure > 0):
         raise ValueError(f"expected a positive exposure and number of pixels per degree, found {exposure} and {ppd}")
     return Difference(pictures[0], pictures[1], srgb, exposure, ppd)

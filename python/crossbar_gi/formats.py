@@ -1,13 +1,13 @@
 """Number formats: the numbers of a format, and arithmetic in it.
 
-A format is a string, the same everywhere in Crossbar: ``s3.12`` (fixed point), ``n3.8`` (normalized integers),
+A format is a string, with one syntax for all of Crossbar: ``s3.12`` (fixed point), ``n3.8`` (normalized integers),
 ``e5m10`` (float), ``e4m3fn`` (float without infinity), ``e8m0`` (powers of two), or an alias (``fp16``, ``bf16``,
 ``fp24``, ``fp32``, ``ps14``, ``fx12``), followed by rules: ``:rne :rna :rtz :rdn :rup :rod :rst`` (rounding),
 ``:sat :wrap :inf :nvovf`` (overflow), ``:keep :ftz`` (subnormals), ``:ieee :nv`` (special values).
 
-Arrays of floats are numbers: they are rounded into the format first, by its rules, and results are float64. Arrays of
-*unsigned* integers are bit patterns of the format, in their low bits, and so are the results. Shapes broadcast as
-in NumPy. Each result is the exact result, rounded once, unless the function says otherwise.
+Arrays of floats are numbers: they are first rounded into the format by its rules, and results are float64. Arrays of
+*unsigned* integers have bit patterns of the format in their low bits, and so have the results. Shapes broadcast as in
+NumPy. Each result is the exact result, rounded once, unless the function says otherwise.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ MAX_TABLE_BITS = 20
 class Format:
     """A number format, and facts about it.
 
-    ``Format("e5m10:rtz")`` parses the string; the fields are numbers as float64.
+    ``Format("e5m10:rtz")`` parses the string; numbers among the fields are float64.
 
     Raises:
-        ValueError: if the string is no format. The message says what is expected, and where.
+        ValueError: if the string is not a format; the message says what is expected, and where.
     """
 
     #: The string, in its shortest form.
@@ -46,7 +46,7 @@ class Format:
     smallest: float
     #: Smallest positive number that is not subnormal.
     smallest_normal: float
-    #: Distance from 1 to the next larger number; in fixed point, the distance between all neighbors.
+    #: Distance from 1 to the next larger number; in fixed point, the distance between any two neighbors.
     epsilon: float
     #: True for fixed point and normalized integers.
     is_fixed: bool
@@ -66,7 +66,7 @@ class Format:
         """Every value of the format: a structured array with ``bits`` and ``value``, in the order of the bits.
 
         Returns:
-            Shape ``(2 ** bits,)``; NaN and infinities where the patterns mean them.
+            Shape ``(2 ** bits,)``; patterns for NaN and infinity have these values.
 
         Raises:
             ValueError: if the format has more than 20 bits.
@@ -148,15 +148,15 @@ def round(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
     """Round numbers into a format.
 
     Args:
-        x: Numbers, any shape. (Bit patterns come back as they are, but that subnormals are flushed under ``:ftz``.)
-        format: The format. Under ``:rst`` element i (in the order of C) takes the i-th word of the seed.
-        seed: Of stochastic rounding.
+        x: Numbers, any shape. (Bit patterns are returned unchanged, except that ``:ftz`` flushes subnormals.)
+        format: The format. Under ``:rst``, element i (in C order) uses the i-th random word of the seed.
+        seed: Seed of stochastic rounding.
 
     Returns:
-        float64 of the shape of ``x``: numbers of the format. Infinities come where it has them.
+        float64 numbers of the format, in the shape of ``x``, with infinities if the format has them.
 
     Raises:
-        ValueError: if the format is none, or ``x`` has a NaN and the format none.
+        ValueError: if ``format`` is not a format, or ``x`` has a NaN but the format does not.
     """
     return _compute("round", format, seed, (x,))
 
@@ -175,12 +175,12 @@ def to_bits(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
 
 
 def from_bits(bits: ArrayLike, format: Format | str) -> Any:
-    """Convert bit patterns to the numbers that they represent, as float64; exact except for normalized integers.
+    """Convert bit patterns to the numbers that they represent, as float64; only normalized integers are rounded.
 
     Subnormal patterns keep their value in formats that flush them.
 
     Raises:
-        ValueError: if ``bits`` are no unsigned integers, or wider than the format.
+        ValueError: if ``bits`` are not unsigned integers, or are wider than the format.
     """
     known = _format(format)
     array = np.asarray(bits)
@@ -208,7 +208,8 @@ def mul(x: ArrayLike, y: ArrayLike, format: Format | str, *, seed: int = 0) -> A
 
 
 def div(x: ArrayLike, y: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """``x / y``, rounded once. ``1 / 0`` is infinite, or the end of the range in fixed point; ``0 / 0`` is NaN or 0."""
+    """``x / y``, rounded once. ``1 / 0`` gives infinity if the format has it, otherwise NaN, otherwise the end of the
+    range (and always with ``:sat``). ``0 / 0`` gives NaN, or 0 in formats without NaN."""
     return _compute("div", format, seed, (x, y))
 
 
@@ -218,7 +219,7 @@ def fma(x: ArrayLike, y: ArrayLike, z: ArrayLike, format: Format | str, *, seed:
 
 
 def mad(x: ArrayLike, y: ArrayLike, z: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """``x * y + z``, with the product and the sum each rounded."""
+    """``x * y + z``; the product is rounded, and so is the sum."""
     return _compute("mad", format, seed, (x, y, z))
 
 
@@ -243,7 +244,7 @@ def frac(x: ArrayLike, format: Format | str) -> Any:
 
 
 def saturate(x: ArrayLike, format: Format | str) -> Any:
-    """``x`` clamped to 0 to 1."""
+    """``x``, clamped to the range from 0 to 1."""
     return _compute("saturate", format, 0, (x,))
 
 
@@ -253,7 +254,7 @@ def rcp(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
 
 
 def rsq(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """``1 / sqrt(|x|)``, rounded once; for negative numbers, NaN in formats with ``:nv``."""
+    """``1 / sqrt(|x|)``, rounded once; formats with ``:nv`` give NaN for negative numbers."""
     return _compute("rsq", format, seed, (x,))
 
 
@@ -268,7 +269,7 @@ def exp2(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
 
 
 def log2(x: ArrayLike, format: Format | str, *, seed: int = 0) -> Any:
-    """Logarithm of ``|x|`` to base 2, rounded once; for negative numbers, NaN in formats with ``:nv``."""
+    """Logarithm of ``|x|`` to base 2, rounded once; formats with ``:nv`` give NaN for negative numbers."""
     return _compute("log2", format, seed, (x,))
 
 
@@ -290,19 +291,19 @@ def dot(
         x: Numbers of shape ``(..., n)``, or bit patterns.
         y: The same kind; the shapes broadcast.
         format: The format of operands and result.
-        order: ``"sequential"``: ``((a + b) + c) + d``; ``"tree"``: ``(a + b) + (c + d)``; each product and each sum is
-            rounded. ``"exact"``: one rounding of the exact sum.
+        order: ``"sequential"``: ``((a + b) + c) + d``, or ``"tree"``: ``(a + b) + (c + d)``, where each product and
+            each sum is rounded; or ``"exact"``: the exact sum is rounded once.
         accumulator: The format in which products and sums are rounded; by default ``format``.
-        unit: A unit of :func:`units`, in place of a format: rounding, types and results as in :func:`matmul`.
-        c: With a unit: what is added, numbers or bit patterns that broadcast to the result.
-        types: With a unit that takes several: types of x and y, or that of both.
-        scales: With a unit that has scales: bit patterns of those of x and y, along the last axis.
+        unit: A unit of :func:`units`, instead of a format: rounding, types and results as in :func:`matmul`.
+        c: Only with a unit: an addend, as numbers or bit patterns that broadcast to the result.
+        types: Only with a unit that supports several types: the types of x and y, or one type for both.
+        scales: Only with a unit that has scales: the scales of x and of y along the last axis, as bit patterns.
 
     Returns:
-        Shape ``(...)``, float64 or bit patterns; of a unit its own type.
+        Shape ``(...)``: float64 or bit patterns; with a unit, the unit's own type.
 
     Raises:
-        ValueError: as :func:`round`; if an operand has no axis; under ``:rst``; if the unit does not take the operands.
+        ValueError: as :func:`round`; if an operand has no axis; under ``:rst``; if the unit does not support the types.
     """
     if unit is not None:
         if (format, order, accumulator) != (None, "sequential", None):
@@ -311,7 +312,7 @@ def dot(
     if format is None:
         raise ValueError("expected a format, or a unit (cg.units() lists them)")
     if types is not None or scales is not None or np.any(np.asarray(c) != 0):
-        raise ValueError("c, types and scales go with a unit")
+        raise ValueError("c, types and scales need a unit")
     known, sums = _format(format), _format(format if accumulator is None else accumulator)
     arrays = [np.asarray(x), np.asarray(y)]
     if any(array.ndim == 0 for array in arrays):

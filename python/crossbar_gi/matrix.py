@@ -1,9 +1,9 @@
 """Matrix units of GPUs, Volta to Blackwell and CDNA1 to CDNA3: their products and sums, bit for bit.
 
-A unit is a name of :func:`units`; ``-`` may stand for ``_``, and ``_f32`` at the end may be left out. Arrays of floats
-are numbers: they are rounded to nearest even into the unit's types, of which those of up to 8 bits saturate. Arrays of
-*unsigned* integers are bit patterns of these types. Results have the type of the unit's result, float16, float32 or
-float64, so that ``d.view(np.uint32)`` is the word that the unit gives.
+A unit is a name from :func:`units`; ``-`` means the same as ``_``, and a final ``_f32`` may be omitted. Arrays of
+floats are numbers: they are rounded to nearest even into the unit's types, and types of up to 8 bits saturate. Arrays
+of *unsigned* integers are bit patterns of these types. Results have the type of the unit's result (float16, float32 or
+float64), so ``d.view(np.uint32)`` gives the words of a float32 result.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ _FIELDS = ("name", "chips", "types", "c", "k", "block", "bits_kept", "result", "
 
 
 def units() -> list[dict[str, Any]]:
-    """The units, oldest first, as ``crossbar units`` lists them: pandas.DataFrame(cg.units()).
+    """The units, oldest first, as ``crossbar units`` lists them; ``pandas.DataFrame(cg.units())`` makes a table.
 
     Returns:
-        Dictionaries with ``name``, ``chips``, ``types`` of a and b, that of ``c``, ``k`` products of an instruction
-        and ``block`` of one sum, ``bits_kept`` below the largest exponent (None without an aligned adder), ``result``,
-        ``confidence`` (``measured``, ``two models``, ``one model``) and ``source``.
+        Dictionaries with ``name``, ``chips``, ``types`` of a and b, type of ``c``, number of products of an instruction
+        (``k``) and of one sum (``block``), ``bits_kept`` below the largest exponent (None without an aligned adder),
+        type of the ``result``, ``confidence`` (``measured``, ``two models`` or ``one model``) and ``source``.
     """
     return [dict(zip(_FIELDS, row)) for row in _native.units()]
 
@@ -42,15 +42,15 @@ def matmul(
     """``a @ b + c`` as a matrix unit computes it.
 
     Args:
-        a: Numbers or bit patterns, shape ``(m, k)``. Any ``k``: padding with zeros is exact.
+        a: Numbers or bit patterns, shape ``(m, k)``. ``k`` can have any value, because padding zeros change nothing.
         b: Shape ``(k, n)``.
         c: Numbers, shape ``(m, n)``; zeros by default.
         unit: The unit.
-        promote: Number of products after which the partial sum is added to a sum in single precision, to nearest, and
-            the unit restarts from zero; by default there is one accumulator.
-        types: Types of a and b, or one type for both; by default the first that the unit supports. Required for
-            patterns if the unit supports several types.
-        bits: Bits of each addend that are kept below the largest exponent, 1 to 60, in place of the unit's.
+        promote: Number of products after which the partial sum is added to a single-precision sum, rounded to nearest,
+            and the unit restarts from zero; by default there is one accumulator.
+        types: Types of a and b, or one type for both; by default the first type that the unit supports. Required for
+            bit patterns if the unit supports several types.
+        bits: Number of bits of each addend that are kept below the largest exponent, 1 to 60, instead of the unit's.
 
     Returns:
         Shape ``(m, n)``.
@@ -114,5 +114,5 @@ def _types(types: str | tuple[str, str] | None) -> tuple[str | None, str | None]
 
 
 def _typed(words: tuple[NDArray[np.uint64], int], shape: tuple[int, ...]) -> NDArray[Any]:
-    """Convert words to numbers of their type."""
+    """View words as numbers of their type."""
     return words[0].astype(f"u{words[1] // 8}").view(f"f{words[1] // 8}").reshape(shape)

@@ -1,8 +1,8 @@
 """Exact first hits of rays on a mesh, comparison of other hits with them, and rays on which intersectors differ.
 
-Everything is decided in exact arithmetic on float32 values: vertices, origins and directions of other types are
-rounded to float32 first, and results are for the rounded values. ``t`` is in multiples of the given direction of a ray,
-which need not have unit length.
+All decisions are exact for float32 values: vertices, origins and directions of other types are first rounded to
+float32, and results are for the rounded values. ``t`` is in multiples of the given direction of a ray; the direction
+need not have unit length.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ class Kind(IntEnum):
     RIGHT = 0
     #: A triangle id that the mesh does not have.
     NO_SUCH_TRIANGLE = 1
-    #: No hit where there is a surface: a hole.
+    #: No hit, although there is a surface: a hole.
     LEAK = 2
-    #: A triangle behind the first one, which was missed: a hole through which something else is seen.
+    #: A hit on a triangle behind the first one: a hole through which the ray hits something else.
     LEAK_THROUGH = 3
-    #: A hit where the ray hits nothing.
+    #: A hit, although the ray hits nothing.
     FALSE_HIT = 4
     #: A triangle hit from behind, although only front faces count.
     BACK_FACE = 5
@@ -46,14 +46,14 @@ class Kind(IntEnum):
 
     @property
     def is_leak(self) -> bool:
-        """True if an existing surface was missed, for this ray and every nearby one."""
+        """True if the intersector missed a surface that this ray and every nearby ray hit."""
         return self in (Kind.LEAK, Kind.LEAK_THROUGH)
 
 
 class Aim(IntEnum):
-    """The aim of a hard ray."""
+    """What a hard ray is aimed at."""
 
-    #: Not known.
+    #: Unknown.
     UNKNOWN = 0
     #: From outside, at a point of a shared edge.
     EDGE = 1
@@ -69,9 +69,9 @@ class Aim(IntEnum):
     FAR = 6
 
 
-#: One verdict: the ``Kind`` and ``Aim``, True if rounding explains it, the exact first triangle (-1 for none), the
-#: number of triangles at that t, the exact t (NaN for none), and the difference of the found t in steps of float32
-#: (-1 if one is missing or not finite).
+#: One verdict: the ``Kind`` and ``Aim``, True if rounding explains the answer, the exact first triangle (-1 for none),
+#: the number of triangles at that t, the exact t (NaN for none), and the number of float32 steps between the given
+#: and the exact t (-1 if either is missing or not finite).
 VERDICT = np.dtype(
     [
         ("kind", np.uint8),
@@ -84,7 +84,7 @@ VERDICT = np.dtype(
     ]
 )
 
-#: An exact first hit: the smallest id of its triangles (-1 for none), how many there are, and t (NaN for none).
+#: An exact first hit: the smallest id of the triangles hit (-1 for none), their number, and t (NaN for none).
 HIT = np.dtype([("triangle", np.int32), ("ties", np.uint32), ("t", np.float64)])
 
 
@@ -100,7 +100,7 @@ class HardRays(NamedTuple):
 
 
 def _rows(what: str, array: ArrayLike) -> NDArray[np.float32]:
-    """Finite float32 of shape (n, 3)."""
+    """Finite float32 numbers of shape (n, 3)."""
     given = np.asarray(array)
     if given.ndim != 2 or given.shape[1] != 3:
         raise ValueError(f"expected {what} of shape (n, 3), found {given.shape}")
@@ -130,7 +130,7 @@ def _faces(array: ArrayLike, vertices: int) -> NDArray[np.uint32]:
 
 
 class Oracle:
-    """A mesh with a tree over it; :func:`oracle` makes one."""
+    """A mesh with a search tree; :func:`oracle` makes it."""
 
     def __init__(self, native: _native.Oracle) -> None:
         self._native = native
@@ -146,7 +146,7 @@ class Oracle:
             Structured array :data:`HIT` of shape (n,).
 
         Raises:
-            ValueError: on another shape, a number that is not finite, or a direction of zero.
+            ValueError: if a shape is wrong, a number is not finite, or a direction is zero.
         """
         triangle, ties, t = self._native.first_hits(_rows("origins", origins), _rows("directions", directions))
         hits = np.empty(len(t), dtype=HIT)
@@ -166,16 +166,16 @@ class Oracle:
         Args:
             origins: Shape (n, 3).
             directions: Shape (n, 3).
-            triangle: Shape (n,), integers: the triangle found, negative for none.
-            t: Shape (n,): its t, in multiples of the ray's direction; any value if there is no triangle. A t that is
-                NaN or infinite is judged as wrong.
-            aims: Shape (n,), the aims from :func:`hard_rays`, if known.
+            triangle: Shape (n,), integers: the triangle that your code found, negative for none.
+            t: Shape (n,): the t of that hit, in multiples of the ray's direction; any value if there is no hit. A t
+                that is NaN or infinite is wrong.
+            aims: Shape (n,): the aims from :func:`hard_rays`, if known.
 
         Returns:
             Structured array :data:`VERDICT` of shape (n,).
 
         Raises:
-            ValueError: on another shape, a ray that is not finite, or a direction of zero.
+            ValueError: if a shape is wrong, a ray is not finite, or a direction is zero.
         """
         rays, triangles, ts, codes = self._found(origins, directions, triangle, t, aims)
         kinds, aim_codes, rounding, hits, ulps = self._native.judge(rays, triangles, ts, codes)
@@ -192,7 +192,7 @@ class Oracle:
         t: ArrayLike,
         aims: ArrayLike | None = None,
     ) -> str:
-        """The results of :meth:`judge` as text: counts, and the ten worst rays with their triangles, to the last bit.
+        """The results of :meth:`judge` as text: counts, and the ten worst rays and their triangles to the last bit.
 
         Raises:
             ValueError: as :meth:`judge`.
@@ -228,19 +228,19 @@ def oracle(
     absolute: float = 0.0,
     nearby_ulps: int = 8,
 ) -> Oracle:
-    """A judge of first hits on a mesh: ``oracle(mesh.vertices, mesh.faces)`` of a trimesh mesh.
+    """Make a judge of first hits on a mesh; for a trimesh mesh, ``oracle(mesh.vertices, mesh.faces)``.
 
     Args:
         vertices: Shape (n, 3), rounded to float32.
         faces: Shape (m, 3), integers: the corners of each triangle, counted from 0. Triangles without area are never
             hit.
-        sides: ``"both"``, or ``"front"``: only where the corners run counter-clockwise.
-        ulps: Steps of float32 that t may be off. 2**32 - 1: any t.
-        absolute: Distance that t may be off besides, in multiples of the direction.
-        nearby_ulps: A missed surface is no leak if the miss is right for a ray within so many ULPs; 0: always a leak.
+        sides: ``"both"``, or ``"front"``: rays only hit the side on which the corners run counter-clockwise.
+        ulps: Number of float32 steps by which t may be off; 2**32 - 1 allows any t.
+        absolute: Additional distance by which t may be off, in multiples of the direction.
+        nearby_ulps: A miss is not a leak if it is right for a ray within this number of ULPs; 0: it is always a leak.
 
     Raises:
-        ValueError: on another shape, a coordinate that is not finite, or an index beyond the vertices.
+        ValueError: if a shape is wrong, a coordinate is not finite, or an index is beyond the vertices.
     """
     points = _rows("vertices", vertices)
     if not 0 <= ulps < 2**32 or not 0 <= nearby_ulps < 2**16:
@@ -249,16 +249,16 @@ def oracle(
 
 
 def hard_rays(vertices: ArrayLike, faces: ArrayLike, n: int, seed: int = 0) -> HardRays:
-    """Rays on which intersectors differ, spread over a mesh: ``n // 6`` of each :class:`Aim`, at most.
+    """Make rays on which intersectors differ, spread over a mesh: at most ``n // 6`` for each :class:`Aim`.
 
     Args:
         vertices: Shape (n, 3).
         faces: Shape (m, 3).
-        n: Number of rays; fewer come where the mesh has fewer edges, vertices or triangles to aim at.
+        n: Number of rays; you get fewer if the mesh has too few edges, vertices or triangles to aim at.
         seed: The same seed gives the same rays.
 
     Raises:
-        ValueError: as :func:`oracle`; if ``n`` is below 6.
+        ValueError: as :func:`oracle`, or if ``n`` is below 6.
     """
     if n < 6 or seed < 0:
         raise ValueError(f"expected 6 rays or more and a seed of 0 or more, found {n} and {seed}")
@@ -268,6 +268,6 @@ def hard_rays(vertices: ArrayLike, faces: ArrayLike, n: int, seed: int = 0) -> H
 
 
 def counts(verdicts: NDArray[Any]) -> dict[Kind, int]:
-    """How often each kind occurs among verdicts of :meth:`Oracle.judge`, worst first; omits kinds that do not occur."""
+    """Count the verdicts of :meth:`Oracle.judge` by kind, worst kind first; omit kinds that do not occur."""
     numbers = np.bincount(verdicts["kind"], minlength=len(Kind))
     return {kind: int(numbers[kind]) for kind in Kind if numbers[kind]}

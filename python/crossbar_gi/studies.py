@@ -1,4 +1,4 @@
-"""The studies of Crossbar as lists of records, for ``pandas.DataFrame``."""
+"""The studies of Crossbar, as lists of dictionaries for ``pandas.DataFrame``."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ def entries() -> list[dict[str, str]]:
 
 
 def reproduce(*ids: str, full_size: bool = False) -> list[dict[str, Any]]:
-    """The papers' printed values and ours, judged by bounds; each row has the date of its bound.
+    """The papers' printed values and ours, judged by bounds; each row has the date when its bound was stated.
 
     Args:
         ids: Ids from :func:`entries`, or papers (``cpca``); by default all entries, which takes minutes.
-        full_size: Compute recorded entries anew: minutes for most, hours for two.
+        full_size: True to recompute recorded entries, which takes minutes for most and hours for two.
 
     Returns:
         One dictionary per printed figure, as in rows.csv of ``crossbar reproduce``: ``entry``, ``figure``,
         ``ours``, ``low`` and ``high`` (the bound), ``verdict`` and others.
 
     Raises:
-        ValueError: on an id that does not exist.
+        ValueError: if an id does not exist.
     """
     document = json.loads(_native.reproduce(list(ids), full_size))
     rows: list[dict[str, Any]] = document["rows"]
@@ -51,13 +51,13 @@ def precision(
 
     Args:
         case: A case as for :func:`crossbar_gi.run`, or one of :data:`SYSTEMS`.
-        goal: ``MEASURE<=NUMBER``, ``"flip<=0.01"`` for example; by default each code within one (docs/precision.md).
+        goal: ``MEASURE<=NUMBER``, such as ``"flip<=0.01"``; by default each code may be off by one (docs/precision.md).
         families: ``"float"``, ``"fixed"`` or both.
-        budget: Maximum number of runs of the program; then the best result so far is returned.
-        device: A device in place of the case's.
+        budget: Maximum number of runs of the program; after these, the best result so far is returned.
+        device: A device that replaces the case's.
         switches: Switches of the device, for a case.
-        table: Which table: ``"curve"`` (the measures by format), ``"formats"`` (of cards), ``"measures"``,
-            ``"switches"``, or another that the document has.
+        table: The table to return: ``"curve"`` (the measures by format), ``"formats"`` (of cards), ``"measures"``,
+            ``"switches"``, or another table of the document.
 
     Returns:
         The rows of the table, one dictionary per row.

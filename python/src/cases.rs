@@ -18,10 +18,10 @@ use serde_json::{Value, json};
 use crate::error::{refused, value_error};
 use crate::signals;
 
-/// Case bound to a device, with inputs that replace its own.
+/// Case bound to a device, with inputs that replace those of the case.
 #[pyclass(frozen, module = "crossbar_gi._native")]
 pub(crate) struct Case {
-    /// Shared with draws that continue after Ctrl-C.
+    /// Shared with draws, which continue in the background after Ctrl-C.
     pub(crate) setup: Arc<Setup>,
     pub(crate) name: String,
 }
@@ -39,7 +39,7 @@ fn executor(name: &str) -> PyResult<ExecutorKind> {
 
 #[pymethods]
 impl Case {
-    /// Reads a case from a file, or from a text whose paths are relative to `folder`.
+    /// Reads a case from a file, or from a text with paths relative to `folder`.
     #[new]
     fn new(
         source: (&str, Option<&str>),
@@ -97,7 +97,7 @@ impl Case {
         self.setup.warnings.iter().map(ToString::to_string).collect()
     }
 
-    /// Draws.
+    /// Draws the case.
     fn run<'py>(&self, py: Python<'py>, executor_name: &str) -> PyResult<Drawn<'py>> {
         let kind = executor(executor_name)?;
         let setup = Arc::clone(&self.setup);
@@ -107,7 +107,7 @@ impl Case {
         Ok((document, targets, depth.map(|depth| depth.into_pyarray(py))))
     }
 
-    /// Traces a pixel; returns JSON.
+    /// Traces a pixel; returns a JSON document.
     fn trace(&self, py: Python<'_>, x: u32, y: u32, executor_name: &str) -> PyResult<String> {
         let kind = executor(executor_name)?;
         let [width, height] = self.setup.size;
@@ -178,7 +178,7 @@ fn modelled(setup: &Setup, log: &[Event]) -> Value {
     json!({ "rates_us": time(Level::Rates), "pipeline_us": time(Level::Pipeline) })
 }
 
-/// Compares one case on two sides; returns JSON. `pixel` always traces one pixel, `registers` traces all pixels.
+/// Compares a case on two sides; returns JSON. `pixel` is always traced; `registers` traces all pixels.
 #[pyfunction]
 #[pyo3(signature = (left, right, executors, pixel, registers))]
 pub(crate) fn compare(

@@ -1,4 +1,4 @@
-//! Library errors as `ValueError`: the sentence, its causes, and advice.
+//! Library errors as `ValueError`: the message, its causes, and advice.
 
 use std::error::Error;
 
@@ -6,7 +6,7 @@ use miette::Diagnostic;
 use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
 
-/// A `ValueError` with a sentence.
+/// A `ValueError` with a message.
 pub(crate) fn value_error(sentence: impl Into<String>) -> PyErr {
     PyValueError::new_err(sentence.into())
 }

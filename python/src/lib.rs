@@ -4,8 +4,8 @@
 //! Users see the Python modules in `crossbar_gi/`, which handle shapes, broadcasting and names. Functions here take
 //! C-order arrays of one type, and return arrays, or JSON documents.
 //!
-//! - `operand`: arrays with the shape of a result, block by block; `signals`: work without the interpreter's lock that
-//!   Ctrl-C ends; `error`: errors of the library as Python's. `numbers`: number formats; `matrix`: matrix units;
+//! - `operand`: operands in the shape of a result; `signals`: work without the interpreter's lock, which Ctrl-C
+//!   interrupts; `error`: errors of the library as Python errors. `numbers`: number formats; `matrix`: matrix units;
 //!   `oracle`: exact hits; `cases`: cases on cards; `studies`: studies and pictures.
 
 mod cases;
@@ -19,7 +19,7 @@ mod studies;
 
 use pyo3::prelude::*;
 
-/// Compiled part of `crossbar_gi`.
+/// The compiled part of `crossbar_gi`.
 #[pymodule]
 mod _native {
     #[pymodule_export]

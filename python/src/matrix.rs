@@ -9,7 +9,7 @@ use refsim::num::matrix::{Element, MatrixError, MatrixUnit, Operand, UNITS};
 use crate::error::{refused, value_error};
 use crate::signals::{aside, fill};
 
-/// Name, chips, types, type of c, products per instruction and per block, bits kept, result, confidence, source.
+/// Name, chips, types, type of c, products per instruction and per block, kept bits, result, confidence, source.
 type Row = (
     &'static str,
     &'static str,
@@ -34,7 +34,7 @@ pub(crate) fn units() -> Vec<Row> {
     UNITS.iter().map(row).collect()
 }
 
-/// Numbers, or patterns.
+/// Numbers, or bit patterns.
 #[derive(FromPyObject)]
 pub(crate) enum Numbers<'py> {
     Numbers(PyReadonlyArrayDyn<'py, f64>),
@@ -56,7 +56,7 @@ impl Numbers<'_> {
         MatrixInput { name: name.to_owned(), data }
     }
 
-    /// Patterns of a type, in C order.
+    /// Bit patterns of a type, in C order.
     fn codes(self, name: &str, element: Element) -> PyResult<Vec<u64>> {
         match self.named(name).data {
             NumbersOrCodes::Codes(array) => match array.values.iter().find(|&&x| u128::from(x) >> element.width() != 0)
@@ -91,7 +91,7 @@ fn unit_with_types(name: &str, types: [Option<String>; 2]) -> PyResult<(MatrixUn
 /// Words of a result, and their width in bits.
 type Words<'py> = (Bound<'py, PyArray1<u64>>, u32);
 
-/// A matrix product, row by row. `bits_promote` holds the number of kept bits, which replaces the unit's, and the
+/// A matrix product, row by row. `bits_promote` has the number of kept bits, which replaces the unit's number, and the
 /// number of products between promotions.
 #[pyfunction]
 pub(crate) fn matmul<'py>(
@@ -149,7 +149,7 @@ pub(crate) fn unit_dot<'py>(
         || !fits(sa.len(), per_row[0])
         || !fits(sb.len(), per_row[1])
     {
-        return Err(value_error("expected rows of one length, and as many rows of scales"));
+        return Err(value_error("expected rows of the same length, and as many rows of scales"));
     }
     let [first, second] = rows(0);
     unit.check(&first, &second).map_err(|error| refused(&error))?;

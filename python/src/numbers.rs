@@ -35,8 +35,8 @@ fn parse(text: &str) -> PyResult<Format> {
     text.parse().map_err(|error: FormatError| refused(&error))
 }
 
-/// An operation in a format, or rounding alone: in the emulator's vector code if the format has it, otherwise number by
-/// number from the definition.
+/// An operation in a format, or rounding alone. It runs in the emulator's vector code if that supports the format, and
+/// otherwise number by number, from the definition.
 #[derive(Clone)]
 enum Computation {
     Rows(Box<ArrayOperation>),
@@ -57,7 +57,7 @@ impl Computation {
         Ok(rows.map_or(Self::Single { format, operation, seed }, |rows| Self::Rows(Box::new(rows))))
     }
 
-    /// Computes numbers from numbers.
+    /// Computes results as numbers from operands as numbers.
     fn doubles(&mut self, operands: [&[f64]; 3], out: &mut [f64], start: usize) {
         match self {
             Self::Rows(rows) => rows.doubles(operands, out),
@@ -106,7 +106,7 @@ impl Computation {
     }
 }
 
-/// Runs over the result's elements; `compute` receives parts of the operands and of the result.
+/// Fills the result part by part; `compute` receives parts of the operands and of the result.
 fn over<T: Element + Copy + Sync + Send, R: Element + Send, C: Clone + Sync>(
     py: Python<'_>,
     operands: &[PyReadonlyArrayDyn<'_, T>],
@@ -131,7 +131,7 @@ fn has_nan(numbers: &[f64]) -> bool {
     numbers.chunks(1 << 12).any(|some| some.iter().fold(false, |found, x| found | x.is_nan()))
 }
 
-/// Rejects NaN for a format that has none: `x`, `y` and `z` are the operands' names.
+/// Rejects NaN operands if the format has no NaN; errors call the operands `x`, `y` and `z`.
 fn refuse_nan(format: &Format, operands: &[PyReadonlyArrayDyn<'_, f64>]) -> PyResult<()> {
     if format.canonical_nan().is_some() {
         return Ok(());
@@ -256,7 +256,7 @@ pub(crate) fn dot(
     let (x, y, lengths) = (x.as_slice(), y.as_slice(), [rows(x), rows(y)]);
     let out = out.as_slice_mut().map_err(|error| value_error(error.to_string()))?;
     let (Ok(x), Ok(y), true) = (x, y, lengths[0] == lengths[1] && lengths[0].is_multiple_of(out.len().max(1))) else {
-        return Err(value_error("expected two arrays of one shape, in the order of C"));
+        return Err(value_error("expected two arrays of the same shape, in C order"));
     };
     let terms = lengths[0] / out.len().max(1);
     let task = ((1 << 16) / terms.max(1)).clamp(1, 1 << 12);
@@ -270,7 +270,7 @@ pub(crate) fn dot(
     })
 }
 
-/// Facts of a format, by name: its string, width in bits, largest and smallest numbers.
+/// Facts about a format, by name: its string, its width in bits, its largest and smallest numbers.
 #[pyfunction]
 pub(crate) fn format_facts<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyDict>> {
     let format = parse(text)?;
@@ -283,7 +283,7 @@ pub(crate) fn format_facts<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'
     facts.set_item("min", number(format.min_finite()))?;
     facts.set_item("has_nan", format.canonical_nan().is_some())?;
     facts.set_item("has_infinity", format.infinity(false).is_some())?;
-    // Positive patterns are ordered like their numbers: the smallest number is the first above zero; scales have no
+    // Positive patterns are ordered like their numbers, so the first above zero is the smallest number; scales have no
     // zero.
     let smallest = if format.is_signed() { 1 } else { 0 };
     facts.set_item("smallest", number(smallest))?;

@@ -1,4 +1,4 @@
-//! Operands with the shape of a result, element by element in C order.
+//! Operands, read element by element in C order, in the shape of the result.
 
 use numpy::ndarray::{ArrayViewD, Axis};
 use numpy::{Element, PyReadonlyArrayDyn};
@@ -22,7 +22,7 @@ impl<'a, T: Element + Copy> Operand<'a, T> {
         }
     }
 
-    /// `length` elements from `start`, or the single one; elements of strided operands are collected in the buffer.
+    /// `length` elements from `start`, or the single element; elements of strided operands are copied to the buffer.
     pub(crate) fn part<'b>(&'b self, start: usize, length: usize, buffer: &'b mut Vec<T>) -> &'b [T] {
         match self {
             Self::All(all) => all.get(start..start + length).unwrap_or_default(),
@@ -43,7 +43,7 @@ fn collect<T: Copy>(view: &ArrayViewD<'_, T>, start: usize, length: usize, buffe
     for row in start / columns.. {
         let mut line = view.view();
         let mut rest = row;
-        // The next axis to the left varies fastest among the remaining ones.
+        // The next axis to the left varies fastest among the remaining axes.
         while line.ndim() > 1 {
             let axis = line.ndim() - 2;
             let side = line.len_of(Axis(axis)).max(1);

@@ -11,13 +11,13 @@ use crate::signals::fill;
 /// Rays per parallel task, and number of tasks that run together.
 const TASKS: (usize, usize) = (256, 64);
 
-/// Names of the kinds of verdicts, in the order of their codes; 0 is correct.
+/// Names of the kinds of verdicts, in the order of their codes; code 0 is a right answer.
 #[pyfunction]
 pub(crate) fn kinds() -> Vec<&'static str> {
     ["right"].into_iter().chain(DisagreementKind::ALL.map(DisagreementKind::name)).collect()
 }
 
-/// Names of the aims of rays, in the order of their codes; 0 is unknown.
+/// Names of the aims of rays, in the order of their codes; code 0 is an unknown aim.
 #[pyfunction]
 pub(crate) fn aims() -> Vec<&'static str> {
     ["unknown"].into_iter().chain(Aim::ALL.map(Aim::name)).collect()
@@ -80,7 +80,7 @@ impl<'a> RayRows<'a> {
     }
 }
 
-/// Ray with its aim, if known.
+/// A ray with its aim, if known.
 struct Aimed {
     ray: Ray,
     aim: Option<Aim>,
@@ -134,7 +134,7 @@ impl<'a> FoundHits<'a> {
         Some(Aimed { ray: self.rays.get(place)?, aim })
     }
 
-    /// The hit: a negative id is a miss; an id beyond the mesh is an unknown triangle.
+    /// The hit; a negative id is a miss, and an id beyond the mesh is an unknown triangle.
     fn hit(&self, place: usize) -> Option<Hit> {
         let triangle = *self.triangles.get(place)?;
         let t = *self.ts.get(place)?;
@@ -165,7 +165,7 @@ fn hit_columns<'py>(py: Python<'py>, verdicts: &[Verdict]) -> Hits<'py> {
     (column(py, verdicts, |v| v.triangle), column(py, verdicts, |v| v.ties), column(py, verdicts, |v| v.t))
 }
 
-/// Mesh with exact arithmetic.
+/// A mesh for exact hits.
 #[pyclass(frozen, module = "crossbar_gi._native")]
 pub(crate) struct Oracle {
     oracle: library::Oracle<'static>,
@@ -190,7 +190,7 @@ impl Oracle {
         Ok(Self { oracle })
     }
 
-    /// Triangle, number of ties and t of the exact first hit of each ray.
+    /// Triangle, number of triangles at the same t, and t, for the exact first hit of each ray.
     fn first_hits<'py>(
         &self,
         py: Python<'py>,
@@ -214,7 +214,7 @@ impl Oracle {
         Ok(hit_columns(py, &verdicts))
     }
 
-    /// Kind, aim, rounding, exact hit and ULPs of each ray.
+    /// Kind, aim, rounding, exact hit and error of t in ULPs, for each ray.
     fn judge<'py>(
         &self,
         py: Python<'py>,
@@ -246,7 +246,7 @@ impl Oracle {
         Ok((kinds, aims, rounding, hit_columns(py, &verdicts), column(py, &verdicts, |v| v.ulps)))
     }
 
-    /// Report as text: counts, and the ten worst rays as source code.
+    /// The report as text: counts, and the ten worst rays as source code.
     fn report(
         &self,
         py: Python<'_>,
@@ -275,7 +275,7 @@ fn verdict(nearest: Option<&crossbar::geom::NearestHit>, wrong: Option<&Disagree
     }
 }
 
-/// ULPs of f32 between the found and the exact t; -1 if one is missing or not finite.
+/// ULPs of f32 between the given and the exact t; -1 if either is missing or not finite.
 fn t_ulps(nearest: Option<&crossbar::geom::NearestHit>, hit: Option<Hit>) -> i64 {
     let steps = nearest.zip(hit).and_then(|(nearest, hit)| crossbar::compare::f32_ulps(nearest.t.to_f32(), hit.t));
     steps.map_or(-1, |steps| steps.cast_signed())

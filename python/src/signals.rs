@@ -1,4 +1,4 @@
-//! Long work without the interpreter's lock; Ctrl-C interrupts it.
+//! Runs long work without the interpreter's lock; Ctrl-C interrupts it.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Elements per task of a thread.
 const TASK: usize = 1 << 14;
 
-/// Fills an array in tasks of at most `task` elements, `together` of them in parallel; signals are handled in between.
+/// Fills an array in tasks of at most `task` elements, with `together` tasks in parallel; then it handles signals.
 /// `work` receives its state, the index of the first element and a part of the array.
 pub(crate) fn fill<T: Send, S>(
     py: Python<'_>,
@@ -40,7 +40,7 @@ pub(crate) fn fill<T: Send, S>(
     Ok(())
 }
 
-/// [`fill`] for elements that take nanoseconds.
+/// [`fill`] for elements that need only nanoseconds each.
 pub(crate) fn fill_quickly<T: Send, S>(
     py: Python<'_>,
     out: &mut [T],
@@ -53,7 +53,7 @@ pub(crate) fn fill_quickly<T: Send, S>(
 /// Maximum delay of Ctrl-C.
 const POLL: Duration = Duration::from_millis(20);
 
-/// Runs a study on its own thread, without the lock. Ctrl-C returns at once, and ends the study at its next step.
+/// Runs a study on its own thread, without the lock. After Ctrl-C it returns at once; the study ends at its next step.
 pub(crate) fn study<R: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&mut ProgressFn<'_>) -> R + Send + 'static,
@@ -73,8 +73,8 @@ pub(crate) fn study<R: Send + 'static>(
     result
 }
 
-/// Runs work on its own thread, without the lock. Ctrl-C returns at once; the work continues to its end, and its result
-/// is discarded.
+/// Runs work on its own thread, without the lock. After Ctrl-C it returns at once; the work continues to its end, and
+/// its result is discarded.
 pub(crate) fn aside<R: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> R + Send + 'static) -> PyResult<R> {
     let (sender, mut receiver) = mpsc::channel();
     thread::Builder::new().name("crossbar".to_owned()).spawn(move || {

@@ -23,7 +23,7 @@ pub(crate) fn entries() -> Vec<(&'static str, &'static str)> {
     ENTRIES.iter().map(|entry| (entry.id, entry.title)).collect()
 }
 
-/// JSON document of some entries of the reproduction.
+/// JSON document of the given entries of the reproduction.
 #[pyfunction]
 pub(crate) fn reproduce(py: Python<'_>, ids: Vec<String>, full_size: bool) -> PyResult<String> {
     let entries = choose(&ids).map_err(|error| refused(&error))?;
@@ -32,7 +32,7 @@ pub(crate) fn reproduce(py: Python<'_>, ids: Vec<String>, full_size: bool) -> Py
     found.map_err(|error: StudyError| refused(&error))
 }
 
-/// JSON document of a search for the fewest bits, for a case, or for a system on a device.
+/// JSON document of a search for the fewest bits, for a case or for a system on a device.
 #[pyfunction]
 pub(crate) fn precision(
     py: Python<'_>,
@@ -67,7 +67,7 @@ pub(crate) fn precision(
     found.map_err(|error: StudyError| refused(&error))
 }
 
-/// SSIM (none for pictures smaller than its window), mean and largest FLIP, and FLIP of each pixel.
+/// SSIM (`None` for pictures smaller than its window), mean and largest FLIP, and FLIP of each pixel.
 type Difference<'py> = (Option<f64>, f64, f64, Bound<'py, PyArray2<f64>>);
 
 /// Compares two pictures of shape (height, width, 3) as an observer perceives them.
@@ -88,7 +88,7 @@ pub(crate) fn diff<'py>(
     });
     let refuse = |error: InputError| value_error(error.to_string());
     let Some((ssim, map)) = found.map_err(refuse)? else {
-        return Err(value_error("expected two pictures of one size, with a positive number of pixels per degree"));
+        return Err(value_error("expected two pictures of the same size, with a positive number of pixels per degree"));
     };
     let errors = Array2::from_shape_vec((shape[0], shape[1]), map.errors).map_err(|e| value_error(e.to_string()))?;
     Ok((ssim, map.mean, map.maximum, errors.into_pyarray(py)))

@@ -1,4 +1,4 @@
-"""Tests run at the root of the repository, where the case files are."""
+"""Tests run in the root of the repository, because paths of case files are relative to it."""
 
 import signal
 from pathlib import Path

@@ -24,7 +24,7 @@ def test_a_case_file():
     assert run.document["device"] == "r200" and run.document["format"] == "s3.12:rdn"
     assert run.counts["fragments_shaded"] == 32 * 256 and run.counts["triangles_assembled"] == 2
     assert run.modelled["pipeline_us"] > 0 and run.modelled["rates_us"] > 0
-    # Eight bits a channel, brightest at the right.
+    # Eight bits per channel, brightest at the right.
     np.testing.assert_array_equal(target * 255, np.round(target * 255))
     assert (np.diff(target[0, :, 0]) >= 0).all() and target[0, -1, 0] > 0.5 and target[0, 0, 0] == 0
     np.testing.assert_array_equal(cg.run(HIGHLIGHT, executor="scalar").targets[0], target)
@@ -32,7 +32,7 @@ def test_a_case_file():
 
 def test_a_shader_is_what_the_formats_say():
     run = cg.run(SQUARE_OF_T0, format="s3.12:rdn", inputs={"c0": [0, 0, 0, 1]}, size=(64, 1), target="rgba32f")
-    # Pixel centres of Direct3D lie on whole numbers.
+    # The pixel centers of Direct3D are at whole numbers.
     coordinate = np.arange(64) / 64
     squares = cg.mul(coordinate, coordinate, "s3.12:rdn")
     np.testing.assert_array_equal(run.targets[0][0, :, 0], squares)
@@ -113,7 +113,7 @@ def test_pictures():
         ),
         (lambda: cg.run(HIGHLIGHT).trace(256, 0), "expected a pixel within 256x32, found column 256, row 0"),
         (lambda: cg.diff(np.ones((2, 2)), np.ones((2, 2))), r"expected a picture of shape \(height, width, 3\) as a"),
-        (lambda: cg.diff(np.ones((2, 2, 3)), np.ones((2, 3, 3))), "expected two pictures of one size"),
+        (lambda: cg.diff(np.ones((2, 2, 3)), np.ones((2, 3, 3))), "expected two pictures of the same size"),
         (
             lambda: cg.diff(np.full((2, 2, 3), np.nan), np.ones((2, 2, 3))),
             r"expected numbers, found NaN in a\[0, 0, 0\]",
@@ -145,11 +145,11 @@ def test_studies_are_records():
     'cg.run("ps_1_4\\nmov r0, c0", size=(2048, 2048), executor="scalar", target="bgra8")',
 ])
 def test_ctrl_c_ends_studies_and_draws(work):
-    # In a process of its own, whose end is that of the work in the background.
+    # A separate process: when it ends, the work in the background ends too.
     script = f"""
 import os, signal, threading, time
 import crossbar_gi as cg
-# A shell may have begun its background processes without the signal.
+# A shell may have started its background processes with the signal ignored.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
 start = time.perf_counter()

@@ -1,4 +1,4 @@
-"""Arithmetic: laws against NumPy's own types, an independent rounding, edge cases, errors."""
+"""Arithmetic: comparison with NumPy's types and with an independent rounding, edge cases, errors."""
 
 import fractions
 import math
@@ -14,7 +14,7 @@ def rng(seed):
 
 
 def numbers(seed, n=4000):
-    """Doubles of many sizes, ties and ends among them."""
+    """Doubles of many sizes, including ties and the ends of ranges."""
     r = rng(seed)
     plain = r.standard_normal(n) * 2.0 ** r.integers(-20, 20, n)
     halves = r.integers(-2**13, 2**13, n) / 2.0**12
@@ -40,7 +40,7 @@ def test_ieee_formats_are_numpy_s_types(name, dtype):
 
 
 def down(x):
-    """s3.12:rdn by fractions."""
+    """Rounding to s3.12:rdn, computed with fractions."""
     units = math.floor(fractions.Fraction(x) * 4096)
     return max(min(units, 2**15 - 1), -(2**15)) / 4096
 
@@ -145,7 +145,7 @@ def test_dot_products():
     exact = cg.dot(many, many, "fp16", order="exact")
     half = many.astype(np.float16).astype(np.float64)
     np.testing.assert_array_equal(exact, np.sum(half * half, axis=-1).astype(np.float16).astype(np.float64))
-    # Sequential is a sum step by step.
+    # The order `sequential` adds step by step.
     total = cg.mul(many[:, 0], many[:, 0], "fp16")
     for k in range(1, 17):
         total = cg.add(total, cg.mul(many[:, k], many[:, k], "fp16"), "fp16")
@@ -194,5 +194,5 @@ def test_errors_say_what_was_expected(call, message):
 
 def test_nan_is_a_number_where_the_format_has_one():
     assert math.isnan(cg.add(math.nan, 1.0, "fp16"))
-    # Infinities are no NaN: fixed point has the ends of its range for them.
+    # An infinity is not a NaN: fixed point turns it into an end of its range.
     assert cg.round([math.inf, -math.inf], "s3.12").tolist() == [cg.Format("s3.12").max, -8.0]

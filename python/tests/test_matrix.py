@@ -1,4 +1,4 @@
-"""Matrix units: the vectors of models and GPUs, products against dot products, errors."""
+"""Matrix units: test vectors from models and GPUs, products compared with dot products, errors."""
 
 import csv
 
@@ -33,7 +33,7 @@ def test_dot_gives_the_results_of_the_vectors(unit, digits):
             x, y = (codes(row[side], digits) for side in "ab")
             types = (row["ta"], row["tb"]) if "ta" in row else None
             scales = tuple(codes(row[side], 2) for side in ("sa", "sb")) if "sa" in row else None
-            # Vectors of a c in half precision have words with other bits above it.
+            # If c is in half precision, its words in the vectors have other bits above it.
             c = codes(row["c"], 16)[0] & np.uint64(0xFFFF if unit.endswith("16") else 2**64 - 1)
             found = cg.dot(x, y, unit=unit, c=c, types=types, scales=scales)
             if row["result"] == "nan":
@@ -79,7 +79,7 @@ def test_promotion_adds_parts_in_single_precision():
         (lambda: cg.dot([1.0], [1.0], unit="blackwell-nvf4"), "scales of a of blackwell_nvf4: expected 1, found 0"),
         (lambda: cg.dot([1.0], [1.0], "fp16", unit="hopper-f16"), "leave format, order and accumulator out"),
         (lambda: cg.dot([1.0], [1.0]), "expected a format, or a unit"),
-        (lambda: cg.dot([1.0], [1.0], "fp16", c=1.0), "go with a unit"),
+        (lambda: cg.dot([1.0], [1.0], "fp16", c=1.0), "need a unit"),
     ],
 )
 def test_errors_say_what_was_expected(call, message):

@@ -1,4 +1,4 @@
-"""The notebooks of docs/examples, from top to bottom."""
+"""Runs the notebooks of docs/examples from top to bottom."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The snippets of docs/python.md, in their order, in one namespace."""
+"""Runs the snippets of docs/python.md in order, in one namespace."""
 
 import re
 from pathlib import Path

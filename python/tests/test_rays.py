@@ -1,4 +1,4 @@
-"""The oracle: what the exact hits are, what a verdict is, errors."""
+"""The oracle: exact hits, verdicts, errors."""
 
 import fractions
 import os
@@ -33,7 +33,7 @@ def sphere(rings=24, segments=48):
 
 
 def moeller_trumbore(vertices, faces, origins, directions):
-    """The textbook test in float32, each ray with each triangle: the nearest triangle (-1 for none) and its t."""
+    """The textbook test in float32, on each ray and each triangle: the nearest triangle (-1 for none) and its t."""
     a, b, c = (vertices[faces[:, k]].astype(np.float32) for k in range(3))
     e1, e2 = b - a, c - a
     triangle, best = np.full(len(origins), -1), np.full(len(origins), np.inf, np.float32)
@@ -61,7 +61,7 @@ def test_exact_hits_of_a_square():
     assert hits["triangle"].tolist() == [0, 0, -1, 0]
     assert hits["ties"].tolist() == [1, 2, 0, 1]
     assert hits["t"][:2].tolist() == [2.0, 0.5] and np.isnan(hits["t"][2])
-    # From behind, only where both sides count.
+    # From behind, there is a hit only if both sides count.
     front = cg.oracle(SQUARE, FACES, sides="front").first_hits(origins, directions)
     assert front["triangle"].tolist() == [0, 0, -1, -1]
 
@@ -115,7 +115,7 @@ def test_the_exact_answer_is_right_and_the_textbook_test_leaks():
     assert 2500 < len(rays.origins) <= 3000 and set(rays.aims.tolist()) == {1, 2, 3, 4, 5, 6}
     assert rays.origins.dtype == np.float32 and rays.origins.shape == rays.directions.shape
     np.testing.assert_array_equal(rays.directions, cg.hard_rays(vertices, faces, 3000, seed=1).directions)
-    # t is rounded twice, to float64 and then to float32: a step of difference now and then.
+    # t is rounded twice, to float64 and then to float32, so it is sometimes one step off.
     o = cg.oracle(vertices, faces, ulps=1)
     hits = o.first_hits(rays.origins, rays.directions)
     exact = o.judge(rays.origins, rays.directions, hits["triangle"], hits["t"], rays.aims)
@@ -124,7 +124,7 @@ def test_the_exact_answer_is_right_and_the_textbook_test_leaks():
     verdicts = cg.oracle(vertices, faces).judge(rays.origins, rays.directions, *found, rays.aims)
     leaks = np.isin(verdicts["kind"], [kind for kind in cg.Kind if kind.is_leak])
     assert leaks.sum() > 10, cg.counts(verdicts)
-    # A leak is a hit that was missed, and no rounding.
+    # A leak is a missed hit that rounding does not explain.
     assert (verdicts["triangle"][leaks] >= 0).all() and not verdicts["rounding"][leaks].any()
     text = cg.oracle(vertices, faces).report(rays.origins, rays.directions, *found, rays.aims)
     assert f"of {len(rays.origins)} rays disagree" in text and "let triangle" in text
@@ -208,7 +208,7 @@ def test_ctrl_c_ends_long_work():
     start = time.perf_counter()
     o.first_hits(rays.origins, rays.directions)
     once = time.perf_counter() - start
-    # One call of four seconds or more, that a signal ends after a fraction of one.
+    # One call of four seconds or more, which a signal interrupts after a fraction of a second.
     many = [np.tile(part, (int(4 / once) + 2, 1)) for part in (rays.origins, rays.directions)]
     timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()

@@ -1,4 +1,4 @@
-"""The typed example does what it says."""
+"""The typed example gives the expected results."""
 
 import typed
 

@@ -1,4 +1,4 @@
-"""A program in the types of the package: `mypy --strict` reads it, and test_typed.py runs it."""
+"""A program that uses the types of the package: `mypy --strict` checks it, and test_typed.py runs it."""
 
 from __future__ import annotations
 

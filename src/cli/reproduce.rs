@@ -135,7 +135,7 @@ fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
     let made = RecordMade {
         command: format!("crossbar reproduce {} --full-size", entry.id),
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: COMMIT.to_owned(),
+        commit: COMMIT.unwrap_or("unknown").to_owned(),
         processor_s: spent.processor_s.map(hundredths),
         wall_s: hundredths(spent.wall_s),
     };

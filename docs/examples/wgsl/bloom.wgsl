@@ -1,4 +1,4 @@
-// The threshold of bloom, with a soft knee, and its blur by five texels.
+// The bright part of a picture for bloom: a threshold with a soft knee, then a blur over five texels.
 @group(0) @binding(0) var scene: texture_2d<f32>;
 @group(0) @binding(1) var linear_clamp: sampler;
 @group(0) @binding(2) var<uniform> threshold: f32;

@@ -1,4 +1,4 @@
-// A dark gradient in eight bits, dithered by interleaved gradient noise of the pixel's position.
+// A dark gradient in eight bits, dithered with interleaved gradient noise at the pixel's position.
 @group(0) @binding(0) var<uniform> levels: f32;
 
 @fragment

@@ -1,4 +1,4 @@
-// Schlick's approximation of Fresnel reflectance, as a rim over a sphere.
+// Schlick's approximation of Fresnel reflectance, which brightens the rim of a sphere.
 @group(0) @binding(0) var<uniform> f0: vec3f;
 
 @fragment

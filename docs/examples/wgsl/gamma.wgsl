@@ -1,4 +1,4 @@
-// sRGB decoded, blended in linear light and encoded again.
+// Two sRGB colors, decoded, blended in linear light, and encoded again.
 fn decode(c: vec3f) -> vec3f {
     let high = pow((c + vec3f(0.055)) / 1.055, vec3f(2.4));
     return select(high, c / 12.92, c <= vec3f(0.04045));

@@ -1,4 +1,4 @@
-// A highlight with the distribution of Trowbridge and Reitz (GGX), over a sphere seen from the front.
+// A highlight with the distribution of Trowbridge and Reitz (GGX), on a sphere seen from the front.
 @group(0) @binding(0) var<uniform> roughness: f32;
 
 fn distribution(n_dot_h: f32, alpha: f32) -> f32 {

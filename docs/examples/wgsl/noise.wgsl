@@ -1,4 +1,4 @@
-// Value noise: four hashes of the corners of a cell, interpolated; three octaves.
+// Three octaves of value noise: hashes of the four corners of a cell, interpolated.
 @group(0) @binding(0) var<uniform> scale: f32;
 
 fn hash(p: vec2f) -> f32 {

@@ -1,4 +1,4 @@
-// Tangent-space normals of a texture, lit by one direction.
+// Tangent-space normals from a texture, lit from one direction.
 @group(0) @binding(0) var normals: texture_2d<f32>;
 @group(0) @binding(1) var linear_repeat: sampler;
 @group(0) @binding(2) var<uniform> light: vec3f;

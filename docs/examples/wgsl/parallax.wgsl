@@ -1,4 +1,4 @@
-// Relief by a short walk along the ray through a field of heights, then one step of interpolation.
+// Parallax mapping: a few steps along the ray through a height field, then one interpolation.
 @group(0) @binding(0) var<uniform> view: vec3f;
 @group(0) @binding(1) var<uniform> depth: f32;
 

@@ -1,4 +1,4 @@
-// A box with round corners by its signed distance, with an edge one pixel wide.
+// A box with round corners, from its signed distance, with an edge one pixel wide.
 struct Box {
     half_size: vec2f,
     radius: f32,
@@ -12,7 +12,7 @@ fn distance_to_box(p: vec2f) -> f32 {
 
 @fragment
 fn main(@location(0) uv: vec2f) -> @location(0) vec4f {
-    // Pixels of a screen 1920 wide, in its right part.
+    // Pixels in the right part of a screen that is 1920 pixels wide.
     let p = uv * 64.0 + vec2f(1500.0, 800.0);
     let d = distance_to_box(p - vec2f(1532.0, 832.0));
     let inside = 1.0 - smoothstep(-0.5, 0.5, d);

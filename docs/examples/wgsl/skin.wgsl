@@ -1,4 +1,4 @@
-// A face by bones: a normal turned by the weighted sum of two matrices, under wrapped light with a tint.
+// Skinning: a normal is turned by the weighted sum of two bone matrices, then lit by wrapped, tinted light.
 struct Bones {
     first: mat3x3f,
     second: mat3x3f,

@@ -1,4 +1,4 @@
-// Filmic tone mapping by a quotient of quadratic polynomials, on a ramp of 12 stops.
+// Filmic tone mapping with a quotient of quadratic polynomials, on a ramp of 12 stops.
 @group(0) @binding(0) var<uniform> exposure: f32;
 
 fn film(x: vec3f) -> vec3f {

@@ -38,7 +38,7 @@ pub enum ErrorKind {
     /// A modifier or comparison that the instruction lacks.
     #[error("unknown instruction modifier")]
     UnknownInstructionModifier,
-    /// A repeated modifier, or two modifiers of one kind.
+    /// A repeated modifier, or two modifiers of the same kind.
     #[error("repeated modifier")]
     RepeatedModifier,
     /// A result modifier (`_sat` etc.) on an instruction without destination.
@@ -62,7 +62,7 @@ pub enum ErrorKind {
     /// A register number or usage index out of range.
     #[error("register number out of range")]
     RegisterNumber,
-    /// A swizzle that is not one to four letters of one set.
+    /// A swizzle that is not one to four letters of a single set (xyzw or rgba).
     #[error("malformed swizzle")]
     Swizzle,
     /// A mask with repeated, unordered or invalid letters.

@@ -21,7 +21,7 @@ pub(super) fn swizzle(letters: &str, span: Span) -> Parsed<Swizzle> {
     Ok(Swizzle(lanes))
 }
 
-/// Component numbers of one to four letters of one set.
+/// Component numbers of one to four letters, all of xyzw or all of rgba.
 pub(super) fn components(letters: &str) -> Option<Vec<u8>> {
     if letters.is_empty() || letters.len() > 4 {
         return None;

@@ -45,7 +45,7 @@ impl Parser<'_> {
             comma.span,
             if first { "the first operand" } else { "an operand after the comma" },
             if first { quote(",") } else { self.peek().found() },
-            "a comma stands between two operands only",
+            "a comma can only be between two operands",
         ))
     }
 

@@ -74,7 +74,7 @@ fn suffix_of(word: &str, span: Span) -> Parsed<SourceSuffix> {
             match lower {
                 "abs" => "`_abs` came with ps_3_0: use `abs`, or `max` of the value and its negative",
                 "sat" | "x4" | "x8" | "d2" | "d4" | "d8" | "pp" => {
-                    "this one belongs on the instruction: `add_sat`, for example"
+                    "this modifier belongs on the instruction: `add_sat`, for example"
                 }
                 _ => "write `r0_bx2` or `-r0_bias`, for example",
             },
@@ -106,7 +106,7 @@ fn clash(span: Span, found: &str) -> SyntaxError {
         span,
         "one source modifier, or `-` with one of _bias _bx2 _x2",
         found,
-        "`1-`, `!`, `_dz` and `_dw` stand alone",
+        "`1-`, `!`, `_dz` and `_dw` cannot be combined with other modifiers",
     )
 }
 

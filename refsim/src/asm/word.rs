@@ -93,7 +93,7 @@ pub(super) fn mnemonic(token: &Token<'_>) -> Result<Mnemonic, SyntaxError> {
                 token.span,
                 format!("`{}` without a comparison", first.mnemonic),
                 quote(token.text),
-                "only `if`, `break` and `setp` take a comparison",
+                "only `if`, `break` and `setp` can have a comparison",
             ));
         }
         None => {
@@ -113,7 +113,7 @@ pub(super) fn mnemonic(token: &Token<'_>) -> Result<Mnemonic, SyntaxError> {
             token.span,
             format!("`{}` without a modifier", first.mnemonic),
             quote(token.text),
-            "shifts, `_sat` and `_pp` modify a result, and there is none here",
+            "shifts, `_sat` and `_pp` modify a result, and this instruction has no result",
         ));
     }
     Ok(mnemonic)
@@ -156,7 +156,7 @@ fn suffix(m: &mut Mnemonic, base: &str, part: &str, span: Span) -> Result<(), Sy
             "bias" | "bx2" | "dz" | "dw" | "db" | "da" => {
                 format!("`_{lower}` belongs on a source operand: `r0_{lower}`")
             }
-            _ => format!("`{base}` stands alone or with modifiers in any order: `{base}_x2_sat`"),
+            _ => format!("write `{base}` without modifiers, or with some of them in any order: `{base}_x2_sat`"),
         };
         return Err(SyntaxError::new(
             ErrorKind::UnknownInstructionModifier,

@@ -195,7 +195,7 @@ fn need(
     let message = format!("`{prefix}{index}.{letters}` is read but was not written");
     let help = match (context.version, missing) {
         (Version::Ps1_4, 0b1000) if file == RegisterFile::Temp && context.phase_marker().is_some() => {
-            "`phase` leaves every alpha component undefined, and texcrd sets none: write it in phase 2 first"
+            "`phase` leaves every alpha component undefined, and texcrd does not write alpha: write alpha in phase 2 first"
         }
         _ => "write every component before it is read",
     };

@@ -137,7 +137,7 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
             let computed = instruction.opcode != Opcode::Break;
             let inside = walk.blocks.iter().rposition(|b| b.is_loop());
             let Some(at) = inside else {
-                context.breach(RuleId::FlowOperands, instruction.span, "a break stands outside of any loop");
+                context.breach(RuleId::FlowOperands, instruction.span, "a break is outside of any loop");
                 return;
             };
             let within_dynamic = walk.blocks[at..].iter().any(|b| b.dynamic);
@@ -158,7 +158,7 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
             if walk.blocks.is_empty() {
                 walk.ended = true;
             } else {
-                context.breach(RuleId::Subroutines, instruction.span, "`ret` stands inside of a block");
+                context.breach(RuleId::Subroutines, instruction.span, "`ret` is inside a block");
             }
         }
         _ => {}
@@ -246,7 +246,7 @@ fn inside(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction:
     let in_loop = walk.section.is_some() || walk.blocks.iter().any(|b| b.opcode == Opcode::Loop);
     for source in &instruction.sources {
         if source.register.relative == Some(Relative::Loop) && !in_loop && context.version == Version::Vs2_0 {
-            context.breach(RuleId::UnsetAddress, source.span, "`aL` addresses outside of any loop");
+            context.breach(RuleId::UnsetAddress, source.span, "`aL` is used in an address outside of any loop");
         }
     }
     let computed = instruction.sources.first().is_some_and(|s| s.register.file == RegisterFile::Temp);
@@ -279,7 +279,11 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
         };
         if target < call.at {
             context
-                .breach(RuleId::Subroutines, span(call.at), format!("`l{}` stands before its call", call.label))
+                .breach(
+                    RuleId::Subroutines,
+                    span(call.at),
+                    format!("subroutine `l{}` comes before its call", call.label),
+                )
                 .help("subroutines call only later ones, so that none can call itself");
             continue;
         }
@@ -299,7 +303,7 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
                 .breach(
                     RuleId::DivergentGradient,
                     span(at),
-                    format!("`{name}` takes a gradient where fragments may have diverged"),
+                    format!("`{name}` needs a gradient where fragments may have diverged"),
                 )
                 .help("move it out of data-dependent flow control, or read with texldd");
         }

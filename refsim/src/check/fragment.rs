@@ -163,7 +163,7 @@ fn packing(context: &mut Context<'_>, instruction: &Instruction) {
         _ => None,
     };
     if let Some(span) = half {
-        let message = "a packed word has 32 bits, a register of half precision 16";
+        let message = "a packed word has 32 bits, but a half-precision register has only 16";
         context.breach(RuleId::PackedPrecision, span, message).help("keep packed words in R# or o[COLR]");
     }
 }

@@ -193,7 +193,7 @@ fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destin
     let output = matches!(destination.register.file, RegisterFile::ColorOut | RegisterFile::DepthOut);
     if destination.saturate {
         if matches!(opcode, Opcode::Frc | Opcode::SinCos) && version.is_ps_2() {
-            add(RuleId::InvalidSaturate, "_sat, which frc and sincos do not take");
+            add(RuleId::InvalidSaturate, "_sat, which frc and sincos do not allow");
         } else if output {
             add(RuleId::OutputWrite, "_sat, but an output is written as it is");
         } else if texture || version.stage() == Stage::Vertex || !is_arithmetic(opcode) || opcode == Opcode::Setp {

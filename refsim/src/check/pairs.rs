@@ -85,7 +85,7 @@ fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
         context.breach(RuleId::MalformedPair, second.span, message).label("the second of the pair").help(help);
     };
     let Some(first) = index.checked_sub(1).map(|i| &context.program.instructions[i]) else {
-        bad(context, "`+` stands on the first instruction", "the first instruction of a pair has no `+`");
+        bad(context, "the first instruction of the program has a `+`", "the first instruction of a pair has no `+`");
         return;
     };
     if first.coissue {

@@ -56,14 +56,14 @@ fn projections(context: &mut Context<'_>) {
         let file = source.register.file;
         let problem = match source.modifier {
             Modifier::Dz if instruction.opcode != Opcode::TexLd || file != RegisterFile::Temp => {
-                Some("`_dz` stands elsewhere than on the r# of texld")
+                Some("`_dz` is only allowed on the r# of texld")
             }
             Modifier::Dz => {
                 by_z += 1;
                 (by_z == 3).then_some("program has a third `_dz`, ps_1_4 allows 2")
             }
             Modifier::Dw if file != RegisterFile::Texture || source.swizzle.0 != [0, 1, 3, 3] => {
-                Some("`_dw` stands elsewhere than on a t# read as .xyw")
+                Some("`_dw` is only allowed on a t# that is read as .xyw")
             }
             _ => None,
         };
@@ -91,8 +91,10 @@ fn depth(context: &mut Context<'_>) {
             continue;
         }
         let message = match destination {
-            Some(register) if register != R5 => Some(format!("`texdepth` takes `{register}`, expected `r5`")),
-            _ if context.phase(index) == 1 => Some("`texdepth` stands in phase 1".to_owned()),
+            Some(register) if register != R5 => {
+                Some(format!("the operand of `texdepth` is `{register}`, expected `r5`"))
+            }
+            _ if context.phase(index) == 1 => Some("`texdepth` is in phase 1, but only phase 2 allows it".to_owned()),
             _ => None,
         };
         if let Some(message) = message {
@@ -112,7 +114,7 @@ fn bump(context: &mut Context<'_>) {
         found += 1;
         if context.phase(index) != 1 {
             context
-                .breach(RuleId::Bem, instruction.span, "`bem` stands in phase 2")
+                .breach(RuleId::Bem, instruction.span, "`bem` is in phase 2, but only phase 1 allows it")
                 .help("a program without `phase` is all phase 2: put the marker behind bem");
         }
         if found == 2 {

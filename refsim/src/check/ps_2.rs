@@ -68,7 +68,7 @@ fn sincos(context: &mut Context<'_>, instruction: &Instruction) {
         context.breach(
             RuleId::SinCosOperands,
             destination.span,
-            "`sincos` writes other components than .x (cos) and .y (sin)",
+            "`sincos` writes components other than .x (cos) and .y (sin)",
         );
     }
     let [angle, first, second] = instruction.sources.as_slice() else { return };
@@ -144,7 +144,7 @@ fn steps(context: &mut Context<'_>, instruction: &Instruction) {
         _ => (true, ""),
     };
     if !fits && mask.0 != 0 {
-        context.breach(RuleId::MacroOperands, destination.span, format!("`{name}` has another mask than {expected}"));
+        context.breach(RuleId::MacroOperands, destination.span, format!("the mask of `{name}` is not {expected}"));
     }
 }
 

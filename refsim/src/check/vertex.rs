@@ -11,7 +11,7 @@ pub(super) fn check(context: &mut Context<'_>) {
         let x_or_all = matches!(destination.mask, Mask(1) | Mask::ALL);
         match destination.register.file {
             RegisterFile::FogOut | RegisterFile::PointSizeOut if !x_or_all => {
-                let message = format!("`{}` is written through other components than .x", destination.register);
+                let message = format!("`{}` is written with a mask other than .x", destination.register);
                 context
                     .breach(RuleId::FogAndPointSizeMask, destination.span, message)
                     .help("write it without a mask, or .x");
@@ -20,7 +20,7 @@ pub(super) fn check(context: &mut Context<'_>) {
                 context,
                 (WarningId::FogIsNotBlended, destination.span),
                 "`oFog` blends no fog, since fixed-function fog is not emulated",
-                "blend in the pixel program; of pixel programs OpenGL's alone read oFog, as FOGC and fragment.fogcoord",
+                "blend in the pixel program; only OpenGL's pixel programs can read oFog (as FOGC and fragment.fogcoord)",
             ),
             RegisterFile::PointSizeOut => warn(
                 context,

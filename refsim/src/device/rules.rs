@@ -123,10 +123,10 @@ rules! {
         border_storage: BorderStorage = "border-storage",
     }
     beside {
-        /// Formats of storages of pixel programs; cards have none ([`super::Profile::set_storage_format`]).
+        /// Storage formats of pixel programs, empty for real cards ([`super::Profile::set_storage_format`]).
         storage: StorageFormats,
-        /// Format of the sums of dot products in pixel programs, if different from the operation's; cards have none
-        /// ([`super::Profile::set_accumulator`]).
+        /// Format of the sums of dot products in pixel programs, if different from the operation's; `None` for real
+        /// cards ([`super::Profile::set_accumulator`]).
         accumulator: Option<Format>,
     }
 }

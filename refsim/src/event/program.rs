@@ -76,8 +76,9 @@ pub struct FlowConstants<'a> {
 }
 
 impl ProgramWork {
-    /// Analyses a program. Loops are unrolled by their constants and calls are followed. For a branch on a constant
-    /// only the branch taken counts; for a branch on a computed value both count, as on cards that use predication.
+    /// Analyses a program. Loops are unrolled with the values of their constants, and calls are followed. For a branch
+    /// on a constant only the branch taken counts; for a branch on a computed value both count, as on cards that use
+    /// predication.
     pub fn new(program: &Program, constants: FlowConstants<'_>) -> Self {
         let times = executions(program, constants);
         let marker = program.phase_marker();

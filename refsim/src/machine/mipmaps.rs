@@ -10,8 +10,8 @@ impl Machine {
     /// the other levels, and samplers and [`Machine::read_back`] see all. `levels` includes level 0; its maximum is
     /// [`Image::most_levels`].
     ///
-    /// Fails as [`Machine::create_target`] does; also if the device does not support mip levels of the format, or if
-    /// `levels` is too large.
+    /// Fails like [`Machine::create_target`], and if the device does not support mip levels of the format or `levels`
+    /// is too large.
     pub fn create_target_with_levels(
         &mut self,
         format: TexelFormat,

@@ -102,8 +102,8 @@ fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_
     (base + kept as u32).min(one)
 }
 
-/// Comparison of a new value with the stored value (or the alpha reference). Its number is the set of orders that pass:
-/// bit 0 less, 1 equal, 2 greater.
+/// Comparison of a new value with the stored value (or the alpha reference). Its discriminant is a bit set of the
+/// orderings that pass: bit 0 less, bit 1 equal, bit 2 greater.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum CompareFunction {

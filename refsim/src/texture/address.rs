@@ -53,8 +53,8 @@ pub(crate) fn resolve(mode: AddressMode, position: i64, size: u32) -> Option<u32
 
 /// Replaces a coordinate by one with the same address that is small enough for exact arithmetic.
 ///
-/// NaN and infinities become 0. From 2^24 on every FP32 number is an even integer. Those of one sign have the same
-/// address in every mode, so 2^24 replaces them.
+/// NaN and infinities become 0. From 2^24 on every FP32 number is an even integer. All such numbers of equal sign have
+/// the same address in every mode, so 2^24 with their sign replaces them.
 fn bounded(bits: u32) -> u32 {
     const LARGEST: u32 = 0x4b80_0000; // 2^24
     let finite = value::finite_or_zero(bits);

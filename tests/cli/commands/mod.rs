@@ -108,8 +108,8 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
     crossbar_in(folder, &words, input)
 }
 
-/// A message if the command does not end as its text states; otherwise `None`. If the program in `CROSSBAR_PROGRAM`
-/// lacks the features `wgpu` and `wgsl`, it may refuse commands that need them, but must name the feature.
+/// A message if the command does not end as its text states; otherwise `None`. A program without the feature `wgpu` or
+/// `wgsl` may refuse commands that need it, but must name the feature.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();
     let (arguments, expected) = match exemption(&command.arguments) {
@@ -118,10 +118,9 @@ fn fault(command: &Command) -> Option<String> {
         Some(_) => ([&command.arguments[..], &["--help".to_owned()]].concat(), 0),
     };
     let ran = run(root.path(), &arguments, &command.input);
-    let is_other_program = std::env::var_os("CROSSBAR_PROGRAM").is_some();
     let of_wgsl = arguments.iter().any(|argument| argument.contains("wgsl"));
     let lacks = |feature: &str| ran.stderr.contains(&format!("the feature `{feature}` is off"));
-    if is_other_program && ((command.with_wgpu && lacks("wgpu")) || (of_wgsl && lacks("wgsl"))) {
+    if (command.with_wgpu && lacks("wgpu")) || (of_wgsl && lacks("wgsl")) {
         return (ran.code != Some(2)).then(|| format!("{}: expected exit code 2\n{}", command.place, ran.transcript()));
     }
     (ran.code != Some(expected)).then(|| format!("{}: `{}`\n{}", command.place, arguments.join(" "), ran.transcript()))

@@ -20,25 +20,17 @@ fn anything() -> impl Strategy<Value = Vec<Vec<i32>>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
+    /// The search decides as Algorithm 1, and its biclusters sum to the matrix.
     #[test]
-    fn the_fast_search_decides_as_algorithm_1(
-        rows in prop_oneof![3 => blocks(), 1 => anything()],
-        seed: u64,
-    ) {
+    fn the_fast_search_decides_as_algorithm_1(rows in prop_oneof![3 => blocks(), 1 => anything()], seed: u64) {
         let matrix = matrix(&rows, 2);
         let expected = paper::biclusters(&matrix, seed);
-        let found = quietly(&matrix, seed);
+        let mut left = vec![matrix.nonzeros() as u64];
+        let found = bicluster(&matrix, seed, &mut |now| left.push(now)).unwrap();
         for index in 0..expected.len().min(found.len()) {
             prop_assert_eq!(expected.get(index), found.get(index), "bicluster {}", index);
         }
-        prop_assert_eq!(expected, found);
-    }
-
-    #[test]
-    fn biclusters_sum_to_the_matrix(rows in prop_oneof![blocks(), anything()], seed: u64) {
-        let matrix = matrix(&rows, 2);
-        let mut left = vec![matrix.nonzeros() as u64];
-        let found = bicluster(&matrix, seed, &mut |now| left.push(now)).unwrap();
+        prop_assert_eq!(&expected, &found);
         prop_assert_eq!(found.sum(), Ok(matrix.clone()));
         // Each bicluster removes at least half its cost in nonzeros, so the total cost is at most twice the non-zeros.
         for (index, step) in left.windows(2).enumerate() {
@@ -48,27 +40,27 @@ proptest! {
         prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
     }
 
+    /// Light of whole numbers is transferred exactly, any light within the rounding.
     #[test]
-    fn light_is_transferred_exactly(rows in blocks(), seed: u64, light in prop::collection::vec(0..1000_u16, 12)) {
-        let matrix = matrix(&rows, 2);
-        let found = quietly(&matrix, seed);
-        let light: Vec<f64> = light[..matrix.columns()].iter().map(|&texel| f64::from(texel)).collect();
-        let expected = by_rows(&matrix, &light);
-        prop_assert_eq!(&paper::multiply(&found, &light), &expected);
-        // Sums of multiples of a quarter below 2^22 are also exact in f32.
-        let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel as f32]).collect::<Vec<_>>());
-        prop_assert_eq!(fast.into_iter().map(|[sum]| f64::from(sum)).collect::<Vec<f64>>(), expected);
-    }
-
-    #[test]
-    fn any_light_is_transferred_within_the_rounding(
-        rows in blocks(), seed: u64, light in prop::collection::vec(0.0..1e4_f32, 12),
+    fn light_is_transferred(
+        rows in blocks(), seed: u64, whole in prop::collection::vec(0..1000_u16, 12),
+        light in prop::collection::vec(0.0..1e4_f32, 12),
     ) {
         let matrix = matrix(&rows, 2);
         let found = quietly(&matrix, seed);
+        let gather = Gather::new(&found);
+        let fast = |light: &[f32]| -> Vec<f64> {
+            let sums = gather.multiply(&light.iter().map(|&texel| [texel]).collect::<Vec<_>>());
+            sums.into_iter().map(|[sum]| f64::from(sum)).collect()
+        };
+        let wide = |light: &[f32]| light.iter().map(|&texel| f64::from(texel)).collect::<Vec<f64>>();
+        let whole: Vec<f32> = whole[..matrix.columns()].iter().map(|&texel| f32::from(texel)).collect();
+        let expected = by_rows(&matrix, &wide(&whole));
+        prop_assert_eq!(&paper::multiply(&found, &wide(&whole)), &expected);
+        // Sums of multiples of a quarter below 2^22 are also exact in f32.
+        prop_assert_eq!(fast(&whole), expected);
         let light = &light[..matrix.columns()];
-        let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel]).collect::<Vec<_>>());
-        let expected = paper::multiply(&found, &light.iter().map(|&texel| f64::from(texel)).collect::<Vec<f64>>());
+        let expected = paper::multiply(&found, &wide(light));
         // For each row, the sum of magnitudes and the largest number of operations on a term.
         let [rows, _] = found.matrix_size();
         let (mut magnitude, mut operations) = (vec![0.0; rows], vec![0; rows]);
@@ -83,11 +75,11 @@ proptest! {
                 operations[row as usize] += 1 + columns.len() + 1;
             }
         }
-        for (row, ([fast], expected)) in fast.iter().zip(&expected).enumerate() {
+        for (row, (fast, expected)) in fast(light).iter().zip(&expected).enumerate() {
             // (1 + u)^n - 1 <= 2 n u for n u below a half, with u = 2^-24. Doubled, because f64 also has a (smaller)
             // error.
             let bound = 4.0 * operations[row] as f64 * f64::from(f32::EPSILON) / 2.0 * magnitude[row];
-            prop_assert!((f64::from(*fast) - expected).abs() <= bound, "row {row}: {fast} for {expected}");
+            prop_assert!((fast - expected).abs() <= bound, "row {row}: {fast} for {expected}");
         }
     }
 }
@@ -116,9 +108,7 @@ fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
 fn residuals_beyond_doubles_are_refused() {
     let mut rows = vec![vec![f64::MAX, 0.1, 0.1, 0.1, 0.1]; 6];
     rows[0][0] = f64::MIN;
-    let error = bicluster(&real_matrix(&rows), SEED, &mut |_| ()).expect_err("refused");
-    let expected = "expected at most 2147483647 distinct residuals, all of them finite, found others";
-    assert_eq!(error.to_string(), expected);
+    assert!(bicluster(&real_matrix(&rows), SEED, &mut |_| ()).is_err());
 }
 
 /// The example of section IV-C, whose second row differs by 2 in one column.
@@ -138,15 +128,6 @@ fn a_residual_is_left_for_later() {
     assert_eq!(found.cost(), (6 + 8 - 1) + 2);
 }
 
-#[test]
-fn a_matrix_of_nothing_has_no_biclusters() {
-    let matrix = matrix(&[vec![0, 0], vec![0, 0]], 0);
-    let found = quietly(&matrix, SEED);
-    assert!(found.is_empty());
-    assert_eq!(paper::multiply(&found, &[1.0, 2.0]), [0.0, 0.0]);
-    assert_eq!(found.sum(), Ok(matrix));
-}
-
 /// A residual of 2^31 units does not fit into 32 bits: the search continues with a table, and the matrix is recovered
 /// in its own unit.
 #[test]
@@ -163,20 +144,14 @@ fn residuals_leave_32_bits() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    #[test]
-    fn any_numbers_are_decided_as_by_algorithm_1(
-        rows in real_blocks(), seed: u64,
-    ) {
-        let matrix = real_matrix(&rows);
-        prop_assert_eq!(paper::biclusters(&matrix, seed), quietly(&matrix, seed));
-    }
-
-    /// Subnormal numbers, 1e-300 together with 1e300, and 53-bit numbers are recovered up to rounding.
+    /// Subnormal numbers, 1e-300 together with 1e300, and 53-bit numbers are decided as by Algorithm 1 and recovered up
+    /// to rounding.
     #[test]
     fn any_numbers_come_back(rows in real_blocks(), seed: u64) {
         let matrix = real_matrix(&rows);
         prop_assert_eq!(bits(&numbers_of(&matrix)), bits(&rows));
         let found = quietly(&matrix, seed);
+        prop_assert_eq!(&paper::biclusters(&matrix, seed), &found);
         let sum = numbers_of(&found.sum().expect("sums of a matrix"));
         let bounds = rounding(&found, &rows);
         for (row, column) in (0..rows.len()).flat_map(|row| (0..rows[0].len()).map(move |column| (row, column))) {

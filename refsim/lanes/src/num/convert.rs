@@ -10,8 +10,8 @@ use super::unpack::{Unpacked, nan_bits, unpack, zero};
 /// Converts the number `bits` from format `from` to format `to`, rounding once by `to`'s rules.
 ///
 /// NaN stays NaN, with `INVALID` if it was signalling; in a format without NaN it becomes 0 with `INVALID`. Infinity
-/// stays infinity; in fixed point it saturates with `OVERFLOW`, also where finite numbers wrap; in floats without
-/// infinity it overflows as finite numbers do.
+/// stays infinity; in fixed point it saturates with `OVERFLOW`, even in formats where finite numbers wrap; in floats
+/// without infinity it overflows as finite numbers do.
 ///
 /// Single floats are converted to the format of a card's unit unchanged; from it, subnormals become zeros. A NaN of
 /// GT200 becomes the canonical NaN of the other format.

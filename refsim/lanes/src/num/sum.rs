@@ -13,7 +13,7 @@ pub(crate) struct Term {
     pub(crate) exp: i32,
 }
 
-/// Sign of an exact zero sum whose terms aren't all zeros of one sign (IEEE 754-2019, 6.3).
+/// Sign of an exact zero sum, unless all terms are zeros with the same sign (IEEE 754-2019, 6.3).
 pub(crate) fn cancelled(env: &Env) -> bool {
     env.format.rounding == Rounding::Down
 }

@@ -1,6 +1,6 @@
 //! Recomputation of infinite and NaN results, which a fast arithmetic may get wrong.
 //!
-//! Fast arithmetics omit checks for the end of the range, and for products of zero and infinity. Any error there, also
+//! Fast arithmetics omit checks for the end of the range, and for products of zero and infinity. Any such error, even
 //! in an intermediate result of a longer operation, leads to an infinity or a NaN, so only these results are recomputed
 //! with the general arithmetic.
 

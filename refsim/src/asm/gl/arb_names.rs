@@ -21,8 +21,8 @@ impl<'a> Parser<'a> {
         let counted = self.cursor.peek();
         let count = if counted.text == "]" { None } else { Some(operand::index(&mut self.cursor, MAX_PARAMETER)?) };
         self.cursor.expect("]", "close the brackets")?;
-        self.cursor.expect("=", "an array stands for several constants")?;
-        self.cursor.expect("{", "an array's elements stand between braces")?;
+        self.cursor.expect("=", "an array is assigned several constants: `= { ... }`")?;
+        self.cursor.expect("{", "write the elements of an array between braces")?;
         let mut all = Vec::new();
         loop {
             let (first, start) = (all.len(), self.cursor.peek().span.start);

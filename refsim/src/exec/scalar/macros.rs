@@ -80,8 +80,8 @@ pub(super) fn nrm(alu: &mut Alu<'_>, a: &Components) -> Components {
     [alu.mul(a[0], factor), alu.mul(a[1], factor), alu.mul(a[2], factor), alu.mul(a[3], factor)]
 }
 
-/// `sgn`: -1 below zero, 0 for zeros, else 1, also for NaN. Source: Direct3D, "sgn - vs". Vertex units of cards have
-/// their own instruction.
+/// `sgn`: -1 below zero, 0 for zeros, and 1 otherwise (including NaN). Source: Direct3D, "sgn - vs". Vertex units of
+/// cards have their own instruction.
 pub(super) fn sgn(alu: &mut Alu<'_>, a: u32) -> u32 {
     if let Some(sign) = alu.card(Op::Sign, [a, 0, 0]) {
         return sign;

@@ -195,7 +195,7 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// All spans; spans of one unit are in order of time.
+    /// All spans; the spans of each unit are in order of time.
     pub fn spans(&self) -> &[TimelineSpan] {
         &self.spans
     }

@@ -78,7 +78,7 @@ impl CardFunctions for Nv {
     }
 }
 
-/// A normal number by sign, field and mantissa; a field that is too small gives a zero.
+/// A normal number from its sign, exponent field and mantissa; an exponent field that is too small gives zero.
 fn normal(sign: u32, field: i32, mantissa: i64) -> u32 {
     if field <= 0 { sign } else { sign | field.cast_unsigned() << 23 | mantissa as u32 & MANTISSA }
 }

@@ -34,7 +34,8 @@ pub(super) fn whole(x: f64) -> u32 {
     (x + pow2(52)).to_bits() as u32
 }
 
-/// Assembles a word from a field, which may be out of range, and a significand with its leading one, or a mantissa.
+/// Assembles a word from an exponent field, which may be out of range, and a significand with its leading one, or a
+/// mantissa.
 #[inline(always)]
 pub(super) fn assembled(sign: u32, field: i32, significand: u32) -> u32 {
     let normal = field.cast_unsigned() << 23 | significand & MANTISSA;

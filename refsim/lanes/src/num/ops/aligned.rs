@@ -13,11 +13,12 @@ use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 pub const MAX_ALIGNED_BITS: u8 = 28;
 
 /// Sums numbers of a float format in one adder: addends are aligned to the largest exponent and truncated to `bits`
-/// bits below it; the truncated addends are added exactly, and the sum is rounded once. The exponent is the exponent of
-/// the leading bit, also for subnormal numbers. `bits` is at most [`MAX_ALIGNED_BITS`]; more count as that many.
+/// bits below it; the truncated addends are added exactly, and the sum is rounded once. The exponent is that of the
+/// leading bit, even of subnormal numbers. `bits` is at most [`MAX_ALIGNED_BITS`]; more count as that many.
 ///
 /// Infinities and NaN are handled first; infinities of both signs are `INVALID`. Zeros don't count as addends. A sum of
-/// zeros of one sign has that sign; other zero sums are +0, or -0 when rounding down. Dropped bits raise `INEXACT`.
+/// zeros that all have the same sign has that sign; other zero sums are +0, or -0 when rounding down. Dropped bits
+/// raise `INEXACT`.
 pub fn sum_aligned(env: impl Into<Env>, bits: u8, addends: &[u32]) -> Outcome {
     let env = env.into();
     let format = &env.format;

@@ -138,7 +138,8 @@ pub fn mul(unit: Unit, rounding: Rounding, a: u32, b: u32) -> u32 {
 }
 
 /// `a b + c`: the product truncated to 24 bits with an unlimited exponent, and the sum rounded to nearest. Only if an
-/// operand is zero are product and sum both rounded to nearest. MAD has no other rounding.
+/// operand is zero are product and sum both rounded to nearest. MAD has no rounding mode: the two roundings above are
+/// fixed.
 pub fn mad(unit: Unit, a: u32, b: u32, c: u32) -> u32 {
     let (x, y, z) = (Word::of(a), Word::of(b), Word::of(c));
     let zero = x.is_zero() || y.is_zero();

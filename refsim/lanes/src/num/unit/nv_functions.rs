@@ -9,7 +9,7 @@ const fn below_leading(value: i64) -> u32 {
     (value - (1 << 23)) as u32 & 0x7f_ffff
 }
 
-/// Field and mantissa of the reciprocal of a finite number, or of infinity; the field may be below 1.
+/// Exponent field and mantissa of the reciprocal of a finite number, or of infinity; the exponent field may be below 1.
 fn reciprocal(x: Word) -> (i32, u32) {
     if x.mantissa == 0 {
         return (254 - x.field, 0);

@@ -53,7 +53,7 @@ pub(super) const fn signed(negative: bool, magnitude: u32) -> u32 {
     if negative { magnitude | SIGN } else { magnitude }
 }
 
-/// The word of a field from 1 to 254 and a mantissa of 23 bits.
+/// The word with an exponent field from 1 to 254 and a mantissa of 23 bits.
 pub(super) const fn assemble(negative: bool, field: i32, mantissa: u32) -> u32 {
     signed(negative, field.cast_unsigned() << 23 | mantissa)
 }

@@ -241,8 +241,8 @@ fn plane(surfaces: &Surfaces, row: usize, planes: u32) -> (Plane, bool) {
     (row.plane(planes), constant)
 }
 
-/// Returns `true` if two triangles of one shape have the same components, except `given` ones. Components that are
-/// constant over both but not over all triangles are stored in rows like varying components, and must be equal too.
+/// Returns `true` if two triangles of the same shape have the same components, except for `given` ones. Components that
+/// are constant over both but not over all triangles are stored in rows like varying components, and must be equal too.
 fn same_inputs(surfaces: &Surfaces, (a, b): (u32, u32), given: u64) -> bool {
     let constant = |planes: u32| surfaces.constant.get(planes as usize).copied().unwrap_or_default();
     constant(a) == constant(b)

@@ -42,14 +42,10 @@ impl Surface<'_> {
     pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
         let shader = Shader::new(coded);
         let transferred = shader.transferred(&light.singles()).on(HOST)?;
-        Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
-    }
-
-    /// Step 4 with T_p for the mesh's vertices.
-    fn exit(&self, transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync)) -> Vec<[f64; 3]> {
+        let transferred = |vertex, row: usize| transferred.of(vertex)[row].map(f64::from);
         let color = self.color;
         let color = |_: usize| color;
-        let all = exit_radiance(&self.scene.vertices, self.reflectance, &color, transferred, self.scene.eye());
-        self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect()
+        let all = exit_radiance(&self.scene.vertices, self.reflectance, &color, &transferred, self.scene.eye());
+        Ok(self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect())
     }
 }
