@@ -9,7 +9,7 @@ use refsim::num::FormatError;
 use super::Problem;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
-use crate::io::PictureFile;
+use crate::io::load_picture;
 use crate::options::Size;
 use crate::picture::Picture;
 use crate::scene::Camera;
@@ -122,5 +122,5 @@ pub(super) fn exact_hits<T>(
 
 /// Reads a picture. The error says what is wrong with the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
-    Ok(PictureFile::open(path)?.decode()?)
+    Ok(load_picture(path)?)
 }
