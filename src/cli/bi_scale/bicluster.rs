@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use super::file::{histogram, load, value_counts, values_document};
-use crate::bi_scale::bicluster::{BiclusterResidual, Biclustering, SEED, bicluster};
+use super::file::{histogram, load, unit, value_counts, values_document};
+use crate::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
@@ -24,9 +24,8 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
       the figures as JSON
 
-The sum of the biclusters equals the matrix bit for bit where its values are multiples of a power of two that 32 bits \
-hold; of other values residuals are rounded to double precision. Products in single precision, on host and cards, round \
-values that they do not hold. The summary counts both.";
+The values must be multiples of one power of two, at least 2^-30, that 32 bits hold. The sum of the biclusters equals \
+the matrix bit for bit.";
 
 /// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
 #[derive(Debug, clap::Args)]
@@ -50,8 +49,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let start = Instant::now();
     let biclusters = made(&matrix).map_err(|error| refused(&args.file, &error))?;
     let seconds = start.elapsed().as_secs_f64();
-    let residual = biclusters.residual(&matrix);
-    let summary = Summary { matrix: &matrix, biclusters: &biclusters, residual, seconds };
+    let summary = Summary { matrix: &matrix, biclusters: &biclusters, seconds };
     let mut found = summary.findings();
     if let Some(path) = &args.out {
         let file = BiScaleFile { meaning, matrix: None, biclusters: Some(biclusters) };
@@ -82,7 +80,6 @@ fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
 struct Summary<'a> {
     matrix: &'a SparseMatrix,
     biclusters: &'a Biclustering,
-    residual: BiclusterResidual,
     seconds: f64,
 }
 
@@ -107,47 +104,29 @@ impl Summary<'_> {
         ]
     }
 
-    /// Number of bicluster columns whose value must be rounded to single precision, and number of columns beyond its
-    /// range.
-    fn rounded(&self) -> [usize; 2] {
-        let mut rounded = [0; 2];
-        for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {
-            let value = self.biclusters.value(entry.value);
-            let single = value as f32;
-            rounded[0] += usize::from(single.is_finite() && f64::from(single) != value);
-            rounded[1] += usize::from(!single.is_finite());
-        }
-        rounded
-    }
-
     fn findings(&self) -> Findings {
         let values = value_counts(self.matrix);
-        let rounded = self.rounded();
-        let [singles, beyond_singles] = rounded;
         let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
         let mut found = Findings::new("Biclusters");
-        found.table(self.table(rounded));
+        found.table(self.table());
         found.table(histogram(&values));
         found.fields(json!({
             "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
             "values": values_document(&values), "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
             "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
-            "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
-            "unit_bits": self.matrix.values().fraction_bits(), "distinct_values": self.matrix.values().table_len(),
-            "rounded_in_singles": singles, "beyond_singles": beyond_singles,
-            "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
-            "seconds": self.seconds,
+            "column_entries": self.biclusters.column_entries(), "bytes": bytes,
+            "unit_bits": self.matrix.fraction_bits(), "seconds": self.seconds,
         }));
         found
     }
 
-    fn table(&self, counts: [usize; 2]) -> Table {
+    fn table(&self) -> Table {
         let (before, after) = (self.flops_before(), self.biclusters.cost());
         let mut table = Table::new("Biclusters", &["figure", "value"]);
         table.push(["rows".into(), self.matrix.rows().into()]);
         table.push(["columns".into(), self.matrix.columns().into()]);
         table.push(["values other than 0".into(), self.matrix.nonzeros().into()]);
-        table.push(["values are".into(), self.matrix.values().to_string().into()]);
+        table.push(["values are".into(), unit(self.matrix.fraction_bits()).into()]);
         table.push(["biclusters".into(), self.biclusters.len().into()]);
         table.push(["their rows".into(), self.biclusters.row_entries().into()]);
         table.push(["their columns".into(), self.biclusters.column_entries().into()]);
@@ -158,14 +137,6 @@ impl Summary<'_> {
         }
         for (_, what, bytes) in self.bytes() {
             table.push([format!("bytes, {what}").into(), bytes.into()]);
-        }
-        let rounded = ["columns whose value single precision rounds", "columns whose value is beyond single precision"];
-        for (what, count) in rounded.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
-            table.push([what.into(), count.into()]);
-        }
-        table.push(["entries where the biclusters' sum differs from the matrix".into(), self.residual.count.into()]);
-        if self.residual.count > 0 {
-            table.push(["largest difference".into(), Cell::measured(self.residual.largest)]);
         }
         table.push(["seconds".into(), Cell::measured(self.seconds)]);
         table

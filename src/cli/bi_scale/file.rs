@@ -73,6 +73,11 @@ pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) ->
     .map_err(Problem::from)
 }
 
+/// The unit of values, in words.
+pub(super) fn unit(fraction_bits: u32) -> String {
+    if fraction_bits == 0 { "whole numbers".to_owned() } else { format!("whole numbers of 2^-{fraction_bits}") }
+}
+
 pub(super) fn value_counts(matrix: &SparseMatrix) -> Vec<(f64, u64)> {
     let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
     for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::file::{histogram, load, value_counts, values_document, write_matrix};
+use super::file::{histogram, load, unit, value_counts, values_document, write_matrix};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
-use crate::bi_scale::matrix::EntryValues;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::study::written;
@@ -114,8 +113,8 @@ fn all(file: &BiScaleFile, rows: usize, local: usize, found: &mut Findings) {
     }
     let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
     found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
-    if let Some(values) = file.values() {
-        found.introduce(format!("values    {values}"));
+    if let Some(bits) = file.fraction_bits() {
+        found.introduce(format!("values    {}", unit(bits)));
     }
     found.table(histogram(&values(file)));
     if let Some(biclusters) = &file.biclusters {
@@ -143,8 +142,6 @@ fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
             .collect();
         json!({ "count": biclusters.len(), "operations": biclusters.cost(), "sizes": sizes })
     });
-    let stored = file.values();
-    json!({ "rows": rows, "mesh": mesh, "unit_bits": stored.and_then(EntryValues::fraction_bits),
-            "distinct_values": stored.and_then(EntryValues::table_len),
+    json!({ "rows": rows, "mesh": mesh, "unit_bits": file.fraction_bits(),
             "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values, "biclusters": biclusters })
 }

@@ -1,7 +1,5 @@
 //! Lists of the entries of each row or column, and how often each value occurs in a column.
 
-use std::cmp::Ordering;
-
 use crate::bi_scale::matrix::MatrixEntry;
 
 /// Entries line by line, in any order.
@@ -59,10 +57,10 @@ impl ColumnTally {
         self.values.iter().find(|(known, _)| *known == value).map_or(0, |(_, count)| *count) + self.nonzeros
     }
 
-    /// The most frequent value; on ties, the lowest by `order`. Panics if there is no value.
-    pub(super) fn most_frequent(&self, order: impl Fn(i32, i32) -> Ordering) -> i32 {
+    /// The most frequent value; on ties, the lowest. Panics if there is no value.
+    pub(super) fn most_frequent(&self) -> i32 {
         let frequent = self.values.iter().filter(|(_, count)| *count == self.most && *count > 0);
-        frequent.map(|(value, _)| *value).min_by(|&a, &b| order(a, b)).expect("a column with a value")
+        frequent.map(|(value, _)| *value).min().expect("a column with a value")
     }
 
     pub(super) fn clear(&mut self) {

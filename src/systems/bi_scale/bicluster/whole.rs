@@ -1,13 +1,13 @@
 //! Biclusters.
 
-use crate::bi_scale::matrix::{EntryValues, MatrixEntry};
+use crate::bi_scale::matrix::{MatrixEntry, number};
 
 /// A constant-column bicluster: within each of its columns, all of its rows have the same value (equation 4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bicluster {
     /// Rows j_1 ... j_r, increasing.
     pub rows: Vec<u32>,
-    /// Columns k_1 ... k_l, increasing, each with its non-zero value t, encoded as in [`Biclustering::values`].
+    /// Columns k_1 ... k_l, increasing, each with its non-zero value t, in units of the matrix.
     pub columns: Vec<MatrixEntry>,
 }
 
@@ -18,12 +18,12 @@ impl Bicluster {
     }
 
     /// True if the bicluster fits a matrix of this size: rows and columns are in range and increasing, and values are
-    /// non-zero and exist.
-    pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2], values: &EntryValues) -> bool {
+    /// non-zero.
+    pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2]) -> bool {
         let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
         let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
         let column_fits = self.columns.last().is_some_and(|last| (last.index as usize) < matrix_columns);
-        increase && row_fits && column_fits && self.columns.iter().all(|entry| values.has(entry.value))
+        increase && row_fits && column_fits && self.columns.iter().all(|entry| entry.value != 0)
     }
 }
 
@@ -32,7 +32,7 @@ impl Bicluster {
 pub struct Biclustering {
     matrix_rows: usize,
     matrix_columns: usize,
-    values: EntryValues,
+    fraction_bits: u32,
     row_begins: Vec<usize>,
     rows: Vec<u32>,
     column_begins: Vec<usize>,
@@ -41,10 +41,10 @@ pub struct Biclustering {
 
 impl Biclustering {
     /// The biclustering of a zero matrix of this size.
-    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, values: EntryValues) -> Self {
+    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
-        Self { matrix_rows, matrix_columns, values, row_begins, rows, column_begins, columns }
+        Self { matrix_rows, matrix_columns, fraction_bits, row_begins, rows, column_begins, columns }
     }
 
     pub(crate) fn push(&mut self, bicluster: &Bicluster) {
@@ -69,25 +69,15 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// Changes the encoding of values; `number` decodes each. The new encoding is a table, or units of
-    /// 2^-`fraction_bits` if this is given and 32 bits hold all values.
-    pub(in crate::bi_scale) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
-        self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
-        for entry in &mut self.columns {
-            entry.value = self.values.entry(number(entry.value)).expect("one of the numbers");
-        }
-        self
+    /// Values are multiples of 2 to the power of minus this.
+    pub fn fraction_bits(&self) -> u32 {
+        self.fraction_bits
     }
 
-    /// The numbers that the values of columns represent.
-    pub fn values(&self) -> &EntryValues {
-        &self.values
-    }
-
-    /// The number that a value of a column represents. Panics if no such value exists.
+    /// The number that the value of a column represents.
     #[inline]
-    pub fn value(&self, entry: i32) -> f64 {
-        self.values.value(entry)
+    pub fn value(&self, value: i32) -> f64 {
+        number(value, self.fraction_bits)
     }
 
     /// The rows of a bicluster, increasing. Panics if there is no such bicluster.

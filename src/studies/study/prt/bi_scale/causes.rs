@@ -36,9 +36,7 @@ pub(super) struct Causes<'a> {
 
 impl<'a> Causes<'a> {
     pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
-        let values = rendering.file.values().ok_or_else(no_mesh_transfer)?;
-        // Values without a fixed unit are averages of an unknown number of samples.
-        let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
+        let log2_samples = (rendering.file.fraction_bits().ok_or_else(no_mesh_transfer)? / 2).min(2);
         let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
         let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
         Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine()? })
