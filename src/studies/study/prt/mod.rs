@@ -15,7 +15,6 @@ mod lit_view;
 mod precompute;
 mod render;
 
-use crate::all_frequency::shade::LightSizeError;
 use crate::card::CardError;
 use crate::card::frame_time::FrameTimeError;
 use crate::study::StudyError;
@@ -45,7 +44,6 @@ pub use render::Rendering;
 library_errors! {
     CardError => "crossbar::prt::card";
     FrameTimeError => "crossbar::prt::time";
-    LightSizeError => "crossbar::prt::segments";
 }
 
 /// Error of a card that should display compressed transfer.

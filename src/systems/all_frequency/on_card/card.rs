@@ -9,7 +9,7 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
-use super::attributes::{FactoredCounts, TransferredMesh, colors, diffuse_radiance, radiance, radiance_sets};
+use super::attributes::{FactoredCounts, TransferredMesh, colors, diffuse_radiance, radiance_sets};
 use super::options::{ProductPlace, VertexColors};
 use super::programs::{FactorMaps, Programs};
 use super::time;
@@ -209,7 +209,7 @@ fn attributes(
         return Ok((passes, FactoredCounts::default()));
     }
     let (colors, counts) = match *place {
-        ProductPlace::Vertices(format) => colors(&radiance(mesh, view.camera.eye()), view.exposure, format)?,
+        ProductPlace::Vertices(format) => colors(&mesh.radiance(view.camera.eye()), view.exposure, format)?,
         // A diffuse surface has one term, whose G does not depend on the view. Floats clamp no colors.
         ProductPlace::Pixels(_) => {
             let (colors, _) = colors(&diffuse_radiance(mesh), view.exposure, VertexColors::Floats)?;

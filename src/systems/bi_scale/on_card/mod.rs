@@ -4,14 +4,12 @@
 //!   The paper's implementation is in CUDA, which is not emulated.
 //! - [`BiScaleCard`]: the display: a bidirectional texture in a volume, local light as interpolated texture
 //!   coordinates, and passes summed by blending.
-//! - [`mod@reference`]: pixels in f64.
 
 mod card;
 mod gather;
 mod lists;
 mod options;
 mod parts;
-pub mod reference;
 mod subject;
 mod textures;
 

@@ -3,7 +3,7 @@
 use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crossbar_systems::all_frequency::kernels::{MapFilter, ViewNumbers};
-use crossbar_systems::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products, vertex_radiance};
+use crossbar_systems::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products};
 use crossbar_systems::all_frequency::on_card::{
     FactoredCard, FactoredDrawing, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw,
 };
@@ -69,7 +69,7 @@ impl FactoredHills {
     /// pixels.
     fn error(&self, name: &str, place: ProductPlace, drawing: &Texels) -> (f64, usize) {
         let seen = seen_pixels(&device(name), self.vertices.geometry(), &camera()).expect("pixels");
-        let colors = vertex_radiance(&self.mesh(), camera().eye());
+        let colors = self.mesh().radiance(camera().eye());
         let (mut worst, mut largest, mut count) = (0.0_f64, 0.0_f64, 0);
         for (texel, seen) in drawing.texels.iter().zip(&seen) {
             assert_eq!(texel[3] != 0.0, seen.is_some(), "what is covered");
@@ -203,7 +203,7 @@ fn what_is_clamped_is_counted() {
     assert_eq!(floats.counts, bytes.counts);
     assert!(bytes.texels.texels.iter().flatten().all(|&value| value >= 0.0));
     assert_eq!(Some(&floats.texels), bytes.signed.as_ref());
-    let expected = vertex_radiance(&hills.mesh(), camera().eye());
+    let expected = hills.mesh().radiance(camera().eye());
     let negative = expected.iter().filter(|color| color.iter().any(|&value| value < 0.0)).count() as u64;
     for (name, colors) in [("nv25", VertexColors::Bytes), ("r350", VertexColors::Floats)] {
         let counts = hills.draw(name, ProductPlace::Vertices(colors), TexelFormat::Bgra8).counts;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use refsim::device::Profile;
 
 use crate::all_frequency::kernels::ViewNumbers;
-use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products, vertex_radiance};
+use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products};
 use crate::all_frequency::on_card::{ProductPlace, TransferredMesh};
 use crate::card::{CardError, SeenPixel, seen_pixels};
 use crate::scene::Camera;
@@ -33,7 +33,7 @@ pub(super) fn exact_pixels(
     exposure: f64,
 ) -> Vec<[f64; 3]> {
     let of_vertices = matches!(place, ProductPlace::Vertices(_));
-    let colors: Vec<_> = meshes.iter().map(|mesh| of_vertices.then(|| vertex_radiance(mesh, eye))).collect();
+    let colors: Vec<_> = meshes.iter().map(|mesh| of_vertices.then(|| mesh.radiance(eye))).collect();
     let pixel = |seen: &Option<SeenPixel>| {
         let Some(SeenPixel { mut corners, weights, .. }) = *seen else { return [0.0; 3] };
         let mut number = 0;

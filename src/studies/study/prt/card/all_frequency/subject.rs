@@ -2,7 +2,7 @@
 
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::on_card::{ProductPlace, TransferredMesh};
-use crate::all_frequency::shade::{LightSizeError, Multiplies, TransferredRadiance, plain};
+use crate::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
 use crate::error::InputError;
 use crate::study::StudyError;
 use crate::study::prt::LitModel;
@@ -63,7 +63,7 @@ impl AllFrequencyOnCard {
 }
 
 /// Steps 2 and 3 in f64, one rounding to f32 each.
-pub(super) fn in_double(coded: &CodedTransfer, light: &HaarLight) -> Result<TransferredRadiance, LightSizeError> {
+pub(super) fn in_double(coded: &CodedTransfer, light: &HaarLight) -> Result<TransferredRadiance, InputError> {
     let light: Vec<[f64; 3]> = light.singles().into_iter().map(|rgb| rgb.map(f64::from)).collect();
     Ok(singles(coded.rows, plain::transferred_of_code(coded, &light)?))
 }

@@ -5,8 +5,6 @@ use refsim::event::Event;
 use refsim::texture::TexelFormat;
 
 use super::subject::BiScaleOnCard;
-use crate::bi_scale::kernels::BlockEdges;
-use crate::bi_scale::on_card::reference::pixel;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat};
 use crate::card::{MeshView, SeenPixel};
 use crate::study::StudyError;
@@ -55,11 +53,10 @@ impl BiScaleOnCard {
         local: &[[f64; 3]],
         seen: &[Option<SeenPixel>],
         exposure: f64,
-        edges: BlockEdges,
     ) -> Vec<[f64; 3]> {
         let (mesh, eye) = (self.mesh(), self.view.camera.eye());
         let of = |seen: &Option<SeenPixel>| {
-            let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, eye, edges, &seen));
+            let color = seen.map_or([0.0; 3], |seen| mesh.pixel(local, eye, &seen));
             color.map(|value| exposure * value)
         };
         seen.par_iter().map(of).collect()

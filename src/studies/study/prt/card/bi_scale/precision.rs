@@ -64,7 +64,7 @@ pub(super) fn variants(
     exposure: f64,
     done: &mut dyn FnMut(u64),
 ) -> Result<Vec<PictureVariant>, StudyError> {
-    let expected = study.exact(exact, seen, exposure, BlockEdges::Wrapped);
+    let expected = study.exact(exact, seen, exposure);
     let mut variants = Vec::new();
     let mut local = study.local(light, FINE.light)?.local;
     let mut light_format = FINE.light;

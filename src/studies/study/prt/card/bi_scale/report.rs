@@ -34,15 +34,14 @@ impl Study for BiScaleOnCard {
         progress("host", 1, 3);
         let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.view.camera)?;
         let study = PictureStudy { card, view: &self.view, from: "the same local light" };
-        let edges = self.options.edges;
-        let (exposure, host) = study.exposed(self.exact(&doubles(&local.local), &seen, 1.0, edges));
+        let (exposure, host) = study.exposed(self.exact(&doubles(&local.local), &seen, 1.0));
         progress("card", 2, 3);
         let drawn = self.draw(&local.local, self.options, card.format, exposure)?;
         let compared = ComparedPicture::new(&seen, &drawn.pixels, &host, card.is_clamped());
         let mut found = study.findings("Bi-scale transfer on a card", &compared, exposure)?;
         let cube = self.light.cube()?;
         found.pictures(vec![self.view.light_picture(of_texels(cube.texels()))?]);
-        let whole = self.exact(&exact, &seen, exposure, edges);
+        let whole = self.exact(&exact, &seen, exposure);
         let blames = [
             Blame { step: "the card: storage, filters, arithmetic, target", errors: compared.errors },
             Blame { step: "light times biclusters by the card", errors: PixelErrors::of(&seen, &host, &whole) },
