@@ -132,7 +132,6 @@ impl BiScaleFile {
     }
 }
 
-/// Reads `indices` and `data` of a number of entries.
 fn entries(
     arrays: &mut NpzReader<'_>,
     [indices, data]: [&str; 2],

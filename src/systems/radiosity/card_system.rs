@@ -18,9 +18,7 @@ use crate::linalg::Matrix;
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardSystem {
     packing: Packing,
-    /// Number of patches.
     size: usize,
-    /// Texels per block.
     block: usize,
     matrix: Texels,
     emittance: Texels,

@@ -111,7 +111,6 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIterat
     })
 }
 
-/// Records the log of an iteration that is not the first.
 fn iteration_log(profile: &Profile, timing: &Timing) -> Result<Vec<Event>, RateError> {
     let fit = Fit::of(profile, timing.packing)?;
     let zeros = CardSystem::zeros(timing.packing, timing.patches, fit.block, fit.limit)

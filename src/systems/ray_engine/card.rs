@@ -43,7 +43,6 @@ pub(super) fn rounded(hits: Vec<Option<CardHit>>) -> Vec<Option<Hit>> {
 }
 
 impl RayTextures {
-    /// Uploads rays and creates targets of their size.
     pub(super) fn new(
         machine: &mut Machine,
         kernel: &Kernel,

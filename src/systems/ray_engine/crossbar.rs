@@ -144,7 +144,6 @@ impl Crossbar {
         Ok(Answer { hits: rounded(hits), events: drawn.events, kernel: card.kernel.name, log: Vec::new() })
     }
 
-    /// Creates a card for passes of rays of any origin against subsets of a mesh's triangles.
     pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, cull: bool) -> Result<PassCard, EngineError> {
         let kernel = Kernel::for_passes(&self.profile, sides, cull)?;
         check_count(mesh)?;

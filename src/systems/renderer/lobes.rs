@@ -21,7 +21,6 @@ pub(super) struct Lobes {
     pub(super) exponent: f64,
 }
 
-/// Direction sampled at a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LobeSample {
     pub(super) towards: DVec3,
@@ -44,17 +43,14 @@ impl Lobes {
         }
     }
 
-    /// Returns the diffuse part alone.
     pub(super) fn diffuse(self) -> Self {
         Self { specular: DVec3::ZERO, ..self }
     }
 
-    /// Returns the glossy lobe alone.
     pub(super) fn gloss(self) -> Self {
         Self { albedo: DVec3::ZERO, ..self }
     }
 
-    /// Probability of sampling the glossy lobe.
     fn chance_of_gloss(&self) -> f64 {
         let (matt, gloss) = (mean(self.albedo), mean(self.specular));
         if gloss > 0.0 { gloss / (matt + gloss) } else { 0.0 }

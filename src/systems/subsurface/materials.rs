@@ -106,7 +106,6 @@ const fn row(
     }
 }
 
-/// The medium of Figure 7 with an index of refraction.
 const fn figure_7(name: &'static str, eta: f64, source: &'static str) -> PublishedMaterial {
     PublishedMaterial {
         name,

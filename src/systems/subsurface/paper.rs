@@ -222,7 +222,6 @@ impl<'a> Reference<'a> {
         triangles
     }
 
-    /// The mean of R_d over pairs of points.
     fn mean_r_d(&self, from: &[WeightedPoint], to: &[WeightedPoint]) -> f64 {
         let mut sum = 0.0;
         let (mut squared, mut weights) = ([0.0; CHUNK], [0.0; CHUNK]);

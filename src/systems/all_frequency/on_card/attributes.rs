@@ -38,7 +38,6 @@ impl TransferredMesh<'_> {
         self.colors[self.vertices.materials()[vertex] as usize]
     }
 
-    /// Checks that the parts have matching sizes.
     pub(super) fn check(&self) -> Result<(), CardError> {
         let materials = self.vertices.materials().iter().max().map_or(0, |&most| most as usize + 1);
         let transferred = self.transferred;
@@ -63,7 +62,6 @@ pub struct FactoredCounts {
 }
 
 impl FactoredCounts {
-    /// Adds the vertices of another mesh.
     pub(super) fn add_vertices(&mut self, others: Self) {
         let sum = |of: Option<u64>, others: Option<u64>| of.into_iter().chain(others).reduce(|a, b| a + b);
         self.vertices_below_zero = sum(self.vertices_below_zero, others.vertices_below_zero);

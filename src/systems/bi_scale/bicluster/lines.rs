@@ -39,7 +39,6 @@ impl ColumnTally {
         self.most = self.most.max(count);
     }
 
-    /// Reverts an [`Self::add`].
     pub(super) fn remove(&mut self, value: i32) {
         self.nonzeros -= 1;
         let known = self.values.iter_mut().find(|(known, _)| *known == value);

@@ -57,7 +57,6 @@ pub struct BiScaleCard<'a> {
     vertices: CardVertices,
     /// Texture coordinates, tangents, normals.
     beside: Vec<Attribute>,
-    /// One part per texture that triangles use.
     parts: Vec<CardPart>,
     depth: DepthPrograms,
     vertex: CheckedProgram,
@@ -153,7 +152,6 @@ impl<'a> BiScaleCard<'a> {
         self.show(local, view, true)
     }
 
-    /// Draws a frame: the mesh into the depth buffer, then the directions of each texture, summed pass by pass.
     fn show(
         &mut self,
         local: &[[f32; 3]],

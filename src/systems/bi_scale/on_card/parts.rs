@@ -13,7 +13,6 @@ use super::textures::VolumeTexture;
 use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
 use crate::card::{Attribute, CardError, WrittenKernel, by_register, check_finite};
 
-/// A texture, its triangles, and its programs, which depend on the volume's size.
 #[derive(Debug)]
 pub(super) struct CardPart {
     pub(super) indices: Vec<u32>,
@@ -35,7 +34,6 @@ impl CardPart {
     }
 }
 
-/// The parts of a mesh, without textures that no triangle uses.
 pub(super) fn parts(
     machine: &mut Machine,
     mesh: &TexturedMesh<'_>,

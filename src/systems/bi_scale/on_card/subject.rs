@@ -44,7 +44,6 @@ pub(super) struct CardVertices {
     pub(super) vertices: Vec<u32>,
     /// The texture coordinates of each vertex of the card.
     pub(super) coordinates: Vec<[f32; 2]>,
-    /// Vertex indices, three per triangle.
     pub(super) indices: Vec<u32>,
 }
 
@@ -87,7 +86,6 @@ impl TexturedMesh<'_> {
         paper::radiance(texture, local, &ShadedPixel { corners: seen.corners, weights: seen.weights, place, view })
     }
 
-    /// Checks that the parts have matching sizes.
     pub(super) fn check(&self) -> Result<(), CardError> {
         let triangles = self.vertices.triangles().len();
         CardError::check_size("triangles with texture coordinates", triangles, self.coordinates.len())?;

@@ -41,7 +41,6 @@ impl TracedRung {
         [Self::Exact, Self::Light, Self::Visibility, Self::Directions, Self::Views, Self::Texture];
 }
 
-/// Number of steps.
 const RUNGS: usize = TracedRung::ALL.len();
 
 /// A light at the resolutions of ray tracing and of transfer.

@@ -44,7 +44,6 @@ pub fn reclassify(
     Ok(Reclassified { clustering, moved, added_error, drawn })
 }
 
-/// A vertex's best move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Move {
     vertex: u32,

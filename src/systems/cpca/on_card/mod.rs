@@ -32,7 +32,6 @@ use attributes::{Chunk, chunks};
 use model::TransferSize;
 use programs::{ShadingPrograms, exit_maps, kernel, map_scale, registers};
 
-/// Write masks of the passes of glossy transfer.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
 
 /// A mesh with compressed transfer on a card.
@@ -114,7 +113,6 @@ impl<'a> PrtCard<'a> {
         Ok((texels, log))
     }
 
-    /// Draws a frame: products on the host, the mesh into the depth buffer, then chunk by chunk into the target.
     fn show(
         &mut self,
         light: &HarmonicLight,

@@ -99,7 +99,6 @@ impl Hierarchy {
         hierarchy
     }
 
-    /// Appends the clusters over a range of the order.
     fn divide(&mut self, first: usize, count: usize) {
         let (places, areas) = (&self.places, &self.areas);
         let members = &mut self.order[first..first + count];

@@ -125,7 +125,6 @@ impl Transfer {
         self.values
     }
 
-    /// A transfer with this basis and size, and new values.
     pub(super) fn with_values(&self, values: Vec<f32>) -> Self {
         Self { basis: self.basis.clone(), columns: self.columns, values, bounces: Vec::new() }
     }
@@ -211,7 +210,6 @@ fn squares(values: &[f32], size: usize) -> f64 {
     values.par_chunks(CHUNK * size).map(chunk).collect::<Vec<_>>().into_iter().sum()
 }
 
-/// Returns an error if two numbers differ.
 pub(super) fn differ(what: &str, [a, b]: [usize; 2]) -> Result<(), InputError> {
     ensure!(a == b, "crossbar::prt::precompute" => "expected equal numbers of {what}, found {a} and {b}");
     Ok(())

@@ -108,7 +108,6 @@ impl Display {
         Ok(codes.texels.into_iter().map(|[code, ..]| patch_of(code)).collect())
     }
 
-    /// Clears the target, and draws all patches.
     fn draw<'a>(
         &'a self,
         machine: &mut Machine,

@@ -172,7 +172,6 @@ impl Writer {
         let _ = writeln!(self.text, "TEX {}, {at}, TEX{unit}, RECT;", self.register(into));
     }
 
-    /// Reads the next texture of links.
     fn read_links(&mut self, into: usize) {
         let in_one = self.kernel.tiles * self.kernel.tiles;
         let unit = 1 + usize::from(self.kernel.continues) + self.textures / in_one;

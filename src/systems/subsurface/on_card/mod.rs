@@ -88,7 +88,6 @@ impl SubsurfaceCard {
         Ok(require_versions(profile, &[Version::Fp1_0, Version::Vs2_0], "the passes")?)
     }
 
-    /// Checks sizes before any work.
     fn fits(profile: &Profile, links: &LinkTextures, options: &SubsurfaceCardOptions) -> Result<(), CardError> {
         Self::require(profile)?;
         let sides = [profile.limits.max_texture_size, profile.limits.max_target_size].into_iter().flatten();
@@ -134,7 +133,6 @@ impl SubsurfaceCard {
         self.scatter()
     }
 
-    /// Computes levels and runs pass 2.
     fn scatter(&mut self) -> Result<(), CardError> {
         self.note(PassKind::RadiosityMap);
         self.map.fill(self.view.machine_mut())?;
@@ -207,7 +205,6 @@ impl SubsurfaceCard {
         self.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// Assigns the machine's recorded log to a pass.
     fn note(&mut self, pass: PassKind) {
         if let Some(log) = &mut self.log {
             log.extend(self.view.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));

@@ -71,17 +71,14 @@ impl ViewPass {
         Self { eta, display: MeshDisplay::in_frame(machine, *model.frame(), positions), beside, table: None }
     }
 
-    /// The card, which all passes share.
     pub(super) fn machine(&self) -> &Machine {
         self.display.machine()
     }
 
-    /// The card, which all passes share.
     pub(super) fn machine_mut(&mut self) -> &mut Machine {
         self.display.machine_mut()
     }
 
-    /// Draws a view.
     pub(super) fn show(&mut self, lights: &CardLights, scattered: TextureId, view: &View) -> Result<Texels, CardError> {
         view.check()?;
         let direct = direct_lights(self.display.machine(), lights, view.kernel)?;

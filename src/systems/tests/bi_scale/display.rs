@@ -141,7 +141,6 @@ fn triangles_show_their_own_textures() {
     assert!((100..1400).contains(&differ), "{differ}");
 }
 
-/// One quantity in fewer bits, the others in single precision.
 #[test]
 fn fewer_bits_show() {
     let hills = Hills::new(rough(8, 4, 4));
