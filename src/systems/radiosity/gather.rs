@@ -9,8 +9,7 @@ use glam::DVec3;
 
 /// Computes the irradiance at a point with a unit normal: the sum over the patches of radiosity, form factor from the
 /// point in closed form, and the fraction of sample rays that are unoccluded. `caster` traces [`Patches::mesh`] from
-/// both sides. Fails with [`InputError`] for no samples, or if the ray caster fails. Panics if there is not one
-/// radiosity per patch.
+/// both sides. Panics if there is not one radiosity per patch.
 pub fn irradiance(
     patches: &Patches,
     radiosity: &[[f64; 3]],

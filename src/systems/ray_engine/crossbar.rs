@@ -102,8 +102,7 @@ impl Crossbar {
         Ok(RayBatch::new(rays.width(), rays.height(), held)?)
     }
 
-    /// Intersects all rays with all triangles: section 3.3 of the paper. Fails with [`EngineError`] if the card has no
-    /// suitable program, or rejects the work.
+    /// Intersects all rays with all triangles: section 3.3 of the paper.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }

@@ -38,8 +38,7 @@ impl VertexCrossbar {
         Self { profile, executor: executor.into() }
     }
 
-    /// Intersects every ray with the front of every triangle. Fails with [`EngineError`] if the card rejects a program
-    /// or the work.
+    /// Intersects every ray with the front of every triangle.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch) -> Result<Answer, EngineError> {
         let mut machine = self.executor.machine(self.profile.clone())?;
         self.intersect_on(&mut machine, mesh, rays)

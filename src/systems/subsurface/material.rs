@@ -29,8 +29,7 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// Checks that the coefficients are valid: both finite, absorption at least 0, scattering above 0. Fails with
-    /// [`InputError`], which names the invalid coefficient.
+    /// Checks that the coefficients are valid: both finite, absorption at least 0, scattering above 0.
     pub fn check(self) -> Result<(), InputError> {
         let scattering = ("reduced scattering coefficient", self.sigma_s_prime);
         for (what, found) in [scattering, ("absorption coefficient", self.sigma_a)] {
@@ -62,8 +61,7 @@ impl Coefficients {
     }
 }
 
-/// Checks that `eta` is a valid index of refraction for the dipole. Fails with [`InputError`] if it is not in [1,
-/// [`MAX_ETA`]].
+/// Checks that `eta` is a valid index of refraction for the dipole.
 pub(crate) fn check_eta(eta: f64) -> Result<(), InputError> {
     if !eta.is_finite() {
         return Err(not_finite_error("index of refraction", eta));
@@ -88,8 +86,7 @@ impl Material {
     /// Names of the channels, in their order.
     pub const CHANNELS: [&'static str; 3] = ["red", "green", "blue"];
 
-    /// Creates a material and checks its numbers. Fails with [`InputError`], which names the invalid number and its
-    /// channel.
+    /// Creates a material and checks its numbers.
     pub fn new(name: impl Into<String>, channels: [Coefficients; 3], eta: f64) -> Result<Self, InputError> {
         check_eta(eta)?;
         for (channel, coefficients) in Self::CHANNELS.into_iter().zip(channels) {

@@ -106,8 +106,7 @@ impl<'a> MeshOnCard<'a> {
 
 impl<'a> FactoredCard<'a> {
     /// Uploads meshes, such as a model and the ground below it, and their maps of G. They share a camera and a depth
-    /// buffer, and are drawn in order. Fails with [`CardError`] if the device lacks programs, coordinate sets, samplers
-    /// or filtering of the format, or a mesh's parts have inconsistent sizes.
+    /// buffer, and are drawn in order.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -133,9 +132,7 @@ impl<'a> FactoredCard<'a> {
         self.display.machine_mut()
     }
 
-    /// Draws a frame and returns its render target. Background pixels are 0, alpha is 1 elsewhere. Fails with
-    /// [`CardError`] if the exposure is out of range, radiance exceeds the range of its format, or the card rejects a
-    /// draw.
+    /// Draws a frame and returns its render target. Background pixels are 0, alpha is 1 elsewhere.
     pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(view, false)?.0)
     }

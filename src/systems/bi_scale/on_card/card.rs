@@ -65,9 +65,6 @@ pub struct BiScaleCard<'a> {
 
 impl<'a> BiScaleCard<'a> {
     /// Uploads a mesh and its textures.
-    ///
-    /// Fails with [`CardError`] if the device lacks programs, texture coordinates, or support of the volumes' size or
-    /// format, or the mesh's parts have inconsistent sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -140,8 +137,7 @@ impl<'a> BiScaleCard<'a> {
     }
 
     /// Draws a frame from local light, M colors (red, green, blue) per vertex, and returns the target. Background
-    /// pixels are 0, alpha is 1 elsewhere. Fails with [`CardError`] if the exposure is out of range, the light has
-    /// another size or exceeds the range of its format, or the card rejects a draw.
+    /// pixels are 0, alpha is 1 elsewhere.
     pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(local, view, false)?.0)
     }

@@ -79,8 +79,7 @@ pub(super) fn version(profile: &Profile, what: &str) -> Result<Version, KernelEr
 }
 
 impl GatherCard {
-    /// Uploads the lists of biclusters. Fails with [`CardError`] if the device lacks the shader version, texture format
-    /// or texture size.
+    /// Uploads the lists of biclusters.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,

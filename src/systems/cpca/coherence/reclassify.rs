@@ -23,8 +23,7 @@ pub struct Reclassified {
 /// Moves vertices to clusters of their neighbours (section 5). The next move is always the one with the greatest
 /// reduction of overdraw per increase of squared error (infinite if the error does not increase); ties go to the lowest
 /// vertex. Moves add at most `budget` times the initial squared error; a move that would exceed it is skipped. The
-/// paper uses 0.05 to 0.1. Fails with [`InputError`] if mesh, signal and clustering contradict each other, or the
-/// budget is invalid.
+/// paper uses 0.05 to 0.1.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,

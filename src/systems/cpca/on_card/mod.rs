@@ -53,9 +53,6 @@ pub struct PrtCard<'a> {
 
 impl<'a> PrtCard<'a> {
     /// Uploads a mesh with its transfer.
-    ///
-    /// Fails with [`CardError`] if the device does not support the programs, the number of vectors or functions exceeds
-    /// a limit, clusters have more vectors than `transfer` states, or its parts have inconsistent sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -99,8 +96,7 @@ impl<'a> PrtCard<'a> {
         self.display.machine_mut()
     }
 
-    /// Draws a frame and returns the target. Background pixels are 0. Fails with [`CardError`] if the order of the
-    /// light is too low, the exposure is out of range, a product is not finite, or the card rejects a draw.
+    /// Draws a frame and returns the target. Background pixels are 0.
     pub fn view_texels(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(light, view, false)?.0)
     }

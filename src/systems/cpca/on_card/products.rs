@@ -20,8 +20,7 @@ pub struct Products {
 
 impl Products {
     /// Computes products in double precision, multiplied by `factor` and by the ranges of weights, and rounded once.
-    /// Light coefficients beyond the matrices' columns are ignored. Fails with [`CardError`] if parts have inconsistent
-    /// sizes, the order of the light is too low, or a product overflows single precision.
+    /// Light coefficients beyond the matrices' columns are ignored.
     pub fn new(
         transfer: &CompressedTransfer<'_>,
         weights: &CardWeights,

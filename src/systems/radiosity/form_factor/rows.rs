@@ -41,8 +41,7 @@ impl FormFactors {
 
     /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
     /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of finished
-    /// pairs and of all pairs. Fails with [`InputError`] for too many patches or no samples, or if the ray caster
-    /// fails.
+    /// pairs and of all pairs.
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,

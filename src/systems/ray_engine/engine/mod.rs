@@ -62,8 +62,7 @@ pub struct RayEngine<'a> {
 }
 
 impl<'a> RayEngine<'a> {
-    /// Creates an engine over a mesh: builds the octree and marks the GPU cells. Fails with [`EngineError`] if the card
-    /// runs no intersection program.
+    /// Creates an engine over a mesh: builds the octree and marks the GPU cells.
     pub fn new(
         mesh: &'a Mesh,
         profile: Profile,
@@ -91,8 +90,7 @@ impl<'a> RayEngine<'a> {
         })
     }
 
-    /// Submits rays, and may answer some waiting rays. The rays get consecutive tickets from the returned one. Fails
-    /// with [`EngineError`] if the card rejects the work.
+    /// Submits rays, and may answer some waiting rays. The rays get consecutive tickets from the returned one.
     pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
         let first = self.flights.given();
         self.flights.give(rays.len());

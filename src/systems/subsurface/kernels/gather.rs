@@ -139,8 +139,7 @@ impl GatherKernel {
         }
     }
 
-    /// The program for this number of links, checked for a device. Fails with [`KernelError`] if it breaks a rule of
-    /// the device.
+    /// The program for this number of links, checked for a device.
     pub fn checked(&self, profile: &Profile, links: usize) -> Result<CheckedProgram, KernelError> {
         checked(profile, format!("`{}`, written out for {links} links", self.name()), &self.text(links))
     }

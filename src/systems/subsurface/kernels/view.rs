@@ -193,8 +193,7 @@ impl ViewKernel {
         LIGHT_PART.most_within([0, 1].map(|lights| instructions(&self.text(lights))), slots, constants)
     }
 
-    /// The program for this number of lights computed at each fragment, checked for a device. Fails with
-    /// [`KernelError`] if it breaks a rule of the device.
+    /// The program for this number of lights computed at each fragment, checked for a device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.name();
         let name = if self.direct == DirectLight::ByFragment {

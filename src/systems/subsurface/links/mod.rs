@@ -38,9 +38,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Computes the links of every texel, for one dipole (scalar factors) or for red, green and blue. Fails with
-    /// [`InputError`] for another number of dipoles, a level that the atlas does not have, a tolerance out of range, no
-    /// links, or more than [`MAX_FACTORS`] factors.
+    /// Computes the links of every texel, for one dipole (scalar factors) or for red, green and blue.
     pub fn new(
         surface: &SurfaceMoments,
         dipoles: &[Dipole],

@@ -56,9 +56,7 @@ pub struct SubsurfaceCard {
 }
 
 impl SubsurfaceCard {
-    /// Uploads a model and its links. `eta` is the index of refraction. Fails with [`CardError`] if the device does not
-    /// support the programs, an atlas or a program is too large for it, the links belong to another atlas, or a number
-    /// is out of range.
+    /// Uploads a model and its links. `eta` is the index of refraction.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -140,16 +138,14 @@ impl SubsurfaceCard {
         self.gather()
     }
 
-    /// Runs pass 2 with the current map, as [`Self::light`] and [`Self::irradiate`] do at their end. Fails with
-    /// [`CardError::Draw`].
+    /// Runs pass 2 with the current map, as [`Self::light`] and [`Self::irradiate`] do at their end.
     pub fn gather(&mut self) -> Result<(), CardError> {
         self.gather.run(self.view.machine_mut(), &self.map)?;
         self.note(PassKind::Gather);
         Ok(())
     }
 
-    /// Draws the model from a camera: pass 3. Background pixels are 0. Fails with [`CardError::Input`] or
-    /// [`CardError::Draw`].
+    /// Draws the model from a camera: pass 3. Background pixels are 0.
     pub fn view(&mut self, view: &View) -> Result<Picture, CardError> {
         let Texels { width, height, texels } = self.view_texels(view)?;
         let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
@@ -179,8 +175,7 @@ impl SubsurfaceCard {
         Ok(Texels::read_back(self.view.machine(), self.gather.scattered())?)
     }
 
-    /// Number of channels of the radiosity map's texels at the largest value, where light may have been clamped. Fails
-    /// with [`CardError::Draw`].
+    /// Number of channels of the radiosity map's texels at the largest value, where light may have been clamped.
     pub fn saturated(&self) -> Result<usize, CardError> {
         let largest = self.options.map.largest();
         let map = self.read_map()?;
