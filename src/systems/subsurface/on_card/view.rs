@@ -11,7 +11,7 @@ use super::model::CardModel;
 use crate::card::{
     Attribute, BILINEAR, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshPass, MeshView, Texels, new_texture,
 };
-use crate::subsurface::fresnel::{fresnel_transmittance, mean_transmittance};
+use crate::subsurface::fresnel::fresnel_transmittance;
 use crate::subsurface::kernels::{self, DirectLight, EyeTransmittance, ViewKernel, fragment_room, vertex_room};
 
 /// Texels of the table of transmittances.
@@ -182,7 +182,6 @@ impl ViewConstants<'_> {
                 let texels = TABLE as f32;
                 (1.0, [(texels - 1.0) / texels, 0.5 / texels, 0.0])
             }
-            EyeTransmittance::Mean => (mean_transmittance(self.eta), [0.0; 3]),
         };
         let factor = (factor * self.view.mesh.exposure / PI) as f32;
         let mut all =
