@@ -5,7 +5,7 @@ use crossbar_systems::all_frequency::factor::{FactorSampling, Factorization, Lob
 use crossbar_systems::all_frequency::kernels::{MapFilter, ViewNumbers};
 use crossbar_systems::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products};
 use crossbar_systems::all_frequency::on_card::{
-    FactoredCard, FactoredDrawing, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw,
+    FactoredCard, FactoredDrawing, ProductOptions, ProductPlace, TransferredMesh, VertexColors, draw,
 };
 use crossbar_systems::all_frequency::shade::{Multiplies, TransferredRadiance};
 use crossbar_systems::transfer::synthetic::{hills, signal_at};
@@ -126,28 +126,6 @@ fn products_per_pixel_are_step_4_of_what_is_interpolated() {
     let mut card =
         FactoredCard::new(device("ideal-fp32"), ExecutorKind::Batch, &[hills.mesh()], place).expect("a card");
     assert!(card.view_texels(&view).expect("a picture").texels.iter().all(|texel| *texel == [0.0; 4]));
-}
-
-/// The error on each card is within a range that follows from its number formats.
-#[test]
-fn cards_come_as_near_as_their_bits() {
-    let hills = FactoredHills::glossy(10);
-    let options = ProductOptions::default();
-    let eight = ProductOptions { map_format: TexelFormat::Rgba8Snorm, ..options };
-    for (name, options, low, high) in [
-        ("r350", exact(), 1e-6, 1e-3),
-        ("r350", ProductOptions { filter: MapFilter::Program, ..options }, 1e-6, 1e-3),
-        ("r350", options, 1e-5, 1e-2),
-        ("r350", ProductOptions { radiance: RadianceFormat::Fp16, ..options }, 1e-5, 1e-2),
-        ("nv35", ProductOptions { map_format: TexelFormat::Rg16Snorm, ..options }, 1e-6, 1e-2),
-        ("nv35", eight, 1e-3, 5e-2),
-        ("nv35", ProductOptions { is_partial: true, ..eight }, 1e-3, 5e-2),
-    ] {
-        let place = ProductPlace::Pixels(options);
-        let drawing = hills.draw(name, place, FLOATS);
-        let (error, _) = hills.error(name, place, &drawing.texels);
-        assert!((low..high).contains(&error), "{name}, {options:?}: {error}");
-    }
 }
 
 #[test]
