@@ -9,8 +9,7 @@ use refsim::raster::Primitive;
 use refsim::texture::TexelFormat;
 
 use super::answer::{Answer, EngineError};
-use super::card::{bind, hits, rounded};
-use super::id_color::color_of_id;
+use super::card::{bind, color_of_id, hits, rounded};
 use super::range::Range;
 use super::units::Units;
 use super::{Form, RayBatch, kernels};

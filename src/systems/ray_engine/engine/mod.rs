@@ -15,7 +15,6 @@
 
 mod counts;
 mod flight;
-mod order;
 mod parameters;
 mod passes;
 mod schedule;
@@ -28,12 +27,12 @@ use refsim::machine::Executor;
 
 use super::ray_tree::RayTree;
 use super::{Crossbar, EngineError};
+use crate::geom::random::CounterRng;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::tracer::HostTracer;
 use crate::tracer::octree::{CellId, GpuCells};
 use crate::tracer::{CastError, Caster};
 use flight::{Cache, RaysInFlight};
-use order::order;
 use passes::Passes;
 
 pub use counts::EngineCounts;
@@ -184,4 +183,19 @@ impl Caster for RayEngine<'_> {
     fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
         self.trace(rays).map_err(|error| CastError(Box::new(error)))
     }
+}
+
+/// Returns a permutation of `count` rays: the identity, or shuffled (section 5.3: "in random order, which helps keep
+/// the tree balanced") by a seed and the index of the first ray.
+fn order(count: usize, shuffled: Option<(u64, u64)>) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..count).collect();
+    if let Some((seed, first)) = shuffled {
+        let random = CounterRng::new(seed);
+        for last in (1..count).rev() {
+            let bits = random.bits(first, last as u64, 0);
+            // The high half of the product is almost uniform for any possible number of rays.
+            places.swap(last, ((u128::from(bits) * (last as u128 + 1)) >> 64) as usize);
+        }
+    }
+    places
 }
