@@ -17,7 +17,6 @@ mod draw;
 mod lines;
 mod queue;
 mod search;
-mod sums;
 mod whole;
 
 pub use draw::SEED;
