@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::{check_shape, check_triangles, distinct, overdraw};
 use crate::clustering::{Clustering, Signal};
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure};
 
 /// A clustering with fewer triangles across clusters.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,9 +32,10 @@ pub fn reclassify(
 ) -> Result<Reclassified, InputError> {
     check_shape(signal, clustering)?;
     check_triangles(triangles, signal.points())?;
-    if !(budget.is_finite() && budget >= 0.0) {
-        return Err(input_error!("expected an error budget of at least 0, as a share of the error, found {budget}"));
-    }
+    ensure!(
+        budget.is_finite() && budget >= 0.0,
+        "expected an error budget of at least 0, as a share of the error, found {budget}"
+    );
     let mut search = Search::new(signal, clustering, triangles);
     let limit = budget * search.errors.iter().sum::<f64>();
     let (moved, added_error) = search.run(limit);
