@@ -128,8 +128,8 @@ impl Biclustering {
         (begins, of_row)
     }
 
-    /// The sum of the biclusters: the original matrix. Fails with [`InputError`] if 32 bits do not hold a sum, which can
-    /// happen for biclusters from other programs.
+    /// The sum of the biclusters: the original matrix. Fails with [`InputError`] if 32 bits do not hold a sum, as for
+    /// biclusters from other programs.
     pub fn sum(&self) -> Result<SparseMatrix, InputError> {
         let (begins, of_row) = self.by_row();
         let columns = self.matrix_size()[1];
