@@ -59,15 +59,6 @@ impl Move {
     fn quotient(&self) -> f64 {
         if self.increase <= 0.0 { f64::INFINITY } else { self.reduction as f64 / self.increase }
     }
-
-    /// Orders moves by quality; the better move is greater.
-    fn compare(&self, other: &Self) -> Ordering {
-        self.quotient()
-            .total_cmp(&other.quotient())
-            .then(self.reduction.cmp(&other.reduction))
-            .then(other.increase.total_cmp(&self.increase))
-            .then((other.vertex, other.to).cmp(&(self.vertex, self.to)))
-    }
 }
 
 impl Eq for Move {}
@@ -78,9 +69,14 @@ impl PartialOrd for Move {
     }
 }
 
+/// The better move is greater.
 impl Ord for Move {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.compare(other)
+        self.quotient()
+            .total_cmp(&other.quotient())
+            .then(self.reduction.cmp(&other.reduction))
+            .then(other.increase.total_cmp(&self.increase))
+            .then((other.vertex, other.to).cmp(&(self.vertex, self.to)))
     }
 }
 
