@@ -10,8 +10,9 @@ pub const MAX_COEFFICIENT: f64 = 1e30;
 /// error of 0.0003 at 1.3 and 0.016 at 3, and exceeds 1 from 3.85.
 pub const MAX_ETA: f64 = 3.0;
 
-fn not_finite_error(what: &'static str, found: f64) -> InputError {
-    input_error!("subsurface::material" => "expected a finite number for the {what}, found {found}")
+fn check_finite(what: &str, found: f64) -> Result<(), InputError> {
+    ensure!(found.is_finite(), "subsurface::material" => "expected a finite number for the {what}, found {found}");
+    Ok(())
 }
 
 fn out_of_range_error(what: &'static str, found: f64) -> InputError {
@@ -33,9 +34,7 @@ impl Coefficients {
     pub fn check(self) -> Result<(), InputError> {
         let scattering = ("reduced scattering coefficient", self.sigma_s_prime);
         for (what, found) in [scattering, ("absorption coefficient", self.sigma_a)] {
-            if !found.is_finite() {
-                return Err(not_finite_error(what, found));
-            }
+            check_finite(what, found)?;
             ensure!(found >= 0.0, "subsurface::material" => "expected at least 0 for the {what}, found {found}");
             if found > MAX_COEFFICIENT {
                 return Err(out_of_range_error(what, found));
@@ -63,9 +62,7 @@ impl Coefficients {
 
 /// Checks that `eta` is a valid index of refraction for the dipole.
 pub(crate) fn check_eta(eta: f64) -> Result<(), InputError> {
-    if !eta.is_finite() {
-        return Err(not_finite_error("index of refraction", eta));
-    }
+    check_finite("index of refraction", eta)?;
     ensure!((1.0..=MAX_ETA).contains(&eta), "subsurface::material" =>
         "expected an index of refraction from 1 to {MAX_ETA}, found {eta:?}");
     Ok(())

@@ -100,12 +100,4 @@ impl Links {
     pub fn factors(&self) -> &[f32] {
         &self.factors
     }
-
-    /// The clusters of fixed links; empty for adaptive links.
-    pub fn fixed_clusters(&self) -> Vec<ClusterId> {
-        match self.choice {
-            LinkChoice::Fixed { .. } => self.clusters.iter().map(|cluster| cluster.id()).collect(),
-            LinkChoice::Adaptive { .. } => Vec::new(),
-        }
-    }
 }
