@@ -15,6 +15,6 @@ mod textures;
 
 pub use card::{BiScaleCard, DisplayCounts};
 pub use gather::{GatherCard, GatherCounts};
-pub use options::{DisplayOptions, LightFormat, LocalFormat};
+pub use options::{DisplayOptions, LightFormat};
 pub use subject::{TexturedMesh, corner_coordinates};
 pub use textures::{VolumeTexture, volume_image};

@@ -7,7 +7,7 @@ use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::machine::Machine;
 
-use super::options::{DisplayOptions, LocalFormat};
+use super::options::{DisplayOptions, LightFormat};
 use super::subject::{CardVertices, TexturedMesh};
 use super::textures::VolumeTexture;
 use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
@@ -74,7 +74,7 @@ pub(super) struct LocalStream<'a> {
     pub(super) factor: f64,
     /// Largest magnitude of local light times `factor`.
     pub(super) largest: f64,
-    pub(super) format: LocalFormat,
+    pub(super) format: LightFormat,
 }
 
 impl LocalStream<'_> {

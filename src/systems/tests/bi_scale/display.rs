@@ -1,7 +1,7 @@
 //! Pictures of bi-scale transfer on cards, compared with f64; counts of a frame; errors.
 
 use crossbar_systems::bi_scale::kernels::BlockEdges;
-use crossbar_systems::bi_scale::on_card::{BiScaleCard, DisplayOptions, LocalFormat, TexturedMesh, corner_coordinates};
+use crossbar_systems::bi_scale::on_card::{BiScaleCard, DisplayOptions, LightFormat, TexturedMesh, corner_coordinates};
 use crossbar_systems::bi_scale::texture::BidirectionalTexture;
 use crossbar_systems::transfer::synthetic::hills;
 use crossbar_systems::transfer::{Tangents, Vertices};
@@ -88,7 +88,7 @@ fn rough(size: usize, views: usize, lights: usize) -> BidirectionalTexture {
 }
 
 fn floats(edges: BlockEdges) -> DisplayOptions {
-    DisplayOptions { edges, texture: FLOATS, local: LocalFormat::Fp32 }
+    DisplayOptions { edges, texture: FLOATS, local: LightFormat::Fp32 }
 }
 
 #[test]
@@ -154,7 +154,7 @@ fn fewer_bits_show() {
     let local = |local| rms(DisplayOptions { local, ..fine }, FLOATS);
     for (what, bytes, half, low, high) in [
         ("texture", texture(TexelFormat::Rgba8), texture(TexelFormat::Rgba16f), 1e-4, 4e-3),
-        ("local light", local(LocalFormat::Bytes), local(LocalFormat::Fp16), 1e-4, 4e-3),
+        ("local light", local(LightFormat::Bytes), local(LightFormat::Fp16), 1e-4, 4e-3),
         ("target", rms(fine, TexelFormat::Rgba8), rms(fine, TexelFormat::Rgba16f), 4e-4, 1e-2),
     ] {
         assert!(bytes > 1.5 * best && half < 0.7 * bytes, "{what}: {bytes}, {half}, {best}");

@@ -5,7 +5,7 @@ use strum::IntoEnumIterator;
 
 use super::subject::BiScaleOnCard;
 use crate::bi_scale::kernels::BlockEdges;
-use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
+use crate::bi_scale::on_card::{DisplayOptions, LightFormat};
 use crate::card::SeenPixel;
 use crate::study::StudyError;
 use crate::study::prt::card::PictureVariant;
@@ -25,7 +25,7 @@ struct CardDrawing {
 /// Single precision throughout.
 const FINE: CardDrawing = CardDrawing {
     light: LightFormat::Fp32,
-    options: DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LocalFormat::Fp32 },
+    options: DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LightFormat::Fp32 },
     target: FLOATS,
 };
 
@@ -34,7 +34,7 @@ fn ways() -> Vec<(&'static str, String, CardDrawing)> {
     for light in LightFormat::iter().filter(|light| *light != FINE.light) {
         all.push(("light L", light.to_string(), CardDrawing { light, ..FINE }));
     }
-    for local in LocalFormat::iter().filter(|local| *local != FINE.options.local) {
+    for local in LightFormat::iter().filter(|local| *local != FINE.options.local) {
         let options = DisplayOptions { local, ..FINE.options };
         all.push(("interpolated L~", local.to_string(), CardDrawing { options, ..FINE }));
     }
