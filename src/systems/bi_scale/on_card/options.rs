@@ -43,15 +43,6 @@ impl LightFormat {
             Self::Bytes => 0.0,
         }
     }
-
-    /// Bytes per number.
-    pub const fn bytes(self) -> usize {
-        match self {
-            Self::Bytes => 1,
-            Self::Fp16 => 2,
-            Self::Fp32 => 4,
-        }
-    }
 }
 
 /// Options of the display.
