@@ -2,8 +2,8 @@
 
 use super::bicluster::{Bicluster, Biclustering, start};
 use super::matrix::{MatrixEntry, SparseMatrix};
-use super::shade::{ShadedPixel, TexelSamples};
-use super::texture::{BidirectionalTexture, ViewSamples};
+use super::shade::ShadedPixel;
+use super::texture::{BidirectionalTexture, GridSamples};
 
 /// A submatrix T_b: its rows, and its columns with the values t of the bicluster.
 #[derive(Clone, Debug)]
@@ -158,8 +158,8 @@ pub fn multiply(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
 /// each, and over the triangle's three corners.
 pub fn radiance(texture: &BidirectionalTexture, local: &[[f64; 3]], pixel: &ShadedPixel) -> [f64; 3] {
     let lights = texture.light().directions().len();
-    let views = ViewSamples::around(texture.view(), pixel.view);
-    let texels = TexelSamples::around(texture.size(), pixel.place);
+    let views = GridSamples::of_view(texture.view(), pixel.view);
+    let texels = GridSamples::of_texels(texture.size(), pixel.place);
     let mut radiance = [0.0; 3];
     for light in 0..lights {
         for (channel, radiance) in radiance.iter_mut().enumerate() {

@@ -2,7 +2,7 @@
 
 use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid};
 use crossbar_systems::bi_scale::on_card::volume_image;
-use crossbar_systems::bi_scale::shade::TexelSamples;
+use crossbar_systems::bi_scale::texture::GridSamples;
 use refsim::texture::{Image, Lod, SampleRules, TexelFormat, sample, touched};
 
 use super::{FLOATS, device, texture};
@@ -88,7 +88,7 @@ fn blocks_repeat_as_the_hosts_patch_does() {
                 let found = value(&image, &rules, coordinates(&grid, (light, view), uv));
                 let inside = |at: f64| (at - at.floor()).clamp(0.5 / size as f64, 1.0 - 0.5 / size as f64);
                 let place = uv.map(|at| if edges == BlockEdges::Touching { inside(at.into()) } else { at.into() });
-                let TexelSamples { numbers, weights } = TexelSamples::around(size, place);
+                let GridSamples { numbers, weights } = GridSamples::of_texels(size, place);
                 let patch = texture.patch(view, light);
                 let terms = |channel: usize| numbers.map(|number| f64::from(patch[number][channel])).into_iter();
                 let expected = [0, 1, 2].map(|channel| terms(channel).zip(weights).map(|(b, w)| w * b).sum::<f64>());
