@@ -119,7 +119,7 @@ impl SubsurfaceCard {
     /// Runs passes 1 and 2 for new lights. Fails with [`CardError::Input`] or [`CardError::Draw`].
     pub fn light(&mut self, lights: &[Light]) -> Result<(), CardError> {
         self.lights = CardLights::new(lights, &self.model)?;
-        self.light.run(self.view.machine_mut(), &self.lights, self.map.map)?;
+        self.light.run(self.view.display.machine_mut(), &self.lights, self.map.map)?;
         self.scatter()
     }
 
@@ -127,20 +127,20 @@ impl SubsurfaceCard {
     /// then runs pass 2. There is no direct light then. Fails with [`CardError::Input`] or [`CardError::Draw`].
     pub fn irradiate(&mut self, irradiances: &[[f64; 3]]) -> Result<(), CardError> {
         self.lights = CardLights::default();
-        self.light.fill(self.view.machine_mut(), &self.model, irradiances, self.map.map)?;
+        self.light.fill(self.view.display.machine_mut(), &self.model, irradiances, self.map.map)?;
         self.scatter()
     }
 
     fn scatter(&mut self) -> Result<(), CardError> {
         self.note(PassKind::RadiosityMap);
-        self.map.fill(self.view.machine_mut())?;
+        self.map.fill(self.view.display.machine_mut())?;
         self.note(PassKind::Levels);
         self.gather()
     }
 
     /// Runs pass 2 with the current map, as [`Self::light`] and [`Self::irradiate`] do at their end.
     pub fn gather(&mut self) -> Result<(), CardError> {
-        self.gather.run(self.view.machine_mut(), &self.map)?;
+        self.gather.run(self.view.display.machine_mut(), &self.map)?;
         self.note(PassKind::Gather);
         Ok(())
     }
@@ -162,17 +162,17 @@ impl SubsurfaceCard {
     /// Reads all levels of the radiosity map, finest first: irradiance times transmittance times area, divided by the
     /// mean area and multiplied by the map's scale. Fails with [`CardError::Draw`].
     pub fn read_levels(&self) -> Result<Vec<Texels>, CardError> {
-        self.map.read_back(self.view.machine())
+        self.map.read_back(self.view.display.machine())
     }
 
     /// Reads only the finest level of the radiosity map. Fails with [`CardError::Draw`].
     pub fn read_map(&self) -> Result<Texels, CardError> {
-        Ok(Texels::read_back(self.view.machine(), self.map.map)?)
+        Ok(Texels::read_back(self.view.display.machine(), self.map.map)?)
     }
 
     /// Reads the scattered irradiance: B of equation 9 per texel. Fails with [`CardError::Draw`].
     pub fn read_scattered(&self) -> Result<Texels, CardError> {
-        Ok(Texels::read_back(self.view.machine(), self.gather.scattered())?)
+        Ok(Texels::read_back(self.view.display.machine(), self.gather.scattered())?)
     }
 
     /// Number of channels of the radiosity map's texels at the largest value, where light may have been clamped.
@@ -185,13 +185,13 @@ impl SubsurfaceCard {
 
     /// The emulated card.
     pub fn machine_mut(&mut self) -> &mut Machine {
-        self.view.machine_mut()
+        self.view.display.machine_mut()
     }
 
     /// Starts or stops recording the log.
     pub fn record(&mut self, on: bool) {
-        self.view.machine_mut().record(on);
-        self.view.machine_mut().take_log();
+        self.view.display.machine_mut().record(on);
+        self.view.display.machine_mut().take_log();
         self.log = on.then(Vec::new);
     }
 
@@ -202,7 +202,7 @@ impl SubsurfaceCard {
 
     fn note(&mut self, pass: PassKind) {
         if let Some(log) = &mut self.log {
-            log.extend(self.view.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));
+            log.extend(self.view.display.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));
         }
     }
 }

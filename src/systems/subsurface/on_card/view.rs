@@ -53,7 +53,8 @@ impl View {
 #[derive(Debug)]
 pub(super) struct ViewPass {
     eta: f64,
-    display: MeshDisplay,
+    /// The card, which all passes share.
+    pub(super) display: MeshDisplay,
     /// Normals, pairs of places in the atlas, and bounds of reads.
     beside: [Attribute; 3],
     table: Option<TextureId>,
@@ -69,14 +70,6 @@ impl ViewPass {
             beside.iter_mut().zip(of_vertex).for_each(|(into, value)| into.push(value.map(f32::to_bits)));
         }
         Self { eta, display: MeshDisplay::in_frame(machine, *model.frame(), positions), beside, table: None }
-    }
-
-    pub(super) fn machine(&self) -> &Machine {
-        self.display.machine()
-    }
-
-    pub(super) fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
     }
 
     pub(super) fn show(&mut self, lights: &CardLights, scattered: TextureId, view: &View) -> Result<Texels, CardError> {
