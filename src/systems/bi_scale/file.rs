@@ -149,7 +149,8 @@ fn matrix(arrays: &mut NpzReader<'_>, shape: Shape, count: usize) -> Result<Spar
     if begins[0] != 0 || begins[shape.rows] as usize != count {
         return Err(refused(format!("rows from {} to {} of {count}", begins[0], begins[shape.rows])));
     }
-    let mut matrix = SparseMatrix::new(shape.columns, shape.fraction_bits).map_err(|reason| refused(reason.to_string()))?;
+    let mut matrix =
+        SparseMatrix::new(shape.columns, shape.fraction_bits).map_err(|reason| refused(reason.to_string()))?;
     for row in begins.windows(2) {
         let row = entries.get(row[0] as usize..row[1] as usize).ok_or_else(|| refused(format!("{row:?}")))?;
         matrix.push_row(row).map_err(|reason| refused(reason.to_string()))?;

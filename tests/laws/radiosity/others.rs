@@ -44,7 +44,8 @@ fn irradiance(patches: &Patches, b: &[[f64; 3]], [point, normal]: [DVec3; 2], tr
             ends.push((1.0 - 2.0 * lift / way.length()) as f32);
         }
         let hits = tracer.cast(&rays).expect("hits").into_iter().zip(ends);
-        let open = hits.map(|(hit, end)| hit.is_none_or(|hit| hit.t >= end || patches.face_of(hit.triangle) == part.face));
+        let open =
+            hits.map(|(hit, end)| hit.is_none_or(|hit| hit.t >= end || patches.face_of(hit.triangle) == part.face));
         let seen: f64 = open.zip(&weights).map(|(is_open, weight)| if is_open { *weight } else { 0.0 }).sum();
         let all: f64 = weights.iter().sum();
         let share = if seen == all { 1.0 } else { seen / all };

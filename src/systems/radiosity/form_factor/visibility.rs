@@ -12,8 +12,8 @@ use crate::geom::vector::narrow;
 use crate::geom::{Hit, Ray};
 use crate::linalg::Matrix;
 use crate::radiosity::Patches;
-use crate::tracer::offset::scene_clearance;
 use crate::tracer::Caster;
+use crate::tracer::offset::scene_clearance;
 
 /// Parameters of the visibility estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -48,12 +48,7 @@ impl BiScaleOnCard {
     }
 
     /// Equation 3 in f64, exposed, neither clamped nor quantised. Pixels without a surface are 0.
-    pub(super) fn exact(
-        &self,
-        local: &[[f64; 3]],
-        seen: &[Option<SeenPixel>],
-        exposure: f64,
-    ) -> Vec<[f64; 3]> {
+    pub(super) fn exact(&self, local: &[[f64; 3]], seen: &[Option<SeenPixel>], exposure: f64) -> Vec<[f64; 3]> {
         let (mesh, eye) = (self.mesh(), self.view.camera.eye());
         let of = |seen: &Option<SeenPixel>| {
             let color = seen.map_or([0.0; 3], |seen| mesh.pixel(local, eye, &seen));
