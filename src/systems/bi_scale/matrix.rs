@@ -3,7 +3,7 @@
 //! Averaging 2^m x 2^m visibility samples gives multiples of 2^-2m (section IV-A), which entries store as integers.
 //! Integers are subtracted without rounding, so "lossless" results are equal.
 
-use crate::error::{InputError, ensure, input_error};
+use crate::error::{InputError, input_error};
 use crate::io::CoordinateMatrix;
 use refsim::num::power_of_two;
 

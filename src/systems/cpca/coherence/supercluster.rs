@@ -60,6 +60,12 @@ impl Superclusters {
         Ok(Self::numbered(of_cluster))
     }
 
+    /// One supercluster per cluster.
+    pub fn apart(clustering: &Clustering, registers: ConstantRegisters) -> Result<Self, InputError> {
+        let count = needed(clustering, registers)?.len();
+        Ok(Self { of_cluster: (0..count as u32).collect(), count })
+    }
+
     /// Numbers superclusters in the order of their lowest clusters.
     fn numbered(mut of_cluster: Vec<u32>) -> Self {
         let mut numbers = BTreeMap::new();

@@ -65,7 +65,11 @@ impl<'a> PrtCard<'a> {
         let kernel = kernel(&profile, &transfer)?;
         let (clustering, triangles) = (transfer.clustering, transfer.vertices.triangles());
         let registers = registers(&profile, &kernel);
-        let superclusters = Superclusters::new(clustering, triangles, registers).map_err(CardError::input)?;
+        let superclusters = match options.superclusters {
+            true => Superclusters::new(clustering, triangles, registers),
+            false => Superclusters::apart(clustering, registers),
+        };
+        let superclusters = superclusters.map_err(CardError::input)?;
         let programs = ShadingPrograms::new(&profile, kernel)?;
         let mut machine = executor.into().machine(profile)?;
         let map = ParabolicMap::new(options.map_side);

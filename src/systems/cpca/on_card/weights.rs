@@ -84,6 +84,9 @@ impl CardWeights {
 /// Options of drawing compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrtCardOptions {
+    /// True if clusters are drawn in superclusters, as large as the constant registers allow; false if each cluster is
+    /// drawn alone.
+    pub superclusters: bool,
     /// Texels along an edge of the maps of y; 32 in the paper.
     pub map_side: usize,
     /// The format of the maps.
@@ -94,7 +97,8 @@ pub struct PrtCardOptions {
 
 impl Default for PrtCardOptions {
     fn default() -> Self {
-        Self { map_side: 32, map_format: TexelFormat::Rgba16Snorm, weights: WeightFormat::default() }
+        let (map_side, map_format) = (32, TexelFormat::Rgba16Snorm);
+        Self { superclusters: true, map_side, map_format, weights: WeightFormat::default() }
     }
 }
 
