@@ -84,14 +84,14 @@ fn vertex_programs_give_the_hosts_sums() {
         let hills = CompressedHills::new(basis, clusters, vectors, CpcaMethod::Iterative);
         let transfer = hills.transfer(vectors);
         let light = HarmonicLight::red_and_blue(4);
-        for (name, weights) in [
-            ("r300", WeightFormat::Fp32),
-            ("r300", WeightFormat::Unorm8),
-            ("r350", WeightFormat::Fp16),
-            ("nv35", WeightFormat::Unorm16),
+        for (name, superclusters, weights) in [
+            ("r300", true, WeightFormat::Fp32),
+            ("r300", false, WeightFormat::Unorm8),
+            ("r350", true, WeightFormat::Fp16),
+            ("nv35", true, WeightFormat::Unorm16),
         ] {
             let map_format = if name == "nv35" { TexelFormat::Rgba8Snorm } else { TexelFormat::Rgba16Snorm };
-            let options = PrtCardOptions { map_format, weights, ..PrtCardOptions::default() };
+            let options = PrtCardOptions { superclusters, map_format, weights, ..PrtCardOptions::default() };
             let (_, draws) = draws(name, transfer, &options, &light);
             let scale = if transfer.is_glossy() { map_scale(transfer.basis, options.map_side) } else { 1.0 };
             let weights = CardWeights::new(&hills.clustering, weights);
@@ -148,11 +148,13 @@ fn check_chunk(
 #[test]
 fn chunks_are_the_overdraw() {
     let hills = CompressedHills::new(glossy(24), 12, 8, CpcaMethod::Iterative);
-    let options = PrtCardOptions::default();
-    let (found, draws) = draws("r300", hills.transfer(8), &options, &HarmonicLight::red_and_blue(4));
-    let drawn: usize = draws[1..].iter().map(|chunk| chunk.triangles).sum();
-    assert_eq!(drawn as u64, 3 * found.overdraw(&hills.clustering, hills.vertices.triangles()));
-    assert!(found.count() < 12);
+    for superclusters in [false, true] {
+        let options = PrtCardOptions { superclusters, ..PrtCardOptions::default() };
+        let (found, draws) = draws("r300", hills.transfer(8), &options, &HarmonicLight::red_and_blue(4));
+        let drawn: usize = draws[1..].iter().map(|chunk| chunk.triangles).sum();
+        assert_eq!(drawn as u64, 3 * found.overdraw(&hills.clustering, hills.vertices.triangles()));
+        assert_eq!(found.count() < 12, superclusters);
+    }
 }
 
 fn device(name: &str) -> Profile {
