@@ -54,11 +54,6 @@ impl Patches {
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
     }
 
-    /// Number of patches of a scene, without computing their open parts.
-    pub fn count(scene: &Scene, subdivision: Subdivision) -> Result<usize, InputError> {
-        Ok(steps(&faces_of(scene)?.0, subdivision)?.1)
-    }
-
     /// All patches, in the order of the matrix's rows.
     pub fn list(&self) -> &[Patch] {
         &self.list

@@ -127,11 +127,6 @@ impl<'a> FactoredCard<'a> {
         Ok(Self { display, meshes, place })
     }
 
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
-    }
-
     /// Draws a frame and returns its render target. Background pixels are 0, alpha is 1 elsewhere.
     pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(view, false)?.0)

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::exec::CheckedProgram;
-use refsim::machine::{Executor, Machine};
+use refsim::machine::Executor;
 use refsim::output::WriteMask;
 
 use super::gather::version;
@@ -107,11 +107,6 @@ impl<'a> BiScaleCard<'a> {
             vertex,
             vertex_counts,
         })
-    }
-
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
     }
 
     /// Width, height and depth of each texture's volume, in texels.

@@ -117,11 +117,6 @@ impl GatherCard {
         Ok(Self { machine, columns, rows, light, format, stages, programs, version })
     }
 
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        &mut self.machine
-    }
-
     /// Counts of a product's reads and draws.
     pub fn counts(&self) -> GatherCounts {
         let places = |stage: &Stage| {

@@ -61,11 +61,6 @@ impl TextureLookup {
         Self { size, view: texture.view().clone(), lights, samples }
     }
 
-    /// The number M of directions of light.
-    pub fn lights(&self) -> usize {
-        self.lights
-    }
-
     /// Equation 3 for a pixel: [`paper::radiance`](crate::bi_scale::paper::radiance). `b` is scratch memory for M
     /// samples. Panics if a corner has no row.
     pub fn radiance(&self, local: &[[f64; 3]], pixel: &ShadedPixel, b: &mut Vec<[f64; 3]>) -> [f64; 3] {

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::event::Event;
-use refsim::machine::{Executor, Machine};
+use refsim::machine::Executor;
 use refsim::output::WriteMask;
 use refsim::timing::host::HostOperation;
 
@@ -93,11 +93,6 @@ impl<'a> PrtCard<'a> {
     /// The sizes of the transfer.
     pub fn size(&self) -> TransferSize {
         self.size
-    }
-
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
     }
 
     /// Draws a frame and returns the target. Background pixels are 0.

@@ -152,16 +152,6 @@ impl<'a> RayEngine<'a> {
         EngineCounts { tree: self.tree.counts(), ..self.counts }
     }
 
-    /// Host tracer.
-    pub fn tracer(&self) -> &HostTracer {
-        &self.tracer
-    }
-
-    /// GPU cells.
-    pub fn cells(&self) -> &GpuCells {
-        &self.cells
-    }
-
     /// Bucket occupancy of the ray tree, in [0, 1].
     pub fn occupancy(&self) -> Vec<f64> {
         self.tree.occupancy()

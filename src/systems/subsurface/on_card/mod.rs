@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::isa::Version;
-use refsim::machine::{Executor, Machine};
+use refsim::machine::Executor;
 
 pub use gather::GatherProgram;
 pub use light::Light;
@@ -181,11 +181,6 @@ impl SubsurfaceCard {
         let map = self.read_map()?;
         let channels = map.texels.iter().flat_map(|texel| &texel[..3]);
         Ok(channels.filter(|value| **value >= largest).count())
-    }
-
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.view.display.machine_mut()
     }
 
     /// Starts or stops recording the log.
