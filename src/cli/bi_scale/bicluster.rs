@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use super::file::{histogram, load, value_counts, values_document};
+use super::file::{histogram, load, unit, value_counts, values_document};
 use crate::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
@@ -23,9 +23,8 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
       the figures as JSON
 
-The sum of the biclusters equals the matrix bit for bit where its values are multiples of a power of two that 32 bits \
-hold; of other values residuals are rounded to double precision. Products in single precision, on host and cards, round \
-values that they do not hold. The summary counts both.";
+The values must be multiples of one power of two, at least 2^-30, that 32 bits hold. The sum of the biclusters equals \
+the matrix bit for bit.";
 
 /// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
 #[derive(Debug, clap::Args)]
@@ -51,8 +50,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let biclusters =
         made(matrix).map_err(|error| Problem::usage(format!("{name}: {error}"), "name a smaller matrix"))?;
     let seconds = start.elapsed().as_secs_f64();
-    let (values, residual) = (value_counts(&file), biclusters.residual(matrix));
-    let [singles, beyond_singles] = rounded(&biclusters);
+    let values = value_counts(&file);
     let (rows, columns, nonzeros) = (matrix.rows(), matrix.columns(), matrix.nonzeros());
     let (before, after) = (2 * nonzeros as u64, biclusters.cost());
     let [dense_1, dense_4, rows_3, rows_8, of_biclusters] = bytes(matrix, &biclusters);
@@ -60,7 +58,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         ("rows", Some(rows.into())),
         ("columns", Some(columns.into())),
         ("values other than 0", Some(nonzeros.into())),
-        ("values are", Some(matrix.values().to_string().into())),
+        ("values are", Some(unit(matrix.fraction_bits()).into())),
         ("biclusters", Some(biclusters.len().into())),
         ("their rows", Some(biclusters.row_entries().into())),
         ("their columns", Some(biclusters.column_entries().into())),
@@ -72,10 +70,6 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         ("bytes, by rows, 3 bytes each", Some(rows_3.into())),
         ("bytes, by rows, 8 bytes each", Some(rows_8.into())),
         ("bytes, biclusters", Some(of_biclusters.into())),
-        ("columns whose value single precision rounds", (singles > 0).then(|| singles.into())),
-        ("columns whose value is beyond single precision", (beyond_singles > 0).then(|| beyond_singles.into())),
-        ("entries where the biclusters' sum differs from the matrix", Some(residual.count.into())),
-        ("largest difference", (residual.count > 0).then(|| Cell::measured(residual.largest))),
         ("seconds", Some(Cell::measured(seconds))),
     ];
     let figures = figures.into_iter().filter_map(|(what, value)| Some([what.into(), value?]));
@@ -88,10 +82,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         "row_entries": biclusters.row_entries(), "column_entries": biclusters.column_entries(),
         "bytes": { "dense_1": dense_1, "dense_4": dense_4, "rows_3": rows_3, "rows_8": rows_8,
                    "biclusters": of_biclusters },
-        "residual": residual.count, "unit_bits": matrix.values().fraction_bits(),
-        "distinct_values": matrix.values().table_len(), "rounded_in_singles": singles,
-        "beyond_singles": beyond_singles, "largest_residual": residual.largest,
-        "squared_residual": residual.squares, "seconds": seconds,
+        "unit_bits": matrix.fraction_bits(), "seconds": seconds,
     }));
     if let Some(path) = &args.out {
         let file = BiScaleFile { meaning: file.meaning, matrix: None, biclusters: Some(biclusters) };
@@ -122,16 +113,4 @@ fn bytes(matrix: &SparseMatrix, biclusters: &Biclustering) -> [u64; 5] {
     let begins = 4 * (rows + 1);
     let entries = biclusters.row_entries() as u64 + 2 * biclusters.column_entries() as u64;
     [rows * columns, 4 * rows * columns, 3 * nonzeros + begins, 8 * nonzeros + begins, 4 * entries]
-}
-
-/// Number of bicluster columns whose value must be rounded to single precision, and number of columns beyond its range.
-fn rounded(biclusters: &Biclustering) -> [usize; 2] {
-    let mut rounded = [0; 2];
-    for entry in (0..biclusters.len()).flat_map(|number| biclusters.columns_of(number)) {
-        let value = biclusters.value(entry.value);
-        let single = value as f32;
-        rounded[0] += usize::from(single.is_finite() && f64::from(single) != value);
-        rounded[1] += usize::from(!single.is_finite());
-    }
-    rounded
 }

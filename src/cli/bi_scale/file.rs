@@ -50,6 +50,11 @@ fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem>
     Err(Problem::usage(what, "name a smaller matrix"))
 }
 
+/// The unit of values, in words.
+pub(super) fn unit(fraction_bits: u32) -> String {
+    if fraction_bits == 0 { "whole numbers".to_owned() } else { format!("whole numbers of 2^-{fraction_bits}") }
+}
+
 /// Values with their counts: of a matrix, or of biclusters, in their columns times their rows.
 pub(super) fn value_counts(file: &BiScaleFile) -> Vec<(f64, u64)> {
     let mut counts: BTreeMap<i32, u64> = BTreeMap::new();

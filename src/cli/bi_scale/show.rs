@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::file::{histogram, load, value_counts, values_document};
+use super::file::{histogram, load, unit, value_counts, values_document};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
-use crate::bi_scale::matrix::{EntryValues, SparseMatrix};
+use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::study::written;
 use crate::cli::words::counted;
@@ -56,8 +56,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     }
     let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
     found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
-    if let Some(values) = file.values() {
-        found.introduce(format!("values    {values}"));
+    if let Some(bits) = file.fraction_bits() {
+        found.introduce(format!("values    {}", unit(bits)));
     }
     let values = value_counts(&file);
     found.table(histogram(&values));
@@ -116,9 +116,7 @@ fn document(file: &BiScaleFile, rows: usize, local: usize, values: &[(f64, u64)]
         let sizes: Vec<Value> = sizes(biclusters).into_iter().map(size).collect();
         json!({ "count": biclusters.len(), "operations": biclusters.cost(), "sizes": sizes })
     });
-    let stored = file.values();
-    json!({ "rows": rows, "mesh": mesh, "unit_bits": stored.and_then(EntryValues::fraction_bits),
-            "distinct_values": stored.and_then(EntryValues::table_len),
+    json!({ "rows": rows, "mesh": mesh, "unit_bits": file.fraction_bits(),
             "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values_document(values),
             "biclusters": biclusters })
 }

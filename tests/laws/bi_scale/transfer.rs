@@ -25,7 +25,7 @@ fn texels_go_to_the_nearest_local_direction() {
         let matrix = transfer_matrix(&vertices, &maps, &directions).expect("a matrix");
         let (local, samples) = (side * side, 1 << log2_samples);
         assert_eq!((matrix.rows(), matrix.columns()), (vertices.len() * local, 6144));
-        assert_eq!(matrix.values().fraction_bits(), Some(2 * log2_samples));
+        assert_eq!(matrix.fraction_bits(), 2 * log2_samples);
         for vertex in 0..vertices.len() {
             let frame = &vertices.frames()[vertex];
             let mut expected = vec![Vec::new(); local];

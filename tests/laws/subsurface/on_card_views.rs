@@ -6,7 +6,6 @@ use crossbar::elementary;
 use crossbar::geom::Mesh;
 use crossbar::geom::vector::wide;
 use crossbar::scene::Camera;
-use crossbar::subsurface::fresnel::mean_transmittance;
 use crossbar::subsurface::fresnel_transmittance;
 use crossbar::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
 use crossbar::subsurface::on_card::{Light, LightStage, SubsurfaceCard, SubsurfaceCardOptions, View};
@@ -52,10 +51,7 @@ impl Host<'_> {
             return None;
         }
         let (normal, to_eye) = (normal.normalize(), (eye - point).normalize());
-        let transmittance = match self.view.kernel.transmittance {
-            EyeTransmittance::Mean => mean_transmittance(ETA),
-            EyeTransmittance::Exact | EyeTransmittance::Table => fresnel_transmittance(ETA, normal.dot(to_eye)),
-        };
+        let transmittance = fresnel_transmittance(ETA, normal.dot(to_eye));
         let scattered = self.bilinear(face, weights).map(|b| b * transmittance / PI * self.view.mesh.exposure);
         let direct = self.direct(point, normal, to_eye).map(|value| value * self.view.mesh.exposure);
         Some([0, 1, 2].map(|c| match self.view.kernel.direct {
@@ -159,7 +155,7 @@ fn pixels_are_those_of_the_formulas() {
             compared += pixels_agree(&mut card, &host, 2e-5 + table);
         }
     }
-    assert!(compared > 9 * 5 * 200, "{compared} pixels");
+    assert!(compared > 6 * 5 * 200, "{compared} pixels");
 }
 
 /// By fragment, 60 constants hold 15 lights; by vertex, 256 instructions suffice for 11.

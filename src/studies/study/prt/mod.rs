@@ -12,7 +12,6 @@ mod lit_view;
 mod precompute;
 mod render;
 
-use crate::all_frequency::shade::LightSizeError;
 use crate::card::CardError;
 use crate::card::frame_time::FrameTimeError;
 use crate::study::StudyError;
@@ -37,7 +36,6 @@ pub use render::Rendering;
 library_errors! {
     CardError => "crossbar::prt::card";
     FrameTimeError => "crossbar::prt::time";
-    LightSizeError => "crossbar::prt::segments";
 }
 
 pub(super) fn no_cpca_card(error: CardError) -> StudyError {

@@ -40,9 +40,7 @@ impl CausePictures {
         progress: &mut ProgressFn<'_>,
     ) -> Result<Self, StudyError> {
         let BiScaleRendering { surface, file, textures, .. } = rendering;
-        let values = file.values().ok_or_else(no_mesh_transfer)?;
-        // Values without a fixed unit are averages of an unknown number of samples.
-        let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
+        let log2_samples = (file.fraction_bits().ok_or_else(no_mesh_transfer)? / 2).min(2);
         let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
         let (tracer, fine) = (HostTracer::new(&surface.mesh, Sides::Both), rendering.light.fine()?);
         let scene = TracedScene { tracer: &tracer, length: ray_length(&surface.vertices), sampling };

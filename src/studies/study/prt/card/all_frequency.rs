@@ -11,7 +11,7 @@ use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
 use crate::all_frequency::on_card::{
     FactoredDrawing, ProductOptions, ProductPlace, TransferredMesh, VertexColors, draw,
 };
-use crate::all_frequency::shade::{LightSizeError, Multiplies, TransferredRadiance, plain};
+use crate::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
 use crate::card::MeshView;
 use crate::report::{Cell, Findings, Provenance};
 use crate::study::prt::all_frequency::singles;
@@ -95,7 +95,7 @@ fn conclude(drawing: &FactoredDrawing, found: &mut Findings) {
 }
 
 /// Steps 2 and 3 in f64, one rounding to f32 each.
-fn in_double(coded: &CodedTransfer, light: &HaarLight) -> Result<TransferredRadiance, LightSizeError> {
+fn in_double(coded: &CodedTransfer, light: &HaarLight) -> Result<TransferredRadiance, InputError> {
     let light: Vec<[f64; 3]> = light.singles().into_iter().map(|rgb| rgb.map(f64::from)).collect();
     Ok(singles(coded.rows, plain::transferred_of_code(coded, &light)?))
 }

@@ -11,9 +11,8 @@ use super::setting::{CardSetting, HostPicture, report_sizes};
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::kernels::BlockEdges;
-use crate::bi_scale::on_card::reference::pixel;
 use crate::bi_scale::on_card::{
-    BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat, LocalFormat, TexturedMesh,
+    BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat, TexturedMesh,
 };
 use crate::bi_scale::paper;
 use crate::bi_scale::texture::BidirectionalTexture;
@@ -162,7 +161,7 @@ impl BiScaleOnCard {
     fn exact(&self, local: &[[f64; 3]], seen: &[Option<SeenPixel>], exposure: f64) -> Vec<[f64; 3]> {
         let (mesh, eye) = (self.mesh(), self.view.camera.eye());
         let of = |seen: &Option<SeenPixel>| {
-            let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, eye, BlockEdges::Wrapped, &seen));
+            let color = seen.map_or([0.0; 3], |seen| mesh.pixel(local, eye, &seen));
             color.map(|value| exposure * value)
         };
         seen.par_iter().map(of).collect()
@@ -246,7 +245,7 @@ type CardDrawing = (LightFormat, DisplayOptions, TexelFormat);
 /// Single precision throughout.
 const FINE: CardDrawing = (
     LightFormat::Fp32,
-    DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LocalFormat::Fp32 },
+    DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LightFormat::Fp32 },
     FLOATS,
 );
 
@@ -256,7 +255,7 @@ fn ways() -> Vec<(&'static str, String, CardDrawing)> {
     for light in LightFormat::iter().filter(|light| *light != fine_light) {
         all.push(("light L", light.to_string(), (light, fine, FLOATS)));
     }
-    for local in LocalFormat::iter().filter(|local| *local != fine.local) {
+    for local in LightFormat::iter().filter(|local| *local != fine.local) {
         all.push(("interpolated L~", local.to_string(), (fine_light, DisplayOptions { local, ..fine }, FLOATS)));
     }
     for texture in TEXELS {

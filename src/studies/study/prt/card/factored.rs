@@ -8,7 +8,7 @@ use refsim::texture::TexelFormat;
 
 use super::errors::{PictureVariant, PixelErrors};
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
-use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products, vertex_radiance};
+use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products};
 use crate::all_frequency::on_card::{
     ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw,
 };
@@ -47,7 +47,7 @@ pub(super) fn exact_pixels(
         ProductPlace::Pixels(options) => (false, options.view),
         ProductPlace::Vertices(_) => (true, ViewNumbers::default()),
     };
-    let colors: Vec<_> = meshes.iter().map(|mesh| of_vertices.then(|| vertex_radiance(mesh, eye))).collect();
+    let colors: Vec<_> = meshes.iter().map(|mesh| of_vertices.then(|| mesh.radiance(eye))).collect();
     let pixel = |seen: &Option<SeenPixel>| {
         let Some(SeenPixel { mut corners, weights, .. }) = *seen else { return [0.0; 3] };
         let mut number = 0;
