@@ -26,7 +26,6 @@ pub struct Overrides {
 }
 
 impl Overrides {
-    /// Applies format and switches to a profile.
     pub(super) fn apply(&self, profile: &mut Profile) -> Result<(), CaseError> {
         if let Some(format) = &self.format {
             profile.replace_format(format).map_err(CaseError::from)?;

@@ -8,11 +8,13 @@ use refsim::{
 };
 use toml::Spanned;
 
-use super::{CaseError, binder::Binder, schema, value::Number};
+use super::{
+    CaseError,
+    binder::Binder,
+    schema,
+    value::{Number, ONE},
+};
 use crate::names::did_you_mean;
-
-/// 1.0 as an IEEE single.
-const ONE: u32 = 0x3f80_0000;
 
 /// Expected value at a pixel.
 #[derive(Clone, Debug, PartialEq)]
