@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::palette::Color;
 use super::summary::{SummaryLine, TallyEntry, Tone};
-use super::{Chart, NamedPicture, Provenance, Table};
-use crate::picture::Picture;
+use super::{Chart, Provenance, Scale, Series, Table};
+use crate::picture::{Picture, RgbImage};
 
 /// File of an output folder: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
@@ -102,6 +102,24 @@ impl FoundTable {
     }
 }
 
+/// Picture with its file name and caption.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPicture {
+    /// File name without folder and extension.
+    pub name: String,
+    /// Picture in display encoding.
+    pub image: RgbImage,
+    /// Caption; it is also the alternative text.
+    pub caption: String,
+}
+
+impl NamedPicture {
+    /// Creates a picture with its name and caption.
+    pub fn new(name: impl Into<String>, image: RgbImage, caption: impl Into<String>) -> Self {
+        Self { name: name.into(), image, caption: caption.into() }
+    }
+}
+
 /// Chart with its file name and caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedChart {
@@ -111,6 +129,20 @@ pub struct NamedChart {
     pub chart: Chart,
     /// Caption.
     pub caption: String,
+}
+
+impl NamedChart {
+    /// Creates a chart of lines over a logarithmic vertical axis, with its title and the labels of both axes.
+    pub fn logarithmic(
+        name: &str,
+        labels: [&str; 3],
+        (x_scale, lines): (Scale, Vec<Series>),
+        caption: &str,
+    ) -> Self {
+        let [title, x, y] = labels.map(str::to_owned);
+        let chart = Chart { title, x, y, x_scale, y_scale: Scale::Logarithmic, lines, ..Chart::default() };
+        Self { name: name.to_owned(), chart, caption: caption.to_owned() }
+    }
 }
 
 /// Findings of a study. [`Findings::heading`] and similar methods append to the page, from top to bottom; `keep_*`
@@ -268,11 +300,6 @@ impl Findings {
     /// Sentences of the conclusion.
     pub fn conclusions(&self) -> &[String] {
         &self.conclusion
-    }
-
-    /// Counts of the tally.
-    pub fn tallied(&self) -> &[TallyEntry] {
-        &self.tally
     }
 
     /// Tables that the command prints, except those without rows.

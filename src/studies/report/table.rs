@@ -33,6 +33,13 @@ impl Table {
         Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
 
+    /// Creates an empty table; `columns` has the first headings, separated by blanks, and every label adds `LABEL_r`,
+    /// `LABEL_g` and `LABEL_b`.
+    pub fn with_colors<'a>(title: &str, columns: &str, labels: impl IntoIterator<Item = &'a str>) -> Self {
+        let colors = labels.into_iter().flat_map(|label| ["r", "g", "b"].map(|channel| format!("{label}_{channel}")));
+        Self::new(title, &columns.split(' ').map(str::to_owned).chain(colors).collect::<Vec<_>>())
+    }
+
     /// Adds a row; missing cells are empty, surplus ones are dropped.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();

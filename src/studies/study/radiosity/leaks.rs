@@ -1,6 +1,6 @@
 //! The Ray Engine's rays in place of the host's: leaks of form factors, and their effect on the solution.
 
-use super::room::{self, Room};
+use super::solve::{Room, room};
 use super::{Parameters, ProgressFn, SolutionError};
 use crate::picture::metrics::ErrorSums;
 use crate::radiosity::solve::Solver;
@@ -32,7 +32,7 @@ pub(super) fn rows(
         let system = System::new(factors.clone(), patches.reflectances(), patches.emittances())?;
         Ok(system.solve(Solver::Direct, &parameters.options.stopping())?.radiosity())
     };
-    let host = room::find(patches, parameters, &CasterChoice::Host, progress)?.factors;
+    let host = room(patches, parameters, &CasterChoice::Host, progress)?.factors;
     let (reference, emittance) = (solve(&host)?, patches.emittances());
     let row = |factors: &FormFactors, cast: CastRecord| -> Result<LeakRow, StudyError> {
         let mut off = ErrorSums::default();
@@ -44,7 +44,7 @@ pub(super) fn rows(
     };
     let mut rows = vec![row(&first.factors, cast.clone())?];
     for caster in parameters.casters.iter().skip(1) {
-        let Room { factors, cast, .. } = room::find(patches, parameters, caster, progress)?;
+        let Room { factors, cast, .. } = room(patches, parameters, caster, progress)?;
         rows.extend(cast.map(|cast| row(&factors, cast)).transpose()?);
     }
     Ok(rows)

@@ -4,6 +4,7 @@ use std::fmt;
 
 use refsim::device::Profile;
 
+use crate::options::one_of::name;
 use crate::radiosity::on_card::{CardSolution, Cycle, Storage};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::Solver;
@@ -29,11 +30,10 @@ pub enum SolveMethod {
 /// Reason why an iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum StopReason {
-    /// The residual reached the tolerance.
     Tolerance,
-    /// The iteration entered a cycle of repeating states.
+    /// Repeating states.
     Cycle(Cycle),
-    /// The maximum number of iterations was reached; on a card, without a cycle.
+    /// The maximum number; on a card, without a cycle.
     Iterations,
     /// The method does not iterate.
     Direct,
@@ -48,16 +48,13 @@ impl SolveMethod {
         match self {
             Self::Host(solver) => solver.to_string().replace(':', "-"),
             Self::Card(CardMethod { packing, storage }) => {
-                let packing = if *packing == Packing::Rgb { "rgb" } else { "luminance" };
-                let storage = if *storage == Storage::Fp32 { "fp32" } else { "fp16" };
-                format!("{}-{packing}-{storage}", profile.name)
+                format!("{}-{}-{}", profile.name, name(packing), name(storage))
             }
         }
     }
 }
 
 impl StopReason {
-    /// Reason why an iteration on a card stopped.
     pub(super) fn on_card(found: &CardSolution) -> Self {
         match (found.converged, found.cycle) {
             (true, _) => Self::Tolerance,

@@ -5,22 +5,19 @@
 
 mod conclusion;
 mod difference;
-mod error;
 mod leaks;
 mod method;
 mod options;
-mod outcome;
-mod parameters;
 mod pictures;
 mod report;
-mod room;
 mod solve;
 mod sweep;
 mod tables;
 mod time;
 
+use crate::card::CardError;
 use crate::picture::metrics::value_error;
-use crate::radiosity::form_factor::VisibilityParameters;
+use crate::radiosity::form_factor::{RowSums, VisibilityParameters};
 use crate::radiosity::on_card::Fit;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::{DrawError, Patches, System};
@@ -28,17 +25,16 @@ use crate::report::{Findings, Provenance};
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
-pub(in crate::study) use error::no_card;
 pub use method::{CardMethod, SolveMethod};
-pub use options::{Factors, RadiosityOptions};
-pub use parameters::Parameters;
+pub use options::{Factors, Parameters, RadiosityOptions};
 
 pub(in crate::study) use difference::SolutionError;
 use method::StopReason;
-use outcome::{MethodRow, RadiosityOutcome};
-use pictures::PictureRenderer;
+use leaks::LeakRow;
+use pictures::{IterationPicture, PictureRenderer, Pictures};
 pub(in crate::study) use pictures::exposure;
 use sweep::{Sweep, SweepRow};
+use time::CardFacts;
 
 library_errors! {
     DrawError => "radiosity::display";
@@ -47,7 +43,7 @@ library_errors! {
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        report::findings(self, run(self, progress)?)
+        report::findings(self, &run(self, progress)?)
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -60,6 +56,53 @@ impl Study for Parameters {
         }
         provenance
     }
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("radiosity::card", error)
+}
+
+/// Results of one method.
+#[derive(Debug)]
+struct MethodRow {
+    method: SolveMethod,
+    /// Name of the method, unique in a study and valid as a file name.
+    label: String,
+    radiosity: Vec<[f64; 3]>,
+    /// Figure 3's error, initially and after each iteration: the mean squared residual over all channels.
+    history: Vec<f64>,
+    /// Final residual relative to the emittance, both in Euclidean norms.
+    residual: f64,
+    stopped: StopReason,
+    /// Relative to the emitted power; the maximum over the channels.
+    energy_balance_error: f64,
+    /// Error compared with the direct solution, if that was requested.
+    error: Option<SolutionError>,
+    /// `None` on the host.
+    card: Option<CardFacts>,
+    pictures: Pictures,
+}
+
+impl MethodRow {
+    fn iterations(&self) -> usize {
+        self.history.len().saturating_sub(1)
+    }
+}
+
+/// Results of all methods.
+#[derive(Debug)]
+struct RadiosityOutcome {
+    patches: Patches,
+    /// Row sums before closure was enforced.
+    found_sums: RowSums,
+    leaks: Vec<LeakRow>,
+    /// Pixel value per unit of radiance.
+    exposure: f64,
+    rows: Vec<MethodRow>,
+    /// Pictures of the room after some iterations.
+    frames: Vec<IterationPicture>,
+    sweep: Vec<SweepRow>,
 }
 
 /// Solves by every method, draws the pictures, and runs the sweep.
@@ -78,7 +121,7 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Radiosi
         Fit::of(&parameters.profile, packing).and_then(require).map_err(no_card)?;
     }
     let sweep = Sweep::new(parameters)?;
-    let room = room::find(&patches, parameters, parameters.caster(), progress)?;
+    let room = solve::room(&patches, parameters, parameters.caster(), progress)?;
     let leaks = leaks::rows(parameters, &patches, &room, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let mut solved = Vec::new();
@@ -109,7 +152,6 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Radiosi
     Ok(RadiosityOutcome { found_sums: room.found_sums, leaks, exposure, rows, frames, sweep, patches })
 }
 
-/// Builds a method's row with its error and pictures.
 fn row(
     mut one: solve::Solved,
     system: &System,

@@ -1,6 +1,9 @@
-//! Options of the study, as the program takes them.
+//! Parameters of the study; its options are options of the program.
 
 use std::str::FromStr;
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
 
 use super::method::{CardMethod, SolveMethod};
 use crate::error::InputError;
@@ -11,7 +14,37 @@ use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::{Options, Solver};
+use crate::scene::{Camera, Scene};
 use crate::study::StudyError;
+use crate::study::caster::CasterChoice;
+
+/// Parameters of the study: scene, methods and output.
+#[derive(Debug)]
+pub struct Parameters {
+    /// Scene.
+    pub scene: Scene,
+    /// Methods; each has a row in the table.
+    pub methods: Vec<SolveMethod>,
+    /// Card for the methods that run on one.
+    pub profile: Profile,
+    /// Switches of the card that were set.
+    pub switches: Vec<(String, String)>,
+    /// Executor of the card.
+    pub executor: Executor,
+    /// Camera of the pictures.
+    pub camera: Camera,
+    /// Casters of the rays for form factors, at least one. Several engines are compared; the room of the first is
+    /// solved.
+    pub casters: Vec<CasterChoice>,
+    /// Options.
+    pub options: RadiosityOptions,
+}
+
+impl Parameters {
+    pub(super) fn caster(&self) -> &CasterChoice {
+        self.casters.first().unwrap_or(&CasterChoice::Host)
+    }
+}
 
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]

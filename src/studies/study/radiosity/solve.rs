@@ -1,13 +1,49 @@
-//! Solution by one method: a solver of the host, or equation 4 on the card.
+//! Form factors of the patches, and the solution by one method: a solver of the host, or equation 4 on the card.
 
 use super::method::{CardMethod, SolveMethod, StopReason};
-use super::no_card;
-use super::parameters::Parameters;
+use super::{Factors, Parameters, ProgressFn, no_card};
 use crate::card::CardError;
-use crate::radiosity::System;
+use crate::geom::exact::Sides;
+use crate::radiosity::form_factor::RowSums;
 use crate::radiosity::on_card::{CardSolver, to_f64};
 use crate::radiosity::solve::{Options, Solver, mean_square};
+use crate::radiosity::{FormFactors, Patches, System};
 use crate::study::StudyError;
+use crate::study::caster::{CastRecord, CasterChoice};
+
+/// Form factors, with their row sums before closure was enforced.
+pub(super) struct Room {
+    pub(super) factors: FormFactors,
+    pub(super) found_sums: RowSums,
+    /// Statistics of the Ray Engine, if it cast the rays.
+    pub(super) cast: Option<CastRecord>,
+}
+
+/// Computes the form factors of all patches, and applies the requested corrections.
+pub(super) fn room(
+    patches: &Patches,
+    parameters: &Parameters,
+    caster: &CasterChoice,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Room, StudyError> {
+    let what = match caster {
+        CasterChoice::Host => "form factors".to_owned(),
+        CasterChoice::Engine(choice) => format!("form factors: {}", choice.card.label),
+    };
+    let mut done = |done: usize, of: usize| progress(&what, done as u64, of as u64);
+    let (mut factors, cast) = match parameters.options.factors {
+        Factors::Unoccluded => (FormFactors::unoccluded(patches)?, None),
+        Factors::Rays(how) => {
+            let mut caster = caster.open_judged(patches.mesh(), Sides::Both)?;
+            (FormFactors::with_visibility(patches, &mut caster, how, &mut done)?, caster.record())
+        }
+    };
+    let found_sums = factors.summary();
+    if parameters.options.enforce_closure {
+        factors.enforce_closure()?;
+    }
+    Ok(Room { factors, found_sums, cast })
+}
 
 /// Solution by a method, with its card.
 pub(super) struct Solved {

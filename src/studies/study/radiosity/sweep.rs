@@ -3,7 +3,8 @@
 
 use refsim::device::Profile;
 
-use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card, room};
+use super::solve::room;
+use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card};
 use crate::radiosity::bias::{Accumulator, predicted};
 use crate::radiosity::on_card::{CardSolver, Fit, Storage};
 use crate::radiosity::solve::Solver;
@@ -88,7 +89,7 @@ impl<'a> Sweep<'a> {
             let require = |fit: Fit| fit.require(&self.parameters.profile, how.packing, patches.list().len());
             Fit::of(&self.parameters.profile, how.packing).and_then(require).map_err(no_card)?;
         }
-        let factors = room::find(&patches, self.parameters, self.parameters.caster(), progress)?.factors;
+        let factors = room(&patches, self.parameters, self.parameters.caster(), progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
         let reference = system.solve(Solver::Direct, &self.parameters.options.stopping())?.radiosity();
         Ok((system, reference))

@@ -1,12 +1,11 @@
 //! Reference for all ways of gathering: equation 9 over all pairs of texels.
 
-use super::Parameters;
+use super::way::Scene;
 use crate::atlas::Atlas;
 use crate::picture::metrics::{ErrorSums, value_error};
 use crate::study::{ProgressFn, StudyError};
-use crate::subsurface::{Dipole, Reference};
+use crate::subsurface::Reference;
 
-/// Names of the channels.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// Errors of radiosities relative to expected ones; infinite if only one of two radiosities is finite.
@@ -35,40 +34,25 @@ impl GatherError {
     }
 }
 
-/// Sums over all pairs of texels for one lit model.
-#[derive(Clone, Copy)]
-pub(super) struct AllPairSums<'a> {
-    pub(super) atlas: &'a Atlas,
-    pub(super) parameters: &'a Parameters,
-    /// Dipoles for red, green and blue.
-    pub(super) dipoles: &'a [Dipole; 3],
-    pub(super) irradiance: &'a [[f64; 3]],
-}
-
-impl AllPairSums<'_> {
-    /// Radiosities of all texels, row by row. A channel that equals an earlier one has its sums.
-    pub(super) fn radiosity(self, progress: &mut ProgressFn<'_>) -> Result<Vec<[f64; 3]>, StudyError> {
-        let mut texels = vec![[0.0; 3]; self.irradiance.len()];
-        for (channel, name) in CHANNELS.iter().enumerate() {
-            if let Some(other) = self.like(channel) {
-                texels.iter_mut().for_each(|b| b[channel] = b[other]);
-                continue;
-            }
-            let step = format!("all pairs of texels, {name}");
-            let mut done = |done, rows| progress(&step, done as u64, rows as u64);
-            let values: Vec<f64> = self.irradiance.iter().map(|e| e[channel]).collect();
-            let reference = Reference::new(self.atlas, self.parameters.options.mm_per_unit, &self.dipoles[channel])?;
-            let radiosity = reference.radiosity(&values, &mut done)?;
-            texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
+/// Radiosities of all texels, row by row. A channel that equals an earlier one has its sums.
+pub(super) fn radiosity(scene: &Scene<'_>, progress: &mut ProgressFn<'_>) -> Result<Vec<[f64; 3]>, StudyError> {
+    let Scene { atlas, parameters, dipoles, irradiance, .. } = *scene;
+    let mut texels = vec![[0.0; 3]; irradiance.len()];
+    for (channel, name) in CHANNELS.iter().enumerate() {
+        let is_like = |other: &usize| {
+            dipoles[*other].coefficients() == dipoles[channel].coefficients()
+                && irradiance.iter().all(|e| e[*other] == e[channel])
+        };
+        if let Some(other) = (0..channel).find(is_like) {
+            texels.iter_mut().for_each(|b| b[channel] = b[other]);
+            continue;
         }
-        Ok(texels)
+        let step = format!("all pairs of texels, {name}");
+        let mut done = |done, rows| progress(&step, done as u64, rows as u64);
+        let values: Vec<f64> = irradiance.iter().map(|e| e[channel]).collect();
+        let reference = Reference::new(atlas, parameters.options.mm_per_unit, &dipoles[channel])?;
+        let radiosity = reference.radiosity(&values, &mut done)?;
+        texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
     }
-
-    /// The first earlier channel with the same medium and light.
-    fn like(self, channel: usize) -> Option<usize> {
-        (0..channel).find(|&other| {
-            self.dipoles[other].coefficients() == self.dipoles[channel].coefficients()
-                && self.irradiance.iter().all(|e| e[other] == e[channel])
-        })
-    }
+    Ok(texels)
 }

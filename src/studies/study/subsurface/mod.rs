@@ -5,21 +5,19 @@ mod all_pairs;
 mod angles;
 mod conclusion;
 pub(in crate::study) mod environment;
-mod error;
-mod gather_way;
 mod model;
 mod options;
-mod outcome;
-mod parameters;
 mod pictures;
 mod report;
 mod seams;
 mod tables;
-mod vertices;
 mod way;
 
 use crate::atlas::Atlas;
+use crate::card::CardError;
+use crate::error::InputError;
 use crate::report::{Findings, Provenance};
+use crate::study::caster::CastRecord;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::subsurface::links::Links;
 use crate::subsurface::multipole::SurfaceMoments;
@@ -28,15 +26,10 @@ use crate::subsurface::{Dipole, irradiance};
 use angles::{AngleBin, BinError};
 use model::ModelLengths;
 use options::ALL_PAIRS_SIDE;
-use outcome::SubsurfaceOutcome;
 use seams::Neighbours;
 use way::WayRow;
 
-pub use error::no_atlas;
-pub(in crate::study) use error::no_card;
-pub use gather_way::{GatherWay, MapBits};
-pub use options::SubsurfaceOptions;
-pub use parameters::{Lighting, Parameters};
+pub use options::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceOptions};
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
@@ -47,6 +40,41 @@ impl Study for Parameters {
         provenance.profiles.push(self.profile.name.clone());
         provenance.switches.clone_from(&self.switches);
         provenance
+    }
+}
+
+/// Error of a model for which no atlas exists.
+pub fn no_atlas(error: InputError) -> StudyError {
+    StudyError::coded("subsurface::atlas", error)
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("subsurface::card", error)
+}
+
+/// Results of the study.
+#[derive(Debug)]
+struct SubsurfaceOutcome {
+    atlas: Atlas,
+    lengths: ModelLengths,
+    /// Dipoles for red, green and blue.
+    dipoles: [Dipole; 3],
+    /// E of equation 8 per texel, computed by the host.
+    irradiance: Vec<[f64; 3]>,
+    /// Statistics of the Ray Engine, if it cast shadow rays.
+    cast: Option<CastRecord>,
+    /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
+    truth: Option<Vec<[f64; 3]>>,
+    rows: Vec<WayRow>,
+}
+
+impl SubsurfaceOutcome {
+    /// Values per texel by name: E, B over all pairs if computed, and B by every way of gathering.
+    fn columns(&self) -> impl Iterator<Item = (&str, &[[f64; 3]])> {
+        let truth = self.truth.iter().map(|truth| ("all_pairs", &truth[..]));
+        let ways = self.rows.iter().map(|row| (row.label.as_str(), &row.radiosity[..]));
+        [("E", &self.irradiance[..])].into_iter().chain(truth).chain(ways)
     }
 }
 
@@ -84,8 +112,7 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Subsurf
         truth: None,
         neighbours: &neighbours,
     };
-    let truth =
-        if parameters.options.gathers_all_pairs() { Some(scene.all_pairs().radiosity(progress)?) } else { None };
+    let truth = parameters.options.gathers_all_pairs().then(|| all_pairs::radiosity(&scene, progress)).transpose()?;
     let scene = way::Scene { truth: truth.as_deref(), ..scene };
     let mut rows = Vec::new();
     // Ways that differ only in formats follow each other, and share their links.

@@ -1,9 +1,10 @@
-//! The model as an atlas: values per face, and the model's lengths compared with the medium's.
+//! The model as an atlas: values per face and per vertex, and the model's lengths compared with the medium's.
 
 use glam::DVec3;
 
 use super::Parameters;
 use crate::atlas::Atlas;
+use crate::geom::Mesh;
 use crate::subsurface::{Dipole, median_thickness};
 
 /// Lengths of the model and of the medium, in mm.
@@ -57,4 +58,24 @@ pub(super) fn by_face(atlas: &Atlas, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
         (sum / f64::from(place.texels())).to_array()
     };
     atlas.places().iter().map(mean).collect()
+}
+
+/// Means of texel values at each vertex, over the texels at its corners of faces, weighted by face area. `None` for a
+/// vertex without a face that has an area.
+pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
+    let mut sums = vec![(0.0, DVec3::ZERO); mesh.positions().len()];
+    for (face, (vertices, place)) in (0..).zip(mesh.triangles().iter().zip(atlas.places())) {
+        for (corner, &vertex) in vertices.iter().enumerate() {
+            let mut weights = [0.0; 3];
+            weights[corner] = 1.0;
+            let [x0, y0, x1, y1] = place.bounds();
+            let [x, y] = atlas.coordinates(face, weights);
+            // The texel at this corner of the face.
+            let [column, row] = [x.clamp(x0, x1), y.clamp(y0, y1)].map(|at| at as usize);
+            let (sum, mean) = &mut sums[vertex as usize];
+            *sum += mesh.area(face);
+            *mean += mesh.area(face) * DVec3::from(texels[row * atlas.side() as usize + column]);
+        }
+    }
+    sums.into_iter().map(|(area, sum)| (area > 0.0).then(|| (sum / area).to_array())).collect()
 }

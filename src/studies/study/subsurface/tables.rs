@@ -142,17 +142,26 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
 
 /// Table with a row per face: its area, the light that entered it, and B by every way of gathering.
 pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
-    let columns: Vec<(&str, Vec<[f64; 3]>)> =
-        outcome.columns().map(|(label, texels)| (label, model::by_face(&outcome.atlas, texels))).collect();
-    let mut headings = ["face", "area_mm2"].map(str::to_owned).to_vec();
-    headings.extend(columns.iter().flat_map(|(label, _)| ["r", "g", "b"].map(|c| format!("{label}_{c}"))));
-    let mut table = Table::new("Faces", &headings);
+    let columns: Vec<_> = outcome.columns().map(|(_, texels)| model::by_face(&outcome.atlas, texels)).collect();
+    let mut table = Table::with_colors("Faces", "face area_mm2", outcome.columns().map(|(label, _)| label));
     let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
     for face in 0..outcome.atlas.places().len() {
         let area = parameters.mesh.area(face as u32) * scale;
         let head: [Cell; 2] = [face.into(), area.into()];
-        let found = columns.iter().flat_map(|(_, values)| values[face]);
-        table.push(head.into_iter().chain(found.map(Cell::from)));
+        table.push(head.into_iter().chain(columns.iter().flat_map(|values| values[face]).map(Cell::from)));
+    }
+    table
+}
+
+/// Table with a row per vertex of the model: its position, E, and B by every way of gathering.
+pub(super) fn vertices(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let at_vertices = |(_, texels)| model::by_vertex(&outcome.atlas, &parameters.mesh, texels);
+    let columns: Vec<_> = outcome.columns().map(at_vertices).collect();
+    let mut table = Table::with_colors("Vertices", "vertex x y z", outcome.columns().map(|(label, _)| label));
+    for (vertex, place) in parameters.mesh.positions().iter().enumerate() {
+        let head = [Cell::from(vertex)].into_iter().chain(place.map(Cell::from));
+        let found = columns.iter().flat_map(|values| [0, 1, 2].map(|c| values[vertex].map(|value| value[c]).into()));
+        table.push(head.chain(found));
     }
     table
 }
