@@ -3,7 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::own::{self, Emulator};
-use super::page_data::PageData;
+use super::PageData;
 use super::teapot::{FixedView, VerdictColor};
 use crate::report::page_style;
 use crate::report::words::counted;

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::encode::packed;
+use super::packed;
 
 /// The emulator as a WebAssembly module.
 pub(super) struct Emulator {

@@ -13,7 +13,7 @@ use refsim::num::Format;
 use refsim::output::FragmentFate;
 use serde::Serialize;
 
-use super::encode::{base64, base64_words};
+use super::{base64, base64_words};
 use super::program_cases::{self, ProgramCase, SIDE};
 use crate::case::{Loaded, Setup};
 use crate::study::StudyError;
