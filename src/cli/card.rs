@@ -33,12 +33,10 @@ impl CardArgs {
         [("--device", self.device.is_some()), ("--switch", !self.switch.is_empty())]
     }
 
-    /// The switches that were given.
     pub(super) fn switches(&self) -> Vec<(String, String)> {
         self.switch.clone()
     }
 
-    /// The executor, ready to run.
     pub(super) fn executor(&self) -> Result<Executor, Problem> {
         self.executor.open()
     }

@@ -8,7 +8,6 @@ use super::ProgressBar;
 use super::{Problem, given};
 use crate::study::caster::CasterOptions;
 
-/// The executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum DeviceExecutor {
     /// The reference: one fragment at a time, in integer arithmetic
@@ -37,7 +36,6 @@ fn open_gpu() -> Result<Executor, Problem> {
 }
 
 impl DeviceExecutor {
-    /// The executor, ready to run.
     pub(super) fn open(self) -> Result<Executor, Problem> {
         Ok(match self {
             Self::Scalar => ExecutorKind::Scalar.into(),

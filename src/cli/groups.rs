@@ -12,7 +12,6 @@ const GROUPS: [(&str, &str); 5] = [
     ("Numbers", "alu precision matmul units"),
     ("Tools", "diff completions man help"),
 ];
-/// Width of the list; clap also limits its help to this width.
 const WIDTH: usize = 100;
 /// Column at which descriptions begin.
 const COLUMN: usize = 17;

@@ -40,7 +40,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
 }
 
-/// All scenes, one per line.
 fn all(out: &mut Out) -> miette::Result<Verdict> {
     let mut table = Table::new("Scenes", &["scene", "triangles", "views", "what"]);
     for name in scenes::names() {

@@ -67,7 +67,6 @@ pub(super) struct EyeArgs {
 }
 
 impl EyeArgs {
-    /// Returns `true` if no option was given.
     pub(super) fn is_default(&self) -> bool {
         let Self { eye, target, tan_half_height } = *self;
         eye.is_none() && target.is_none() && tan_half_height.is_none()
@@ -91,7 +90,6 @@ impl EyeArgs {
     }
 }
 
-/// The requested camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Viewpoint<'a> {
     pub(super) size: Size,

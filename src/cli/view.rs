@@ -14,10 +14,8 @@ use crate::options::Size;
 use crate::picture::Picture;
 use crate::scene::Camera;
 
-/// The default card.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
 
-/// Converts an error of parsing a number format.
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
     Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`")
         .into()
@@ -120,7 +118,6 @@ pub(super) fn exact_hits<T>(
     hits
 }
 
-/// Reads a picture. The error says what is wrong with the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
     Ok(PictureFile::open(path)?.decode()?)
 }

@@ -9,10 +9,8 @@ use refsim::num::{DotOrder, Env, Format, NumberOperation as Op, Outcome, Roundin
 
 use crate::options::one_of::{OneOf, one_of};
 
-/// An operation that the command has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AluOperation {
-    /// An operation of the emulator's table.
     Table(Op),
     RoundToInt,
     Convert,
@@ -23,7 +21,6 @@ pub(super) enum AluOperation {
     Dot,
     /// `a * b + c`, as the format or device computes it.
     Mad,
-    /// A copy.
     Mov,
     /// The clamped reciprocal of the vertex units.
     Rcc,
@@ -86,12 +83,10 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
 ];
 
 impl AluOperation {
-    /// Parses an operation by its name.
     pub(super) fn parser() -> OneOf<Self> {
         one_of(NAMED.map(|(operation, name, help)| (name, help, operation)))
     }
 
-    /// The name on the command line.
     pub(super) fn name(self) -> &'static str {
         NAMED.iter().find(|(operation, ..)| *operation == self).map_or("", |&(_, name, _)| name)
     }
@@ -132,7 +127,6 @@ impl AluOperation {
     }
 }
 
-/// An operation in its format.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluUnit {
     pub(super) op: AluOperation,
@@ -140,7 +134,6 @@ pub(super) struct AluUnit {
     pub(super) env: Env,
     /// The format of the result: the operands' format, except for `convert`.
     pub(super) to: Format,
-    /// The seed of stochastic rounding.
     pub(super) seed: u64,
     /// A device's rules of products and sums.
     pub(super) sums: Option<SumRules>,
@@ -156,18 +149,15 @@ impl AluUnit {
         self.block.filter(|_| self.op == op).map(|block| if at == 0 { Format::E8M0 } else { block.element() })
     }
 
-    /// Width of operand `at` in bits.
     pub(super) fn operand_width(&self, at: usize) -> u32 {
         self.block_format(AluOperation::Dequantize, at).unwrap_or(self.env.format).width()
     }
 
-    /// Width of result `at` in bits.
     pub(super) fn result_width(&self, at: usize) -> u32 {
         let format = self.block_format(AluOperation::Quantize, at).unwrap_or(self.to);
         if self.op.is_comparison() { 1 } else { format.width() }
     }
 
-    /// Returns `true` if a result is a NaN.
     pub(super) const fn is_nan(&self, result: u32) -> bool {
         !self.op.is_comparison() && self.to.is_nan(result)
     }

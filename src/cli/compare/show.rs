@@ -11,10 +11,8 @@ use crate::{
     report::{Cell, SourceText, Table, visible::visible_line},
 };
 
-/// A comparison as tables.
 pub(super) struct ShownComparison<'a>(pub(super) ComparedSides<'a>);
 
-/// An instruction, quoted.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error("{message}")]
 #[diagnostic(severity(Advice))]

@@ -5,7 +5,6 @@ use refsim::exec::gpu::{GpuError, adapters};
 use crate::cli::Out;
 use crate::report::Table;
 
-/// Lists the adapters: `devices --adapters`.
 pub(super) fn list(out: &mut Out) -> miette::Result<()> {
     let adapters = adapters();
     if out.json() {

@@ -45,7 +45,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
 }
 
-/// Error that names the missing feature.
 #[cfg(not(feature = "wgpu"))]
 pub(super) fn no_adapters() -> super::Problem {
     super::Problem::usage(
@@ -54,7 +53,6 @@ pub(super) fn no_adapters() -> super::Problem {
     )
 }
 
-/// The cards and their variants side by side.
 fn all(out: &mut Out) -> miette::Result<()> {
     let names = Profile::card_names().into_iter().chain(Profile::variant_names());
     let mut table = Table::new(
@@ -87,7 +85,6 @@ fn all(out: &mut Out) -> miette::Result<()> {
     Ok(())
 }
 
-/// Table of the formats of single instructions in a device file.
 fn instructions(profile: &Profile) -> FoundTable {
     let mut table = Table::new("Formats of single instructions", &["program", "instruction", "format"]);
     for (digest, formats) in profile.instruction_formats().iter() {
@@ -98,7 +95,6 @@ fn instructions(profile: &Profile) -> FoundTable {
     table.into()
 }
 
-/// Table of the formats of storages and sums in a device file.
 fn storages(profile: &Profile) -> FoundTable {
     let mut table = Table::new("Formats of storages and sums", &["storage", "format"]);
     let storages = profile.rules.storage.iter().map(|(storage, format)| (storage.name(), format));
@@ -108,7 +104,6 @@ fn storages(profile: &Profile) -> FoundTable {
     table.into()
 }
 
-/// All findings about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
     found.fields(json!({ "name": profile.name, "title": profile.title }));

@@ -83,7 +83,6 @@ pub(super) enum Renderer {
 }
 
 impl Renderer {
-    /// Title of its pictures.
     pub(super) const fn title(self) -> &'static str {
         match self {
             Self::Eye => "Eye rays with a lamp at the eye",
@@ -141,7 +140,6 @@ pub(super) struct LightArgs {
 }
 
 impl LightArgs {
-    /// Returns `true` if an option was given that needs a lit scene.
     pub(super) fn asked(&self) -> bool {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some()
     }

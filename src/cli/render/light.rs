@@ -7,8 +7,7 @@ use refsim::device::Profile;
 use serde_json::json;
 
 use super::args::{Args, Renderer};
-use super::page::{hits_line, page};
-use super::scene::{LitScene, camera};
+use super::{camera, hits_line, page};
 use crate::card::RasterizedEyes;
 use crate::case::device_named;
 use crate::cli::executor::{Decider, engine_executor};
@@ -28,10 +27,17 @@ use crate::tracer::offset::unit_roundoff;
 /// The default random seed.
 const SEED: u64 = 1;
 
-pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
-    let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
+/// Renders a scene; `is_lit` if it has its own lights and views.
+pub(super) fn run(
+    args: &Args,
+    scene: &Scene,
+    is_lit: bool,
+    command_line: &CommandLine,
+    out: &mut Out,
+) -> miette::Result<Verdict> {
+    let renderer = args.light.renderer.unwrap_or(if is_lit { Renderer::Whitted } else { Renderer::Eye });
     args.light.refuse_others(Some(renderer))?;
-    check_lights(renderer, &asked.scene)?;
+    check_lights(renderer, scene)?;
     let is_mapped = renderer == Renderer::Environment;
     let executor = args.executor.filter(|_| !is_mapped || args.caster.is_engine());
     let no_card = [
@@ -46,20 +52,20 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     given::refuse(no_engine, "the card of the Ray Engine", "add `--caster engine`, or leave it out")?;
     let mapping =
         is_mapped.then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))).transpose()?;
-    let camera = camera(args, &asked.scene)?;
+    let camera = camera(args, scene)?;
     require_writable(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut open = caster.open(asked.scene.mesh(), Sides::Both)?;
+    let mut open = caster.open(scene.mesh(), Sides::Both)?;
     let view = (&camera, mapping.as_ref());
     let picture = match drawing {
-        None => trace(renderer, args, &asked.scene, view, rounding, &mut open)?,
+        None => trace(renderer, args, scene, view, rounding, &mut open)?,
         Some(profile) => {
-            let mut eyes = RasterizedEyes::new(profile, asked.scene.mesh(), camera, &mut open).into_diagnostic()?;
-            trace(renderer, args, &asked.scene, view, rounding, &mut eyes)?
+            let mut eyes = RasterizedEyes::new(profile, scene.mesh(), camera, &mut open).into_diagnostic()?;
+            trace(renderer, args, scene, view, rounding, &mut eyes)?
         }
     };
     let engine = open.record();
-    let numbers = layers(&picture, &asked.scene, &camera)?;
+    let numbers = layers(&picture, scene, &camera)?;
     let exposure = args.light.exposure.unwrap_or(1.0);
     let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
     let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
@@ -73,7 +79,6 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     study::show(&findings, out)
 }
 
-/// Table of the rays that were cast, by kind.
 fn rays(picture: &RenderedPicture) -> Table {
     let mut table = Table::of("Rays", "kind rays");
     for (kind, count) in picture.counts.kinds().into_iter().filter(|kind| kind.1 > 0) {

@@ -2,39 +2,42 @@
 
 mod args;
 mod light;
-mod page;
-mod scene;
 
 use miette::IntoDiagnostic as _;
 use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use super::executor::Decider;
-use super::{CommandLine, Out, Problem, model_file, scene_name, study, view};
+use super::scene_name::{self, Viewpoint};
+use super::words::counted;
+use super::{CommandLine, Out, Problem, model_file, study, view};
 use crate::case::device_named;
-use crate::geom::Mesh;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::io::{require_writable, write_files};
 use crate::options::Size;
-use crate::picture::{ChannelUnit, Picture, Samples};
+use crate::picture::{ChannelUnit, Picture, RgbImage, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::{Provenance, Verdict};
-use crate::scene::Camera;
+use crate::report::{Findings, NamedPicture, Provenance, Verdict};
+use crate::scene::{Camera, Scene};
 use crate::study::shade::TeapotShader;
-use page::{hits_line, page};
 
 pub(super) use args::Args;
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
-    if let Some(asked) = scene::lit(args)? {
-        return light::run(args, &asked, command_line, out);
+    if let Some(scene) = scene_name::by_name(&args.scene)? {
+        return light::run(args, &scene, true, command_line, out);
+    }
+    // A model file is shown by its eye rays, unless it is to be lit.
+    let is_scene_file = args.scene.extension().is_some_and(|ending| ending == "toml");
+    if is_scene_file || args.light.asked() || args.caster.is_named() {
+        return light::run(args, &model_file::scene(&args.scene)?, is_scene_file, command_line, out);
     }
     args.light.refuse_others(None)?;
     args.caster.choose(ExecutorKind::Batch.into())?;
     let profile = device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let executor = Decider::choose(args.executor, args.device.as_deref())?;
     let mesh = model_file::mesh(&args.scene)?;
-    let camera = camera(args, &mesh)?;
+    let camera = args.eye.framing(&mesh, args.size)?;
     let Size { width, height } = args.size;
     require_writable(&args.out).map_err(Problem::from)?;
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
@@ -65,7 +68,20 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     study::show(&findings, out)
 }
 
-/// The requested camera; without an eye, one that looks down a little from the front and sees the whole mesh.
-fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
-    args.eye.framing(mesh, args.size)
+fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Picture, caption: &str) -> Findings {
+    let mut found = Findings::new(format!("A picture of {}", args.scene.display()));
+    found.taken_from(camera.world_to_camera());
+    found.pictures(vec![NamedPicture::new("picture", image, caption)]);
+    found.paragraph("layers.exr has the numbers: depth along the view (Z) and triangle of what each pixel shows.");
+    found.keep_layers("layers", layers);
+    found
+}
+
+/// Number of covered pixels, and the path of the picture.
+fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
+    format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
+}
+
+fn camera(args: &Args, scene: &Scene) -> miette::Result<Camera> {
+    Viewpoint { size: args.size, view: args.light.view.as_deref(), eye: args.eye }.camera(scene)
 }

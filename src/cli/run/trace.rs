@@ -9,7 +9,6 @@ use crate::{
     report::{Cell, Table},
 };
 
-/// A trace as tables.
 pub(super) struct ShownTrace<'a>(pub(super) Traced<'a>);
 
 impl ShownTrace<'_> {
@@ -98,7 +97,6 @@ impl ShownTrace<'_> {
         table
     }
 
-    /// One line with the result of the fragment.
     fn result(&self, fragment: &FragmentTrace) -> String {
         let own = fragment.shading.output.depth.map(|depth| {
             let number = Number { format: depth.format, bits: depth.bits };

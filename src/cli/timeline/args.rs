@@ -60,7 +60,6 @@ pub(in crate::cli) struct Args {
     pub(super) perfetto: Option<PathBuf>,
 }
 
-/// Values of `--readback`: modes of read-back.
 fn readback() -> OneOf<ReadBackMode> {
     one_of([
         ("sync", "The host waits for all earlier work and the transfer", ReadBackMode::Synchronous),

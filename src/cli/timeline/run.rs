@@ -18,7 +18,6 @@ use crate::geom::teapot::teapot;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
-/// The default card for rays.
 const DEFAULT_DEVICE: &str = "r200";
 /// Quads per side of each patch of the teapot.
 const TESSELLATION: u32 = 8;
@@ -56,7 +55,6 @@ impl Input {
         }
     }
 
-    /// A title for people.
     pub(super) fn title(&self) -> String {
         match self {
             Self::Case(setup) => setup.title.clone().unwrap_or_else(|| "a case".to_owned()),
@@ -100,7 +98,6 @@ fn no_figure(error: TimingError) -> Problem {
     Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
 }
 
-/// A log timed by one model.
 pub(super) struct TimedLog {
     pub(super) model: Model,
     pub(super) replay: Replay,

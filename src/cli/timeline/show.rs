@@ -55,28 +55,23 @@ pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[Timed
     found
 }
 
-/// Microseconds.
 fn us(time: Picoseconds) -> Cell {
     Cell::measured(time.0 as f64 / 1e6)
 }
 
-/// Cell with a part in percent.
 fn percent(part: i128, whole: Picoseconds) -> Cell {
     Cell::percent(100.0 * part as f64 / whole.0.max(1) as f64)
 }
 
-/// Cell with a part's share of a total, in percent.
 fn share(part: Picoseconds, whole: Picoseconds) -> Cell {
     percent(part.0.into(), whole)
 }
 
-/// Cell with the change of a total, in percent.
 fn change(from: Picoseconds, to: Picoseconds) -> Cell {
     percent(i128::from(to.0) - i128::from(from.0), from)
 }
 
 impl TimedLog {
-    /// A table about this model.
     fn table(&self, title: &str, headings: &[&str]) -> Table {
         Table::new(format!("Model {}: {title}", self.name()), headings)
     }
@@ -219,7 +214,6 @@ fn guesses(timed: &TimedLog) -> Table {
     table
 }
 
-/// Rate per second, rounded down.
 fn a_second(count: u64, time: Picoseconds) -> u64 {
     let rate = u128::from(count) * 1_000_000_000_000 / u128::from(time.0.max(1));
     u64::try_from(rate).unwrap_or(u64::MAX)

@@ -154,7 +154,6 @@ impl ComparedSides<'_> {
     }
 }
 
-/// The stage as one word.
 const fn stage_name(stage: &TraceStage) -> &'static str {
     match stage {
         TraceStage::Vertex { .. } => "vertices",

@@ -46,7 +46,6 @@ impl Binder<'_> {
         Ok((profile, model, left_out))
     }
 
-    /// Returns the device named by the case, without switches.
     fn named_by(&self, case: &Case) -> Result<(Profile, Option<Version>), CaseError> {
         match (&case.device, &case.shader_model) {
             (Some(device), None) => Ok((self.named(device)?, None)),

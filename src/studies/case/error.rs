@@ -121,7 +121,6 @@ impl CaseText {
         Self { source }
     }
 
-    /// Converts an error of the TOML reader, with its message and span.
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
         let message = error.message().trim_end().replace('\n', ", ");
         let message = message.replace("expected u32", &format!("expected a whole number from 0 to {}", u32::MAX));
@@ -133,7 +132,6 @@ impl CaseText {
         }
     }
 
-    /// Creates an error at `span`.
     pub(super) fn wrong(&self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> CaseError {
         CaseError::Schema {
             message: message.into(),
@@ -143,7 +141,6 @@ impl CaseText {
         }
     }
 
-    /// Creates a warning at `span`.
     pub(super) fn warning(&self, span: Range<usize>, message: String, help: String) -> CaseWarning {
         CaseWarning::Case { message, help, source_code: self.source.clone(), span: self.clamp(span) }
     }

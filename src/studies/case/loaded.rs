@@ -23,7 +23,6 @@ pub struct Loaded<'s> {
     targets: Vec<TextureId>,
     depth: Option<DepthId>,
     samplers: Vec<(usize, TextureId, SamplerState)>,
-    /// Values of each attribute register, vertex by vertex.
     streams: Vec<Vec<[u32; 4]>>,
 }
 
@@ -147,7 +146,6 @@ fn placed(setup: &Setup, error: MachineError) -> CaseError {
     CaseError::StepBudget { error: Box::new(error), help, source_code: text.named_source(), span }
 }
 
-/// Values of each attribute register, vertex by vertex.
 fn streams(setup: &Setup) -> Vec<Vec<[u32; 4]>> {
     match &setup.geometry.vertices {
         Vertices::Transformed(_) => Vec::new(),

@@ -84,7 +84,6 @@ impl CaseOutcome {
     }
 }
 
-/// Counts of a draw's events, by name.
 pub(super) fn event_counts(events: &DrawEvents) -> [(&'static str, u64); 15] {
     [
         ("vertices", events.vertices),

@@ -260,7 +260,6 @@ impl Binder<'_> {
         answer.map_err(|error| self.place.wrong(span, error.to_string(), help))
     }
 
-    /// Reads, assembles and checks a program.
     fn program(
         &self,
         shader: &Spanned<schema::ShaderSource>,

@@ -50,7 +50,6 @@ impl fmt::Display for ProbeValue {
     }
 }
 
-/// Binds the formats of the color targets.
 pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Result<Vec<TexelFormat>, CaseError> {
     let names = &target.format.get_ref().0;
     if names.is_empty() || names.len() > refsim::output::MAX_TARGETS {
@@ -113,7 +112,6 @@ fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result
     Err(binder.place.wrong(number.span(), message, "the card accepts no other value"))
 }
 
-/// Binds the alpha test.
 pub(super) fn alpha(binder: &Binder<'_>, alpha: &schema::Alpha) -> Result<AlphaTest, CaseError> {
     let reference = fraction(binder, &alpha.reference, "a reference")?;
     Ok(AlphaTest { function: alpha.test, reference })

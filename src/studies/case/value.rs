@@ -8,7 +8,6 @@ use serde::{
 };
 use toml::Spanned;
 
-/// 1.0 as an IEEE single.
 pub(super) const ONE: u32 = 0x3f80_0000;
 
 /// Number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
@@ -108,7 +107,6 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
     }
 }
 
-/// One string, or a list of strings.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(from = "OneOrSeveral")]
 pub(super) struct OneOrMany(pub(super) Vec<String>);

@@ -15,12 +15,10 @@ use super::{
     value::{Number, ONE, vector},
 };
 
-/// -1.0 as an IEEE single.
 const MINUS_ONE: u32 = 0xbf80_0000;
 /// Maximum number of vertices of a case.
 const MAX_VERTICES: usize = 1 << 20;
 
-/// Geometry with its state.
 #[derive(Clone, Debug)]
 pub(crate) struct Geometry {
     pub(super) primitive: Primitive,
@@ -114,7 +112,6 @@ impl<'a> Reader<'a> {
         self.geometry.get_ref().attributes.iter().chain(own.into_iter().flatten())
     }
 
-    /// Binds a vertex without a vertex program.
     fn plain(&self, place: Place<'a>) -> Result<Vertex, CaseError> {
         let mut vertex = Vertex::default();
         let position = self.all(&place).find(|(name, _)| *name == "position");
@@ -160,7 +157,6 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Binds a vertex for the vertex program.
     fn attributes(&self, place: Place<'a>) -> Result<[[u32; 4]; 16], CaseError> {
         let mut registers = [[0, 0, 0, ONE]; 16];
         for (name, value) in self.all(&place) {
@@ -176,7 +172,6 @@ impl<'a> Reader<'a> {
         Ok(registers)
     }
 
-    /// Input register for an attribute's name.
     fn attribute(&self, name: &str, span: std::ops::Range<usize>) -> Result<usize, CaseError> {
         let direct = if name.starts_with('v') { register(name, 16) } else { None };
         direct.or_else(|| self.declared(name)).ok_or_else(|| {
@@ -186,7 +181,6 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Register that the program declares for a usage.
     fn declared(&self, name: &str) -> Option<usize> {
         let usage = match name {
             "position" => Usage::Position(0),

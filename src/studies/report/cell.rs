@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::digits::{self, Quantity};
-use super::fold::Folded;
+use super::table::Folded;
 
 /// Cell of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,7 +112,6 @@ impl Cell {
         }
     }
 
-    /// Returns the mark of a number, if it has one.
     pub(super) const fn mark(&self) -> Option<&'static str> {
         match self {
             Self::Real(figure) if !figure.mark.is_empty() => Some(figure.mark),

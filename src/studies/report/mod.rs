@@ -10,7 +10,6 @@ pub mod digits;
 mod excerpt;
 pub mod false_color;
 mod findings;
-mod fold;
 pub mod layout;
 mod page;
 pub mod palette;
@@ -21,18 +20,16 @@ mod table;
 pub mod trace;
 pub mod visible;
 pub mod words;
-mod write;
 
 pub use self::cell::{Cell, Figure};
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
 pub use self::findings::{Findings, FoundTable, Legend, NamedChart, NamedFile, NamedPicture, Verdict};
-pub use self::fold::Folded;
 pub(crate) use page::sheet as page_style;
 pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;
 pub use summary::{SummaryLine, TallyEntry, Tone};
-pub use table::Table;
+pub use table::{Folded, Table};
 
 use std::fmt::Display;
 

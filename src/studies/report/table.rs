@@ -1,11 +1,10 @@
-//! Tables.
+//! Tables, and the folding of rows whose results equal an earlier row's.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value, json};
 
 use super::cell::Cell;
-use super::fold::{self, Folded};
 use super::layout::{Column, within};
 use super::not_encoded;
 use super::visible::visible_line;
@@ -54,7 +53,6 @@ impl Table {
         self.push(row);
     }
 
-    /// Name of a row in links, if it has one.
     pub(super) fn name(&self, row: usize) -> Option<&str> {
         self.names.get(&row).map(String::as_str)
     }
@@ -130,7 +128,7 @@ impl Table {
             return self.clone();
         }
         let mut table = Self { rows: Vec::new(), names: BTreeMap::new(), ..self.clone() };
-        for (row, others) in fold::groups(first) {
+        for (row, others) in groups(first) {
             table.push(self.rows[row].iter().cloned());
             if !others.is_empty() {
                 let names = others.into_iter().map(&called).collect();
@@ -185,4 +183,47 @@ impl Table {
         };
         Value::Array(self.rows.iter().map(row).collect())
     }
+}
+
+/// Cell that replaces folded rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Folded {
+    /// Noun for the rows, singular and plural: `switch`, `switches`.
+    pub rows: [&'static str; 2],
+    /// Common property of these rows and the row above, such as `the same bits`.
+    pub same: &'static str,
+    /// Name of the row above.
+    pub first: String,
+    /// Names of the folded rows.
+    pub names: Vec<String>,
+}
+
+impl Folded {
+    /// Number of folded rows and their common property: `17 switches: the same bits`.
+    pub fn text(&self) -> String {
+        let rows = self.rows[usize::from(self.names.len() != 1)];
+        format!("{} {rows}: {}", self.names.len(), self.same)
+    }
+
+    /// Sentence with the names of the folded rows, for the note below the table.
+    pub fn note(&self) -> String {
+        let mut same = self.same.chars();
+        let capital = same.next().map(|first| first.to_ascii_uppercase()).into_iter();
+        let same: String = capital.chain(same).collect();
+        format!("{same} as {}: {}", self.first, self.names.join(", "))
+    }
+}
+
+/// Minimum number of rows that are folded.
+const FEWEST: usize = 2;
+
+/// Returns the rows to show, in order, each with the rows folded into it: at least [`FEWEST`] later rows with equal
+/// results. `first[i]` is the first row with the result of row i.
+fn groups(first: &[usize]) -> Vec<(usize, Vec<usize>)> {
+    let same = |row: usize| -> Vec<usize> { (row + 1..first.len()).filter(|other| first[*other] == row).collect() };
+    let folds = |row: &usize| same(first[*row]).len() >= FEWEST;
+    (0..first.len())
+        .filter(|row| first[*row] == *row || !folds(row))
+        .map(|row| (row, if first[row] == row && folds(&row) { same(row) } else { Vec::new() }))
+        .collect()
 }

@@ -45,7 +45,6 @@ pub struct Chart {
     pub ticks: Vec<String>,
 }
 
-/// Series in drawn form.
 pub(super) struct DrawnSeries<'a> {
     pub(super) label: &'a str,
     /// Points that the axes admit.

@@ -11,7 +11,6 @@ use super::data::{Chart, DrawnSeries};
 use super::labels::{PITCH, signed, spread};
 use super::style::{Marker, SeriesStyle, rgb};
 
-/// Position in pixels.
 type Pixel = (i32, i32);
 type DrawResult<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
@@ -26,19 +25,16 @@ const FONTS: [f64; 2] = [20.0, 15.5];
 /// Maximum width of a letter of the smaller font, averaged over a label, in pixels: sans-serif letters are 0.6 of their
 /// font's size wide on average, or less.
 const LETTER: i32 = 8;
-/// Half the size of a marker.
 const MARK: i32 = 4;
 /// Minimum distance between markers of a line, in pixels.
 const APART: i32 = 56;
 
-/// Chart with its layout.
 pub(super) struct Drawing<'a> {
     chart: &'a Chart,
     series: &'a [DrawnSeries<'a>],
     height: i32,
 }
 
-/// Series in pixels.
 struct PixelSeries<'a> {
     series: &'a DrawnSeries<'a>,
     points: Vec<Pixel>,
@@ -50,7 +46,6 @@ impl<'a> Drawing<'a> {
         Self { chart, series, height: PLOT.1.max(labels) }
     }
 
-    /// Width and height, in pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         let letters = self.series.iter().map(|series| signed(series.label.chars().count())).max().unwrap_or(0);
         let width = SAMPLE[1] + 10 + letters * LETTER;
@@ -149,7 +144,6 @@ fn halves(name: &str) -> Vec<&str> {
 }
 
 impl PixelSeries<'_> {
-    /// Start of the label's line.
     fn end(&self) -> Pixel {
         self.points.last().copied().unwrap_or_default()
     }
@@ -180,7 +174,6 @@ impl PixelSeries<'_> {
     }
 }
 
-/// Draws a marker.
 fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: SeriesStyle) -> DrawResult<B> {
     let square = [(-MARK, -MARK), (MARK, -MARK), (MARK, MARK), (-MARK, MARK)];
     let triangle = [(0, -MARK - 1), (MARK + 1, MARK), (-MARK - 1, MARK)];

@@ -32,14 +32,12 @@ pub(super) fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
     places
 }
 
-/// Group of adjacent labels.
 struct Group {
     labels: Vec<usize>,
     first: i32,
 }
 
 impl Group {
-    /// Next free position.
     fn end(&self) -> i32 {
         self.first + signed(self.labels.len()) * PITCH
     }

@@ -23,7 +23,6 @@ pub(super) fn summary(findings: &Findings) -> Markup {
     }
 }
 
-/// Renders counts as a list.
 fn counts<'a>(tally: impl Iterator<Item = &'a TallyEntry>) -> Markup {
     html! { ul.tally { @for entry in tally { li class=(entry.tone.class()) { b { (entry.count) } " " (entry.what) } } } }
 }

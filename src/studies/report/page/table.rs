@@ -60,7 +60,6 @@ fn others(count: usize, verdict: Option<usize>) -> impl Iterator<Item = usize> {
     (1..count).filter(move |column| Some(*column) != verdict)
 }
 
-/// CSS class of a number.
 fn number(cell: &Cell) -> Option<&'static str> {
     cell.is_number().then_some("number")
 }

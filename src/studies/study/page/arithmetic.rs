@@ -9,7 +9,6 @@ use serde::Serialize;
 use super::base64;
 use super::operands::PatternBits;
 
-/// Operand sets per operation and format.
 const SETS: u32 = 2048;
 
 /// Entry points of `arithmetic.wgsl`, with the operations that each compiles in addition to the cheap ones.
@@ -51,7 +50,6 @@ const FORMATS: [(&str, &str, Option<&str>); 8] = [
     ("e8m23", "fp32", Some("f32")),
 ];
 
-/// All that the page needs for its table of operations.
 #[derive(Debug, Serialize)]
 pub(super) struct Arithmetic {
     sets: u32,
@@ -92,12 +90,10 @@ struct FormatColumn {
 #[derive(Debug, Serialize)]
 struct NativeShader {
     text: &'static str,
-    /// Constants that name the operations.
     constants: String,
 }
 
 impl Arithmetic {
-    /// Computes all results by [`refsim::num`].
     pub(super) fn compute() -> Self {
         let formats = FORMATS.map(|(name, ..)| name.parse().unwrap_or(Format::FP32));
         let expected = (0..OPERATIONS.len())

@@ -21,7 +21,6 @@ const SCRIPT: [&str; 9] = [
     include_str!("assets/stepper.js"),
 ];
 
-/// Last part of the script.
 const MAIN: &str = include_str!("assets/main.js");
 
 /// Renders the page around its data as JSON.

@@ -14,12 +14,9 @@ use crate::subsurface::kernels::LIGHT_TEXELS;
 /// Side of the pictures, in pixels.
 pub(super) const SIDE: u32 = 16;
 
-/// A program with its inputs.
 pub(super) struct ProgramCase {
-    /// Name of its files.
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// A sentence that describes a pixel.
     pub(super) about: &'static str,
     pub(super) device: &'static str,
     /// Register formats other than the device's own.

@@ -25,7 +25,6 @@ const SPECIAL_WORD: usize = 6;
 /// Format of the adapter's own floats.
 const SINGLE: &str = "e8m23";
 
-/// All that the page needs to step programs.
 #[derive(Debug, Serialize)]
 pub(super) struct PagePrograms {
     side: u32,
@@ -42,7 +41,6 @@ pub(super) struct PagePrograms {
     programs: Vec<PageProgram>,
 }
 
-/// A program with its traces.
 #[derive(Debug, Serialize)]
 struct PageProgram {
     name: &'static str,
@@ -56,7 +54,6 @@ struct PageProgram {
     native: TraceJob,
 }
 
-/// A program in a register format.
 #[derive(Debug, Serialize)]
 struct Variant {
     device: &'static str,
@@ -72,7 +69,6 @@ struct Variant {
     values: String,
     /// Outcome of each pixel's fragment, encoded as in records.
     fates: String,
-    /// The picture, red, green and blue per pixel.
     picture: String,
 }
 
@@ -219,7 +215,6 @@ impl Variant {
     }
 }
 
-/// Reads traces of one case.
 struct TraceReader<'s> {
     setup: &'s Setup,
     formats: Vec<ValueFormat>,

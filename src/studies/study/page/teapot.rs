@@ -29,7 +29,6 @@ use crate::study::shade::TeapotShader;
 const TESSELLATION: u32 = 2;
 /// Side of the pictures, in pixels.
 const SIDE: u32 = 128;
-/// Formats of the fixed views.
 const FORMATS: [&str; 3] = ["s3.12", "e5m10", "e7m16"];
 /// Fixed views: name, eye, target. The first is the view of the study.
 const VIEWS: [(&str, [f32; 3], [f32; 3]); 2] = [
@@ -38,10 +37,8 @@ const VIEWS: [(&str, [f32; 3], [f32; 3]); 2] = [
 ];
 /// Tangent of half the field of view of the fixed views.
 const TAN_HALF_HEIGHT: f32 = 0.5625;
-/// Samplers of the intersection programs.
 const SAMPLERS: usize = 3;
 
-/// Everything that the page needs for the teapot.
 #[derive(Debug, Serialize)]
 pub(super) struct Teapot {
     side: u32,
@@ -81,7 +78,6 @@ pub(super) struct FixedView {
     pub(super) pictures: Vec<FixedPicture>,
 }
 
-/// A fixed view in a format.
 #[derive(Debug, Serialize)]
 pub(super) struct FixedPicture {
     pub(super) format: &'static str,
@@ -97,7 +93,6 @@ pub(super) struct FixedPicture {
     pub(super) png: String,
 }
 
-/// A verdict on a pixel, and its color.
 #[derive(Debug, Serialize)]
 pub(super) struct VerdictColor {
     pub(super) words: &'static str,
@@ -159,7 +154,6 @@ fn microcode(format: &str, depth_scale: f32) -> Result<(&'static str, Microcode)
     Ok((kernel.name, code))
 }
 
-/// The text of each entry point.
 fn shaders(programs: &[Parts]) -> [String; 2] {
     let mut parts = Parts::default();
     programs.iter().for_each(|program| parts.extend(program));

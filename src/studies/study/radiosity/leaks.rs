@@ -16,7 +16,6 @@ pub(super) struct LeakRow {
     pub(super) cast: CastRecord,
     /// Sums of absolute differences of a patch's form factors: the fraction of its light that goes elsewhere.
     pub(super) factors: ErrorSums,
-    /// Error of the direct solution.
     pub(super) error: SolutionError,
 }
 

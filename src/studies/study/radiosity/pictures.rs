@@ -20,7 +20,6 @@ const LUMINANCE: glam::DVec3 = glam::DVec3::new(0.2126, 0.7152, 0.0722);
 /// The card multiplies by the exposure without clipping; display encoding follows on the host.
 const TARGET: TexelFormat = TexelFormat::Rgba32f;
 
-/// Pictures of a solution.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pictures {
     /// Flat-shaded picture: each patch shows its radiosity.
@@ -32,11 +31,9 @@ pub(super) struct Pictures {
     pub(super) error: Option<Vec<f64>>,
 }
 
-/// Picture of the room after some iterations on the card.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct IterationPicture {
     pub(super) iteration: u32,
-    /// Flat-shaded picture.
     pub(super) flat: RgbImage,
 }
 
@@ -89,7 +86,6 @@ impl<'a> PictureRenderer<'a> {
         Ok(picture.display(1.0)?)
     }
 
-    /// Draws the pictures of a solution, and measures its cost on its card.
     pub(super) fn show(
         &mut self,
         solved: &mut Solved,

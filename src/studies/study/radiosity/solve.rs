@@ -58,7 +58,6 @@ pub(super) struct Solved {
     pub(super) recorded: Vec<(u32, Vec<[f64; 3]>)>,
 }
 
-/// Mean squared emittance, over all channels.
 fn emitted(system: &System) -> f64 {
     mean([0, 1, 2].map(|c| mean_square(&system.right_hand_side(c))))
 }

@@ -16,7 +16,6 @@ use crate::study::configuration::Configuration;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SweepRow {
     pub(super) patches: usize,
-    /// Name of the method.
     pub(super) method: String,
     /// Switch that was changed, and its value; `None` for the card as configured.
     pub(super) switch: Option<(String, String)>,
@@ -24,16 +23,13 @@ pub(super) struct SweepRow {
     /// method.
     pub(super) same_as: usize,
     pub(super) iterations: u32,
-    /// Reason why it stopped.
     pub(super) stopped: StopReason,
-    /// Error compared with the direct solution.
     pub(super) error: SolutionError,
     /// First-order prediction of [`SolutionError::bias`]; `None` for formats without exponents.
     pub(super) predicted: Option<f64>,
 }
 
 impl SweepRow {
-    /// Formats the setting.
     pub(super) fn setting(&self) -> String {
         self.switch.as_ref().map_or_else(|| "as it is".to_owned(), |(name, value)| format!("{name}={value}"))
     }
@@ -122,7 +118,6 @@ fn solved(
     Ok((solution.radiosity, row))
 }
 
-/// Predicted bias from rounding alone.
 fn bias(
     how: CardMethod,
     profile: &Profile,

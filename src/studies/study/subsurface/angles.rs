@@ -27,7 +27,6 @@ pub(super) struct BinError {
 pub(super) struct AngleBin {
     /// The bin's ends, in degrees.
     pub(super) degrees: [f64; 2],
-    /// Fraction of the model's area, above 0.
     pub(super) area: f64,
     /// Mean of B over all pairs, over area and channels.
     pub(super) radiosity: f64,

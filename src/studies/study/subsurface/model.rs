@@ -14,11 +14,9 @@ pub(super) struct ModelLengths {
     pub(super) texel: f64,
     /// Fraction of the surface area whose texels are longer than the shortest mean free path of a channel.
     pub(super) coarse: f64,
-    /// The shortest mean free path of a channel.
     pub(super) mean_free_path: f64,
     /// The longest diffusion length of a channel; infinite if a channel does not absorb.
     pub(super) diffusion_length: f64,
-    /// The diagonal of the bounding box.
     pub(super) diagonal: f64,
     pub(super) shortest_side: f64,
     /// Median distance to the opposite surface along the inward normal; `None` for open models.

@@ -5,7 +5,6 @@ use super::{Parameters, SubsurfaceOutcome, model};
 use crate::report::{Cell, Table};
 use crate::subsurface::on_card::PassKind;
 
-/// Table of model and medium.
 pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "The model in mm, and the medium's lengths",
@@ -28,7 +27,6 @@ pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Tab
     table
 }
 
-/// Table with a row per channel of the medium.
 pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         format!("{}: coefficients per mm, lengths in mm", parameters.material.name),

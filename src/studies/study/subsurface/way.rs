@@ -35,16 +35,12 @@ pub(super) struct Scene<'a> {
     pub(super) dipoles: &'a [Dipole; 3],
     /// E per texel, computed by the host.
     pub(super) irradiance: &'a [[f64; 3]],
-    /// Radiosities over all pairs, if requested.
     pub(super) truth: Option<&'a [[f64; 3]]>,
-    /// Neighboring texels on the surface.
     pub(super) neighbours: &'a Neighbours,
 }
 
-/// Results of a way of gathering.
 #[derive(Debug)]
 pub(super) struct WayRow {
-    /// Its name.
     pub(super) label: String,
     pub(super) way: GatherWay,
     /// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
@@ -53,7 +49,6 @@ pub(super) struct WayRow {
     pub(super) memory: [u64; 2],
     /// Numbers of instructions and samplers of each program of pass 2.
     pub(super) programs: Vec<[usize; 2]>,
-    /// Factors that the format of the links loses.
     pub(super) lost: LostFactors,
     /// Number of texel channels of the map at its largest value.
     pub(super) saturated: usize,
@@ -71,13 +66,10 @@ pub(super) struct WayRow {
     pub(super) angles: Vec<AngleBin>,
     /// Modelled times of the passes; `None` for devices without timing.
     pub(super) times: Option<[PassTime; 4]>,
-    /// B of every texel, computed by the card.
     pub(super) radiosity: Vec<[f64; 3]>,
     /// E of every texel, as in the card's map; only for the first way of gathering.
     pub(super) irradiance: Vec<[f64; 3]>,
-    /// Scattered and direct light.
     pub(super) picture: Picture,
-    /// Scattered light alone.
     pub(super) scattered: Picture,
     pub(super) log: Vec<Event>,
 }
@@ -93,7 +85,6 @@ fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
     if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }
 
-/// Gathers in one way, over its links.
 pub(super) fn run(
     scene: &Scene<'_>,
     way: GatherWay,
