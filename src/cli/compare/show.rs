@@ -120,7 +120,7 @@ impl ShownComparison<'_> {
 
     fn print_first(&self, first: &First, out: &mut Out) -> miette::Result<()> {
         let [x, y] = first.pixel;
-        let place = format!("first difference: draw {} `{}`", first.draw, self.0.draw_name());
+        let place = format!("first difference: draw 0 `{}`", self.0.draw_name());
         let Some(difference) = &first.difference else {
             out.line(format_args!("{place}, pixel {x}, {y}"))?;
             out.line("no traced step differs: on one side the draw disagrees with its own trace")?;

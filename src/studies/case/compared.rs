@@ -43,13 +43,14 @@ impl ComparedSides<'_> {
     /// The stage as text, and the index of its instruction, if it has one.
     pub fn stage(&self, difference: &TraceDifference) -> (String, Option<usize>) {
         let name = difference.values.first().map_or("nothing", |v| v.name.as_str());
+        let sides = |left: &str, right: &str| format!("{left} on the left, {right} on the right");
         match &difference.stage {
             TraceStage::Vertex { corner } => {
                 (format!("stage: vertices: {name} of corner {corner} of the triangle, before set-up"), None)
             }
             TraceStage::Coverage { left, right } => {
                 let side = |pass: &Option<FragmentPass>| pass.as_ref().map_or("none".to_owned(), pass_text);
-                let sides = format!("{} on the left, {} on the right", side(left), side(right));
+                let sides = sides(&side(left), &side(right));
                 (format!("stage: coverage, from the set-up of triangles: {sides}"), None)
             }
             TraceStage::Input => (format!("stage: interpolation of {name}, before the program"), None),
@@ -60,18 +61,16 @@ impl ComparedSides<'_> {
                 (format!("instruction {index} writes different values of {name}"), Some(*index))
             }
             TraceStage::Mask { index, left, right } => {
-                let sides = format!("`{}` on the left, `{}` on the right", letters(*left), letters(*right));
+                let [left, right] = [left, right].map(|mask| format!("`{}`", letters(*mask)));
+                let sides = sides(&left, &right);
                 (format!("instruction {index} writes other components, by its predicate: {sides}"), Some(*index))
             }
             TraceStage::Flow { left, right } => {
                 let side = |next: &Option<usize>| next.map_or("the end".to_owned(), |i| format!("instruction {i}"));
-                let sides = format!("{} on the left, {} on the right", side(left), side(right));
+                let sides = sides(&side(left), &side(right));
                 (format!("stage: flow control: the next instruction is {sides}"), left.or(*right))
             }
-            TraceStage::Output { instruction } => {
-                let text = format!("stage: results of the program: {name}");
-                (text, *instruction)
-            }
+            TraceStage::Output { instruction } => (format!("stage: results of the program: {name}"), *instruction),
             TraceStage::Test { left, right } => {
                 let sides = format!("the fragment {} on the left and {} on the right", fate(*left), fate(*right));
                 (format!("stage: output tests, after equal results of the program: {sides}"), None)
@@ -104,7 +103,7 @@ impl ComparedSides<'_> {
 
     fn first_json(&self, first: &First) -> Value {
         json!({
-            "draw": { "index": first.draw, "name": self.draw_name() },
+            "draw": { "index": 0, "name": self.draw_name() },
             "pixel": first.pixel,
             "difference": first.difference.as_ref().map(|difference| self.difference_json(difference)),
         })

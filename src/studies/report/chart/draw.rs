@@ -12,7 +12,8 @@ use super::labels::{PITCH, signed, spread};
 use super::style::{Marker, SeriesStyle, rgb};
 
 type Pixel = (i32, i32);
-type DrawResult<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type DrawResult<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
 
 /// Size of the plot area, including the numbers of the axes, in pixels.
 const PLOT: (i32, i32) = (580, 400);
@@ -52,10 +53,9 @@ impl<'a> Drawing<'a> {
         (width.unsigned_abs(), self.height.unsigned_abs())
     }
 
-    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, x: Axis, y: Axis) -> DrawResult<B> {
+    pub(super) fn draw(&self, area: &Area<'_>, x: Axis, y: Axis) -> DrawResult {
         area.fill(&rgb(LIGHT.paper))?;
-        let title = ("sans-serif", FONTS[0]).into_font().color(&rgb(LIGHT.ink));
-        area.draw(&Text::new(self.chart.title.clone(), (14, 12), title))?;
+        area.draw(&Text::new(self.chart.title.clone(), (14, 12), font(FONTS[0])))?;
         let points = self.axes(area, x, y)?;
         let all: Vec<PixelSeries<'_>> =
             self.series.iter().zip(points).map(|(series, points)| PixelSeries { series, points }).collect();
@@ -68,12 +68,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// Draws the axes, and returns the series in pixels.
-    fn axes<B: DrawingBackend>(
-        &self,
-        area: &DrawingArea<B, Shift>,
-        x: Axis,
-        y: Axis,
-    ) -> Result<Vec<Vec<Pixel>>, DrawingAreaErrorKind<B::ErrorType>> {
+    fn axes(&self, area: &Area<'_>, x: Axis, y: Axis) -> DrawResult<Vec<Vec<Pixel>>> {
         let (plot, _) = area.split_horizontally(PLOT.0);
         let mut context = ChartBuilder::on(&plot)
             .margin_top(MARGINS[0])
@@ -83,7 +78,7 @@ impl<'a> Drawing<'a> {
             .x_label_area_size(MARGINS[1] - 6)
             .y_label_area_size(62)
             .build_cartesian_2d(x, y)?;
-        let numbers = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
+        let numbers = font(FONTS[1]);
         let mut mesh = context.configure_mesh();
         mesh.light_line_style(TRANSPARENT)
             .bold_line_style(rgb(LIGHT.rule))
@@ -98,20 +93,16 @@ impl<'a> Drawing<'a> {
             let (middle, _) = context.backend_coord(&(f64::from(place), 0.0));
             self.name(area, name, (middle, bottom.end + 8))?;
         }
-        Ok(self
-            .series
-            .iter()
-            .map(|series| series.points.iter().map(|point| context.backend_coord(point)).collect())
-            .collect())
+        let pixels = |series: &DrawnSeries<'_>| series.points.iter().map(|at| context.backend_coord(at)).collect();
+        Ok(self.series.iter().map(pixels).collect())
     }
 
     /// Draws a category name below the axis, in two lines if one line would overlap its neighbors.
-    fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> DrawResult<B> {
+    fn name(&self, area: &Area<'_>, name: &str, (middle, top): Pixel) -> DrawResult {
         let room = (PLOT.0 - 82) / signed(self.chart.ticks.len().max(1));
         let long = signed(name.chars().count()) * LETTER > room;
         let lines = if long { halves(name) } else { vec![name] };
-        let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
-        let style = style.pos(Pos::new(HPos::Center, VPos::Top));
+        let style = font(FONTS[1]).pos(Pos::new(HPos::Center, VPos::Top));
         lines
             .into_iter()
             .zip((top..).step_by(16))
@@ -119,11 +110,10 @@ impl<'a> Drawing<'a> {
     }
 
     /// Draws the column of labels: a sample of each series, its name, and a thin line from the end of the series.
-    fn labels<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, all: &[PixelSeries<'_>]) -> DrawResult<B> {
+    fn labels(&self, area: &Area<'_>, all: &[PixelSeries<'_>]) -> DrawResult {
         let wanted: Vec<i32> = all.iter().map(|one| one.end().1).collect();
         let places = spread(&wanted, [MARGINS[0] + PITCH / 2, self.height - MARGINS[1] - PITCH / 2]);
-        let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
-        let style = style.pos(Pos::new(HPos::Left, VPos::Center));
+        let style = font(FONTS[1]).pos(Pos::new(HPos::Left, VPos::Center));
         for (one, y) in all.iter().zip(places) {
             let SeriesStyle { color, .. } = one.series.style;
             area.draw(&PathElement::new([one.end(), (SAMPLE[0] - 3, y)], color.mix(0.45)))?;
@@ -134,6 +124,10 @@ impl<'a> Drawing<'a> {
         }
         Ok(())
     }
+}
+
+fn font(size: f64) -> TextStyle<'static> {
+    ("sans-serif", size).into_font().color(&rgb(LIGHT.ink))
 }
 
 /// Splits a name into two lines so that the longer one is shortest; a single word stays one line.
@@ -149,7 +143,7 @@ impl PixelSeries<'_> {
     }
 
     /// Draws the line, dashed or solid; nothing for a series of points.
-    fn path<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> DrawResult<B> {
+    fn path(&self, area: &Area<'_>) -> DrawResult {
         let style = self.series.style;
         let stroke = style.color.stroke_width(2);
         let points = self.points.iter().copied();
@@ -161,7 +155,7 @@ impl PixelSeries<'_> {
     }
 
     /// Draws the markers: all points, or some points along a line, starting at a different point on each line.
-    fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> DrawResult<B> {
+    fn marks(&self, area: &Area<'_>, n: usize) -> DrawResult {
         let few = !self.series.joined || self.points.len() <= 10;
         let mut last = self.points.first().map_or(0, |p| p.0) - (signed(n) * 19).rem_euclid(APART);
         for point in &self.points {
@@ -174,11 +168,11 @@ impl PixelSeries<'_> {
     }
 }
 
-fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: SeriesStyle) -> DrawResult<B> {
+fn mark(area: &Area<'_>, (x, y): Pixel, style: SeriesStyle) -> DrawResult {
     let square = [(-MARK, -MARK), (MARK, -MARK), (MARK, MARK), (-MARK, MARK)];
     let triangle = [(0, -MARK - 1), (MARK + 1, MARK), (-MARK - 1, MARK)];
     let diamond = [(0, -MARK - 2), (MARK + 2, 0), (0, MARK + 2), (-MARK - 2, 0)];
-    let polygon = |corners: &[Pixel], open: bool| -> DrawResult<B> {
+    let polygon = |corners: &[Pixel], open: bool| -> DrawResult {
         let mut corners: Vec<Pixel> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
         let fill = if open { rgb(LIGHT.paper) } else { style.color };
         area.draw(&Polygon::new(corners.clone(), fill.filled()))?;

@@ -7,7 +7,7 @@ use refsim::machine::Executor;
 
 use super::method::{CardMethod, SolveMethod};
 use crate::error::InputError;
-use crate::options::number;
+use crate::options::{number, or};
 use crate::options::one_of::variants;
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
@@ -170,7 +170,7 @@ impl RadiosityOptions {
     /// cards is given but no method runs on a card.
     pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
-        let solvers = if self.solvers.is_empty() { &usual[..] } else { &self.solvers };
+        let solvers = or(&self.solvers, &usual);
         let of_the_card = !self.packings.is_empty() || !self.storages.is_empty();
         let stops = self.tolerance.is_some() || self.iterations.is_some();
         let on_card = solvers.contains(&SolverChoice::Card);
@@ -184,22 +184,16 @@ impl RadiosityOptions {
         if let Some((_, what, or)) = idle.into_iter().find(|(idle, ..)| *idle) {
             return Err(StudyError::usage(what, format!("add `--solver card`, or {or}")));
         }
-        let packings = if self.packings.is_empty() { &[Packing::Rgb][..] } else { &self.packings };
-        let storages = if self.storages.is_empty() { &[Storage::Fp32][..] } else { &self.storages };
+        let (packings, storages) = (or(&self.packings, &[Packing::Rgb]), or(&self.storages, &[Storage::Fp32]));
+        let pairs = packings.iter().flat_map(|&packing| storages.iter().map(move |&storage| (packing, storage)));
+        let cards: Vec<_> = pairs.map(|(packing, storage)| SolveMethod::Card(CardMethod { packing, storage })).collect();
         let mut methods: Vec<SolveMethod> = Vec::new();
-        let mut add = |method| {
+        for method in solvers.iter().flat_map(|solver| match solver {
+            SolverChoice::Host(solver) => vec![SolveMethod::Host(*solver)],
+            SolverChoice::Card => cards.clone(),
+        }) {
             if !methods.contains(&method) {
                 methods.push(method);
-            }
-        };
-        for solver in solvers {
-            match *solver {
-                SolverChoice::Host(solver) => add(SolveMethod::Host(solver)),
-                SolverChoice::Card => {
-                    for (&packing, &storage) in packings.iter().flat_map(|p| storages.iter().map(move |s| (p, s))) {
-                        add(SolveMethod::Card(CardMethod { packing, storage }));
-                    }
-                }
             }
         }
         Ok(methods)

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 
 use crate::geom::Mesh;
-use crate::options::number;
+use crate::options::{number, or};
 use crate::options::one_of::{OneOf, name, one_of, variants};
 use crate::scene::Camera;
 use crate::study::StudyError;
@@ -172,9 +172,8 @@ impl SubsurfaceOptions {
     /// atlas has the requested number of fixed links.
     pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
         let [r, g, b] = material.channels;
-        let choices = or(&self.choices, LinkLayout::Fixed);
-        let (channels, formats) = (or(&self.channels, r != g || g != b), or(&self.link_formats, FloatTexels::Fp16));
-        let maps = or(&self.maps, MapBits::Fp16);
+        let (choices, channels) = (or(&self.choices, &[LinkLayout::Fixed]), or(&self.channels, &[r != g || g != b]));
+        let (formats, maps) = (or(&self.link_formats, &[FloatTexels::Fp16]), or(&self.maps, &[MapBits::Fp16]));
         let mut ways = Vec::new();
         for &choice in &choices {
             for &links in &self.links {
@@ -188,22 +187,13 @@ impl SubsurfaceOptions {
     }
 }
 
-/// The requested values, or the usual value.
-fn or<T: Copy>(asked: &[T], usual: T) -> Vec<T> {
-    if asked.is_empty() { vec![usual] } else { asked.to_vec() }
-}
-
 fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, StudyError> {
-    match choice {
-        LinkLayout::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
-        LinkLayout::Fixed => {
-            let found = (0..=side.max(1).ilog2())
-                .map(|level| LinkChoice::Fixed { level })
-                .find(|fixed| fixed.per_texel(side) == u64::from(links));
-            found.ok_or_else(|| {
-                let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
-                StudyError::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
-            })
-        }
+    if choice == LinkLayout::Adaptive {
+        return Ok(LinkChoice::Adaptive { count: links as usize });
     }
+    let mut levels = (0..=side.max(1).ilog2()).map(|level| LinkChoice::Fixed { level });
+    levels.find(|fixed| fixed.per_texel(side) == u64::from(links)).ok_or_else(|| {
+        let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
+        StudyError::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
+    })
 }
