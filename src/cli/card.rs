@@ -6,7 +6,6 @@ use refsim::machine::Executor;
 use super::executor::DeviceExecutor;
 use super::{Problem, switch};
 
-/// The card of a study.
 #[derive(Debug, clap::Args)]
 pub(super) struct CardArgs {
     /// The card [default: the paper's]

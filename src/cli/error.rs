@@ -116,12 +116,10 @@ fn render(diagnostic: &dyn Diagnostic, terminal: bool) -> String {
     text
 }
 
-/// A finding of the checker, as text for standard output.
 pub(super) fn render_finding(finding: &dyn Diagnostic) -> String {
     render(finding, io::stdout().is_terminal())
 }
 
-/// Writes the error to standard error.
 pub(super) fn print(report: Report, json: bool) {
     write_report("Error", &suggested(report), json);
 }
@@ -154,7 +152,6 @@ pub(super) fn without_tip(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// A usage error as JSON: clap's sentence and its help.
 fn usage_problem(error: &clap::Error) -> Problem {
     let text = visible(&error.render().to_string()).into_owned();
     let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
@@ -175,7 +172,6 @@ pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) {
     };
 }
 
-/// Returns `true` if the error is a closed output pipe.
 pub(super) fn reader_left(report: &Report) -> bool {
     report.downcast_ref::<OutputError>().is_some_and(|error| error.0.kind() == io::ErrorKind::BrokenPipe)
 }

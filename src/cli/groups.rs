@@ -13,7 +13,6 @@ const GROUPS: [(&str, &str); 5] = [
     ("Tools", "diff completions man help"),
 ];
 const WIDTH: usize = 100;
-/// Column at which descriptions begin.
 const COLUMN: usize = 17;
 
 /// The program with its commands grouped in the help.

@@ -21,7 +21,6 @@ Coefficients are per mm, lengths in mm. The dipole is that of Jensen et al. 2001
 
 /// Distances of the table, in units of the longest mean free path.
 const PATHS: [f64; 6] = [0.0, 0.5, 1.0, 2.0, 5.0, 10.0];
-/// Fractions of the light, for each of which a radius is shown.
 const FRACTIONS: [f64; 3] = [0.5, 0.9, 0.99];
 
 /// Show scattering media: coefficients, mean free paths, diffuse reflectance by distance

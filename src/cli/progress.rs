@@ -146,7 +146,6 @@ fn long_work(what: &str, left: Duration, quicker: &str) -> String {
     format!("{what} will take {} at this pace{quicker}", about(left))
 }
 
-/// A line of progress: steps done, total, and remaining time.
 fn plain_line(what: &str, done: u64, total: u64, left: Option<Duration>) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "working" } else { &what };

@@ -67,7 +67,6 @@ pub(super) fn framing(
 /// Default direction from the target to the eye: from the front, and a little from above.
 const FRONT: [f64; 3] = [0.3, -0.8, 0.52];
 
-/// The fraction of half the picture's width or height that a model fills.
 const FILLED: f64 = 0.92;
 
 /// The nearest eye that looks along [`FRONT`] and sees every vertex, and a target near `middle`; `None` if no such
@@ -107,7 +106,6 @@ pub(super) fn exact_hits<T>(
     sides: Sides,
     rounded: fn(&ExactT) -> T,
 ) -> Vec<Option<(u32, T)>> {
-    /// Number of rays whose exact numbers are in memory at the same time.
     const AT_ONCE: usize = 1 << 16;
     let mut hits = Vec::with_capacity(rays.len());
     for some in rays.chunks(AT_ONCE) {

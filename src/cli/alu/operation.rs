@@ -24,7 +24,7 @@ pub(super) enum AluOperation {
     Mov,
     /// The clamped reciprocal of the vertex units.
     Rcc,
-    /// A comparison that gives one or zero; `true` swaps its operands.
+    /// `true` swaps the operands.
     Set(Op, bool),
     // Instructions on vectors: a line holds the components of a, then those of b.
     Dp3,
@@ -110,7 +110,6 @@ impl AluOperation {
         self.many().is_some()
     }
 
-    /// Number of words in a line, and its description for errors.
     pub(super) fn words(self) -> (RangeInclusive<usize>, &'static str) {
         let operands = match self {
             Self::Table(operation) => operation.operands(),
@@ -135,9 +134,7 @@ pub(super) struct AluUnit {
     /// The format of the result: the operands' format, except for `convert`.
     pub(super) to: Format,
     pub(super) seed: u64,
-    /// A device's rules of products and sums.
     pub(super) sums: Option<SumRules>,
-    /// The block format, for `quantize` and `dequantize` only.
     pub(super) block: Option<BlockFormat>,
     /// The order of `dot`, and its accumulator.
     pub(super) dot: (DotOrder, Format),
@@ -209,7 +206,6 @@ impl AluUnit {
     }
 }
 
-/// The dot product of the two halves of the words.
 fn dot(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let (a, b) = words.split_at(words.len() / 2);
     let terms: Vec<(u32, u32)> = a.iter().copied().zip(b.iter().copied()).collect();

@@ -65,7 +65,6 @@ pub(in crate::cli) struct Args {
     pub(super) caster: CasterOptions,
 }
 
-/// How light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Renderer {
     /// Eye rays alone, with a lamp at the eye

@@ -24,7 +24,6 @@ use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
 use crate::tracer::offset::unit_roundoff;
 
-/// The default random seed.
 const SEED: u64 = 1;
 
 /// Renders a scene; `is_lit` if it has its own lights and views.

@@ -77,7 +77,6 @@ fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Picture, caption:
     found
 }
 
-/// Number of covered pixels, and the path of the picture.
 fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
     format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
 }

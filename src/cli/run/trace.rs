@@ -12,7 +12,6 @@ use crate::{
 pub(super) struct ShownTrace<'a>(pub(super) Traced<'a>);
 
 impl ShownTrace<'_> {
-    /// Reports, with advice, that nothing covers the pixel.
     fn nothing(&self) -> String {
         let [x, y] = self.0.trace.pixel;
         let text = format!("no triangle of the draw covers pixel {x}, {y}");

@@ -19,10 +19,8 @@ use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
 const DEFAULT_DEVICE: &str = "r200";
-/// Quads per side of each patch of the teapot.
 const TESSELLATION: u32 = 8;
 
-/// A case, or rays on the teapot.
 pub(super) enum Input {
     Case(Box<Setup>),
     Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch> },
@@ -93,7 +91,6 @@ impl Input {
     }
 }
 
-/// Error for a figure that the timing model needs but the device lacks.
 fn no_figure(error: TimingError) -> Problem {
     Problem::usage(error.to_string(), "`crossbar devices NAME` lists a device's figures")
 }
@@ -101,7 +98,6 @@ fn no_figure(error: TimingError) -> Problem {
 pub(super) struct TimedLog {
     pub(super) model: Model,
     pub(super) replay: Replay,
-    /// Empty unless requested.
     pub(super) sensitivity: Vec<Sensitivity>,
 }
 
@@ -114,7 +110,6 @@ impl TimedLog {
         Ok(Self { model, replay, sensitivity })
     }
 
-    /// `rates` or `pipeline`.
     pub(super) fn name(&self) -> &'static str {
         match self.model.level() {
             Level::Rates => "rates",

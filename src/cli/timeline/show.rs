@@ -120,7 +120,6 @@ fn draws(log: &[Event], timed: &TimedLog, most: usize) -> Table {
     table
 }
 
-/// The mip levels that the card generated.
 fn mipmaps(log: &[Event], timed: &TimedLog, most: usize) -> Table {
     let headings = ["levels", "texels read", "texels written", "total", "clocks", "bound by"];
     let mut table = timed.table("generated mip levels", &headings);
@@ -141,7 +140,6 @@ fn mipmaps(log: &[Event], timed: &TimedLog, most: usize) -> Table {
     table
 }
 
-/// Texture cache hits and misses per sampler, over all draws.
 fn cache(log: &[Event]) -> Table {
     let headings = ["sampler", "texels", "misses, half", "misses", "misses, double", "distinct lines"];
     let mut table = Table::new("Texture cache, also of half and of double the size", &headings);

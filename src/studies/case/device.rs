@@ -95,7 +95,6 @@ impl Binder<'_> {
     }
 }
 
-/// Maximum length of a device file, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
 /// Returns the device with this name: one of [`Profile::named`], or, for a name that ends in `.toml`, a device file

@@ -32,7 +32,6 @@ use crate::{
     shader::{ShaderError, ShaderText, is_wgsl},
 };
 
-/// Maximum length of a case file, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
 
 /// Case that is ready to be drawn.

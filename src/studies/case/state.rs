@@ -71,7 +71,6 @@ pub(super) fn texel_format(
     })
 }
 
-/// Binds the written channels as a mask, red in bit 0.
 pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -> Result<u8, CaseError> {
     let Some(write) = write else { return Ok(0b1111) };
     let mut mask = 0;
@@ -85,7 +84,6 @@ pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -
     Ok(mask)
 }
 
-/// Binds the depth buffer: format, contents, state.
 pub(super) fn depth(binder: &Binder<'_>, depth: &schema::Depth) -> Result<(DepthFormat, u32, DepthState), CaseError> {
     let format = depth.format.as_ref().map_or(Ok(DepthFormat::Unorm24), |format| {
         format.get_ref().parse().map_err(|error: refsim::output::OutputError| {

@@ -17,7 +17,6 @@ pub(super) enum Number {
     Bits(u32),
 }
 
-/// Conversion to IEEE singles, number by number.
 pub(super) trait Singles: Copy {
     type Bits;
     fn singles(self) -> Self::Bits;

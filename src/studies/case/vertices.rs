@@ -16,7 +16,6 @@ use super::{
 };
 
 const MINUS_ONE: u32 = 0xbf80_0000;
-/// Maximum number of vertices of a case.
 const MAX_VERTICES: usize = 1 << 20;
 
 #[derive(Clone, Debug)]
@@ -29,7 +28,6 @@ pub(crate) struct Geometry {
     pub(super) convention: Convention,
 }
 
-/// Vertices before or after the vertex program.
 #[derive(Clone, Debug)]
 pub(super) enum Vertices {
     /// Attributes `v0` to `v15` of each vertex, for the vertex program.
@@ -135,7 +133,8 @@ impl<'a> Reader<'a> {
 
     fn set(&self, vertex: &mut Vertex, name: &str, value: &Spanned<Vec<Number>>) -> Result<(), CaseError> {
         let bits = self.bits(value)?;
-        let numbered = |letter, count| Some(name).filter(|name| name.starts_with(letter)).and_then(|n| register(n, count));
+        let numbered =
+            |letter, count| Some(name).filter(|name| name.starts_with(letter)).and_then(|n| register(n, count));
         if name == "position" {
             vertex.position = bits;
         } else if let Some(color) = numbered('v', 2) {

@@ -63,7 +63,9 @@ pub fn three_finite(text: &str) -> Option<[f64; 3]> {
 }
 
 fn require(number: f64, is_right: fn(f64) -> bool, expected: &str, text: &str) -> Result<f64, String> {
-    Some(number).filter(|number| is_right(*number)).ok_or_else(|| format!("expected a number {expected}, found `{text}`"))
+    Some(number)
+        .filter(|number| is_right(*number))
+        .ok_or_else(|| format!("expected a number {expected}, found `{text}`"))
 }
 
 fn wrong(error: NumberError, text: &str) -> String {

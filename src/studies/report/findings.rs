@@ -134,12 +134,7 @@ pub struct NamedChart {
 
 impl NamedChart {
     /// Creates a chart of lines over a logarithmic vertical axis, with its title and the labels of both axes.
-    pub fn logarithmic(
-        name: &str,
-        labels: [&str; 3],
-        (x_scale, lines): (Scale, Vec<Series>),
-        caption: &str,
-    ) -> Self {
+    pub fn logarithmic(name: &str, labels: [&str; 3], (x_scale, lines): (Scale, Vec<Series>), caption: &str) -> Self {
         let [title, x, y] = labels.map(str::to_owned);
         let chart = Chart { title, x, y, x_scale, y_scale: Scale::Logarithmic, lines, ..Chart::default() };
         Self { name: name.to_owned(), chart, caption: caption.to_owned() }

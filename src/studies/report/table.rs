@@ -16,7 +16,6 @@ pub struct Table {
     title: String,
     headings: Vec<String>,
     rows: Vec<Vec<Cell>>,
-    /// Names of rows in links, by their indices.
     names: BTreeMap<usize, String>,
 }
 
@@ -214,7 +213,6 @@ impl Folded {
     }
 }
 
-/// Minimum number of rows that are folded.
 const FEWEST: usize = 2;
 
 /// Returns the rows to show, in order, each with the rows folded into it: at least [`FEWEST`] later rows with equal

@@ -33,19 +33,19 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
 /// Escapes the hidden characters of a JSON document with JSON's own escapes, such as `\u001b`. Readers get the same
 /// text: in a finished document, hidden characters other than line ends occur only inside strings.
 pub fn visible_json(document: &str) -> Cow<'_, str> {
-    escaped(document, |c| c != '\n' && is_hidden(c), |shown, c| {
-        for unit in c.encode_utf16(&mut [0; 2]) {
-            // Writing to a string cannot fail.
-            write!(shown, "\\u{unit:04x}").ok();
-        }
-    })
+    escaped(
+        document,
+        |c| c != '\n' && is_hidden(c),
+        |shown, c| {
+            for unit in c.encode_utf16(&mut [0; 2]) {
+                // Writing to a string cannot fail.
+                write!(shown, "\\u{unit:04x}").ok();
+            }
+        },
+    )
 }
 
-fn escaped(
-    text: &str,
-    hidden: impl Fn(char) -> bool + Copy,
-    escape: impl Fn(&mut String, char),
-) -> Cow<'_, str> {
+fn escaped(text: &str, hidden: impl Fn(char) -> bool + Copy, escape: impl Fn(&mut String, char)) -> Cow<'_, str> {
     if !text.contains(hidden) {
         return Cow::Borrowed(text);
     }

@@ -10,7 +10,6 @@ use super::super::NamedPicture;
 /// Width in pixels up to which a picture is enlarged by a whole factor, and the largest factor.
 const SMALL: u32 = 320;
 const LARGEST: u32 = 8;
-/// Width in pixels of a picture that is shown alone.
 const ZOOMED: u32 = 1200;
 
 /// Renders a chart; the SVG is our own and inserted unescaped.

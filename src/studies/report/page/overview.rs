@@ -5,7 +5,6 @@ use maud::{Markup, html};
 use super::super::findings::{Findings, Passage, Verdict};
 use super::super::summary::{SummaryLine, TallyEntry};
 
-/// Id of a heading, by its index in the text.
 pub(super) fn section(place: usize) -> String {
     format!("section-{place}")
 }

@@ -2,8 +2,8 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::own::{self, Emulator};
 use super::PageData;
+use super::own::{self, Emulator};
 use super::teapot::{FixedView, VerdictColor};
 use crate::report::page_style;
 use crate::report::words::counted;
@@ -23,7 +23,6 @@ const SCRIPT: [&str; 9] = [
 
 const MAIN: &str = include_str!("assets/main.js");
 
-/// Renders the page around its data as JSON.
 pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> String {
     // A less-than sign could end the element.
     let json = json.replace('<', "\\u003c");
@@ -159,7 +158,6 @@ fn programs() -> Markup {
     }
 }
 
-/// Table of the components that a step writes.
 fn written() -> Markup {
     html! {
         div.scroll {

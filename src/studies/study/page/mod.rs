@@ -25,7 +25,6 @@ use self::teapot::Teapot;
 use crate::report::not_encoded;
 use crate::study::{ProgressFn, StudyError};
 
-/// The first bytes of a WebAssembly module.
 const WASM: &[u8] = b"\0asm";
 
 /// Renders the page as one self-contained HTML file, with the emulator (`refsim/web`, compiled to WebAssembly) in it if
@@ -49,7 +48,6 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
     Ok(markup::html(&data, &json, emulator.as_ref()))
 }
 
-/// The data that the page's script reads, as JSON.
 #[derive(Debug, Serialize)]
 struct PageData {
     version: &'static str,
@@ -62,14 +60,12 @@ fn base64(bytes: impl AsRef<[u8]>) -> String {
     STANDARD.encode(bytes)
 }
 
-/// Compresses bytes as a gzip file, and encodes it.
 fn packed(bytes: &[u8]) -> std::io::Result<String> {
     let mut file = GzEncoder::new(Vec::new(), Compression::best());
     file.write_all(bytes)?;
     Ok(base64(file.finish()?))
 }
 
-/// Encodes words, little-endian.
 fn base64_words(words: impl IntoIterator<Item = u32>) -> String {
     base64(words.into_iter().flat_map(u32::to_le_bytes).collect::<Vec<_>>())
 }

@@ -72,7 +72,6 @@ pub(super) fn playground(has_emulator: bool) -> Markup {
     }
 }
 
-/// A shader of the visitor's own.
 pub(super) fn shader() -> Markup {
     html! {
         section aria-labelledby="shader" {

@@ -11,7 +11,6 @@ use crate::radiosity::kernels::LUMINANCE_NEXT;
 use crate::ray_engine::kernels::{FLOAT, ONE_ORIGIN_SETUP, ONE_ORIGIN_UNSIGNED, SEVEN_VECTORS_SETUP};
 use crate::subsurface::kernels::LIGHT_TEXELS;
 
-/// Side of the pictures, in pixels.
 pub(super) const SIDE: u32 = 16;
 
 pub(super) struct ProgramCase {
@@ -47,7 +46,6 @@ impl ProgramCase {
     }
 }
 
-/// All programs, oldest first.
 pub(super) fn all() -> [ProgramCase; 5] {
     [one_origin(), any_origin(), radiosity(), subsurface(), exit_radiance()]
 }

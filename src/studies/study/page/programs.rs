@@ -13,8 +13,8 @@ use refsim::num::Format;
 use refsim::output::FragmentFate;
 use serde::Serialize;
 
-use super::{base64, base64_words};
 use super::program_cases::{self, ProgramCase, SIDE};
+use super::{base64, base64_words};
 use crate::case::{Loaded, Setup};
 use crate::study::StudyError;
 
@@ -22,7 +22,6 @@ use crate::study::StudyError;
 const NATIVE: u32 = 2;
 /// Index of the word `special` in the parameters of a draw, which begin with the register format.
 const SPECIAL_WORD: usize = 6;
-/// Format of the adapter's own floats.
 const SINGLE: &str = "e8m23";
 
 #[derive(Debug, Serialize)]
@@ -36,7 +35,6 @@ pub(super) struct PagePrograms {
     record: [u32; 4],
     /// Word of a draw that marks a continuation.
     resumes: usize,
-    /// Contents of buffers, without duplicates.
     buffers: Vec<String>,
     programs: Vec<PageProgram>,
 }
@@ -106,7 +104,6 @@ struct TraceJob {
     count_words: usize,
 }
 
-/// Buffers, indexed by their contents.
 #[derive(Default)]
 struct Buffers {
     all: Vec<String>,
@@ -114,7 +111,6 @@ struct Buffers {
 }
 
 impl PagePrograms {
-    /// Traces all programs by the scalar executor.
     pub(super) fn compute() -> Result<Self, StudyError> {
         let mut buffers = Buffers::default();
         let mut parts = [Parts::default(), Parts::default()];
@@ -221,7 +217,6 @@ struct TraceReader<'s> {
 }
 
 impl TraceReader<'_> {
-    /// The entries of a fragment, and the bytes of its results.
     fn read(&mut self, fragment: &FragmentTrace) -> (Vec<Entry>, Vec<u8>) {
         let program = &self.setup.pixel;
         let formats = FragmentFormats::new(&self.setup.profile.rules);
@@ -262,7 +257,6 @@ impl TraceReader<'_> {
     }
 }
 
-/// Code of an outcome in records.
 const fn fate(fate: FragmentFate) -> u8 {
     match fate {
         FragmentFate::KilledByShader => 1,

@@ -27,10 +27,8 @@ use crate::study::shade::TeapotShader;
 
 /// Quads along each side of each patch.
 const TESSELLATION: u32 = 2;
-/// Side of the pictures, in pixels.
 const SIDE: u32 = 128;
 const FORMATS: [&str; 3] = ["s3.12", "e5m10", "e7m16"];
-/// Fixed views: name, eye, target. The first is the view of the study.
 const VIEWS: [(&str, [f32; 3], [f32; 3]); 2] = [
     ("from the front", [2.125, -5.625, 3.875], [0.625, 0.0, 1.3125]),
     ("from above", [-2.5, -2.25, 6.25], [0.375, 0.0, 1.0]),
@@ -45,7 +43,6 @@ pub(super) struct Teapot {
     tan_half_height: f32,
     /// WGSL that traces, and WGSL that fills ray textures.
     shaders: [String; 2],
-    /// Corners and indices, as words.
     positions: String,
     triangles: String,
     fixed: MachineProgram,
@@ -86,9 +83,7 @@ pub(super) struct FixedPicture {
     hits: String,
     /// FNV-1a of these words' bytes, 64 bits.
     pub(super) digest: String,
-    /// Number of leaks that the batch executor draws.
     pub(super) leaks: usize,
-    /// The picture as a PNG file, for the page's markup.
     #[serde(skip)]
     pub(super) png: String,
 }
@@ -100,7 +95,6 @@ pub(super) struct VerdictColor {
 }
 
 impl Teapot {
-    /// Traces the fixed views by the batch executor and in exact arithmetic.
     pub(super) fn compute() -> Result<Self, StudyError> {
         let mesh = teapot(TESSELLATION)
             .map_err(|error| StudyError::new("page::teapot", "cannot tessellate the teapot").with_source(error))?;
@@ -221,7 +215,6 @@ fn hit_words(hits: &[Option<Hit>]) -> Vec<u32> {
     triangles.chain(hits.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t).to_bits())).collect()
 }
 
-/// FNV-1a of the words' bytes, lowest byte first.
 fn fnv(words: &[u32]) -> u64 {
     words
         .iter()

@@ -43,7 +43,6 @@ fn accuracy(rows: &[MethodRow]) -> Option<String> {
     })
 }
 
-/// Formats a signed error as too dark or too bright.
 fn shade(bias: f64) -> String {
     let which = if bias < 0.0 { "dark" } else { "bright" };
     format!("{} too {which}", percent(bias.abs()))

@@ -20,7 +20,6 @@ pub(in crate::study) struct SolutionError {
 }
 
 impl SolutionError {
-    /// Compares two solutions, one radiosity per patch.
     pub(in crate::study) fn between(found: &[[f64; 3]], reference: &[[f64; 3]], emittance: &[[f64; 3]]) -> Self {
         let brightest = reference.as_flattened().iter().copied().filter(|b| b.is_finite()).fold(0.0, f64::max);
         let [mut absolute, mut relative, mut unlit] = [ErrorSums::default(); 3];

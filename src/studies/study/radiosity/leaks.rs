@@ -55,7 +55,6 @@ const EXPLAINED: &str = "Each row computes the form factors anew with rays of th
     are those of the direct solution, against the room of the host's rays: the largest relative to the brightest \
     patch, the largest of a patch that does not emit, and the signed mean over these.";
 
-/// Adds the table, and a sentence about the worst row.
 pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
     let columns = "rays_by rays on_card_% differing differing_% factors_% factors_largest_% largest_error \
          largest_relative mean_relative";

@@ -29,10 +29,10 @@ pub use method::{CardMethod, SolveMethod};
 pub use options::{Factors, Parameters, RadiosityOptions};
 
 pub(in crate::study) use difference::SolutionError;
-use method::StopReason;
 use leaks::LeakRow;
-use pictures::{IterationPicture, PictureRenderer, Pictures};
+use method::StopReason;
 pub(in crate::study) use pictures::exposure;
+use pictures::{IterationPicture, PictureRenderer, Pictures};
 use sweep::{Sweep, SweepRow};
 use time::CardFacts;
 
@@ -63,7 +63,6 @@ pub(in crate::study) fn no_card(error: CardError) -> StudyError {
     StudyError::coded("radiosity::card", error)
 }
 
-/// Results of one method.
 #[derive(Debug)]
 struct MethodRow {
     method: SolveMethod,
@@ -90,7 +89,6 @@ impl MethodRow {
     }
 }
 
-/// Results of all methods.
 #[derive(Debug)]
 struct RadiosityOutcome {
     patches: Patches,
@@ -100,7 +98,6 @@ struct RadiosityOutcome {
     /// Pixel value per unit of radiance.
     exposure: f64,
     rows: Vec<MethodRow>,
-    /// Pictures of the room after some iterations.
     frames: Vec<IterationPicture>,
     sweep: Vec<SweepRow>,
 }

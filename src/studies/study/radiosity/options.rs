@@ -7,8 +7,8 @@ use refsim::machine::Executor;
 
 use super::method::{CardMethod, SolveMethod};
 use crate::error::InputError;
-use crate::options::{number, or};
 use crate::options::one_of::variants;
+use crate::options::{number, or};
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Storage;
@@ -132,7 +132,6 @@ impl std::fmt::Display for Factors {
     }
 }
 
-/// The card, or a solver of the host.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum SolverChoice {
     Card,
@@ -186,7 +185,8 @@ impl RadiosityOptions {
         }
         let (packings, storages) = (or(&self.packings, &[Packing::Rgb]), or(&self.storages, &[Storage::Fp32]));
         let pairs = packings.iter().flat_map(|&packing| storages.iter().map(move |&storage| (packing, storage)));
-        let cards: Vec<_> = pairs.map(|(packing, storage)| SolveMethod::Card(CardMethod { packing, storage })).collect();
+        let cards: Vec<_> =
+            pairs.map(|(packing, storage)| SolveMethod::Card(CardMethod { packing, storage })).collect();
         let mut methods: Vec<SolveMethod> = Vec::new();
         for method in solvers.iter().flat_map(|solver| match solver {
             SolverChoice::Host(solver) => vec![SolveMethod::Host(*solver)],

@@ -24,7 +24,6 @@ const TARGET: TexelFormat = TexelFormat::Rgba32f;
 pub(super) struct Pictures {
     /// Flat-shaded picture: each patch shows its radiosity.
     pub(super) flat: RgbImage,
-    /// Smooth-shaded: interpolated between corners.
     pub(super) smooth: RgbImage,
     /// For a solution on the card: per pixel, the luminance minus the direct solution's luminance, relative to the
     /// latter.
@@ -69,7 +68,6 @@ impl<'a> PictureRenderer<'a> {
         Ok(Self { patches, parameters, exposure, machine, display, reference: None })
     }
 
-    /// Sets the solution with which later solutions on a card are compared.
     pub(super) fn compare_with(&mut self, reference: &[[f64; 3]]) -> Result<(), StudyError> {
         self.reference = Some(self.flat(reference)?);
         Ok(())
@@ -113,7 +111,6 @@ impl<'a> PictureRenderer<'a> {
         Ok((Pictures { flat: flat.display(1.0)?, smooth, error }, facts))
     }
 
-    /// Draws the room after the recorded iterations.
     pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<IterationPicture>, StudyError> {
         let Some(first) = solved.iter().find(|s| s.card.is_some()) else { return Ok(Vec::new()) };
         let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {

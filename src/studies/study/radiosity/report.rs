@@ -105,7 +105,6 @@ fn frame(frame: &IterationPicture) -> NamedPicture {
     NamedPicture::new(format!("iteration-{}", frame.iteration), frame.flat.clone(), caption)
 }
 
-/// Table with a row per patch: its position, its areas, its material, and its radiosity by each method.
 fn patches(outcome: &RadiosityOutcome) -> Table {
     let mut table = Table::with_colors("Patches", "patch x y z area open_area face material", labels(outcome));
     for (i, patch) in outcome.patches.list().iter().enumerate() {

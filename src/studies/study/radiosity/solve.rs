@@ -19,7 +19,6 @@ pub(super) struct Room {
     pub(super) cast: Option<CastRecord>,
 }
 
-/// Computes the form factors of all patches, and applies the requested corrections.
 pub(super) fn room(
     patches: &Patches,
     parameters: &Parameters,
@@ -45,7 +44,6 @@ pub(super) fn room(
     Ok(Room { factors, found_sums, cast })
 }
 
-/// Solution by a method, with its card.
 pub(super) struct Solved {
     pub(super) method: SolveMethod,
     pub(super) radiosity: Vec<[f64; 3]>,

@@ -40,7 +40,6 @@ pub(super) struct Sweep<'a> {
     pub(super) parameters: &'a Parameters,
     /// Settings by method, then by value of a switch.
     settings: Vec<(CardMethod, Configuration)>,
-    /// Number of switch values per method.
     values: usize,
 }
 
@@ -78,7 +77,6 @@ impl<'a> Sweep<'a> {
         Ok(rows)
     }
 
-    /// System with a given number of patches, and its direct solution.
     fn system(&self, size: u32, progress: &mut ProgressFn<'_>) -> Result<(System, Vec<[f64; 3]>), StudyError> {
         let patches = Patches::new(&self.parameters.scene, Subdivision::AtMost(size as usize))?;
         for (how, _) in self.settings.iter().step_by(self.values) {

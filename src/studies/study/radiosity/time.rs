@@ -21,7 +21,6 @@ pub(super) struct IterationTime {
     pub(super) seconds: f64,
     /// Millions of operations per second: two per element and channel, indexing not counted.
     pub(super) mflops: f64,
-    /// Bottleneck of the longest draw.
     pub(super) bound_by: Bottleneck,
     /// Memory bandwidth in use, in [0, 1].
     pub(super) bandwidth: f64,
@@ -32,7 +31,6 @@ pub(super) struct CardFacts {
     /// Number of passes per iteration, over all its systems.
     pub(super) passes: usize,
     pub(super) block: usize,
-    /// Number of instructions of the longest program.
     pub(super) instructions: usize,
     pub(super) matrix_bytes: f64,
     /// Time of an iteration in the pipeline model; `None` for devices without timing.
@@ -74,7 +72,6 @@ pub(super) fn facts(
     })
 }
 
-/// Time of an iteration; `None` for devices without timing.
 fn time(
     how: CardMethod,
     systems: usize,

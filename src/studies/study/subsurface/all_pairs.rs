@@ -18,7 +18,6 @@ pub(super) struct GatherError {
 }
 
 impl GatherError {
-    /// Error of `found` compared with `expected`, per texel.
     pub(super) fn between(atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let [mut off, mut reference] = [ErrorSums::default(); 2];
         for ((texel, found), expected) in atlas.texels().iter().zip(found).zip(expected) {

@@ -91,7 +91,6 @@ fn ranges(bins: impl Iterator<Item = [f64; 2]>) -> Vec<String> {
     ranges.iter().map(|[from, to]| format!("{from} to {to}")).collect()
 }
 
-/// Sentence about the smallest storage with an error within [`ENOUGH`].
 fn smallest(rows: &[WayRow]) -> Option<String> {
     if rows.iter().all(|row| row.error.is_none()) {
         return None;

@@ -53,7 +53,6 @@ pub(in crate::study) fn no_card(error: CardError) -> StudyError {
     StudyError::coded("subsurface::card", error)
 }
 
-/// Results of the study.
 #[derive(Debug)]
 struct SubsurfaceOutcome {
     atlas: Atlas,
@@ -62,7 +61,6 @@ struct SubsurfaceOutcome {
     dipoles: [Dipole; 3],
     /// E of equation 8 per texel, computed by the host.
     irradiance: Vec<[f64; 3]>,
-    /// Statistics of the Ray Engine, if it cast shadow rays.
     cast: Option<CastRecord>,
     /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
     truth: Option<Vec<[f64; 3]>>,

@@ -4,8 +4,8 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 
 use crate::geom::Mesh;
-use crate::options::{number, or};
 use crate::options::one_of::{OneOf, name, one_of, variants};
+use crate::options::{number, or};
 use crate::scene::Camera;
 use crate::study::StudyError;
 use crate::study::caster::CasterChoice;

@@ -33,7 +33,6 @@ pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, Stu
     ])
 }
 
-/// Pictures of the scattered light, one per way of gathering.
 pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let picture = |row: &WayRow| {
         let image = row.scattered.display(exposure)?;

@@ -47,7 +47,6 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
     table
 }
 
-/// Table of errors, one row per way of gathering.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Ways of gathering; errors of B: root mean square by area and maximum, relative to B; seams: roughness of errors among neighbouring texels",
@@ -88,7 +87,6 @@ pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table of the card's resources, one row per way of gathering.
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Card resources; reads and instructions per texel of pass 2",
@@ -138,7 +136,6 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table with a row per face: its area, the light that entered it, and B by every way of gathering.
 pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let columns: Vec<_> = outcome.columns().map(|(_, texels)| model::by_face(&outcome.atlas, texels)).collect();
     let mut table = Table::with_colors("Faces", "face area_mm2", outcome.columns().map(|(label, _)| label));
@@ -151,7 +148,6 @@ pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Tab
     table
 }
 
-/// Table with a row per vertex of the model: its position, E, and B by every way of gathering.
 pub(super) fn vertices(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let at_vertices = |(_, texels)| model::by_vertex(&outcome.atlas, &parameters.mesh, texels);
     let columns: Vec<_> = outcome.columns().map(at_vertices).collect();
