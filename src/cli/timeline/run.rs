@@ -11,8 +11,7 @@ use refsim::timing::{Level, Model, TimingError};
 use super::args::Args;
 use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup, device_named};
-use crate::cli::Problem;
-use crate::geom::Mesh;
+use crate::cli::{Problem, ProgressBar};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{Crossbar, RayBatch};
@@ -21,72 +20,49 @@ use crate::scene::Camera;
 const DEFAULT_DEVICE: &str = "r200";
 const TESSELLATION: u32 = 8;
 
-pub(super) enum Input {
-    Case(Box<Setup>),
-    Rays { profile: Box<Profile>, mesh: Box<Mesh>, rays: Box<RayBatch> },
+/// A run on a card: a case, or rays on the teapot.
+pub(super) struct CardRun {
+    pub(super) profile: Profile,
+    pub(super) title: String,
+    /// Number of rays; `None` for a case.
+    pub(super) rays: Option<u64>,
+    /// With `--cache`, it has the texture cache's hits and misses over every texel read.
+    pub(super) log: Vec<Event>,
 }
 
-impl Input {
-    pub(super) fn read(args: &Args) -> miette::Result<Self> {
+impl CardRun {
+    pub(super) fn new(args: &Args) -> miette::Result<Self> {
         let device = args.device.as_deref().map(device_named).transpose()?;
+        let watcher = |profile: &Profile| -> Result<_, Problem> {
+            let caches = args.cache.then(|| TextureCaches::new(profile)).transpose().map_err(no_figure)?;
+            Ok(caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) }))
+        };
+        // A single step, shown because it takes long with `--cache`.
+        let _bar = ProgressBar::new("drawing", 1);
         match (&args.case, args.eye_rays) {
             (Some(case), None) => {
-                let overrides = Overrides { device, ..Overrides::default() };
-                let setup = Setup::read_with(case, &overrides)?;
-                Ok(Self::Case(Box::new(setup)))
+                let setup = Setup::read_with(case, &Overrides { device, ..Overrides::default() })?;
+                let log = match watcher(&setup.profile)? {
+                    Some(make) => case::log_observed(&setup, make())?,
+                    None => case::log(&setup, ExecutorKind::Batch)?,
+                };
+                let title = setup.title.unwrap_or_else(|| "a case".to_owned());
+                Ok(Self { profile: setup.profile, title, rays: None, log })
             }
             (None, Some(size)) => {
                 let profile = device.map_or_else(|| device_named(DEFAULT_DEVICE), Ok)?;
                 let camera = Camera::teapot(size.width, size.height).into_diagnostic()?;
-                let mesh = Box::new(teapot(TESSELLATION).into_diagnostic()?);
+                let mesh = teapot(TESSELLATION).into_diagnostic()?;
                 let rays = RayBatch::new(size.width, size.height, camera.rays()).into_diagnostic()?;
-                Ok(Self::Rays { profile: Box::new(profile), mesh, rays: Box::new(rays) })
+                let crossbar = Crossbar::new(profile.clone(), ExecutorKind::Batch);
+                let answer = match watcher(&profile)? {
+                    Some(make) => crossbar.intersect_observed(&mesh, &rays, Sides::Front, &make)?,
+                    None => crossbar.intersect_recorded(&mesh, &rays, Sides::Front)?,
+                };
+                let title = format!("{}x{} rays on the teapot, {} triangles", rays.width(), rays.height(), mesh.len());
+                Ok(Self { profile, title, rays: Some(rays.rays().len() as u64), log: answer.log })
             }
             _ => Err(Problem::usage("expected a case or `--eye-rays`", "name one of them").into()),
-        }
-    }
-
-    pub(super) fn profile(&self) -> &Profile {
-        match self {
-            Self::Case(setup) => &setup.profile,
-            Self::Rays { profile, .. } => profile,
-        }
-    }
-
-    pub(super) fn title(&self) -> String {
-        match self {
-            Self::Case(setup) => setup.title.clone().unwrap_or_else(|| "a case".to_owned()),
-            Self::Rays { mesh, rays, .. } => {
-                format!("{}x{} rays on the teapot, {} triangles", rays.width(), rays.height(), mesh.len())
-            }
-        }
-    }
-
-    /// Number of rays; `None` for a case.
-    pub(super) fn rays(&self) -> Option<u64> {
-        match self {
-            Self::Case(_) => None,
-            Self::Rays { rays, .. } => Some(rays.rays().len() as u64),
-        }
-    }
-
-    /// The run's log; with `cache`, it has the texture cache's hits and misses over every texel read.
-    pub(super) fn log(&self, cache: bool) -> miette::Result<Vec<Event>> {
-        let caches = if cache { Some(TextureCaches::new(self.profile()).map_err(no_figure)?) } else { None };
-        let watcher = caches.map(|caches| move || -> Box<dyn TexelObserver> { Box::new(caches.clone()) });
-        match self {
-            Self::Case(setup) => Ok(match watcher {
-                Some(make) => case::log_observed(setup, make())?,
-                None => case::log(setup, ExecutorKind::Batch)?,
-            }),
-            Self::Rays { profile, mesh, rays, .. } => {
-                let crossbar = Crossbar::new(profile.as_ref().clone(), ExecutorKind::Batch);
-                let answer = match &watcher {
-                    Some(make) => crossbar.intersect_observed(mesh, rays, Sides::Front, make)?,
-                    None => crossbar.intersect_recorded(mesh, rays, Sides::Front)?,
-                };
-                Ok(answer.log)
-            }
         }
     }
 }
@@ -102,11 +78,11 @@ pub(super) struct TimedLog {
 }
 
 impl TimedLog {
-    pub(super) fn new(level: Level, input: &Input, log: &[Event], args: &Args) -> miette::Result<Self> {
-        let model = Model::new(level, input.profile()).map_err(no_figure)?;
+    pub(super) fn new(level: Level, run: &CardRun, args: &Args) -> miette::Result<Self> {
+        let model = Model::new(level, &run.profile).map_err(no_figure)?;
         let options = Options { read_back: args.readback, double_buffered: args.double_buffer, ..Options::of(level) };
-        let replay = replay(log, &model, &options)?;
-        let sensitivity = if args.sensitivity { sensitivity(&model, log, &options)? } else { Vec::new() };
+        let replay = replay(&run.log, &model, &options)?;
+        let sensitivity = if args.sensitivity { sensitivity(&model, &run.log, &options)? } else { Vec::new() };
         Ok(Self { model, replay, sensitivity })
     }
 

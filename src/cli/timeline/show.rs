@@ -8,20 +8,20 @@ use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
 use super::args::Args;
-use super::run::{Input, TimedLog};
+use super::run::{CardRun, TimedLog};
 use crate::report::{Cell, Findings, FoundTable, Table};
 
 /// Maximum number of draws in the table; the document has all draws.
 const MAX_DRAWS: usize = 16;
 
 /// The tables of both models, as text and as a document.
-pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[TimedLog]) -> Findings {
-    let profile = input.profile();
-    let mut found = Findings::new(input.title());
+pub(super) fn findings(args: &Args, run: &CardRun, timed: &[TimedLog]) -> Findings {
+    let CardRun { profile, title, rays, log } = run;
+    let mut found = Findings::new(title);
     found.fields(json!({
         "case": args.case.as_ref().map(|path| path.display().to_string()),
-        "title": input.title(),
-        "rays": input.rays(),
+        "title": title,
+        "rays": rays,
         "version": env!("CARGO_PKG_VERSION"),
         "device": profile.name,
         "readback": args.readback.map(|mode| if mode == ReadBackMode::Synchronous { "sync" } else { "async" }),
@@ -31,7 +31,7 @@ pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[Timed
         "models": timed.iter().map(|one| model(log, one)).collect::<Vec<_>>(),
         "trace": args.perfetto.as_ref().map(|path| path.display().to_string()),
     }));
-    found.introduce(input.title());
+    found.introduce(title.clone());
     found.introduce(format!("{} ({}), times in microseconds", profile.title, profile.name));
     if args.cache {
         found.table(FoundTable::from(cache(log)).field("texture_cache"));
@@ -48,7 +48,7 @@ pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[Timed
                 .print(format!("{name}: {operations} operations of the host cost nothing: no run has calibrated them"));
         }
     }
-    found.table(FoundTable::from(totals(input, log, timed)).field("totals"));
+    found.table(FoundTable::from(totals(run, timed)).field("totals"));
     if let Some(path) = &args.perfetto {
         found.print(format!("wrote {}", path.display()));
     }
@@ -221,12 +221,12 @@ fn fragments(log: &[Event], timed: &TimedLog) -> u64 {
     costs(log, timed).map(|(record, _)| record.counts.fragments.generated).sum()
 }
 
-fn totals(input: &Input, log: &[Event], timed: &[TimedLog]) -> Table {
+fn totals(run: &CardRun, timed: &[TimedLog]) -> Table {
     let mut table = Table::new("Totals", &["model", "total", "fragments/s", "rays/s"]);
     for one in timed {
         let whole = one.replay.timeline.makespan();
-        let rays = input.rays().map(|rays| a_second(rays, whole));
-        table.push([one.name().into(), us(whole), a_second(fragments(log, one), whole).into(), rays.into()]);
+        let rays = run.rays.map(|rays| a_second(rays, whole));
+        table.push([one.name().into(), us(whole), a_second(fragments(&run.log, one), whole).into(), rays.into()]);
     }
     table
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{Comparison, First, Setup, Side, fate, letters};
+use super::{Comparison, First, Setup, Side, fate, letters, run::switches_json};
 use crate::compare::{FragmentPass, TraceDifference, TraceStage};
 
 /// A comparison with its sides.
@@ -29,7 +29,8 @@ fn pass_json(pass: &FragmentPass) -> Value {
 }
 
 impl ComparedSides<'_> {
-    fn setup(&self) -> &Setup {
+    /// The case on the left side.
+    pub fn setup(&self) -> &Setup {
         self.sides[0].setup
     }
 
@@ -170,13 +171,11 @@ const fn stage_name(stage: &TraceStage) -> &'static str {
 
 fn side_json(side: &Side<'_>) -> Value {
     let profile = &side.setup.profile;
-    let switches: serde_json::Map<String, Value> =
-        profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
     json!({
         "executor": side.executor.kind().name(),
         "device": profile.name,
         "format": profile.rules.format.to_string(),
-        "switches": switches,
+        "switches": switches_json(profile),
         "left_out": side.setup.left_out,
     })
 }

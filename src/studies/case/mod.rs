@@ -31,7 +31,7 @@ pub use device::{device_named, meant};
 pub use error::{CaseError, CaseWarning};
 pub use loaded::{Loaded, log, log_observed};
 pub use probe::ProbeResult;
-pub use run::{CaseOutcome, ShaderSlots, run};
+pub use run::{CaseOutcome, run};
 pub use setup::Setup;
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
 pub use state::ProbeValue;

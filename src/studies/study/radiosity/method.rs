@@ -43,6 +43,11 @@ impl SolveMethod {
     /// Direct solution on the host.
     pub const DIRECT: Self = Self::Host(Solver::Direct);
 
+    /// The method's layout and format on a card, if it runs on one.
+    pub(super) fn on_card(&self) -> Option<CardMethod> {
+        if let Self::Card(how) = self { Some(*how) } else { None }
+    }
+
     /// Name, unique among methods on one device and valid as a file name.
     pub fn label(&self, profile: &Profile) -> String {
         match self {

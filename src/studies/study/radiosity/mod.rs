@@ -22,6 +22,7 @@ use crate::radiosity::on_card::Fit;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::{DrawError, Patches, System};
 use crate::report::{Findings, Provenance};
+use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
@@ -33,7 +34,7 @@ use leaks::LeakRow;
 use method::StopReason;
 pub(in crate::study) use pictures::exposure;
 use pictures::{IterationPicture, PictureRenderer, Pictures};
-use sweep::{Sweep, SweepRow};
+use sweep::SweepRow;
 use time::CardFacts;
 
 library_errors! {
@@ -102,50 +103,47 @@ struct RadiosityOutcome {
     sweep: Vec<SweepRow>,
 }
 
+/// Refuses patches whose system does not fit the card in the packing of a method.
+fn require_fit(parameters: &Parameters, patches: &Patches) -> Result<(), StudyError> {
+    for how in parameters.methods.iter().filter_map(SolveMethod::on_card) {
+        let require = |fit: Fit| fit.require(&parameters.profile, how.packing, patches.list().len());
+        Fit::of(&parameters.profile, how.packing).and_then(require).map_err(no_card)?;
+    }
+    Ok(())
+}
+
 /// Solves by every method, draws the pictures, and runs the sweep.
 fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, StudyError> {
     // Before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
-        let what = "expected a scene with a material that emits light, found none";
-        return Err(
-            StudyError::new("radiosity::dark", what).with_help("give a material an emission: `Ke` in an MTL file")
-        );
+        let dark = StudyError::new("radiosity::dark", "expected a scene with a material that emits light, found none");
+        return Err(dark.with_help("give a material an emission: `Ke` in an MTL file"));
     }
     let patches = Patches::new(&parameters.scene, parameters.options.subdivision())?;
-    let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(how.packing) } else { None };
-    for packing in parameters.methods.iter().filter_map(on_card) {
-        let require = |fit: Fit| fit.require(&parameters.profile, packing, patches.list().len());
-        Fit::of(&parameters.profile, packing).and_then(require).map_err(no_card)?;
-    }
-    let sweep = Sweep::new(parameters)?;
+    require_fit(parameters, &patches)?;
+    let settings = Configuration::of(&parameters.profile).under_each_switch()?;
     let room = solve::room(&patches, parameters, parameters.caster(), progress)?;
     let leaks = leaks::rows(parameters, &patches, &room, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let mut solved = Vec::new();
     for (at, method) in parameters.methods.iter().enumerate() {
-        progress(
-            &format!("solving: {}", method.label(&parameters.profile)),
-            at as u64,
-            parameters.methods.len() as u64,
-        );
+        let step = format!("solving: {}", method.label(&parameters.profile));
+        progress(&step, at as u64, parameters.methods.len() as u64);
         solved.push(solve::solve(*method, &system, parameters)?);
     }
     let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
     let reference = direct.map(|s| s.radiosity.clone());
     let brightness = |s: &solve::Solved| exposure(&patches, system.emittance(), &s.radiosity);
     let exposure = direct.or(solved.first()).map_or(1.0, brightness);
-    let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
+    let mut studio = PictureRenderer::new(&patches, parameters, exposure, reference.as_deref())?;
     let frames = studio.frames(&solved)?;
-    if let Some(reference) = &reference {
-        studio.compare_with(reference)?;
-    }
     let (mut rows, methods) = (Vec::new(), solved.len() as u64);
     for one in solved {
         progress(&format!("drawing: {}", one.method.label(&parameters.profile)), rows.len() as u64, methods);
         rows.push(row(one, &system, reference.as_deref(), &mut studio, parameters)?);
     }
     drop(studio);
-    let sweep = sweep.rows(progress)?;
+    let sweep = sweep::rows(parameters, &settings, progress)?;
     Ok(RadiosityOutcome { found_sums: room.found_sums, leaks, exposure, rows, frames, sweep, patches })
 }
 

@@ -6,7 +6,7 @@ use refsim::texture::TexelFormat;
 
 use super::solve::Solved;
 use super::time::CardFacts;
-use super::{Parameters, SolveMethod, time};
+use super::{Parameters, time};
 use crate::picture::metrics::relative_luminance_differences;
 use crate::picture::{Picture, RgbImage};
 use crate::radiosity::display::Display;
@@ -61,16 +61,19 @@ pub(super) struct PictureRenderer<'a> {
 }
 
 impl<'a> PictureRenderer<'a> {
-    pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, StudyError> {
+    /// `reference` is the solution with which solutions on a card are compared.
+    pub(super) fn new(
+        patches: &'a Patches,
+        parameters: &'a Parameters,
+        exposure: f64,
+        reference: Option<&[[f64; 3]]>,
+    ) -> Result<Self, StudyError> {
         let machine = parameters.executor.clone().machine(parameters.profile.clone());
         let mut machine = machine.map_err(|error| StudyError::coded("radiosity::machine", error))?;
         let display = Display::new(&mut machine, patches, &parameters.camera, TARGET)?;
-        Ok(Self { patches, parameters, exposure, machine, display, reference: None })
-    }
-
-    pub(super) fn compare_with(&mut self, reference: &[[f64; 3]]) -> Result<(), StudyError> {
-        self.reference = Some(self.flat(reference)?);
-        Ok(())
+        let mut made = Self { patches, parameters, exposure, machine, display, reference: None };
+        made.reference = reference.map(|reference| made.flat(reference)).transpose()?;
+        Ok(made)
     }
 
     fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Picture, StudyError> {
@@ -102,12 +105,10 @@ impl<'a> PictureRenderer<'a> {
             }
             _ => (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?),
         };
-        let facts = match solved.method {
-            SolveMethod::Card(how) => Some(time::facts(card, how, system, self.patches, self.parameters)?),
-            SolveMethod::Host(_) => None,
-        };
-        let error =
-            self.reference.as_ref().map(|reference| relative_luminance_differences(reference, &flat)).transpose()?;
+        let facts = |how| time::facts(card, how, system, self.patches, self.parameters);
+        let facts = solved.method.on_card().map(facts).transpose()?;
+        let error = |reference| relative_luminance_differences(reference, &flat);
+        let error = self.reference.as_ref().map(error).transpose()?;
         Ok((Pictures { flat: flat.display(1.0)?, smooth, error }, facts))
     }
 
