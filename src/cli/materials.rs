@@ -78,13 +78,7 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
             ]);
         }
     }
-    if out.json() {
-        out.document(&table.json())?;
-        return Ok(Verdict::Done);
-    }
-    out.table(&table)?;
-    out.line("")?;
-    out.sentence("`crossbar materials NAME` shows lengths, R_d by distance and sources of one.")?;
+    out.listing(&table, &["`crossbar materials NAME` shows lengths, R_d by distance and sources of one."])?;
     Ok(Verdict::Done)
 }
 

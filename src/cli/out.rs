@@ -69,6 +69,18 @@ impl Out {
         self.table(table)
     }
 
+    /// Writes a table as JSON, or as text with sentences below it. Fails if standard output cannot be written.
+    pub fn listing(&mut self, table: &Table, below: &[&str]) -> Result<(), OutputError> {
+        if self.json {
+            return self.document(&table.json());
+        }
+        self.table(table)?;
+        if !below.is_empty() {
+            self.line("")?;
+        }
+        below.iter().try_for_each(|text| self.sentence(text))
+    }
+
     /// Writes a check's finding in the format of an error. Fails if standard output cannot be written.
     pub fn finding(&mut self, finding: &dyn Diagnostic) -> Result<(), OutputError> {
         let text = error::render_finding(finding);

@@ -46,11 +46,7 @@ fn all(out: &mut Out) -> miette::Result<Verdict> {
         let (Some(what), Some(scene)) = (scenes::description(name), scenes::named(name)) else { continue };
         table.push([name.into(), scene.mesh().len().into(), views(&scene).into(), what.into()]);
     }
-    if out.json() {
-        out.document(&table.json())?
-    } else {
-        out.table(&table)?
-    }
+    out.listing(&table, &[])?;
     Ok(Verdict::Done)
 }
 

@@ -7,7 +7,7 @@ use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
-use super::args::Args;
+use super::Args;
 use super::run::{CardRun, TimedLog};
 use crate::report::{Cell, Findings, FoundTable, Table};
 

@@ -57,7 +57,7 @@ pub(super) fn bind(
         return wrong("the geometry has more than 1048576 vertices", "split the case");
     }
     let corners = written.full_screen.then(|| corners(written.convention)).into_iter().flatten();
-    let places = written.vertices.iter().map(Place::Vertex).chain(corners.map(Place::Corner));
+    let places = written.vertices.iter().map(CaseVertex::Vertex).chain(corners.map(CaseVertex::Corner));
     let reader = Reader { binder, geometry, program, pixel_reads_fog };
     let vertices = match program {
         Some(_) => Vertices::Attributes(places.map(|place| reader.attributes(place)).collect::<Result<_, _>>()?),
@@ -82,7 +82,7 @@ pub(super) fn bind(
 }
 
 /// A vertex of the case, or position and `t0` of a corner of the screen.
-enum Place<'a> {
+enum CaseVertex<'a> {
     Vertex(&'a Spanned<Attributes>),
     Corner([[u32; 4]; 2]),
 }
@@ -105,25 +105,25 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// Default attributes of all vertices, then the attributes of this one.
-    fn all(&self, place: &Place<'a>) -> impl Iterator<Item = (&'a String, &'a Spanned<Vec<Number>>)> {
-        let own = if let Place::Vertex(written) = place { Some(written.get_ref()) } else { None };
+    fn all(&self, place: &CaseVertex<'a>) -> impl Iterator<Item = (&'a String, &'a Spanned<Vec<Number>>)> {
+        let own = if let CaseVertex::Vertex(written) = place { Some(written.get_ref()) } else { None };
         self.geometry.get_ref().attributes.iter().chain(own.into_iter().flatten())
     }
 
-    fn plain(&self, place: Place<'a>) -> Result<Vertex, CaseError> {
+    fn plain(&self, place: CaseVertex<'a>) -> Result<Vertex, CaseError> {
         let mut vertex = Vertex::default();
         let position = self.all(&place).find(|(name, _)| *name == "position");
         match (&place, position) {
-            (Place::Vertex(written), None) => {
+            (CaseVertex::Vertex(written), None) => {
                 let help = "write for example `position = [-1, 1]`: clip space, z 0 and w 1 if left out";
                 return Err(self.binder.place.wrong(written.span(), "the vertex has no `position`", help));
             }
-            (Place::Corner(_), Some((_, value))) => {
+            (CaseVertex::Corner(_), Some((_, value))) => {
                 let help = "the corners of a full-screen quad have fixed positions";
                 return Err(self.binder.place.wrong(value.span(), "both `position` and `full_screen`", help));
             }
-            (Place::Corner(corner), None) => [vertex.position, vertex.texcoords[0]] = *corner,
-            (Place::Vertex(_), Some(_)) => {}
+            (CaseVertex::Corner(corner), None) => [vertex.position, vertex.texcoords[0]] = *corner,
+            (CaseVertex::Vertex(_), Some(_)) => {}
         }
         for (name, value) in self.all(&place) {
             self.set(&mut vertex, name, value)?;
@@ -156,12 +156,12 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn attributes(&self, place: Place<'a>) -> Result<[[u32; 4]; 16], CaseError> {
+    fn attributes(&self, place: CaseVertex<'a>) -> Result<[[u32; 4]; 16], CaseError> {
         let mut registers = [[0, 0, 0, ONE]; 16];
         for (name, value) in self.all(&place) {
             registers[self.attribute(name, value.span())?] = self.bits(value)?;
         }
-        if let Place::Corner([position, t0]) = place {
+        if let CaseVertex::Corner([position, t0]) = place {
             registers[self.attribute("position", self.geometry.span())?] = position;
             // Only a program that declares texture coordinates receives them.
             if let Some(number) = self.declared("t0") {
