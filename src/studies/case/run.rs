@@ -9,7 +9,7 @@ use refsim::{
 };
 use serde_json::{Map, Value, json};
 
-use super::{CaseError, Loaded, ProbeResult, Setup, probe};
+use super::{CaseError, Loaded, ProbeResult, Setup, state};
 use crate::error::InputError;
 use crate::{
     picture::{ChannelUnit, Picture, Rgba, Samples, buffer, exr, png},
@@ -94,7 +94,7 @@ pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, 
         let picture = Picture::new(width, height).with("depth", ChannelUnit::Unknown, Samples::Float(values))?;
         pictures.push(("depth.exr".to_owned(), exr(&picture)?));
     }
-    let answer = |question| probe::answer(question, surfaces[question.target], depth, minimum);
+    let answer = |question| state::answer(question, surfaces[question.target], depth, minimum);
     let (cost, shaded) = (shader::slots(&setup.pixel), events.fragments.shaded);
     let (texture, arithmetic) = (u64::from(cost.texture), u64::from(cost.arithmetic));
     let mut counts = event_counts(&events).to_vec();

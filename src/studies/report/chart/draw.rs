@@ -1,4 +1,5 @@
-//! Drawing of a chart with plotters: it draws the axes; everything else is drawn in pixels.
+//! Drawing of a chart with plotters: it draws the axes; everything else is drawn in pixels. Labels are in a column to the
+//! right, each as near as possible to the end of its line.
 
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -7,9 +8,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::super::palette::LIGHT;
 use super::axis::Axis;
-use super::data::{Chart, DrawnSeries};
-use super::labels::{PITCH, signed, spread};
 use super::style::{Marker, SeriesStyle, rgb};
+use super::{Chart, DrawnSeries};
 
 type Pixel = (i32, i32);
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -23,6 +23,8 @@ const MARGINS: [i32; 2] = [44, 54];
 const SAMPLE: [i32; 2] = [PLOT.0 + 4, PLOT.0 + 28];
 /// Sizes of fonts; plotters writes them divided by 1.24.
 const FONTS: [f64; 2] = [20.0, 15.5];
+/// Distance of the centres of neighbouring labels, in pixels.
+const PITCH: i32 = 19;
 /// Maximum width of a letter of the smaller font, averaged over a label, in pixels: sans-serif letters are 0.6 of their
 /// font's size wide on average, or less.
 const LETTER: i32 = 8;
@@ -194,4 +196,57 @@ fn mark(area: &Area<'_>, (x, y): Pixel, style: SeriesStyle) -> DrawResult {
             area.draw(&PathElement::new([(x - MARK, y + MARK), (x + MARK, y - MARK)], stroke))
         }
     }
+}
+
+/// Converts a number of labels or letters to pixel arithmetic; a drawing has far fewer than the maximum.
+fn signed(count: usize) -> i32 {
+    const MOST: i32 = 100_000;
+    i32::try_from(count).unwrap_or(MOST).min(MOST)
+}
+
+/// Places labels near the heights at which their lines end, in the same order: at least a pitch apart, between `top`
+/// and `bottom` if there is room for all, otherwise downward from `top`.
+fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
+    let mut order: Vec<usize> = (0..wanted.len()).collect();
+    order.sort_by_key(|&n| (wanted[n], n));
+    // Labels that touch move together: a group is centered on the mean of its labels' targets.
+    let mut groups: Vec<Group> = Vec::new();
+    for &n in &order {
+        let mut group = Group { labels: vec![n], first: clamped(wanted[n], 1, [top, bottom]) };
+        while let Some(above) = groups.pop_if(|above| above.end() > group.first) {
+            group = above.joined(group, wanted, [top, bottom]);
+        }
+        groups.push(group);
+    }
+    let mut places = vec![0; wanted.len()];
+    for group in groups {
+        for (n, place) in group.labels.iter().zip((0..).map(|k| group.first + k * PITCH)) {
+            places[*n] = place;
+        }
+    }
+    places
+}
+
+struct Group {
+    labels: Vec<usize>,
+    first: i32,
+}
+
+impl Group {
+    fn end(&self) -> i32 {
+        self.first + signed(self.labels.len()) * PITCH
+    }
+
+    fn joined(mut self, below: Self, wanted: &[i32], room: [i32; 2]) -> Self {
+        self.labels.extend(below.labels);
+        let firsts = self.labels.iter().zip(0..).map(|(n, k)| i64::from(wanted[*n]) - i64::from(k * PITCH));
+        let mean = firsts.sum::<i64>().div_euclid(i64::from(signed(self.labels.len())));
+        self.first = clamped(mean as i32, self.labels.len(), room);
+        self
+    }
+}
+
+/// Position of a group's first label, clamped so that the group fits.
+fn clamped(first: i32, labels: usize, [top, bottom]: [i32; 2]) -> i32 {
+    first.min(bottom - (signed(labels) - 1) * PITCH).max(top)
 }

@@ -4,7 +4,6 @@
 //! renders the room.
 
 mod conclusion;
-mod difference;
 mod leaks;
 mod method;
 mod options;
@@ -29,11 +28,11 @@ use crate::study::{ProgressFn, Study, StudyError};
 pub use method::{CardMethod, SolveMethod};
 pub use options::{Factors, Parameters, RadiosityOptions};
 
-pub(in crate::study) use difference::SolutionError;
 use leaks::LeakRow;
 use method::StopReason;
 pub(in crate::study) use pictures::exposure;
 use pictures::{IterationPicture, PictureRenderer, Pictures};
+pub(in crate::study) use solve::SolutionError;
 use sweep::SweepRow;
 use time::CardFacts;
 
