@@ -7,18 +7,20 @@ use refsim::device::Profile;
 use serde_json::json;
 
 use super::args::{Args, Renderer};
-use super::{camera, hits_line, page};
 use crate::card::RasterizedEyes;
 use crate::case::device_named;
 use crate::cli::executor::{Decider, engine_executor};
-use crate::cli::{CommandLine, Out, Problem, ProgressBar, given, scene_name, study, view};
+use crate::cli::scene_name::{self, Viewpoint};
+use crate::cli::words::counted;
+use crate::cli::{CommandLine, Out, Problem, ProgressBar, given, study, view};
 use crate::geom::exact::Sides;
 use crate::io::{require_writable, write_files};
+use crate::picture::{Picture, RgbImage};
 use crate::renderer::environment::{self, EnvironmentCard};
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
 use crate::report::digits::count;
-use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
+use crate::report::{Findings, FoundTable, NamedPicture, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
@@ -51,7 +53,8 @@ pub(super) fn run(
     given::refuse(no_engine, "the card of the Ray Engine", "add `--caster engine`, or leave it out")?;
     let mapping =
         is_mapped.then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))).transpose()?;
-    let camera = camera(args, scene)?;
+    let viewpoint = Viewpoint { size: args.size, view: args.light.view.as_deref(), eye: args.eye };
+    let camera = viewpoint.camera(scene)?;
     require_writable(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
     let mut open = caster.open(scene.mesh(), Sides::Both)?;
@@ -172,4 +175,17 @@ fn report(args: &Args, picture: &RenderedPicture, engine: Option<&CastRecord>, f
         found.print(format!("{} samples were not finite and count as black", count(picture.not_finite)));
     }
     found.print(hits_line(hits, pixels, args));
+}
+
+pub(super) fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Picture, caption: &str) -> Findings {
+    let mut found = Findings::new(format!("A picture of {}", args.scene.display()));
+    found.taken_from(camera.world_to_camera());
+    found.pictures(vec![NamedPicture::new("picture", image, caption)]);
+    found.paragraph("layers.exr has the numbers: depth along the view (Z) and triangle of what each pixel shows.");
+    found.keep_layers("layers", layers);
+    found
+}
+
+pub(super) fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
+    format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
 }

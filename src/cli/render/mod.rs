@@ -8,18 +8,16 @@ use refsim::machine::ExecutorKind;
 use serde_json::json;
 
 use super::executor::Decider;
-use super::scene_name::{self, Viewpoint};
-use super::words::counted;
-use super::{CommandLine, Out, Problem, model_file, study, view};
+use super::{CommandLine, Out, Problem, model_file, scene_name, study, view};
 use crate::case::device_named;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::io::{require_writable, write_files};
 use crate::options::Size;
-use crate::picture::{ChannelUnit, Picture, RgbImage, Samples};
+use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
-use crate::report::{Findings, NamedPicture, Provenance, Verdict};
-use crate::scene::{Camera, Scene};
+use crate::report::{Provenance, Verdict};
 use crate::study::shade::TeapotShader;
+use light::{hits_line, page};
 
 pub(super) use args::Args;
 
@@ -66,21 +64,4 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     findings.print(hits_line(found, hits.len(), args));
     write_files(&args.out, &findings.take_files(&provenance)?).map_err(Problem::from)?;
     study::show(&findings, out)
-}
-
-fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Picture, caption: &str) -> Findings {
-    let mut found = Findings::new(format!("A picture of {}", args.scene.display()));
-    found.taken_from(camera.world_to_camera());
-    found.pictures(vec![NamedPicture::new("picture", image, caption)]);
-    found.paragraph("layers.exr has the numbers: depth along the view (Z) and triangle of what each pixel shows.");
-    found.keep_layers("layers", layers);
-    found
-}
-
-fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
-    format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
-}
-
-fn camera(args: &Args, scene: &Scene) -> miette::Result<Camera> {
-    Viewpoint { size: args.size, view: args.light.view.as_deref(), eye: args.eye }.camera(scene)
 }

@@ -7,8 +7,7 @@ use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
-use super::Args;
-use super::run::{CardRun, TimedLog};
+use super::run::{Args, CardRun, TimedLog};
 use crate::report::{Cell, Findings, FoundTable, Table};
 
 /// Maximum number of draws in the table; the document has all draws.

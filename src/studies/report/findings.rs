@@ -1,4 +1,4 @@
-//! Findings of a study: text, tables, charts, pictures, files and a verdict; and their encoding as files.
+//! Findings of a study: text, tables, charts, pictures, files and a verdict.
 
 use std::ops::Range;
 
@@ -6,9 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::palette::Color;
 use super::summary::{SummaryLine, TallyEntry, Tone};
-use super::{Chart, Provenance, Scale, Series, Table, page};
-use crate::error::InputError;
-use crate::picture::{Picture, PictureNotes, RgbImage, exr_with_notes, png_with_notes};
+use super::{Chart, Provenance, Scale, Series, Table};
+use crate::picture::{Picture, RgbImage};
 
 /// File of an output folder: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
@@ -325,30 +324,5 @@ impl Findings {
     pub fn plain_document(&self) -> Value {
         let tables = self.tables.iter().filter_map(|found| Some((found.field?.to_owned(), found.whole().json())));
         Value::Object(self.fields.clone().into_iter().chain(tables).collect())
-    }
-
-    /// Encodes all files of the output folder, ending with `study.json` and `index.html`, and takes the additional
-    /// files out of the findings. Fails if an encoder fails.
-    pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, InputError> {
-        let notes = PictureNotes { world_to_camera: self.world_to_camera, ..provenance.notes() };
-        let encoded = |found: &NamedPicture| png_with_notes(&found.image, &notes);
-        let pngs = self.pictures.iter().map(encoded).collect::<Result<Vec<_>, _>>()?;
-        let drawings = self.charts.iter().map(|found| found.chart.svg()).collect::<Result<Vec<_>, _>>()?;
-        let page = page::html(self, &pngs, &drawings, provenance)?;
-        let mut files = std::mem::take(&mut self.files);
-        for (name, picture) in std::mem::take(&mut self.layers) {
-            files.push((format!("{name}.exr"), exr_with_notes(&picture, &notes)?));
-        }
-        for found in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
-            if let Some(name) = found.csv {
-                files.push((format!("{name}.csv"), found.whole().csv()?.into_bytes()));
-            }
-        }
-        files.extend(self.pictures.iter().zip(pngs).map(|(found, png)| (format!("{}.png", found.name), png)));
-        let drawings = self.charts.iter().zip(drawings);
-        files.extend(drawings.map(|(found, svg)| (format!("{}.svg", found.name), svg.into_bytes())));
-        files.push(("study.json".to_owned(), format!("{:#}\n", self.document(provenance)).into_bytes()));
-        files.push(("index.html".to_owned(), page.into_bytes()));
-        Ok(files)
     }
 }

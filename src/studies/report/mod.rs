@@ -20,8 +20,9 @@ mod table;
 pub mod trace;
 pub mod visible;
 pub mod words;
+mod write;
 
-pub use self::cell::{Cell, Figure};
+pub use self::cell::{Cell, Figure, Folded};
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
 pub use self::findings::{Findings, FoundTable, Legend, NamedChart, NamedFile, NamedPicture, Verdict};
@@ -29,7 +30,7 @@ pub(crate) use page::sheet as page_style;
 pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;
 pub use summary::{SummaryLine, TallyEntry, Tone};
-pub use table::{Folded, Table};
+pub use table::Table;
 
 use std::fmt::Display;
 

@@ -8,8 +8,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::super::palette::LIGHT;
 use super::axis::Axis;
+use super::data::{Chart, DrawnSeries};
 use super::style::{Marker, SeriesStyle, rgb};
-use super::{Chart, DrawnSeries};
 
 type Pixel = (i32, i32);
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;

@@ -3,69 +3,22 @@
 //! Each series has its own style; its label is next to its end, in a column that is also the legend.
 
 mod axis;
+mod data;
 mod draw;
 mod style;
 
 pub use axis::Scale;
+pub use data::{Chart, Series};
 
 use plotters::prelude::*;
 
 use self::axis::Axis;
+use self::data::DrawnSeries;
 use self::draw::Drawing;
 use self::style::{MAX_SERIES, SeriesStyle, dark_rules};
 use super::not_encoded;
 use super::visible::visible;
 use crate::error::InputError;
-
-/// Named series of points.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Series {
-    /// Label.
-    pub label: String,
-    /// Finite points, x and y.
-    pub points: Vec<(f64, f64)>,
-}
-
-impl Series {
-    /// Adds a point to the line with this label; a new label begins a line.
-    pub fn add(lines: &mut Vec<Self>, label: String, point: (f64, f64)) {
-        match lines.iter_mut().find(|line| line.label == label) {
-            Some(line) => line.points.push(point),
-            None => lines.push(Self { label, points: vec![point] }),
-        }
-    }
-}
-
-/// Chart of lines and points over a horizontal and a vertical axis.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Chart {
-    /// Title.
-    pub title: String,
-    /// Label of the horizontal axis, with its unit; empty if `ticks` name its categories.
-    pub x: String,
-    /// Label of the vertical axis, with its unit.
-    pub y: String,
-    /// Scale of the horizontal axis.
-    pub x_scale: Scale,
-    /// Scale of the vertical axis.
-    pub y_scale: Scale,
-    /// The lines.
-    pub lines: Vec<Series>,
-    /// Series of unconnected points.
-    pub dots: Vec<Series>,
-    /// Points of a paper: crosses in rings.
-    pub printed: Vec<Series>,
-    /// Names at 1, 2, ... of the horizontal axis, if it has no numbers.
-    pub ticks: Vec<String>,
-}
-
-struct DrawnSeries<'a> {
-    label: &'a str,
-    /// Points that the axes admit.
-    points: Vec<(f64, f64)>,
-    joined: bool,
-    style: SeriesStyle,
-}
 
 impl Chart {
     /// Encodes the chart as an SVG file. Fails if there is nothing to draw, or there are more series than

@@ -6,7 +6,7 @@ use refsim::exec::wgsl::parts::Parts;
 use refsim::num::{Format, NumberOperation as Op};
 use serde::Serialize;
 
-use super::base64;
+use super::encode::base64;
 use super::operands::PatternBits;
 
 const SETS: u32 = 2048;

@@ -1,10 +1,12 @@
 //! The page's markup, around the data, style and script.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde::Serialize;
 
-use super::PageData;
+use super::arithmetic::Arithmetic;
 use super::own::{self, Emulator};
-use super::teapot::{FixedView, VerdictColor};
+use super::programs::PagePrograms;
+use super::teapot::{FixedView, Teapot, VerdictColor};
 use crate::report::page_style;
 use crate::report::words::counted;
 
@@ -22,6 +24,15 @@ const SCRIPT: [&str; 9] = [
 ];
 
 const MAIN: &str = include_str!("assets/main.js");
+
+/// The data that the page's script reads, as JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct PageData {
+    pub(super) version: &'static str,
+    pub(super) arithmetic: Arithmetic,
+    pub(super) teapot: Teapot,
+    pub(super) programs: PagePrograms,
+}
 
 pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> String {
     // A less-than sign could end the element.

@@ -4,6 +4,7 @@
 //! docs/page.md describes what it shows. The script of the page is in `assets`.
 
 mod arithmetic;
+mod encode;
 mod markup;
 mod operands;
 mod own;
@@ -11,15 +12,8 @@ mod program_cases;
 mod programs;
 mod teapot;
 
-use std::io::Write as _;
-
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
-use flate2::Compression;
-use flate2::write::GzEncoder;
-use serde::Serialize;
-
 use self::arithmetic::Arithmetic;
+use self::markup::PageData;
 use self::programs::PagePrograms;
 use self::teapot::Teapot;
 use crate::report::not_encoded;
@@ -46,26 +40,4 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
     let data = PageData { version: env!("CARGO_PKG_VERSION"), arithmetic, teapot, programs };
     let json = serde_json::to_string(&data).map_err(|error| not_encoded("JSON", error))?;
     Ok(markup::html(&data, &json, emulator.as_ref()))
-}
-
-#[derive(Debug, Serialize)]
-struct PageData {
-    version: &'static str,
-    arithmetic: Arithmetic,
-    teapot: Teapot,
-    programs: PagePrograms,
-}
-
-fn base64(bytes: impl AsRef<[u8]>) -> String {
-    STANDARD.encode(bytes)
-}
-
-fn packed(bytes: &[u8]) -> std::io::Result<String> {
-    let mut file = GzEncoder::new(Vec::new(), Compression::best());
-    file.write_all(bytes)?;
-    Ok(base64(file.finish()?))
-}
-
-fn base64_words(words: impl IntoIterator<Item = u32>) -> String {
-    base64(words.into_iter().flat_map(u32::to_le_bytes).collect::<Vec<_>>())
 }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::packed;
+use super::encode::packed;
 
 pub(super) struct Emulator {
     /// The module, compressed and as base64.

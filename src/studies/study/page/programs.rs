@@ -13,8 +13,8 @@ use refsim::num::Format;
 use refsim::output::FragmentFate;
 use serde::Serialize;
 
+use super::encode::{base64, base64_words};
 use super::program_cases::{self, ProgramCase, SIDE};
-use super::{base64, base64_words};
 use crate::case::{Loaded, Setup};
 use crate::study::StudyError;
 

@@ -13,7 +13,7 @@ use refsim::texture::{Image, SamplerState, TexelFormat};
 use serde::Serialize;
 use strum::VariantArray as _;
 
-use super::{base64, base64_words};
+use super::encode::{base64, base64_words};
 use crate::geom::classify::HitVerdict;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;

@@ -4,10 +4,12 @@ use std::fmt;
 
 use refsim::device::Profile;
 
+use crate::card::CardError;
 use crate::options::one_of::name;
 use crate::radiosity::on_card::{CardSolution, Cycle, Storage};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::Solver;
+use crate::study::StudyError;
 
 /// Parameters of a solution on a card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,4 +81,9 @@ impl fmt::Display for StopReason {
             Self::Direct => f.write_str("elimination"),
         }
     }
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("radiosity::card", error)
 }

@@ -7,6 +7,7 @@ mod conclusion;
 mod leaks;
 mod method;
 mod options;
+mod outcome;
 mod pictures;
 mod report;
 mod solve;
@@ -14,10 +15,8 @@ mod sweep;
 mod tables;
 mod time;
 
-use crate::card::CardError;
 use crate::picture::metrics::value_error;
-use crate::radiosity::form_factor::{RowSums, VisibilityParameters};
-use crate::radiosity::on_card::Fit;
+use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::{DrawError, Patches, System};
 use crate::report::{Findings, Provenance};
@@ -25,16 +24,16 @@ use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
+pub(in crate::study) use method::no_card;
 pub use method::{CardMethod, SolveMethod};
 pub use options::{Factors, Parameters, RadiosityOptions};
 
-use leaks::LeakRow;
 use method::StopReason;
+use outcome::{MethodRow, RadiosityOutcome};
+use pictures::PictureRenderer;
 pub(in crate::study) use pictures::exposure;
-use pictures::{IterationPicture, PictureRenderer, Pictures};
 pub(in crate::study) use solve::SolutionError;
-use sweep::SweepRow;
-use time::CardFacts;
+use sweep::{SweepRow, require_fit};
 
 library_errors! {
     DrawError => "radiosity::display";
@@ -56,59 +55,6 @@ impl Study for Parameters {
         }
         provenance
     }
-}
-
-/// Error of the card.
-pub(in crate::study) fn no_card(error: CardError) -> StudyError {
-    StudyError::coded("radiosity::card", error)
-}
-
-#[derive(Debug)]
-struct MethodRow {
-    method: SolveMethod,
-    /// Name of the method, unique in a study and valid as a file name.
-    label: String,
-    radiosity: Vec<[f64; 3]>,
-    /// Figure 3's error, initially and after each iteration: the mean squared residual over all channels.
-    history: Vec<f64>,
-    /// Final residual relative to the emittance, both in Euclidean norms.
-    residual: f64,
-    stopped: StopReason,
-    /// Relative to the emitted power; the maximum over the channels.
-    energy_balance_error: f64,
-    /// Error compared with the direct solution, if that was requested.
-    error: Option<SolutionError>,
-    /// `None` on the host.
-    card: Option<CardFacts>,
-    pictures: Pictures,
-}
-
-impl MethodRow {
-    fn iterations(&self) -> usize {
-        self.history.len().saturating_sub(1)
-    }
-}
-
-#[derive(Debug)]
-struct RadiosityOutcome {
-    patches: Patches,
-    /// Row sums before closure was enforced.
-    found_sums: RowSums,
-    leaks: Vec<LeakRow>,
-    /// Pixel value per unit of radiance.
-    exposure: f64,
-    rows: Vec<MethodRow>,
-    frames: Vec<IterationPicture>,
-    sweep: Vec<SweepRow>,
-}
-
-/// Refuses patches whose system does not fit the card in the packing of a method.
-fn require_fit(parameters: &Parameters, patches: &Patches) -> Result<(), StudyError> {
-    for how in parameters.methods.iter().filter_map(SolveMethod::on_card) {
-        let require = |fit: Fit| fit.require(&parameters.profile, how.packing, patches.list().len());
-        Fit::of(&parameters.profile, how.packing).and_then(require).map_err(no_card)?;
-    }
-    Ok(())
 }
 
 /// Solves by every method, draws the pictures, and runs the sweep.

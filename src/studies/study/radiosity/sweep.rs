@@ -4,7 +4,7 @@
 use refsim::device::Profile;
 
 use super::solve::room;
-use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card, require_fit};
+use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card};
 use crate::radiosity::bias::{Accumulator, predicted};
 use crate::radiosity::on_card::{CardSolver, Fit, Storage, to_f64};
 use crate::radiosity::solve::Solver;
@@ -110,4 +110,13 @@ fn bias(
 
 fn same_bits(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {
     a.iter().flatten().map(|x| x.to_bits()).eq(b.iter().flatten().map(|x| x.to_bits()))
+}
+
+/// Refuses patches whose system does not fit the card in the packing of a method.
+pub(super) fn require_fit(parameters: &Parameters, patches: &Patches) -> Result<(), StudyError> {
+    for how in parameters.methods.iter().filter_map(SolveMethod::on_card) {
+        let require = |fit: Fit| fit.require(&parameters.profile, how.packing, patches.list().len());
+        Fit::of(&parameters.profile, how.packing).and_then(require).map_err(no_card)?;
+    }
+    Ok(())
 }

@@ -1,10 +1,10 @@
 //! Reference for all ways of gathering: equation 9 over all pairs of texels.
 
-use super::way::Scene;
+use super::Parameters;
 use crate::atlas::Atlas;
 use crate::picture::metrics::{ErrorSums, value_error};
 use crate::study::{ProgressFn, StudyError};
-use crate::subsurface::Reference;
+use crate::subsurface::{Dipole, Reference};
 
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
@@ -34,8 +34,13 @@ impl GatherError {
 }
 
 /// Radiosities of all texels, row by row. A channel that equals an earlier one has its sums.
-pub(super) fn radiosity(scene: &Scene<'_>, progress: &mut ProgressFn<'_>) -> Result<Vec<[f64; 3]>, StudyError> {
-    let Scene { atlas, parameters, dipoles, irradiance, .. } = *scene;
+pub(super) fn radiosity(
+    parameters: &Parameters,
+    atlas: &Atlas,
+    dipoles: &[Dipole; 3],
+    irradiance: &[[f64; 3]],
+    progress: &mut ProgressFn<'_>,
+) -> Result<Vec<[f64; 3]>, StudyError> {
     let mut texels = vec![[0.0; 3]; irradiance.len()];
     for (channel, name) in CHANNELS.iter().enumerate() {
         let is_like = |other: &usize| {

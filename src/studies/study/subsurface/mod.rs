@@ -7,6 +7,7 @@ mod conclusion;
 pub(in crate::study) mod environment;
 mod model;
 mod options;
+mod outcome;
 mod pictures;
 mod report;
 mod seams;
@@ -14,10 +15,7 @@ mod tables;
 mod way;
 
 use crate::atlas::Atlas;
-use crate::card::CardError;
-use crate::error::InputError;
 use crate::report::{Findings, Provenance};
-use crate::study::caster::CastRecord;
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::subsurface::links::Links;
 use crate::subsurface::multipole::SurfaceMoments;
@@ -26,10 +24,12 @@ use crate::subsurface::{Dipole, irradiance};
 use angles::{AngleBin, BinError};
 use model::ModelLengths;
 use options::ALL_PAIRS_SIDE;
+use outcome::SubsurfaceOutcome;
 use seams::Neighbours;
 use way::WayRow;
 
-pub use options::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceOptions};
+pub(in crate::study) use options::no_card;
+pub use options::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceOptions, no_atlas};
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
@@ -40,39 +40,6 @@ impl Study for Parameters {
         provenance.profiles.push(self.profile.name.clone());
         provenance.switches.clone_from(&self.switches);
         provenance
-    }
-}
-
-/// Error of a model for which no atlas exists.
-pub fn no_atlas(error: InputError) -> StudyError {
-    StudyError::coded("subsurface::atlas", error)
-}
-
-/// Error of the card.
-pub(in crate::study) fn no_card(error: CardError) -> StudyError {
-    StudyError::coded("subsurface::card", error)
-}
-
-#[derive(Debug)]
-struct SubsurfaceOutcome {
-    atlas: Atlas,
-    lengths: ModelLengths,
-    /// Dipoles for red, green and blue.
-    dipoles: [Dipole; 3],
-    /// E of equation 8 per texel, computed by the host.
-    irradiance: Vec<[f64; 3]>,
-    cast: Option<CastRecord>,
-    /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
-    truth: Option<Vec<[f64; 3]>>,
-    rows: Vec<WayRow>,
-}
-
-impl SubsurfaceOutcome {
-    /// Values per texel by name: E, B over all pairs if computed, and B by every way of gathering.
-    fn columns(&self) -> impl Iterator<Item = (&str, &[[f64; 3]])> {
-        let truth = self.truth.iter().map(|truth| ("all_pairs", &truth[..]));
-        let ways = self.rows.iter().map(|row| (row.label.as_str(), &row.radiosity[..]));
-        [("E", &self.irradiance[..])].into_iter().chain(truth).chain(ways)
     }
 }
 
@@ -100,6 +67,8 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Subsurf
         return Err(StudyError::new("subsurface::dark", "expected light on the model, found none").with_help(help));
     }
     let (model, neighbours) = (CardModel::new(&atlas), Neighbours::of(&atlas));
+    let truth = parameters.options.gathers_all_pairs();
+    let truth = truth.then(|| all_pairs::radiosity(parameters, &atlas, &dipoles, &irradiance, progress)).transpose()?;
     let scene = way::Scene {
         parameters,
         atlas: &atlas,
@@ -107,11 +76,9 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Subsurf
         model: &model,
         dipoles: &dipoles,
         irradiance: &irradiance,
-        truth: None,
+        truth: truth.as_deref(),
         neighbours: &neighbours,
     };
-    let truth = parameters.options.gathers_all_pairs().then(|| all_pairs::radiosity(&scene, progress)).transpose()?;
-    let scene = way::Scene { truth: truth.as_deref(), ..scene };
     let mut rows = Vec::new();
     // Ways that differ only in formats follow each other, and share their links.
     let mut last: Option<(GatherWay, Links)> = None;

@@ -3,6 +3,8 @@
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
+use crate::card::CardError;
+use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::options::one_of::{OneOf, name, one_of, variants};
 use crate::options::{number, or};
@@ -196,4 +198,14 @@ fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, 
         let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
         StudyError::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
     })
+}
+
+/// Error of a model for which no atlas exists.
+pub fn no_atlas(error: InputError) -> StudyError {
+    StudyError::coded("subsurface::atlas", error)
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("subsurface::card", error)
 }
