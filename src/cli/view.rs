@@ -107,13 +107,8 @@ pub(super) fn exact_hits<T>(
     rounded: fn(&ExactT) -> T,
 ) -> Vec<Option<(u32, T)>> {
     const AT_ONCE: usize = 1 << 16;
-    let mut hits = Vec::with_capacity(rays.len());
-    for some in rays.chunks(AT_ONCE) {
-        hits.extend(
-            tracer.nearest_all(some, sides).into_iter().map(|hit| Some((hit.as_ref()?.triangle, rounded(&hit?.t)))),
-        );
-    }
-    hits
+    let hits = rays.chunks(AT_ONCE).flat_map(|some| tracer.nearest_all(some, sides));
+    hits.map(|hit| Some((hit.as_ref()?.triangle, rounded(&hit?.t)))).collect()
 }
 
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {

@@ -4,7 +4,7 @@ pub mod number;
 pub mod one_of;
 mod size;
 
-pub use size::{BadSize, Size};
+pub use size::Size;
 
 use crate::geom::exact::Sides;
 use one_of::{OneOf, one_of};
