@@ -58,14 +58,12 @@ pub struct SpentTime {
 }
 
 impl KeptResults {
-    /// Results of some work in a folder, which is created with the first result. `clock` returns the time since a fixed
-    /// moment.
+    /// Results in a folder, created with the first one; `clock` returns the time since a fixed moment.
     pub fn new(folder: PathBuf, work: KeptWork, clock: fn() -> SpentTime) -> Self {
         Self { folder, work, clock, taken: Cell::default(), start: clock(), before: Cell::default() }
     }
 
-    /// Rejects a folder with results of other work, which would be lost. The error names the first such result. Also
-    /// fails for a path that is not a folder.
+    /// Rejects a folder with results of other work, which would be lost, and a path that is not a folder.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {

@@ -188,8 +188,7 @@ impl ShaderText {
         is_wgsl(Path::new(self.name()))
     }
 
-    /// Assembles the text; WGSL is translated. Fails with all syntax errors, or for WGSL with the first construct that
-    /// has no translation.
+    /// Assembles the text, or translates WGSL; fails with all syntax errors, or the first construct without translation.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
         if self.is_wgsl() {
             return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {

@@ -159,8 +159,7 @@ impl AluUnit {
         !self.op.is_comparison() && self.to.is_nan(result)
     }
 
-    /// Returns the results of a line; for a block, the scale comes first. Stochastic rounding uses random word number
-    /// `index`.
+    /// Returns the results of a line, a block's scale first; stochastic rounding uses random word `index`.
     pub(super) fn evaluate(&self, words: &[u32], index: u64) -> Vec<Outcome> {
         use AluOperation as Alu;
         let (mut env, mut to) = (self.env, self.to);
@@ -212,8 +211,7 @@ fn dot(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     sums.dot(env, env.format, &terms)
 }
 
-/// DPH: in a card's unit, with 1 as the fourth component of `a`; otherwise the dot product of three components, and a
-/// sum.
+/// DPH: in a card's unit a dot product with 1 as the fourth component of `a`, otherwise one of three, and a sum.
 fn homogeneous(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let mut words = words.to_vec();
     if env.format.unit.is_card() {

@@ -97,8 +97,7 @@ impl Binder<'_> {
 
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Returns the device with this name: one of [`Profile::named`], or, for a name that ends in `.toml`, a device file
-/// ([`Profile::from_device_file`]). Fails if there is no such device; [`DeviceError::File`] if the file cannot be read.
+/// Returns a device of [`Profile::named`], or of a device file if the name ends in `.toml`; fails if there is none.
 pub fn device_named(name: &str) -> Result<Profile, DeviceError> {
     if is_file(name) { read(Path::new(name), name) } else { Profile::named(name) }
 }

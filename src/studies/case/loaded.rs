@@ -68,20 +68,17 @@ impl<'s> Loaded<'s> {
         draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers)
     }
 
-    /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`]. Fails as [`Loaded::draw`] does,
-    /// and if a pixel lies outside the targets.
+    /// Traces some pixels of the draw without drawing ([`Machine::trace_pixels`]); fails for pixels outside the targets.
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         self.machine.trace_pixels(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// Encodes a trace of some pixels for a GPU in a browser: see [`Machine::trace_buffers`]. Fails as
-    /// [`Loaded::trace`] does.
+    /// Encodes a trace of some pixels for a GPU in a browser: see [`Machine::trace_buffers`].
     pub fn trace_buffers(&self, pixels: &[(u32, u32)]) -> Result<TraceBuffers, CaseError> {
         self.machine.trace_buffers(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`]. Fails as [`Loaded::draw`]
-    /// does.
+    /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`].
     pub fn corners(&self, instance: usize, triangle: usize) -> Result<Option<[Vertex; 3]>, CaseError> {
         self.machine.corners(&self.call(), instance, triangle).map_err(|error| placed(self.setup, error))
     }
@@ -104,8 +101,7 @@ pub fn log(setup: &Setup, executor: impl Into<Executor>) -> Result<Vec<Event>, C
     log_of(setup, executor.into(), None)
 }
 
-/// Like [`log`], with an observer of every texel read. Draws on the scalar executor, which is slow. Fails as [`log`]
-/// does.
+/// Like [`log`], with an observer of every texel read, on the scalar executor, which is slow.
 pub fn log_observed(setup: &Setup, observer: Box<dyn TexelObserver>) -> Result<Vec<Event>, CaseError> {
     log_of(setup, ExecutorKind::Scalar.into(), Some(observer))
 }

@@ -24,8 +24,7 @@ pub struct CaseOutcome {
     pub pictures: Vec<NamedFile>,
     /// Results of the probes, in their order.
     pub probes: Vec<ProbeResult>,
-    /// Counts of the draw, by name: its events, then the instruction slots of its pixel program, which are the amount
-    /// of work, not its duration.
+    /// Counts of the draw, by name: its events, then the instruction slots of its pixel program.
     pub counts: Vec<(&'static str, u64)>,
 }
 

@@ -97,8 +97,7 @@ impl Setup {
         Self::from_bytes_with(&path.display().to_string(), &bytes, folder, overrides)
     }
 
-    /// This case on another device, for which its programs are checked again. Fails if a program violates rules of the
-    /// device.
+    /// This case on another device; fails if a program violates rules of that device.
     pub fn on_device(&self, profile: Profile) -> Result<Self, CaseError> {
         let pixel = self.pixel_text.check((*self.pixel).clone(), &profile)?;
         let vertex = match (&self.vertex, &self.vertex_text) {
@@ -108,8 +107,7 @@ impl Setup {
         Ok(Self { profile, pixel, vertex, ..self.clone() })
     }
 
-    /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`. Fails as
-    /// [`Setup::read`] does.
+    /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`.
     pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
         Self::from_bytes_with(name, bytes, folder, &Overrides::default())
     }

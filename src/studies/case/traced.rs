@@ -28,8 +28,7 @@ pub struct PixelTrace {
     pub nearest: Option<[u32; 2]>,
 }
 
-/// Traces a pixel through the draw of a case. Fails if the device cannot execute the case, or the pixel lies outside
-/// the targets.
+/// Traces a pixel; fails if the device cannot execute the case, or the pixel lies outside the targets.
 pub fn trace(setup: &Setup, executor: impl Into<Executor>, pixel: [u32; 2]) -> Result<PixelTrace, CaseError> {
     let loaded = Loaded::new(setup, executor)?;
     let [x, y] = pixel;

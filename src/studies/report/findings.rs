@@ -77,8 +77,7 @@ impl FoundTable {
         Self { field: Some(name), ..self }
     }
 
-    /// Folds rows with the results of an earlier row ([`Table::folded`]) on the page and in print; CSV and document
-    /// keep all rows.
+    /// Folds rows as [`Table::folded`] does on the page and in print; CSV and document keep all rows.
     #[must_use]
     pub fn folded(
         self,
@@ -174,8 +173,7 @@ impl Findings {
         self.conclusion.push(sentence.into());
     }
 
-    /// Appends a count to the tally below the conclusion, with the name of the counted things in the singular and the
-    /// plural.
+    /// Appends a count to the tally below the conclusion, with its noun in the singular and the plural.
     pub fn tally(&mut self, count: u64, [one, many]: [&str; 2], tone: Tone) {
         let what = if count == 1 { one } else { many };
         self.tally.push(TallyEntry { count, what: what.to_owned(), tone });

@@ -31,8 +31,7 @@ impl Table {
         Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
 
-    /// Creates an empty table; `columns` has the first headings, separated by blanks, and every label adds `LABEL_r`,
-    /// `LABEL_g` and `LABEL_b`.
+    /// Creates an empty table; after the columns, separated by blanks, every label adds `LABEL_r`, `_g` and `_b`.
     pub fn with_colors<'a>(title: &str, columns: &str, labels: impl IntoIterator<Item = &'a str>) -> Self {
         let colors = labels.into_iter().flat_map(|label| ["r", "g", "b"].map(|channel| format!("{label}_{channel}")));
         Self::new(title, &columns.split(' ').map(str::to_owned).chain(colors).collect::<Vec<_>>())
@@ -45,8 +44,7 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Adds a row with a name for links to it. The name must be unique among all tables of a page and contain no
-    /// blanks.
+    /// Adds a row with a name for links: unique among all tables of a page, and without blanks.
     pub fn push_named(&mut self, name: String, row: impl IntoIterator<Item = Cell>) {
         self.names.insert(self.rows.len(), name);
         self.push(row);
@@ -76,8 +74,7 @@ impl Table {
         self.headings.iter().map(|heading| visible_line(&heading.replace('_', " ")).trim().to_owned()).collect()
     }
 
-    /// Column names for programs: the words of each heading in letters, digits and single underscores, with `%` as
-    /// `percent`.
+    /// Column names for programs: words of letters and digits joined by underscores, with `%` as `percent`.
     pub fn keys(&self) -> Vec<String> {
         let word = |word: &str| word.replace('%', "percent");
         let words = |heading: &String| {
@@ -167,8 +164,7 @@ impl Table {
         String::from_utf8(bytes).map_err(|error| not_encoded("CSV", error))
     }
 
-    /// Converts the rows to a JSON array of objects with [`Table::keys`]; `marked` lists the columns whose numbers have
-    /// a mark, if there are any.
+    /// Converts the rows to JSON objects with [`Table::keys`]; `marked` lists columns whose numbers have a mark.
     pub fn json(&self) -> Value {
         let keys = self.keys();
         let row = |row: &Vec<Cell>| {

@@ -33,8 +33,7 @@ pub struct Parameters {
     pub executor: Executor,
     /// Camera of the pictures.
     pub camera: Camera,
-    /// Casters of the rays for form factors, at least one. Several engines are compared; the room of the first is
-    /// solved.
+    /// Casters of the rays for form factors, at least one; the room of the first is solved.
     pub casters: Vec<CasterChoice>,
     /// Options.
     pub options: RadiosityOptions,
@@ -165,8 +164,7 @@ impl RadiosityOptions {
         }
     }
 
-    /// Every solver, without duplicates; solvers on the card with every packing and storage. Fails if an option for
-    /// cards is given but no method runs on a card.
+    /// Every solver, without duplicates, on the card in every packing and storage; fails for options without effect.
     pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
         let solvers = or(&self.solvers, &usual);

@@ -25,8 +25,7 @@ pub(super) struct Pictures {
     /// Flat-shaded picture: each patch shows its radiosity.
     pub(super) flat: RgbImage,
     pub(super) smooth: RgbImage,
-    /// For a solution on the card: per pixel, the luminance minus the direct solution's luminance, relative to the
-    /// latter.
+    /// On the card: per pixel, the luminance minus the direct solution's, relative to the latter.
     pub(super) error: Option<Vec<f64>>,
 }
 

@@ -117,8 +117,7 @@ fn on_card(how: CardMethod, system: &System, parameters: &Parameters) -> Result<
     })
 }
 
-/// Error of a solution over all patches and channels. Errors are infinite where a radiosity is not finite and the
-/// direct one is, or the reverse.
+/// Error over all patches and channels; infinite where only one of two radiosities is finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::study) struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
@@ -127,8 +126,7 @@ pub(in crate::study) struct SolutionError {
     pub(in crate::study) relative: f64,
     /// Largest relative difference over patches that do not emit.
     pub(in crate::study) relative_unlit: f64,
-    /// Mean signed relative difference over patches that do not emit, each with the same weight: negative if they are
-    /// too dark.
+    /// Signed mean relative difference over patches that do not emit: negative if they are too dark.
     pub(in crate::study) bias: f64,
     /// Number of radiosities that are not finite where the direct ones are, or the reverse.
     pub(in crate::study) not_finite: u64,

@@ -19,8 +19,7 @@ pub(super) struct SweepRow {
     pub(super) method: String,
     /// Switch that was changed, and its value; `None` for the card as configured.
     pub(super) switch: Option<(String, String)>,
-    /// Index of the first row of the sweep with the same bits: this row, or an earlier one with the same patches and
-    /// method.
+    /// Index of the first row with the same bits, patches and method.
     pub(super) same_as: usize,
     pub(super) iterations: u32,
     pub(super) stopped: StopReason,

@@ -43,8 +43,7 @@ impl Study for Parameters {
     }
 }
 
-/// Builds the atlas, lights it, gathers over all pairs and by every way. Fails if the model, its medium or its
-/// light does not suit the study, or the card refuses the work.
+/// Builds the atlas, lights it, gathers over all pairs and by every way.
 fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, StudyError> {
     // Before the sums, which take long.
     SubsurfaceCard::require(&parameters.profile).map_err(no_card)?;

@@ -170,8 +170,7 @@ impl SubsurfaceOptions {
         self.all_pairs.unwrap_or(self.side <= ALL_PAIRS_SIDE)
     }
 
-    /// Every combination of the options that may be repeated; each is a row of the table. Fails if no level of the
-    /// atlas has the requested number of fixed links.
+    /// Every combination of the options that may be repeated; fails if no level has that many fixed links.
     pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
         let [r, g, b] = material.channels;
         let (choices, channels) = (or(&self.choices, &[LinkLayout::Fixed]), or(&self.channels, &[r != g || g != b]));
