@@ -188,7 +188,7 @@ impl ShaderText {
         is_wgsl(Path::new(self.name()))
     }
 
-    /// Assembles the text, or translates WGSL; fails with all syntax errors, or the first construct without translation.
+    /// Assembles the text, or translates WGSL; fails with all syntax errors, or with the first untranslated construct.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
         if self.is_wgsl() {
             return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {

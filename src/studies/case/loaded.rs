@@ -68,7 +68,7 @@ impl<'s> Loaded<'s> {
         draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers)
     }
 
-    /// Traces some pixels of the draw without drawing ([`Machine::trace_pixels`]); fails for pixels outside the targets.
+    /// Traces some pixels without drawing ([`Machine::trace_pixels`]); fails for pixels outside the targets.
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         self.machine.trace_pixels(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
