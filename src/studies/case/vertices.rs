@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
     fn set(&self, vertex: &mut Vertex, name: &str, value: &Spanned<Vec<Number>>) -> Result<(), CaseError> {
         let bits = self.bits(value)?;
         let numbered =
-            |letter, count| Some(name).filter(|name| name.starts_with(letter)).and_then(|n| register(n, count));
+            |letter: char, count| Some(name).filter(|name| name.starts_with(letter)).and_then(|n| register(n, count));
         if name == "position" {
             vertex.position = bits;
         } else if let Some(color) = numbered('v', 2) {

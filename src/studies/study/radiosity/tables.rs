@@ -1,6 +1,6 @@
 //! Tables of the study.
 
-use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
+use super::{Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
 pub(super) fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
