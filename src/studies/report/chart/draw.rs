@@ -1,5 +1,5 @@
-//! Drawing of a chart with plotters: it draws the axes; everything else is drawn in pixels. Labels are in a column to the
-//! right, each as near as possible to the end of its line.
+//! Drawing of a chart with plotters: it draws the axes; everything else is drawn in pixels. Labels are in a column to
+//! the right, each as near as possible to the end of its line.
 
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;

@@ -1,6 +1,6 @@
 //! Rendering of a page as one self-contained HTML file: the first screen with conclusion, counts and table of contents,
-//! then text, tables that scroll in their boxes, pictures and charts. Colors are from the palette, everything else about
-//! the style is in `page.css`.
+//! then text, tables that scroll in their boxes, pictures and charts. Colors are from the palette; the rest of the style
+//! is in `page.css`.
 
 use std::ops::Range;
 
