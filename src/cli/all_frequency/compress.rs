@@ -85,7 +85,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     };
     let code = CodeOptions { representative_bits: args.bits, weight_bits: args.bits, ..CodeOptions::default() };
     let kept = |folder: &PathBuf| {
-        let work = KeptWork::new(version::program()?, command_line.text.clone(), &[&args.signal, &args.model])?;
+        let work = KeptWork::new(&version::program()?, command_line.text.clone(), &[&args.signal, &args.model])?;
         let kept = KeptResults::new(folder.clone(), work, SpentTime::default);
         kept.require_no_other_work().map(|()| kept)
     };

@@ -3,9 +3,6 @@
 use refsim::device::{FigureRow, Profile};
 use serde_json::json;
 
-#[cfg(feature = "wgpu")]
-mod adapters;
-
 use super::{Out, Verdict, study};
 use crate::case::device_named;
 use crate::report::{Cell, Findings, FoundTable, Table};
@@ -35,17 +32,42 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     if args.adapters {
         #[cfg(feature = "wgpu")]
-        return adapters::list(out).map(|()| Verdict::Done);
+        return list_adapters(out);
         #[cfg(not(feature = "wgpu"))]
         return Err(no_adapters().into());
     }
     match &args.name {
         Some(name) => study::show(&one(&device_named(name)?), out),
-        None => all(out).map(|()| Verdict::Done),
+        None => all(out),
     }
 }
 
-/// Error that names the missing feature.
+/// The GPUs of this computer.
+#[cfg(feature = "wgpu")]
+fn list_adapters(out: &mut Out) -> miette::Result<Verdict> {
+    let adapters = refsim::exec::gpu::adapters();
+    if out.json() {
+        out.document(&adapters)?;
+        return Ok(Verdict::Done);
+    }
+    if adapters.is_empty() {
+        out.line(refsim::exec::gpu::GpuError::NoAdapter)?;
+        return Ok(Verdict::Done);
+    }
+    let mut table = Table::new("GPU adapters", &["adapter", "kind", "through", "driver", "largest buffer (bytes)"]);
+    for adapter in adapters {
+        table.push([
+            adapter.name.into(),
+            adapter.kind.to_string().into(),
+            adapter.backend.into(),
+            adapter.driver.into(),
+            adapter.largest_buffer.into(),
+        ]);
+    }
+    out.table(&table)?;
+    Ok(Verdict::Done)
+}
+
 #[cfg(not(feature = "wgpu"))]
 pub(super) fn no_adapters() -> super::Problem {
     super::Problem::usage(
@@ -54,8 +76,7 @@ pub(super) fn no_adapters() -> super::Problem {
     )
 }
 
-/// The cards and their variants side by side.
-fn all(out: &mut Out) -> miette::Result<()> {
+fn all(out: &mut Out) -> miette::Result<Verdict> {
     let names = Profile::card_names().into_iter().chain(Profile::variant_names());
     let mut table = Table::new(
         "Devices",
@@ -77,17 +98,14 @@ fn all(out: &mut Out) -> miette::Result<()> {
             profile.switches().len().into(),
         ]);
     }
-    if out.json() {
-        return Ok(out.document(&table.json())?);
-    }
-    out.table(&table)?;
-    out.line("")?;
-    out.line("There is also ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:")?;
-    out.line("no limits and no timing. `crossbar devices NAME` shows every figure of a device with its source.")?;
-    Ok(())
+    let below = [
+        "There is also ideal-FORMAT for any number format, for example ideal-fp32 or ideal-s3.12:rtz:",
+        "no limits and no timing. `crossbar devices NAME` shows every figure of a device with its source.",
+    ];
+    out.listing(&table, &below)?;
+    Ok(Verdict::Done)
 }
 
-/// Table of the formats of single instructions in a device file.
 fn instructions(profile: &Profile) -> FoundTable {
     let mut table = Table::new("Formats of single instructions", &["program", "instruction", "format"]);
     for (digest, formats) in profile.instruction_formats().iter() {
@@ -98,7 +116,6 @@ fn instructions(profile: &Profile) -> FoundTable {
     table.into()
 }
 
-/// Table of the formats of storages and sums in a device file.
 fn storages(profile: &Profile) -> FoundTable {
     let mut table = Table::new("Formats of storages and sums", &["storage", "format"]);
     let storages = profile.rules.storage.iter().map(|(storage, format)| (storage.name(), format));
@@ -108,7 +125,6 @@ fn storages(profile: &Profile) -> FoundTable {
     table.into()
 }
 
-/// All findings about one device.
 fn one(profile: &Profile) -> Findings {
     let mut found = Findings::new(profile.title.as_str());
     found.fields(json!({ "name": profile.name, "title": profile.title }));
