@@ -131,7 +131,7 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
     }
 }
 
-/// A usage error without the parser's advice to write an unknown option as a value, which no command takes.
+/// A usage error without the parser's advice to write an unknown option as a value; no command has such values.
 pub(super) fn without_tip(mut error: clap::Error) -> clap::Error {
     if error.get(ContextKind::Suggested).is_some_and(|tips| tips.to_string().contains("as a value")) {
         error.remove(ContextKind::Suggested);

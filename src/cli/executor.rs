@@ -62,7 +62,7 @@ impl Decider {
     /// The requested executor; without a request, the card's if one is named, else `None`, exact arithmetic.
     pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Result<Option<Executor>, Problem> {
         let idle = device.is_some() && executor == Some(Self::Exact);
-        let help = "name `--executor scalar`, `batch` or `wgpu`, or leave it out";
+        let help = "use `--executor scalar`, `batch` or `wgpu`, or remove `--executor`";
         given::refuse([("--device", idle)], "the arithmetic of a card", help)?;
         executor.unwrap_or(if device.is_some() { Self::Batch } else { Self::Exact }).open()
     }
@@ -82,7 +82,7 @@ impl Decider {
 /// Executor of the Ray Engine's card, for a command whose `--executor` also decides hits without a caster.
 pub(super) fn engine_executor(caster: &CasterOptions, executor: Option<Decider>) -> Result<Executor, Problem> {
     if caster.is_named() && !caster.is_engine() && executor.is_some() {
-        let help = "add `--caster engine`, or leave it out";
+        let help = "remove `--executor`, or add `--caster engine`";
         return Err(Problem::usage("`--executor` is for the Ray Engine here", help));
     }
     let decider = executor.filter(|_| caster.is_engine()).unwrap_or(Decider::Batch);

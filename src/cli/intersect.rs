@@ -62,7 +62,7 @@ pub(super) struct Args {
     #[arg(long, default_value = "front", value_parser = sides())]
     sides: Sides,
 
-    /// The card of rays without a `--caster`; `exact` arithmetic needs none [default: ideal-fp32]
+    /// The card that tests the rays if there is no `--caster`; not needed for `exact` arithmetic [default: ideal-fp32]
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
@@ -113,7 +113,7 @@ fn choose(args: &Args) -> miette::Result<HitSource> {
     let device = args.device.as_deref();
     let caster = args.caster.choose(engine_executor(&args.caster, args.executor)?)?;
     if args.caster.is_named() {
-        let help = "name the engine's card by `--caster-device`, or leave it out";
+        let help = "remove `--device`; choose the engine's card with `--caster-device`";
         given::refuse([("--device", device.is_some())], "rays without a `--caster`", help)?;
         return Ok(HitSource::Caster(caster));
     }

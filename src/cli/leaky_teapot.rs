@@ -162,7 +162,7 @@ fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
     let mut labels = BTreeSet::new();
     if let Some(row) = all.iter().find(|row| !labels.insert(&row.label)) {
         let what = format!("expected different rows, found `{}` twice", row.label);
-        return Err(Problem::usage(what, "name each `--device` and each `--format` once").into());
+        return Err(Problem::usage(what, "give each `--device` and each `--format` only once").into());
     }
     Ok(all)
 }

@@ -31,11 +31,11 @@ Exit codes: 0 done, 1 no number of bits and no promotion meets the goal, 2 the i
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// A, an array of NumPy's
+    /// A, a NumPy array
     #[arg(value_name = "A.npy")]
     a: PathBuf,
 
-    /// B, an array of NumPy's
+    /// B, a NumPy array
     #[arg(value_name = "B.npy")]
     b: PathBuf,
 
@@ -108,7 +108,7 @@ impl StudyArgs for Args {
     fn study(&self) -> miette::Result<MatrixProduct> {
         if self.types.len() > 2 {
             let help = "write one type, or that of A and that of B: `--type e4m3,e5m2`";
-            return Err(Problem::usage("`--type` takes at most two types", help).into());
+            return Err(Problem::usage("expected at most two types in `--type`", help).into());
         }
         let load = |path: &Path| MatrixInput::load(path);
         let promotions = self.promote.iter().map(|&step| Some(step as usize));

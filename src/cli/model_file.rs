@@ -55,7 +55,7 @@ pub(super) fn choose(program: &Command, matches: &ArgMatches) -> Result<(), Prob
     let strict = matches.get_flag(STRICT);
     if !matches.contains_id(named_by) {
         let options = [("--model-up", up.is_some()), ("--strict", strict)];
-        given::refuse(options, "a model's file, found none", "name a model, or leave it out")?;
+        given::refuse(options, "a model's file, found none", "remove the option, or give a model file")?;
     }
     OPTIONS.set(ModelOptions { up, strict }).ok();
     Ok(())
@@ -74,7 +74,7 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
     }
     Err(Problem::usage(
         format!("{asked} applies to model files, but the program builds `{name}` itself"),
-        "leave it out, or name a file",
+        "remove the option, or give a model file",
     ))
 }
 

@@ -20,7 +20,7 @@ Examples:
 
 The file stands alone: it loads nothing and sends nothing. On the visitor's GPU it runs operations in eight number \
 formats, the teapot under the Ray Engine's intersection program, and programs of the systems instruction by instruction, \
-in integers, and compares all bits with the emulator's, which the file contains; the GPU's own floats are shown too. \
+in integers, and compares all bits with the emulator's results, which are stored in the file; it also shows the GPU's own floats. \
 docs/page.md describes it.";
 
 /// Write a page on which a visitor's GPU is compared with the emulated cards, bit for bit

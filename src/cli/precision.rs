@@ -47,7 +47,8 @@ const BUDGET: u64 = 10_000;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, group(clap::ArgGroup::new("subject").required(true).args(["case", "expr", "fpcore"])))]
 pub(super) struct Args {
-    /// The case, a TOML file; or a shader in WGSL; or ray-engine, radiosity, subsurface, cpca, all-frequency or bi-scale
+    /// The case, a TOML file; or a shader in WGSL; or ray-engine, radiosity, subsurface, cpca, all-frequency or
+    /// bi-scale
     #[arg(value_name = "CASE.toml|SHADER.wgsl|SYSTEM")]
     case: Option<PathBuf>,
 
@@ -81,8 +82,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 
-    /// A case with the same pixel program, on which the format per instruction is tried and which no run of the search
-    /// sees; systems have one of their own
+    /// A case with the same pixel program, not used in the search, on which the format per instruction is tested; each
+    /// system has such a case built in
     #[arg(long, value_name = "CASE.toml")]
     held_back: Option<PathBuf>,
 
@@ -142,7 +143,7 @@ impl StudyArgs for Args {
             ("--seed", self.seed.is_some()),
             ("--draw", self.draw.is_some()),
         ];
-        given::refuse(of_expressions, "expressions", "leave it out, or give `--expr` or `--fpcore`")?;
+        given::refuse(of_expressions, "expressions", "remove the option, or give `--expr` or `--fpcore`")?;
         Ok(Box::new(self.precision(case)?))
     }
 }
@@ -157,7 +158,7 @@ impl Args {
             ("--uniform", !self.uniform.is_empty()),
             ("--budget", self.budget.is_some()),
         ];
-        given::refuse(of_cases, "cases", "leave it out: an expression runs on no device")?;
+        given::refuse(of_cases, "cases", "remove the option: expressions are not run on a device")?;
         let mut study = match (&self.expr, &self.fpcore) {
             (None, Some(path)) => ExpressionStudy::of_file(path, &self.range)?,
             // The command line's parser requires one of them.
@@ -187,7 +188,7 @@ impl Args {
     fn subject(&self, case: &Path) -> miette::Result<Box<dyn PrecisionSubject>> {
         if let Some(system) = self.system() {
             let of_cases = [("--held-back", self.held_back.is_some()), ("--uniform", !self.uniform.is_empty())];
-            given::refuse(of_cases, "cases", "leave it out: a system has inputs of its own")?;
+            given::refuse(of_cases, "cases", "remove the option: a system brings its own inputs")?;
             let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
             return Ok(system.subject(profile)?);
         }

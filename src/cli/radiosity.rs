@@ -73,7 +73,7 @@ impl StudyArgs for Args {
         let (camera, methods) = (viewpoint.camera(&scene)?, self.options.methods()?);
         let is_on_card = methods.iter().any(|method| matches!(method, SolveMethod::Card(_)));
         if !is_on_card {
-            given::refuse(self.card.given(), "methods on a card", "add `--solver card`, or leave it out")?;
+            given::refuse(self.card.given(), "methods on a card", "remove the option, or add `--solver card`")?;
         }
         let unoccluded = self.options.factors == Factors::Unoccluded;
         given::refuse([("--caster", unoccluded && self.caster.is_named())], "form factors by rays", "leave it out")?;

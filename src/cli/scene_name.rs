@@ -85,7 +85,7 @@ impl EyeArgs {
             return Ok(());
         }
         let what = format!("`--tan-half-height` needs `--eye` or `--target`, found view `{view}` of the scene");
-        Err(Problem::usage(what, "add one of them, or leave it out"))
+        Err(Problem::usage(what, "add `--eye` or `--target`, or remove `--tan-half-height`"))
     }
 }
 
@@ -122,7 +122,7 @@ impl Viewpoint<'_> {
 fn no_view(scene: &Scene, name: &str) -> Problem {
     let names: Vec<&str> = scene.views.iter().map(|view| view.name.as_str()).collect();
     let help = match names.is_empty() {
-        true => "it has none: use `--eye` and `--target`".to_owned(),
+        true => "the scene has no named views: use `--eye` and `--target`".to_owned(),
         false => format!("{}its views are {}", did_you_mean(name, names.iter().copied()), names.join(", ")),
     };
     Problem::usage(format!("the scene has no view `{name}`"), help)

@@ -50,8 +50,8 @@ impl Number {
         to_f64(&self.format, self.bits)
     }
 
-    /// Returns `true` if two numbers are equal. Numbers of one layout (sizes of the fields) are compared by bits, so
-    /// that 0 and -0 differ; numbers of different layouts by value. NaN equals NaN.
+    /// Returns `true` if two numbers are equal. Numbers with the same layout (sizes of the fields) are compared by
+    /// bits, so 0 and -0 differ; numbers with different layouts are compared by value. NaN equals NaN.
     pub fn equals(&self, other: &Self) -> bool {
         if self.format.kind == other.format.kind {
             let nan = self.format.is_nan(self.bits) && other.format.is_nan(other.bits);

@@ -46,8 +46,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = number::whole::<u32>(1..=u32::MAX))]
     points_per_cluster: u32,
 
-    /// Representatives per cluster; 256 times the terms of the reflectance, as many as a vertex has numbers in a
-    /// segment, at most
+    /// Representatives per cluster; at most 256 times the number of terms of the reflectance, which is how many numbers
+    /// a vertex has in a segment
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = number::whole::<u32>(1..=u32::MAX))]
     vectors: u32,
 
@@ -150,14 +150,18 @@ fn findings(
         "segments": tallies.iter().map(segment).collect::<Vec<_>>(),
     }));
     let percent = |part: f64, whole: f64| 100.0 * part / whole;
-    found.print(format!("segments  {:.1} % of all hold transfer", 100.0 * census.omega()));
+    found.print(format!("segments  {:.1} % of all segments have nonzero transfer", 100.0 * census.omega()));
     found.print(format!("clusters  {}", counted(coded.clusters())));
     for (what, bytes) in [("raw", raw), ("clustered", clustered), ("coded", size.total())] {
         found.print(format!("{what:9} {} bytes, {:.2} %", counted(bytes as usize), percent(bytes as f64, raw as f64)));
     }
     let dense = percent(nonzeros as f64, all.max(1) as f64);
     found.print(format!("nonzeros  {} of {}: {dense:.1} %", counted(nonzeros), counted(all)));
-    found.print(format!("error     {:.4} % of the squares; {:.4} % before coding", 100.0 * after, 100.0 * before));
+    found.print(format!(
+        "error     {:.4} % of the sum of squares; {:.4} % before coding",
+        100.0 * after,
+        100.0 * before
+    ));
     found.print(format!("time      {transfer:.1} s of transfer, {clusters:.1} s of clusters, {code:.1} s of code"));
     if let Some(folder) = &args.resume {
         found.print(format!("kept      {taken} segments were finished before, in {}", folder.display()));

@@ -57,8 +57,8 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "MODEL")]
     brdf: Option<ModelArg>,
 
-    /// A table of reflectance times the light's cosine, CSV or NumPy's: a row per texel of the view's map, a column per
-    /// texel of the light's, both square
+    /// A table of reflectance times the cosine of the light's angle, as CSV or NumPy array: a row per texel of the
+    /// view's map, a column per texel of the light's, both square
     #[arg(long, value_name = "FILE", conflicts_with = "side", conflicts_with_all = OF_MODEL)]
     table: Option<PathBuf>,
 
@@ -106,7 +106,7 @@ impl Args {
         lobe.check().map(|()| FactorSubject::Lobe(lobe))
     }
 
-    /// Rejects options of other models than this one.
+    /// Rejects options that this model does not have.
     fn refuse_others(&self, model: ModelArg) -> Result<(), Problem> {
         let (name, is_lobe) = match model {
             ModelArg::CookTorrance => ("cook-torrance", true),
@@ -121,7 +121,7 @@ impl Args {
             ("--fresnel-form", self.fresnel_form.is_some() && !is_lobe),
             ("--shadowing", self.shadowing.is_some() && !is_lobe),
         ];
-        given::refuse(foreign, &format!("other models than {name}"), "leave it out, or choose another `--brdf`")
+        given::refuse(foreign, &format!("models other than {name}"), "leave it out, or choose another `--brdf`")
     }
 
     fn model(&self, model: ModelArg) -> Result<(&'static str, FactorSubject), Problem> {

@@ -40,7 +40,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value = "24", value_parser = variants::<Segmentation>())]
     segments: Segmentation,
 
-    /// Coefficients that are kept [default: all]
+    /// Number of coefficients to keep [default: all]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=6144))]
     keep: Option<u32>,
 

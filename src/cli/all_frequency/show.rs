@@ -46,7 +46,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let visible = file.visibility.as_ref().map(|maps| maps.counts.visible);
     if let Some(maps) = &file.visibility {
         let per_vertex = maps.counts.visible as f64 / maps.len().max(1) as f64;
-        found.introduce(format!("sees      {per_vertex:.0} of 98,304 directions on average"));
+        found.introduce(format!("visible   {per_vertex:.0} of 98,304 directions per vertex on average"));
     }
     let coded = file.coded.as_ref().map(|coded| {
         let (nonzeros, numbers) = coded.nonzeros();

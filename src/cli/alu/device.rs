@@ -83,7 +83,10 @@ pub(super) fn refuse_foreign(operation: AluOperation, format: Format) -> Result<
     let card = format.unit.is_card() && operation == AluOperation::Dst;
     if !vertex && (theirs || card) {
         return Err(Problem::usage(
-            format!("`{}` is an instruction of the vertex units of nv20 to nv35; {format} has none", operation.name()),
+            format!(
+                "`{}` is an instruction of the vertex units of nv20 to nv35; {format} does not have it",
+                operation.name()
+            ),
             "use `--device nv20`, `nv25`, `nv30` or `nv35`, with `--stage vertex`",
         ));
     }

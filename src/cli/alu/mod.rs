@@ -141,16 +141,20 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let asked = Asked { verify: args.verify, flags: args.flags, json: out.json() };
     if let Some(unit) = &args.unit {
         let others = [("--unit", args.op != AluOperation::Dot)];
-        given::refuse(others, "`dot`", "leave it out: the other operations have a format")?;
+        given::refuse(
+            others,
+            "`dot`",
+            "remove `--unit`: only `dot` runs in a matrix unit; the other operations need `--format`",
+        )?;
         // The parser accepts these options with a unit, although it excludes --device.
         let of_device = [("--stage", args.stage.is_some()), ("--state", args.state.is_some())];
-        given::refuse(of_device, "`--device`", "leave it out: a matrix unit has one rule")?;
+        given::refuse(of_device, "`--device`", "remove the option: a matrix unit has no stages and no states")?;
         return stream::run(asked, out, |text, number| matrix::answer(unit, text, number, asked));
     }
     let arithmetic = arithmetic(args)?;
     let seed =
         [("--seed", args.seed.is_some() && !by_chance(&arithmetic.0) && !args.to.as_ref().is_some_and(by_chance))];
-    given::refuse(seed, "stochastic rounding", "add `:rst` to the format, or leave it out")?;
+    given::refuse(seed, "stochastic rounding", "remove `--seed`, or add `:rst` to the format")?;
     let unit = unit(args, arithmetic)?;
     stream::run(asked, out, |text, number| unit.answer(text, number, asked))
 }
@@ -167,7 +171,7 @@ fn arithmetic(args: &Args) -> miette::Result<AluArithmetic> {
         (None, _) if args.stage.is_some() || args.state.is_some() => {
             return Err(Problem::usage(
                 "`--stage` and `--state` are for `--device` only",
-                "leave them out: a format names its unit itself, as in `e8m23:nv3x-legacy`",
+                "remove `--stage` and `--state`: the suffix of a format names the unit, as in `e8m23:nv3x-legacy`",
             )
             .into());
         }
@@ -189,7 +193,7 @@ fn unit(args: &Args, (format, sums): AluArithmetic) -> Result<AluUnit, Problem> 
     let accumulator = args.accumulator.unwrap_or(format);
     let is_block = matches!(op, AluOperation::Quantize | AluOperation::Dequantize);
     if op != AluOperation::Dot && (args.accumulator.is_some() || args.summation.is_some()) {
-        let help = "leave them out: every other operation is rounded once, in its format";
+        let help = "remove `--accumulator` and `--summation`: they only apply to sums of products";
         return usage("`--accumulator` and `--summation` are for `dot` only", help);
     }
     if is_block && args.block.is_none() {
@@ -213,7 +217,7 @@ fn unit(args: &Args, (format, sums): AluArithmetic) -> Result<AluUnit, Problem> 
     if matches!(args.summation, Some(DotOrder::Aligned(_))) && accumulator.is_fixed() {
         return Err(Problem::usage(
             format!("`--summation aligned` compares exponents: expected sums in a float format, found `{accumulator}`"),
-            "leave it out: sums of fixed point are exact; or add a float `--accumulator`",
+            "remove `--summation aligned`, because fixed-point sums are exact, or add a float `--accumulator`",
         ));
     }
     match (op == AluOperation::Convert, args.to) {

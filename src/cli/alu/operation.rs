@@ -55,7 +55,11 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
     (AluOperation::Table(Op::Rsq), "rsq", "1 / sqrt(a)"),
     (AluOperation::RoundToInt, "roundToInt", "to a whole number, by the rounding of the format"),
     (AluOperation::Convert, "convert", "to the format of --to, rounded by its rules"),
-    (AluOperation::Mad, "mad", "a * b + c by the device's rules; in a format, product and sum are each rounded"),
+    (
+        AluOperation::Mad,
+        "mad",
+        "a * b + c; with --device by the device's rules, with --format rounded after the product and again after the sum",
+    ),
     (AluOperation::Mov, "mov", "a copy"),
     (AluOperation::Set(Op::SetLess, false), "slt", "a < b, as the numbers 1 and 0"),
     (AluOperation::Set(Op::SetLessEqual, true), "sge", "a >= b, likewise"),
@@ -91,7 +95,8 @@ impl AluOperation {
         NAMED.iter().find(|(operation, ..)| *operation == self).map_or("", |&(_, name, _)| name)
     }
 
-    /// Number of words in a line of blocks, sums or vectors, and its description for errors; `None` for other operations.
+    /// For operations on blocks, sums and vectors: how many words a line may have, and how errors describe them; `None`
+    /// for other operations.
     fn many(self) -> Option<(RangeInclusive<usize>, &'static str)> {
         Some(match self {
             Self::Quantize => (1..=BLOCK, "1 to 32 numbers"),

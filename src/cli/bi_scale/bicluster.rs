@@ -44,7 +44,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
     let matrix = file.matrix.as_ref().ok_or_else(|| {
         let what = format!("{name}: expected a matrix, found biclusters only");
-        Problem::usage(what, "name the file that they were made from")
+        Problem::usage(what, "give the file from which the biclusters were made")
     })?;
     let start = Instant::now();
     let biclusters =

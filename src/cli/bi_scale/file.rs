@@ -27,7 +27,7 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
 pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
     let ends = |with: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(with));
     if !ends("mtx") {
-        let help = "name a Matrix Market file (.mtx), or what `crossbar bi-scale` wrote (.npz)";
+        let help = "give a Matrix Market file (.mtx), or a .npz file that `crossbar bi-scale` wrote";
         let file = load_bi_scale(path).map_err(|error| if ends("npz") { error } else { error.with_help(help) })?;
         require_size(path, file.biclusters.as_ref().map_or([0; 2], Biclustering::matrix_size))?;
         return Ok(file);

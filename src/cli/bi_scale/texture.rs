@@ -16,7 +16,7 @@ use crate::cli::study::written;
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar, given};
 use crate::error::InputError;
-use crate::io::{PictureFile, load_numbers, write_file};
+use crate::io::{load_numbers, load_picture, write_file};
 use crate::options::number;
 use crate::picture::{RgbImage, display, png, rgb8};
 use crate::report::Findings;
@@ -28,7 +28,7 @@ Examples:
   crossbar bi-scale texture bumps --texels 16 --directions 4 --views 4 --out bumps.npy --json
       the figures as JSON
 
-The file is an array of NumPy's of the shape (views, lights, size, size, 3): docs/papers/bi_scale.md says what its numbers are. \
+The file is a NumPy array of shape (views, lights, size, size, 3): docs/papers/bi_scale.md says what its numbers are. \
 `crossbar bi-scale render --texture` also reads textures from elsewhere if they have this shape.";
 
 /// Make a bidirectional texture of a patch of heights: its response by place, view and light
@@ -133,10 +133,8 @@ fn heights(path: &Path) -> miette::Result<HeightField> {
         let table = load_numbers::<f64>(path, "table of heights", MAX_BYTES)?;
         (table.columns, table.values)
     } else {
-        let file = PictureFile::open(path)?;
-        let [side, rows] = [file.size().width, file.size().height].map(|side| side as usize);
-        HeightField::check_side(side.max(rows)).map_err(no_heights)?;
-        let picture = file.decode()?;
+        let picture = load_picture(path)?;
+        HeightField::check_side(picture.width().max(picture.height()) as usize).map_err(no_heights)?;
         let mean = |rgb: &[f32; 3]| rgb.iter().map(|&value| f64::from(value)).sum::<f64>() / 3.0;
         let linear = picture.linear().map_err(no_heights)?;
         (picture.width() as usize, linear.iter().map(|rgb| PICTURE_DEPTH * mean(rgb)).collect())

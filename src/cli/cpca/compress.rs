@@ -39,7 +39,7 @@ const SEED: u64 = 1;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A .npz file with transfer, a CSV table or an array of NumPy's (.npy)
+    /// A .npz file with transfer, a CSV table, or a NumPy array (.npy)
     #[arg(value_name = "SIGNAL")]
     signal: PathBuf,
 
@@ -99,10 +99,10 @@ impl Args {
     /// Rejects options that other options make useless.
     fn refuse_idle(&self) -> Result<(), Problem> {
         let no_vectors = [("--method", self.vectors == Some(0) && self.method.is_some())];
-        let more = "choose more `--vectors`, or leave it out";
+        let more = "remove `--method`, or give `--vectors` 1 or more";
         given::refuse(no_vectors, "clusters with vectors, and `--vectors` is 0", more)?;
         let one_cluster = [("--reclassify", self.clusters == Some(1) && self.reclassify.is_some())];
-        let more = "choose more `--clusters`, or leave it out";
+        let more = "remove `--reclassify`, or give `--clusters` 2 or more";
         given::refuse(one_cluster, "several clusters, and `--clusters` is 1", more)?;
         let no_moves = [("--model", self.model.is_some() && self.reclassify.is_none())];
         given::refuse(no_moves, "`--reclassify`", "name it, or leave the model out")
@@ -226,7 +226,7 @@ fn findings(
     let share = 100.0 * stored as f64 / numbers as f64;
     found.print(format!("stored    {} numbers in place of {}: {share:.1} %", counted(stored), counted(numbers)));
     moved.into_iter().for_each(|moved| found.print(moved.0));
-    found.print(format!("error     {} of the signal's squares", measured(relative)));
+    found.print(format!("error     {} of the signal's sum of squares", measured(relative)));
     written(&mut found, [("out", Some(args.out.as_path()))]);
     found
 }

@@ -65,8 +65,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = number::whole::<u8>(1..=10))]
     order: u8,
 
-    /// Functions of exit radiance, for --kind glossy: 16, 25 and other squares; 24 and others that are one less are
-    /// without l = 1, m = 0 [default: 25]
+    /// Number of functions of exit radiance, for --kind glossy: a square such as 16 or 25, or one less than a square
+    /// (such as 24), which omits l = 1, m = 0 [default: 25]
     #[arg(long, value_name = "COUNT", value_parser = rows)]
     rows: Option<ExitBasis>,
 
@@ -151,7 +151,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
 
 fn exit(args: &Args) -> Result<ExitRadiance, Problem> {
     if args.kind == KindArg::Diffuse {
-        given::refuse([("--rows", args.rows.is_some())], "glossy transfer", "add `--kind glossy`, or leave it out")?;
+        given::refuse([("--rows", args.rows.is_some())], "glossy transfer", "remove `--rows`, or add `--kind glossy`")?;
         return Ok(ExitRadiance::Diffuse);
     }
     let incident = Incident::Harmonics { order: INCIDENT_ORDER, inverse: true };

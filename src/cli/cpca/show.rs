@@ -17,7 +17,7 @@ Examples:
   crossbar cpca show docs/examples/step.npz --json
       the header of uncompressed transfer, as JSON
 
-The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
+The file is an archive of NumPy arrays: docs/npz.md lists them.";
 
 const EIGENVALUES: usize = 4;
 

@@ -148,7 +148,7 @@ impl LightArgs {
         let is_photon = renderer == Some(Renderer::Photon);
         let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];
         let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
-        given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
+        given::refuse(of_photons, "photon mapping", "remove the option, or add `--renderer photon`")?;
         let is_mapped = renderer == Some(Renderer::Environment);
         let is_one = is_mapped || self.drawn_eyes;
         let jittered =
@@ -156,12 +156,12 @@ impl LightArgs {
         let jittered = jittered.map(|(option, given)| (option, given && is_one));
         given::refuse(
             jittered,
-            "rays beside the centers of pixels",
-            "leave it out, or draw neither eye rays nor mirrors",
+            "rays that do not pass through pixel centers",
+            "remove the option, or use a renderer other than `environment`, without `--drawn-eyes`",
         )?;
         let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
         let depth = [("--depth", self.depth.is_some() && (is_eye || is_mapped))];
-        given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
+        given::refuse(depth, "light that meets several surfaces", "remove `--depth`, or choose another `--renderer`")?;
         let of_light = [
             ("--seed", self.seed.is_some()),
             ("--exposure", self.exposure.is_some()),
@@ -169,7 +169,7 @@ impl LightArgs {
             ("--drawn-eyes", self.drawn_eyes),
         ];
         let of_light = of_light.map(|(option, given)| (option, given && renderer.is_none()));
-        given::refuse(of_light, "scenes with light", "add a `--renderer`, or leave it out")
+        given::refuse(of_light, "scenes with light", "remove the option, or add a `--renderer`")
     }
 }
 

@@ -45,12 +45,12 @@ pub(super) fn run(
         ("--device", args.device.is_some() && !is_mapped),
         ("--executor", executor.is_some() && !args.caster.is_engine()),
     ];
-    let help = "add `--caster engine` and name its card by `--caster-device`, or leave it out";
+    let help = "remove the option, or add `--caster engine` and choose the engine's card with `--caster-device`";
     given::refuse(no_card, "the eye rays of a mesh", help)?;
     let caster = args.caster.choose(engine_executor(&args.caster, executor)?)?;
     let drawing = caster.profile().filter(|_| args.light.drawn_eyes);
     let no_engine = [("--drawn-eyes", args.light.drawn_eyes && drawing.is_none())];
-    given::refuse(no_engine, "the card of the Ray Engine", "add `--caster engine`, or leave it out")?;
+    given::refuse(no_engine, "the card of the Ray Engine", "remove `--drawn-eyes`, or add `--caster engine`")?;
     let mapping =
         is_mapped.then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))).transpose()?;
     let viewpoint = Viewpoint { size: args.size, view: args.light.view.as_deref(), eye: args.eye };

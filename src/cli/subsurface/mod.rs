@@ -63,9 +63,9 @@ pub(super) struct Args {
     #[command(flatten)]
     options: SubsurfaceOptions,
 
-    /// ambient:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment
-    /// map, with shadows: a lat-long, angular-probe, cube-cross or cube-strip picture, a table of a cube's texels (.csv)
-    /// or of small sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun),
+    /// ambient:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment map,
+    /// with shadows: a lat-long, angular-probe, cube-cross or cube-strip picture, a table of a cube's texels (.csv) or
+    /// of small sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], sky:X,Y,Z (towards the sun),
     /// red-and-blue or scene:SCENE@X,Y,Z (as seen from a place in a scene) [default: from beside the camera]
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     light: Vec<LightArg>,
@@ -111,7 +111,11 @@ impl StudyArgs for Args {
         let camera = self.eye.framing(&mesh, self.size)?;
         let lighting = lighting(&self.light, &camera)?;
         let idle = self.caster.is_named() && matches!(lighting, Lighting::Lights(_));
-        given::refuse([("--caster", idle)], "shadows of an environment map", "leave it out, or add one by `--light`")?;
+        given::refuse(
+            [("--caster", idle)],
+            "shadows of an environment map",
+            "remove `--caster`, or give an environment map with `--light`",
+        )?;
         Ok(Parameters {
             model: self.model.display().to_string(),
             caster: self.caster.choose(self.card.executor()?)?,

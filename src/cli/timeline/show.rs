@@ -141,7 +141,8 @@ fn mipmaps(log: &[Event], timed: &TimedLog, most: usize) -> Table {
 
 fn cache(log: &[Event]) -> Table {
     let headings = ["sampler", "texels", "misses, half", "misses", "misses, double", "distinct lines"];
-    let mut table = Table::new("Texture cache, also of half and of double the size", &headings);
+    let mut table =
+        Table::new("Texture cache: misses at half the size, at the given size, and at double the size", &headings);
     let mut samplers = BTreeMap::<u8, SamplerTraffic>::new();
     let records = log.iter().filter_map(record).flat_map(|record| &record.samplers);
     for (sampler, traffic) in records.filter_map(|sampler| Some((sampler.sampler, sampler.traffic?))) {

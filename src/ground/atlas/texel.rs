@@ -7,11 +7,11 @@ use glam::DVec3;
 pub struct Texel {
     /// Face under the texel.
     pub face: u32,
-    /// Mean point of the part.
+    /// Mean point of the surface under the texel.
     pub point: DVec3,
     /// Unit normal at that point, interpolated between the normals of the face's corners; zero if the face has none.
     pub normal: DVec3,
-    /// Area of the part; 0 on a face without area.
+    /// Area of the surface under the texel; 0 on a face without area.
     pub area: f64,
 }
 

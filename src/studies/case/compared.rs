@@ -74,10 +74,10 @@ impl ComparedSides<'_> {
             TraceStage::Output { instruction } => (format!("stage: results of the program: {name}"), *instruction),
             TraceStage::Test { left, right } => {
                 let sides = format!("the fragment {} on the left and {} on the right", fate(*left), fate(*right));
-                (format!("stage: output tests, after equal results of the program: {sides}"), None)
+                (format!("stage: output tests (the program's results are equal): {sides}"), None)
             }
             TraceStage::Merge => {
-                let text = "stage: output merge (quantising, blending, masking), after equal results of the program";
+                let text = "stage: output merge (quantising, blending, masking); the program's results are equal";
                 (format!("{text}: {name}"), None)
             }
         }

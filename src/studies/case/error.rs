@@ -33,7 +33,7 @@ pub enum CaseError {
         span: Option<SourceSpan>,
     },
     #[error("`{}` cannot be read", path.display())]
-    #[diagnostic(code(crossbar::case::unreadable), help("paths in a case are taken from the folder of the case"))]
+    #[diagnostic(code(crossbar::case::unreadable), help("paths in a case are relative to the folder of the case file"))]
     Unreadable {
         path: PathBuf,
         source: std::io::Error,

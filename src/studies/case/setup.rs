@@ -151,8 +151,11 @@ fn unused_formats(profile: &Profile, pixel: &Program, vertex: Option<&Program>) 
         },
         reason: if index.is_some() { "takes none" } else { "the case does not run" },
         help: match index {
-            Some(_) => "only instructions that write numbers to a register can have one".to_owned(),
-            None => format!("a changed program has another digest; here they are {}", own.join(" and ")),
+            Some(_) => "only instructions that write numbers to a register can have a format".to_owned(),
+            None => format!(
+                "a changed program has a new digest; the digests of this case's programs are {}",
+                own.join(" and ")
+            ),
         },
     };
     let of_storage = |storage: Storage| CaseWarning::Formats {

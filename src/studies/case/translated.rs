@@ -85,8 +85,11 @@ impl Binder<'_> {
         else {
             return Ok(());
         };
-        let of =
-            if self.name == text.name() { "a shader alone has none: write a case with" } else { "add to the case" };
+        let of = if self.name == text.name() {
+            "a shader file alone has no textures: write a case with"
+        } else {
+            "add to the case"
+        };
         let help = format!(
             "{of} `[[texture]]`, `slot = {slot}`, `format = \"rgba8\"` and `file = \"picture.png\"` (docs/cases.md); \
              slots count the textures of the text from 0"

@@ -147,8 +147,7 @@ impl<'a> Reader<'a> {
             return Err(self.binder.place.wrong(value.span(), message, help));
         } else if !self.pixel_reads_fog {
             let message = "`fog`, but the pixel program reads no fog coordinate";
-            let help =
-                "leave it out, or read it as `f[FOGC]` or `fragment.fogcoord`: fixed-function fog is not emulated";
+            let help = "remove `fog`, or read it in the program, as `f[FOGC]` or `fragment.fogcoord`: fixed-function fog is not emulated";
             return Err(self.binder.place.wrong(value.span(), message, help));
         } else {
             vertex.fog = bits[0];

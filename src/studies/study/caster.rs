@@ -28,7 +28,7 @@ const JUDGED_AT_ONCE: usize = 1 << 16;
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = "Ray caster")]
 pub struct CasterOptions {
-    /// What finds hits of rays [default: host; of `intersect`, exact arithmetic or the card of --device]
+    /// The ray caster [default: host; for `intersect`: exact arithmetic, or the card of --device]
     #[arg(long, value_name = "C", value_parser = casters())]
     caster: Option<bool>,
 
@@ -120,7 +120,7 @@ impl CasterOptions {
             ];
             return match given.into_iter().find(|(_, given)| *given) {
                 Some((option, _)) => {
-                    let help = "add `--caster engine`, or leave it out";
+                    let help = "remove the option, or add `--caster engine`";
                     Err(StudyError::usage(format!("`{option}` is for the Ray Engine"), help))
                 }
                 None => Ok(vec![CasterChoice::Host]),

@@ -34,9 +34,9 @@ impl std::fmt::Debug for AllFrequencyReference<'_> {
 }
 
 impl AllFrequencyReference<'_> {
-    /// g_p(v), the radiance that a vertex sends towards `view` in its local frame (equation 1). `sees` returns whether
-    /// light from a direction, given by face, row and column of 6 x 128 x 128, reaches the vertex; [`Self::sees`]
-    /// decides exactly. Panics if there is no such vertex.
+    /// g_p(v), the radiance that a vertex sends towards `view` in its local frame (equation 1). `sees` tells whether
+    /// light reaches the vertex from a direction; the direction is a face, row and column of a cube map of 6 x 128 x
+    /// 128. [`Self::sees`] answers this exactly. Panics if there is no such vertex.
     pub fn exit_radiance(&self, vertex: usize, view: DVec3, sees: impl Fn(usize, usize, usize) -> bool) -> f64 {
         let frame = &self.vertices.frames()[vertex];
         let mut sum = 0.0;

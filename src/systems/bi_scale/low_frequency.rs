@@ -1,5 +1,5 @@
-//! Low-frequency bi-scale transfer, with which Figures 1 and 5 compare biclusters: a matrix per vertex from harmonics of
-//! the distant light to harmonics of the light around the vertex, both of one order (the paper's reference 3).
+//! Low-frequency bi-scale transfer, with which Figures 1 and 5 compare biclusters: a matrix per vertex from harmonics
+//! of the distant light to harmonics of the light around the vertex, both of one order (the paper's reference 3).
 
 use rayon::prelude::*;
 
@@ -14,8 +14,8 @@ use crate::transfer::grid::{LIGHT_TEXELS, texel_center, texel_solid_angle};
 /// hemisphere.
 const CELLS: usize = 16;
 
-/// A matrix of n^2 x n^2 numbers per vertex, in f32. The light of a local direction is the integral of the local
-/// harmonics over the direction's part of the hemisphere.
+/// A matrix of n^2 x n^2 numbers per vertex, in f32. Light from a local direction: the integral of the local-harmonics
+/// expansion over the part of the hemisphere that is nearest to that direction.
 #[derive(Clone, Debug)]
 pub struct LowFrequencyTransfer {
     functions: TexelHarmonics,

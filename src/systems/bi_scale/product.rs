@@ -40,8 +40,8 @@ pub struct Gather {
     rows: Vec<u32>,
     /// The distinct numbers of biclusters per row, increasing, each with its number of rows.
     lengths: Vec<[usize; 2]>,
-    /// I_j: buffer places of each row's biclusters, in the order in which these were found. Eight rows of one length
-    /// are interleaved, remaining rows are stored one by one.
+    /// I_j: buffer places of each row's biclusters, in the order in which these were found. Groups of eight rows with
+    /// the same length are interleaved; the remaining rows are stored one by one.
     biclusters_of: Vec<u32>,
 }
 

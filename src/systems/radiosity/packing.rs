@@ -64,7 +64,7 @@ fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
     if row < matrix.row_count() && column < matrix.column_count() { matrix.row(row)[column] as f32 } else { 0.0 }
 }
 
-/// Three matrices of one size, one texel per element. `limit` is the card's largest texture side.
+/// Three matrices of the same size, with one texel per element. `limit` is the card's largest texture side.
 pub fn rgb_matrix(matrices: [&Matrix; 3], limit: usize) -> Result<Texels, InputError> {
     filled("a matrix", Packing::Rgb.matrix_texels(matrices[0].row_count()), limit, |x, y| {
         let [r, g, b] = matrices.map(|m| element(m, y, x));

@@ -13,7 +13,7 @@ pub struct Patch {
     center: DVec3,
     normal: DVec3,
     radius: f64,
-    /// Index of the patch's face; patches of one face lie in one plane and never see each other.
+    /// Index of the patch's face; patches of the same face lie in one plane, so none is visible from another.
     pub face: u32,
     /// Index of its material in the scene.
     pub material: u32,

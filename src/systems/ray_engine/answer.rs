@@ -28,7 +28,7 @@ pub enum EngineError {
         help("give the rays one origin, or take a device with ps_2_0: r300, r350, nv30, nv35")
     )]
     NoSharedEdges { device: String },
-    /// The only program for rays in bytes is in ps_1_4 and for front faces.
+    /// The only program for rays stored as bytes is a ps_1_4 program for front faces.
     #[error("device `{device}` has no program for rays in bytes that meet these faces")]
     #[diagnostic(
         code(ray_engine::no_byte_rays),

@@ -84,7 +84,7 @@ impl Crossbar {
         self
     }
 
-    /// Stores rays in bytes, as in section 4.1, with the paper's edges ([`super::RayTexels::Bytes`]). Passes of the
+    /// Stores rays as bytes, as in section 4.1, with the paper's edges ([`super::RayTexels::Bytes`]). Passes of the
     /// engine support only 16 bits.
     #[must_use]
     pub fn byte_rays(mut self) -> Self {

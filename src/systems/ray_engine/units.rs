@@ -74,8 +74,8 @@ impl Units {
         self.t_max
     }
 
-    /// Edge scale of a triangle, by which the vertex program multiplies its edges and normal: a power of two that
-    /// brings u, v, w, n.d and n.ao, times this scale, into the range of the format for every ray of the batch.
+    /// The edge scale of a triangle, by which the vertex program multiplies its edges and normal: the power of two with
+    /// which u, v, w, n.d and n.ao fit the range of the format for every ray of the batch.
     pub(super) fn edge_scale(&self, corners: [[f32; 3]; 3]) -> f64 {
         if !self.range.has_edge_scale() {
             return 1.0;

@@ -1,4 +1,4 @@
-//! Ray-triangle tests in f64 with a proved error bound: the answer is certain, or there is none.
+//! Ray-triangle tests in f64 with a proved error bound: each test returns a certain answer or no answer.
 //!
 //! **Why nothing overflows or underflows.** A finite f32 is a multiple of 2^-149 below 2^128. A difference of two is a
 //! multiple of 2^-149 below 2^129, also after rounding to f64 (rounding a multiple of 2^-k, far above the least normal

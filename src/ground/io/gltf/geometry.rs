@@ -122,8 +122,8 @@ fn triangles(mode: Mode, indices: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_
     (0..count).map(move |i| corners(i).map(|at| indices[at])).filter(move |corners| !leads_on(corners))
 }
 
-/// The matrix for normals: the inverse transpose times the absolute determinant, which also exists for scales of 0, and
-/// leaves normals outwards under mirroring.
+/// The matrix for normals: the inverse transpose times the absolute determinant. It exists even for scales of 0, and
+/// normals still point outwards after mirroring.
 fn cofactors(matrix: DMat3) -> DMat3 {
     let DMat3 { x_axis, y_axis, z_axis } = matrix;
     let across = DMat3::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));

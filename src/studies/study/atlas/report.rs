@@ -104,10 +104,10 @@ fn evenness(atlas: &Atlas, quality: &AtlasQuality) -> Table {
     let mut table = Table::of("Texels", "what value");
     let mut row = |what: &str, value: Cell| table.push([what.into(), value]);
     row("texels", atlas.texels().len().into());
-    row("share on faces with an area", Cell::measured(quality.used));
+    row("texels on faces with nonzero area (share)", Cell::measured(quality.used));
     row("area of the surface", Cell::measured(atlas.area()));
     row("mean area of a texel", Cell::measured(atlas.mean_texel_area()));
-    row("standard deviation over the mean", Cell::measured(quality.deviation));
+    row("standard deviation of the texel areas, divided by their mean", Cell::measured(quality.deviation));
     row("the same, weighted by area", Cell::measured(quality.deviation_by_area));
     row("least area over the mean", Cell::measured(quality.least));
     row("largest area over the mean", Cell::measured(quality.most));
@@ -140,7 +140,7 @@ fn census(atlas: &Atlas) -> Table {
         ("parts that share no edge", census.parts),
         ("edges of one face", census.boundary_edges),
         ("edges of more than two faces", census.crowded_edges),
-        ("edges traversed twice in one direction", census.orientation_conflicts),
+        ("edges traversed twice in the same direction", census.orientation_conflicts),
         ("faces without area", census.faces_without_area),
         ("faces that lie on another", census.duplicate_faces),
     ] {

@@ -55,7 +55,7 @@ pub struct LeakyTeapotOptions {
 }
 
 impl Parameters {
-    /// Lays out a list of rays as rows of an approximately square picture; returns also their number.
+    /// Lays out a list of rays as rows of an approximately square picture; also returns the number of rays.
     pub fn of_list(rays: &[Ray]) -> (RayBatch, usize) {
         let width = rays.len().isqrt().max(1);
         let width = if width * width < rays.len() { width + 1 } else { width };

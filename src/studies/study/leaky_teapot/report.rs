@@ -32,7 +32,7 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
          switch",
     );
     let mut edges = Table::of(
-        "Rays aimed at shared edges and vertices: leaks, at outlines too",
+        "Leaks of rays aimed at shared edges and at vertices, outlines included",
         "row edge_rays edge_leaks edge_leak_percent vertex_rays vertex_leaks vertex_leak_percent device format switch",
     );
     for row in &outcome.rows {

@@ -39,8 +39,8 @@ pub(super) fn findings(measure: &Measure, survey: &Survey) -> Findings {
     }));
     let of = counted(survey.settings.len() as u64, "setting", "settings");
     found.conclusion(match fitting.len() {
-        0 => format!("none of {of} draws all measured codes; the best draws {best} of {}", survey.codes),
-        count => format!("{count} of {of} draw all measured codes"),
+        0 => format!("none of {of} reproduces all measured codes; the best reproduces {best} of {}", survey.codes),
+        count => format!("{count} of {of} reproduce all measured codes"),
     });
     if !undecided(survey).is_empty() {
         found.print(format!("no measured code depends on {}", listed(&undecided(survey))));

@@ -166,7 +166,7 @@ fn subsurface() -> ProgramCase {
     ProgramCase {
         name: "subsurface",
         title: "Subsurface scattering (2003): light that enters the surface",
-        about: "A pixel is a texel of the surface, lit by one light of OpenGL's kinds.",
+        about: "A pixel is a texel of the surface, lit by one OpenGL light.",
         device: "nv35",
         formats: ["e5m10", "e7m16"],
         pixel: LIGHT_TEXELS.text.to_owned(),

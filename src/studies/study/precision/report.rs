@@ -58,7 +58,7 @@ fn conclude(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
         let name = family.curve.family.name();
         let Some(minimum) = family.curve.minimum else {
             found.conclusion(match family.curve.is_complete {
-                false => format!("The budget ended before a smallest {name} format was found."),
+                false => format!("The budget ran out before the smallest {name} format was found."),
                 true => format!("No {name} format meets the goal for all instructions."),
             });
             continue;
@@ -89,7 +89,11 @@ fn conclude(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
             curve.family.name(),
             count(mixed.width().into()),
             count(of.into()),
-            if mixed.is_minimal { "; one bit less anywhere misses the goal" } else { ", the best so far" },
+            if mixed.is_minimal {
+                "; with one bit less in any instruction, the goal is missed"
+            } else {
+                ", the best so far"
+            },
         ));
     }
     let blamed = outcome.families.iter().find_map(|family| family.most_blamed().filter(|(_, share)| *share > 0.0));

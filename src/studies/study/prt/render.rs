@@ -93,7 +93,7 @@ impl Rendering {
         if let Some(clustering) = &self.file.clustering {
             let error = clustering.squared_error(original);
             let relative = if error > 0.0 { error / original.sum_of_squares() } else { 0.0 };
-            let of_transfer = "squared error of transfer, relative to its squares (%)";
+            let of_transfer = "squared error of the transfer, relative to its sum of squares (%)";
             table.push([of_transfer.into(), Cell::measured(100.0 * relative)]);
             let squared: Vec<f64> =
                 (0..original.points()).map(|point| clustering.squared_error_of(point, original)).collect();

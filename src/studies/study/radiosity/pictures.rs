@@ -48,7 +48,7 @@ pub(in crate::study) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radi
     if light > 0.0 && light.is_finite() { MIDDLE_GREY * area / light } else { 1.0 }
 }
 
-/// Renderer of pictures. It has its own card for solutions that are not on one.
+/// Renderer of pictures. It has its own card, for solutions that were not computed on a card.
 pub(super) struct PictureRenderer<'a> {
     patches: &'a Patches,
     parameters: &'a Parameters,

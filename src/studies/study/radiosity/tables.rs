@@ -6,7 +6,7 @@ use crate::report::{Cell, Table};
 pub(super) fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns =
         "patches form_factors least_row_sum largest_row_sum light_escaping partly_covered blind_patches enforced";
-    let mut table = Table::of("The room; sums before closure was enforced", columns);
+    let mut table = Table::of("The room; row sums of the form factors, before they were scaled to 1", columns);
     let sums = &outcome.found_sums;
     table.push([
         outcome.patches.list().len().into(),

@@ -18,7 +18,11 @@ pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &
     sentences.into_iter().chain(warnings).flatten().for_each(|sentence| found.conclusion(sentence));
     let errors = rows.iter().filter_map(|row| row.error);
     let (good, bad): (Vec<_>, Vec<_>) = errors.partition(|error| error.rms <= ENOUGH);
-    found.tally(good.len() as u64, ["way within 1 % of all pairs", "ways within 1 % of all pairs"], Tone::Good);
+    found.tally(
+        good.len() as u64,
+        ["way within 1 % of all pairs", "variants within 1 % of the sum over all pairs"],
+        Tone::Good,
+    );
     found.tally(bad.len() as u64, ["way beyond 1 %", "ways beyond 1 %"], Tone::Bad);
 }
 
@@ -35,7 +39,7 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
         )
     } else {
         format!(
-            "{} is nearest to all pairs, with an error of {least} (root mean square); {} is farthest, with {most}.",
+            "{} is nearest to the sum over all pairs, with an rms error of {least}; {} is farthest, with {most}.",
             best.label, worst.label
         )
     })
@@ -101,7 +105,7 @@ fn smallest(rows: &[WayRow]) -> Option<String> {
             let size = shown(row.memory[0] as f64 / 1e6, Quantity::Measured);
             format!("{} has the smallest storage within 1 %, {size} MB.", row.label)
         }
-        None => "No way is within 1 % of all pairs.".to_owned(),
+        None => "No variant is within 1 % of the sum over all pairs.".to_owned(),
     })
 }
 

@@ -71,6 +71,8 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
     };
     let errors: Vec<(&str, Vec<f64>)> = outcome.rows.iter().map(|row| (row.label.as_str(), error(row))).collect();
     false_color::errors(outcome.atlas.side(), &errors, |label, ends| {
-        format!("{label} against all pairs, of the brightest: blue -{ends} % (darker), white 0, red +{ends} %")
+        format!(
+            "{label} minus the sum over all pairs, in per cent of the brightest value: blue -{ends} % (darker), white 0, red +{ends} %"
+        )
     })
 }

@@ -74,7 +74,7 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
 /// Table of errors by angle from the light, one row per way of gathering and bin.
 pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
-        "Errors by the angle between normals and the light: of the mean of B, and root mean square, relative to all pairs",
+        "Errors by the angle between normal and light, relative to the sum over all pairs: error of the mean of B, and rms error of B",
         "way from_degrees to_degrees area_% B_all_pairs links_% links_rms_% all_% all_rms_%",
     );
     for (row, bin) in outcome.rows.iter().flat_map(|row| row.angles.iter().map(move |bin| (row, bin))) {

@@ -152,6 +152,6 @@ const ABOUT: [&str; 4] = [
     "1. The Ray Engine on a GeForce FX 5900 Ultra casts the rays between the room's patches, and the card solves for radiosity. \
     Coarse bodies replace the models in the room: they reflect light and cast shadows.",
     "2. At each model, a probe casts rays to find the visible patch in each direction.",
-    "3. The bunny's transfer, also by rays, turns its probe's light into the picture of a glossy surface on a Radeon 9700.",
+    "3. The bunny's transfer, computed with rays too, turns the light of its probe into a picture of a glossy surface, on a Radeon 9700.",
     "4. The statue, a marble suit of armor, scatters its probe's light below the surface.",
 ];

@@ -224,7 +224,7 @@ impl Search {
         [self.columns.inside.len() as u32 + 1, self.rows.inside.len() as u32 + 2]
     }
 
-    /// Lines 5 and 6 of Algorithm 1: a submatrix of one element.
+    /// Lines 5 and 6 of Algorithm 1: begins with a submatrix of one element.
     fn begin(&mut self, element: u64) {
         let (row, number) = self.left.find(element);
         let mut columns: Vec<u32> = self.rows.lines[row].iter().map(|entry| entry.index).collect();
@@ -233,7 +233,8 @@ impl Search {
         self.insert_column(column);
     }
 
-    /// Lines 7 to 20: applies the best operation; false if none gains.
+    /// Lines 7 to 20 of Algorithm 1: applies the operation with the largest gain; returns `false` if no gain is
+    /// positive.
     fn step(&mut self) -> bool {
         let (r, l) = (self.rows.inside.len().cast_signed() as i64, self.columns.inside.len().cast_signed() as i64);
         let row = self.rows.best(2 * l + 1).filter(|operation| operation.gain > 0);

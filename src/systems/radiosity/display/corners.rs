@@ -19,8 +19,8 @@ pub(super) struct CornerSets {
 }
 
 impl CornerSets {
-    /// Collects, at each corner of each patch, the uncovered patches of one material that meet there without a sharp
-    /// edge between them.
+    /// Collects, at each corner of each patch, the uncovered patches of the same material that meet there without a
+    /// sharp edge.
     pub(super) fn new(patches: &Patches) -> Self {
         let list = patches.list();
         let mut meeting: BTreeMap<[u32; 3], Vec<u32>> = BTreeMap::new();

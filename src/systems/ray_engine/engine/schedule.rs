@@ -193,7 +193,7 @@ impl RayEngine<'_> {
         self.answered.push((ended.ticket, ended.best.hit(ended.host.power)));
     }
 
-    /// Logs host work: between two commands of the card, all work of one kind is one entry.
+    /// Logs host work: between two commands of the card, all work of the same kind becomes one entry.
     pub(super) fn note(&mut self, operation: HostOperation, count: u64) {
         if !self.parameters.record || count == 0 {
             return;

@@ -44,8 +44,8 @@ pub struct FlipMap {
     pub maximum: f64,
 }
 
-/// Computes FLIP between two pictures of one size, for an observer who sees `ppd` pixels per degree, which is clipped
-/// to [[`MIN_PPD`], [`MAX_PPD`]]. `None` if the sizes differ.
+/// Computes FLIP between two pictures of the same size, for an observer who sees `ppd` pixels per degree, which is
+/// clipped to [[`MIN_PPD`], [`MAX_PPD`]]. `None` if the sizes differ.
 pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<FlipMap> {
     if (left.width, left.height) != (right.width, right.height) {
         return None;

@@ -22,7 +22,7 @@ pub enum PaperSystem {
     RayEngine,
     /// Equation 4 of matrix radiosity, on the Cornell box.
     Radiosity,
-    /// The three passes of subsurface scattering, in a bunny of marble.
+    /// The three passes of subsurface scattering, on the marble bunny.
     Subsurface,
     /// Clustered principal components, glossy, on the bunny.
     Cpca,

@@ -20,8 +20,8 @@ use crate::study::precision::subject::{Measured, PrecisionMeasure};
 const TESSELLATION: u32 = 4;
 
 const MEASURES: [PrecisionMeasure; 5] = [
-    PrecisionMeasure { name: "leaks", meaning: "rays that miss a surface which they hit exactly" },
-    PrecisionMeasure { name: "wrong_triangles", meaning: "rays that hit another triangle than the first" },
+    PrecisionMeasure { name: "leaks", meaning: "rays that miss a surface that they hit in exact arithmetic" },
+    PrecisionMeasure { name: "wrong_triangles", meaning: "rays whose hit is not the first triangle" },
     PrecisionMeasure { name: "false_hits", meaning: "rays that hit where there is no surface" },
     PrecisionMeasure {
         name: "wrong",

@@ -1,4 +1,4 @@
-//! Subsurface scattering: light, gather and view on the card, on a bunny of marble.
+//! Subsurface scattering: light, gather and view on the card, on a marble bunny.
 
 use refsim::texture::TexelFormat;
 
@@ -23,7 +23,7 @@ pub(super) fn marble() -> Result<System, StudyError> {
     let (mesh, choice) = (bunny(), LinkChoice::Adaptive { count: LINKS });
     let model = MarbleModel::new(&Atlas::new(&mesh, SIDE).map_err(no_atlas)?, SCALE, choice, false)?;
     let cameras = cameras(&mesh);
-    Ok(System::picture("Subsurface scattering: a bunny of marble", move |input, profile, executor| {
+    Ok(System::picture("Subsurface scattering: a marble bunny", move |input, profile, executor| {
         let light = Light::Directional { towards: [1.0, -1.0, 2.0], irradiance: [4.0, 3.8, 3.4] };
         let view = MeshView { camera: cameras[input], exposure: 1.0, format: TexelFormat::Rgba32f };
         Ok(model.draw(|card| card.light(&[light]), (profile, executor), view, FloatTexels::Fp32)?.0)

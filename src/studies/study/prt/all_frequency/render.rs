@@ -101,8 +101,11 @@ impl LitModel {
             }
             let image = cluster_picture(seen, &self.view.camera, |vertex| *of_vertex.get(vertex as usize)?);
             let name = format!("clusters-{}", part.segment);
-            let caption =
-                format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
+            let caption = format!(
+                "segment {}; clusters: {}; black: vertices that none of the segment's light reaches",
+                part.segment,
+                part.counts.len()
+            );
             NamedPicture::new(name, image, caption)
         });
         let pictures: Vec<_> = pictures.collect();

@@ -82,7 +82,7 @@ impl LocalLight {
 }
 
 pub(super) fn no_mesh_transfer() -> StudyError {
-    let help = "name what `crossbar bi-scale precompute` wrote, or its biclusters";
+    let help = "give a file that `crossbar bi-scale precompute` wrote, or its biclusters";
     let what = "expected transfer of a mesh, found another matrix";
     StudyError::new("crossbar::prt::meaning", what).with_help(help)
 }

@@ -13,6 +13,7 @@ use crate::all_frequency::on_card::{
 };
 use crate::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
 use crate::card::MeshView;
+use crate::error::InputError;
 use crate::report::{Cell, Findings, Provenance};
 use crate::study::prt::all_frequency::singles;
 use crate::study::prt::{LitModel, no_all_frequency_card, of_texels};
