@@ -24,11 +24,11 @@ pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
     let dated = |date: &String| file.stated.iter().any(|stated| stated.date == *date);
     for (group, figure) in file.entries() {
         if !figure.stated.iter().all(dated) {
-            return Err(format!("`{}` is stated on a date that is not listed", figure.id));
+            return Err(format!("`{}` is stated on a date that `stated` does not list", figure.id));
         }
         let has_reasons = figure.changes(group).all(|change| !change.why.is_empty());
         if !has_reasons || !figure.changes(group).map(|change| &change.date).is_sorted() {
-            return Err(format!("the changes of `{}` need reasons, the oldest first", figure.id));
+            return Err(format!("each change of `{}` needs a reason, and the oldest change comes first", figure.id));
         }
     }
     Ok(())

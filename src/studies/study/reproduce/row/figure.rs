@@ -58,7 +58,7 @@ pub enum MissClass {
     PaperContradicts,
 }
 
-/// A number that a paper prints or implies, and how ours is judged by it.
+/// A number that a paper prints or implies, and the judgement of our value by it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
     /// Paper.
@@ -77,7 +77,7 @@ pub struct PaperFigure {
     pub place: String,
     /// Origin: printed, implied or inferred.
     pub origin: Origin,
-    /// Bound of the row that judges it, or the reason why there is none.
+    /// Bound of the row that judges it, or the reason why no row judges it.
     pub judgement: Judgement,
     /// Date on which the judgement was stated or last changed.
     pub stated: String,

@@ -51,7 +51,7 @@ pub enum Dependence {
 }
 
 impl Dependence {
-    /// Dependence from the printed values that determined a constant, or else predicted the value.
+    /// Dependence on printed values: `on` determined a constant, `from` predicted the value; without both, a count.
     pub(in crate::study::reproduce) fn new(on: Option<&'static str>, from: Option<&'static str>) -> Self {
         match (on, from) {
             (Some(on), _) => Self::Calibrated { on },

@@ -60,8 +60,8 @@ impl Sweep {
         }
     }
 
-    /// Table with a line per row and a column per setting; values within their bounds are marked. `show` converts the
-    /// values to its unit, if it has one.
+    /// Table with a line per row and a column per setting; values within their bounds are marked. `show` gives a unit
+    /// other than the row's, if there is one, and converts values to it.
     pub fn table(&self, title: &str, rows: &[PaperRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =
