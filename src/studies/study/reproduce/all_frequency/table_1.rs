@@ -26,7 +26,7 @@ const TABLE_1: [(&str, &str, TableModel, TableMaterial); 6] = [
     ("buddha-diffuse", "buddha", Buddha, Diffuse),
     ("buddha-glossy", "buddha", Buddha, Cook),
 ];
-/// Figures of a column, as in figure names; the first belongs to the model, and is listed once for both its materials.
+/// Figures of a column, as in figure names; the first belongs to the model, and is listed once for both materials.
 const FIGURES: [&str; 5] = ["omega", "clustered", "coded", "size", "error"];
 
 /// Figure to which the shape of a stand-in was fitted.
@@ -117,7 +117,7 @@ fn computed(shared: &Shared) -> Result<([Vec<CompressedModel>; 2], CompressedGro
 /// The ground of section 7: "the raw data was about 715MB which compressed down to 23.6MB".
 #[derive(Serialize, Deserialize)]
 struct CompressedGround {
-    /// Fraction of the ground's segments that hold transfer.
+    /// Fraction of the ground's segments with nonzero transfer.
     omega: f64,
     /// Ratio of coded to raw bytes, per coding.
     left: Vec<f64>,

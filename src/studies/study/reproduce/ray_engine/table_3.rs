@@ -40,7 +40,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Row for the cost of synchronous read-back: speed-up by "asynchronous read-back" minus that by "plus card", in points.
+/// Row for the cost of synchronous read-back: speed-up by asynchronous read-back minus that of "plus card", in points.
 fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, StudyError> {
     let ours = |name: &str| lines.iter().find(|line| line.name == name).map_or(f64::NAN, |line| line.ours());
     let lost = ours("asynchronous read-back") - ours("plus card");
