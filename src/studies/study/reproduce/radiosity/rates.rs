@@ -115,7 +115,9 @@ fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
 
 fn costs() -> Result<Table, StudyError> {
     let mut table = Table::of(
-        format!("An iteration of {PATCHES} patches: three channels (rgb), or one with four elements per texel (luminance)"),
+        format!(
+            "An iteration of {PATCHES} patches: three channels (rgb), or one with four elements per texel (luminance)"
+        ),
         "packing storage passes draws texture_clocks arithmetic_clocks memory_clocks filled_% bandwidth_% \
          iterations_per_s bound_by",
     );
