@@ -100,7 +100,7 @@ pub fn evidence_line(found: &Reproduced) -> String {
     format!("{}; recorded at full size: {}", judged(&rows).unwrap_or_default(), count(&rows, is_recorded))
 }
 
-/// Number of missed rows by class; `None` if there are none.
+/// Number of missed rows by cause; `None` if no row is missed for a known cause.
 fn classes(rows: &[&PaperRow]) -> Option<String> {
     let of = |class: MissClass| (count(rows, |row| row.missed() == Some(class)), class);
     let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);

@@ -140,7 +140,7 @@ impl ModelVisibility {
     }
 
     /// Compresses and codes some segments of the transfer, which represent all: the others are assumed to have the same
-    /// size per vertex. Each segment is a piece of the work `name`.
+    /// size per vertex. Each segment is stored as a piece of the work `name`.
     pub(super) fn compressed(
         &self,
         reflectance: &Reflectance,

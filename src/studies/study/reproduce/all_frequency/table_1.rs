@@ -132,7 +132,7 @@ impl CompressedGround {
     }
 
     /// Rows for raw and coded data with the printed number of vertices. The value counts all segments, as Table 1 does,
-    /// in units of 10^6 bytes; the other readings count only segments that hold transfer, or use units of 2^20 bytes.
+    /// in units of 10^6 bytes; the other readings count only segments with transfer, or use units of 2^20 bytes.
     fn rows(&self) -> Result<[PaperRow; 2], StudyError> {
         let raw = 4.0 * f64::from(GROUND_SIDE * GROUND_SIDE) * LIGHT_TEXELS as f64;
         let units = |bytes: f64| [1e-6 * bytes, bytes / f64::from(1 << 20)];

@@ -49,7 +49,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Numbers of curves that are above the previous one at the smallest common storage, and below it at the largest.
+/// Numbers of curves that are above the previous curve at the smallest common storage, and below it at the largest.
 pub fn crossings(curves: &[Curve]) -> [usize; 2] {
     let mut found = [0, 0];
     for pair in curves.windows(2) {

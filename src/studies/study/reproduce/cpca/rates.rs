@@ -82,7 +82,7 @@ pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, StudyError>
     Ok(Contradiction::between(figure, other.value, &how))
 }
 
-/// Rows for printed rates, and a table of the time per unit. A signal is an index, a name, and its name in figure
+/// Rows for printed rates, and a table of the times of each unit. A signal is an index, a name, and its name in figure
 /// names.
 pub(super) fn rates(
     models: &[(usize, &'static str, &'static str)],

@@ -44,7 +44,7 @@ pub(super) struct FigureGroup {
 #[derive(Clone, Debug, Default, Deserialize)]
 pub(super) struct FigureTerms {
     pub(super) unit: Option<String>,
-    /// Bound as text; if there is none, `unjudged` has the reason.
+    /// Bound as text; without a bound, `unjudged` has the reason.
     pub(super) bound: Option<String>,
     pub(super) unjudged: Option<String>,
     /// Reading that our value follows, if the text allows several.
@@ -57,7 +57,7 @@ pub(super) struct FigureTerms {
     uses: Option<String>,
     /// Printed values that determined a constant of the expression.
     chose: Option<String>,
-    /// Description of the computation, if its value may contradict the printed one.
+    /// Description of the computation, if its value may contradict the printed value.
     contradicts: Option<String>,
 }
 

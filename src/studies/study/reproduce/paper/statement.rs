@@ -15,8 +15,8 @@ pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
         let found = digest(file, first, &stated.date);
         if found != stated.digest {
             return Err(format!(
-                "the statements of {} have digest {}, and the file now has {found}: a figure's value, bound or reading was changed. List the old one \
-                 in the figure's `changed`, with date and reason; give a new figure a date of its own",
+                "the statements of {} have digest {}, and the file now has {found}: a figure's value, bound or reading was changed. List what it was \
+                 before in the figure's `changed`, with date and reason; give a new figure its own date",
                 stated.date, stated.digest,
             ));
         }

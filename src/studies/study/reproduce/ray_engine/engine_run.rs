@@ -33,8 +33,8 @@ impl Run {
         Ok(Self { counts: engine.counts(), log: engine.take_log() })
     }
 
-    /// Mean fill of the buckets of the ray tree that hold rays, after each bundle of a workload, for an engine without
-    /// a card; 1 is a full bucket.
+    /// Mean fill of the ray tree's nonempty buckets after each bundle of a workload, for an engine without a card; a
+    /// full bucket counts as 1.
     pub(super) fn fill_of(work: &Workload, parameters: EngineParameters) -> Result<Vec<f64>, StudyError> {
         let parameters = EngineParameters { card: false, record: false, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;

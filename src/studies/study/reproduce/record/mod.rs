@@ -1,4 +1,4 @@
-//! Recorded runs at full size, which judge the rows of entries that take minutes to hours of processor time.
+//! Recorded runs at full size: they decide the verdicts of entries that take minutes to hours of processor time.
 //!
 //! A record is a file of `src/studies/records`, embedded in the program. It holds the result of a run on models of the
 //! printed size, with its command, version, commit and times. It has no verdicts: the bounds in the data judge rows.

@@ -26,7 +26,7 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// Allowed relative difference of a prediction, unless a narrower one can be stated.
+    /// Allowed relative difference of a prediction, unless a narrower bound can be stated.
     pub const SHARE: f64 = 0.15;
 
     /// Smallest and largest value within the bound around a printed value, whose rounding error is at most `rounding`;

@@ -40,8 +40,8 @@ pub enum Dependence {
         /// Printed values that were used; may be empty.
         from: &'static str,
     },
-    /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so agreement is
-    /// not evidence.
+    /// Calibration: the value itself, or a value that follows from it, determined a constant of the model, so agreement
+    /// is not evidence.
     Calibrated {
         /// Printed values that determined the constant.
         on: &'static str,

@@ -109,7 +109,7 @@ impl PaperRow {
         self.confined
     }
 
-    /// Adds a self-contradiction of the paper, if there is one.
+    /// Adds a contradiction of the paper with itself; `None` adds nothing.
     #[must_use]
     pub fn contradicted(self, contradiction: Option<Contradiction>) -> Self {
         Self { contradiction, ..self }

@@ -27,7 +27,7 @@ pub struct Sweep {
 impl Sweep {
     /// Explains rows outside their bounds by one setting at which they lie within them: the first of the settings that
     /// explain the most rows. A single card or host must satisfy all rows, so a setting explains nothing if it moves a
-    /// row out of its bound. Calibrated rows are never explained, and contradictory ones are ignored.
+    /// row out of its bound. Calibrated rows are never explained; contradictory rows are ignored.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         let open = |row: &PaperRow| {

@@ -2,7 +2,7 @@
 //!
 //! The time of a pass over a square is quadratic in its side: each texel costs the same, quads along the diagonal of
 //! the two triangles are shaded twice, and each draw has a fixed cost. So the time for a large square is extrapolated
-//! from three small ones.
+//! from three small squares.
 
 use refsim::device::Profile;
 use refsim::event::Event;

@@ -88,7 +88,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     ))
 }
 
-/// Contradiction of the passes' times by the display: the rates are whole periods, and the passes' shares sum to the
+/// Contradiction of the passes' times by the display: frames take whole periods, and the passes' shares sum to the
 /// frame, so the times contain waits. The computation uses only the paper's values.
 pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
     let on_periods = printed.iter().all(|frame| (frame.periods() * frame.rate / DISPLAY - 1.0).abs() < LOCKED_WITHIN);
