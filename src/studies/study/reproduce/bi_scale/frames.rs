@@ -11,7 +11,7 @@ use crate::transfer::{Tangents, Vertices};
 const HOW: &str = "The cost of new light is the difference between a scene's two frame times. One constant, {} billion operations per second and \
     channel, is fitted to all transfers of table I; all rates with new light follow from it and from the printed rates with only a new view. The \
     emulated card displays our bunny in {} x {} pixels, in {} passes of {} directions; a pass has {} texture reads and {} other instructions per \
-    pixel. The time is modelled from clocks, with texture units at full speed; by the paper, cache misses are decisive.";
+    pixel. The time is modelled from clocks, with texture units at full speed; the paper says that cache misses are decisive.";
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large the models appear in the pictures; how many texture reads missed the caches.";
 
 /// A scene's printed rates in one table.

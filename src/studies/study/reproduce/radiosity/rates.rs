@@ -23,9 +23,9 @@ const HOW: &str = "The paper prints neither the number of patches nor the number
     operations per iteration. At two operations per matrix element, this leaves {} to {} patches, and we use the smallest number. So the rows of \
     operations are calibrated; the number of passes would be {}. An iteration of this size is drawn on the emulated {} and timed by the pipeline \
     model, which has no constant from this paper; the table lists other sizes.";
-const WHERE: &str = "Texture reads and partly filled quads take the time. Each of a texel's two reads fetches {} bytes at a computed coordinate, \
-    which takes a texture unit of {} bytes per clock {} clocks. The target is a single row, so only {} % of each quad of fragments lie in it. The \
-    unit's width and the slowdown by registers are guesses or others' measurements; `crossbar devices` lists them.";
+const WHERE: &str = "Texture reads and partly filled quads take most of the time. Each of a texel's two reads fetches {} bytes at a computed \
+    coordinate; for this, a texture unit of {} bytes per clock takes {} clocks. The target is a single row, so only {} % of a quad's fragments \
+    lie in it. The unit's width and the slowdown by registers are guesses or others' measurements; `crossbar devices` lists them.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;

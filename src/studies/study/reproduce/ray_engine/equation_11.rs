@@ -56,9 +56,9 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     Ok(EntryFindings::new(
         [
             "Equation 11: R rays and T triangles take T R / fill + R gamma / readback seconds, with gamma bytes per ray. The paper prints the \
-             GeForce3's fill and read-back rates. The GeForce4's fill rate follows from its tests per second at ten triangles, if it reads back as \
-             fast as the GeForce3. Each printed figure has one row: our value is the pipeline model's if it can be drawn, and the equation's if it is \
-             a quotient of printed values. The table has both."
+             GeForce3's fill and read-back rates. The GeForce4's fill rate follows from its tests per second at ten triangles, if it reads back as fast \
+             as the GeForce3. Each printed figure has one row: our value comes from the pipeline model if the figure can be drawn, and from the \
+             equation if the figure is a quotient of printed values. The table has both."
                 .into(),
             paragraph(
                 "The pipeline model uses neither of the fill rates, but reads back at the printed rate. It draws \

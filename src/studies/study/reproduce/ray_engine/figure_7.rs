@@ -73,6 +73,8 @@ fn chart(gamma: f64, lines: Vec<Series>) -> Result<NamedChart, StudyError> {
             printed: vec![Series { label: "printed".to_owned(), points }],
             ..Chart::default()
         },
-        caption: format!("Figure 7 of the Ray Engine paper for {gamma} bytes per ray, by both models."),
+        caption: format!(
+            "Figure 7 of the Ray Engine paper for {gamma} bytes per ray, by equation 11 and pipeline model."
+        ),
     })
 }

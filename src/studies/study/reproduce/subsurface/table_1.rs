@@ -61,8 +61,8 @@ const ALL_BUT_ROUNDING: f64 = 98.5;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
 const LOCKED: &str = "The six frame rates, multiplied by {}, are {} to {}: each is a whole fraction of the rate of a display of about {} Hz. So \
-    frames wait for the display. Only the second pass at {} x {} shows the card's speed: it takes longest, and as long for all models within {} \
-    %.";
+    frames wait for the display. Only the second pass at {} x {} shows the card's speed: it takes longest, and its time differs between models \
+    by at most {} %.";
 const OPEN: &str = "The paper states neither the format of the radiosity map nor which links were timed. The rows use \
     fixed links and an 8-bit map, because automatic mipmaps (section 4.2.2) need such a map on this card. The table \
     has every variant, for four cards of the time. The variants differ by a factor of {}.";
