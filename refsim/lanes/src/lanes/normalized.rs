@@ -1,4 +1,4 @@
-//! Lane arithmetic of normalized integers `nI.F`, in host integers: codes that count in units of `1 / (2^F - 1)`.
+//! Lane arithmetic of normalized integers `nI.F`, in host integers: codes in units of `1 / (2^F - 1)`.
 
 use super::fixed::FixedLane;
 use super::float::GeneralLane;
@@ -49,8 +49,8 @@ impl<const WRAP: bool> NormalizedLane<WRAP> {
 
     /// Computes `v / D`, rounded, and saturated or wrapped, for integers of at most 33 bits.
     ///
-    /// The nearest integer is right: quotients lie at least `1 / 2D` from the middle between two, and the double errs
-    /// by less than `2^-20`. The remainder is exact and shows on which side of the quotient it lies.
+    /// The nearest integer is right: quotients lie at least `1 / 2D` from the midpoint of two integers, and the error
+    /// of the double is below `2^-20`. The remainder is exact and shows on which side of the quotient it lies.
     #[inline(always)]
     fn over(&self, v: f64) -> i32 {
         let value = self.product.magnitude(v);
@@ -131,8 +131,8 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
     }
 
     /// Both the unit and its product with a factor are rounded, so the relative error is at most `2^-23`, and the error
-    /// is less than `2^-10` where the result is in range. That is less than the `1 / 2D` by which the exact product
-    /// avoids the middle between two codes, so the sum with the pivot is rounded to the right code.
+    /// is less than `2^-10` where the result is in range. That is less than `1 / 2D`, the least distance of the exact
+    /// product from a midpoint of two codes, so the sum with the pivot is rounded to the right code.
     #[inline(always)]
     fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
         self.codes.fused_sum_of(self.reciprocal as f32, a, b)
