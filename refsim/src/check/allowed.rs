@@ -44,7 +44,7 @@ impl Allowed {
         if self.by_device {
             format!("{advice}; the figure is `{key}` of profile {owner}")
         } else {
-            format!("{advice}; {owner} sets this limit on every card, only `ideal-` devices lift `{key}`")
+            format!("{advice}; {owner} has this limit on every card; `{key}` is unlimited only on `ideal-` devices")
         }
     }
 }

@@ -170,8 +170,8 @@ impl Profile {
         if let Some(found) = format {
             // Coordinates are single precision.
             let (registers, expected) = match storage {
-                Storage::Coordinates => (Format::FP32, "a format whose numbers single precision has"),
-                _ => (self.rules.format, "a format whose numbers the registers have"),
+                Storage::Coordinates => (Format::FP32, "a format whose numbers single precision holds"),
+                _ => (self.rules.format, "a format whose numbers the registers hold"),
             };
             self.fits(found.for_registers().is_ok() && registers.holds(found), storage.name(), expected, found)?;
         }

@@ -33,7 +33,7 @@ pub enum DeviceError {
     #[error("switch `{switch}` of device `{device}` is `{value}`, which its format `{format}` cannot have")]
     #[diagnostic(
         code(device::format_rule),
-        help("leave the switch out, or give the format a rule of its own, `:sat` for example")
+        help("remove the switch, or add the rule to the format, `:sat` for example")
     )]
     FormatRule { device: String, switch: String, value: String, format: Format },
     /// The switch sets a rule of exponents or significands, which fixed point lacks.
@@ -43,12 +43,12 @@ pub enum DeviceError {
     )]
     #[diagnostic(
         code(device::needs_floats),
-        help("leave the switch out: exact sums of fixed point need no alignment, and its products no cut")
+        help("remove the switch: fixed-point sums are exact without alignment, and fixed-point products are not cut")
     )]
     NeedsFloats { device: String, switch: String, value: String, format: Format },
     /// The profile's file is malformed.
     #[error("profile `{device}`: {problem}")]
-    #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]
+    #[diagnostic(code(device::profile), help("correct refsim/src/device/profiles/{device}.toml"))]
     Profile { device: String, problem: String },
     /// Registers cannot have a number format.
     #[error(transparent)]

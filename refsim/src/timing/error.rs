@@ -9,7 +9,7 @@ pub enum TimingError {
     #[error("`{device}` has no figure `{figure}`, so it has no timing; use one of the cards that have it: {have}")]
     Missing { device: String, figure: &'static str, have: String },
     /// The device has no scalable figure with this name.
-    #[error("`{key}` is no guess of `{device}`; its guesses are: {known}")]
+    #[error("`{device}` has no guess named `{key}`; its guesses are: {known}")]
     NoGuess { device: String, key: String, known: String },
     /// The scale factor is zero or infinite.
     #[error("a figure cannot be scaled by {numerator}/{denominator}; both must be above 0")]

@@ -244,9 +244,9 @@ fn formats_that_do_not_fit_are_refused() {
         "temporaries of device `ideal-fp24`, whose registers are e7m16: expected a format whose numbers the registers \
          have, found s15.16"
     );
-    assert!(refusal("s3.12", Storage::Outputs, "fp16").contains("expected a format whose numbers the registers have"));
+    assert!(refusal("s3.12", Storage::Outputs, "fp16").contains("expected a format whose numbers the registers hold"));
     assert!(refusal("fp32", Storage::Colors, "e8m0").contains("found e8m0"));
-    assert!(refusal("s3.12", Storage::Coordinates, "s3.28").contains("whose numbers single precision has"));
+    assert!(refusal("s3.12", Storage::Coordinates, "s3.28").contains("whose numbers single precision holds"));
     let mut profile = running::ideal("s3.12");
     profile.set_storage_format(Storage::Coordinates, Some(Format::FP16)).expect("a format of single precision");
     let accumulator = |registers: &str, own: &str| running::ideal(registers).set_accumulator(Some(format(own)));

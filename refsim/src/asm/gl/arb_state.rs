@@ -162,7 +162,7 @@ impl<'a> Parser<'a> {
 
     /// Parses an index in brackets; if `many`, also a range.
     fn rows(&mut self, many: bool) -> Parsed<(u8, u8)> {
-        self.cursor.expect("[", "rows are numbered")?;
+        self.cursor.expect("[", "write the number of the row")?;
         let (first, last) = self.range(many, 3)?;
         Ok((first as u8, last as u8))
     }

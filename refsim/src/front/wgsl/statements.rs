@@ -201,7 +201,7 @@ impl<'a> Translator<'a> {
                 target.copy_from_slice(value);
                 Ok(())
             }
-            None => self.builder.refuse("only whole variables, members, elements and components are written"),
+            None => self.builder.refuse("only whole variables, members, elements and components can be written"),
         }
     }
 
@@ -293,7 +293,7 @@ impl<'a> Translator<'a> {
         };
         match exit(self) {
             Some(exit) => exit.0 = Some(joined),
-            None => return self.builder.refuse("nothing to leave here"),
+            None => return self.builder.refuse("there is no loop or switch to leave here"),
         }
         self.live = Component::Bool(false);
         Ok(())
