@@ -73,7 +73,7 @@
 //!
 //! # A mistake
 //!
-//! Errors of a program quote its line, also where `main` returns them:
+//! Errors of a program quote its line, even if `main` returns them:
 //!
 //! ```
 //! let errors = refsim::asm::assemble("ps_1_4\nmov r0, r1\nmull r0, r0, r0\n").expect_err("a wrong name");

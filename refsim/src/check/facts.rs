@@ -23,7 +23,7 @@ pub struct Facts {
     pub has_flow: bool,
     /// One more than the highest `r#`, matrix rows included.
     pub temporaries: u16,
-    /// One more than the highest `c#` named or defined, matrix rows included; relative addresses may be higher.
+    /// One more than the highest `c#` used or defined, matrix rows included; relative addresses may be higher.
     pub constants: u16,
     /// `true` if constants are addressed relatively.
     pub relative_constants: bool,

@@ -1,4 +1,4 @@
-//! Device files: devices with other switches, and other formats of registers, storages, sums and single instructions.
+//! Device files: devices with changed switches, and changed formats of registers, storages, sums and instructions.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -20,8 +20,8 @@ use interface::Translation;
 /// `n`.
 ///
 /// # Errors
-/// If the text is not WGSL, or uses a construct without translation; the error has the position. Always without the
-/// feature `wgsl`.
+/// If the text is not WGSL, or uses a construct without translation; the error has the position. Always, if the feature
+/// `wgsl` is off.
 pub fn translate_wgsl(text: &str) -> Result<Program, Refusal> {
     Ok(translated(text)?.program)
 }

@@ -113,7 +113,7 @@ pub enum MachineError {
     /// More `vertices` or `instances` than the limit of a draw.
     #[error("draw has {found} {what}, a draw can have {limit}; split it")]
     TooMany { what: &'static str, found: usize, limit: usize },
-    /// A vertex stream is too short; `what` is `one a vertex` or `one an instance`.
+    /// A vertex stream is too short; `what` is `one per vertex` or `one per instance`.
     #[error("stream of v{register} has {found} entries, the draw needs {needed} ({what})")]
     ShortStream { register: usize, found: usize, needed: usize, what: &'static str },
     /// An attribute register that does not exist.

@@ -33,7 +33,7 @@ pub fn lod_from_derivatives(
     let largest = if value::is_nan(along_x) || value::is_nan(along_y) {
         value::NAN
     } else {
-        along_x.max(along_y) // patterns of numbers >= 0 order as the numbers
+        along_x.max(along_y) // patterns of numbers >= 0 have the order of the numbers
     };
     half_log2(largest, fraction_bits.min(8))
 }

@@ -51,7 +51,7 @@ pub(crate) struct Remark {
     /// Line and column, from 1; 0 if there is no position.
     line: usize,
     column: usize,
-    /// Range in the text, in UTF-16 units, as scripts count.
+    /// Range in the text, in UTF-16 units, as in JavaScript.
     start: usize,
     end: usize,
 }

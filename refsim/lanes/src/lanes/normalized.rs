@@ -12,8 +12,8 @@ use crate::num::Format;
 /// The arithmetic of one normalized format: `WRAP` is true if overflow wraps. Operations that do not depend on the unit
 /// are integer operations on the codes.
 ///
-/// Codes have 16 bits and the denominator `D` 8 at most: products of two codes fit an `i32`, and sums of four products
-/// a double.
+/// Codes have at most 16 bits, and the denominator `D` at most 8: products of two codes fit an `i32`, and sums of four
+/// products a double.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NormalizedLane<const WRAP: bool> {
     codes: FixedLane<false, WRAP>,
@@ -96,9 +96,9 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
 
     /// Twice the number of units is exact for doubles of up to 44 bits. For a longer result (a quotient, rounded to odd
     /// or to nearest) the error is less than one part in `2^51`; a result that close to an integer is treated as that
-    /// integer. In 255ths, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In other
-    /// units that is proved for channels of up to 8 bits; sums of 16-bit channels come closer with a probability of
-    /// about one in a billion.
+    /// integer. In units of 1/255, sums of texels with four weights of 8 bits lie at least one part in `2^49` apart. In
+    /// other units that is proved for channels of up to 8 bits; sums of 16-bit channels come closer with a probability
+    /// of about one in a billion.
     #[inline(always)]
     fn round_f64(&self, x: f64) -> i32 {
         const NEAR: f64 = 1.0 / (1u64 << 50) as f64;

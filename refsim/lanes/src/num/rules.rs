@@ -30,8 +30,8 @@ pub enum Rounding {
     Down,
     /// Toward plus infinity (`:rup`).
     Up,
-    /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. A result with this
-    /// rounding can be rounded again into a format of two bits less, in any direction, as if it were exact.
+    /// To odd (`:rod`): of the two neighbours of an inexact result, the one whose last bit is 1. Such a result can be
+    /// rounded again to a format with at least two bits less, in any direction, as if it were exact.
     Odd,
     /// Stochastic (`:rst`, with the word 0): the magnitude is rounded up if the sum of two integers, the first 32 bits
     /// of the discarded fraction and this word, is at least `2^32`. A fraction of 1/4 is rounded up for 1/4 of all
