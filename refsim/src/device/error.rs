@@ -12,7 +12,7 @@ pub enum DeviceError {
     #[diagnostic(
         code(device::unknown),
         help(
-            "words of its title name a card, too: `Radeon 8500`; `ideal-` takes any number format, for example \
+            "words of a title also identify a card: `Radeon 8500`; any number format can follow `ideal-`, for example \
              `ideal-fp32` or `ideal-s3.12:rtz`"
         )
     )]
@@ -38,8 +38,8 @@ pub enum DeviceError {
     FormatRule { device: String, switch: String, value: String, format: Format },
     /// The switch sets a rule of exponents or significands, which fixed point lacks.
     #[error(
-        "switch `{switch}` of device `{device}`: expected registers of floats for `{value}`, whose rule goes by exponents \
-         or significands, found `{format}`"
+        "switch `{switch}` of device `{device}`: expected float registers for `{value}`, whose rule depends on exponents or \
+         significands, found `{format}`"
     )]
     #[diagnostic(
         code(device::needs_floats),
@@ -59,7 +59,7 @@ pub enum DeviceError {
     #[diagnostic(
         code(device::file),
         help(
-            "a device file names a `device`, and may have `format`, `accumulator`, `[switches]`, `[storage]` and \
+            "a device file has a `device`, and may have `format`, `accumulator`, `[switches]`, `[storage]` and \
              `[programs.DIGEST]`"
         )
     )]

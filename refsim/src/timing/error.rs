@@ -16,8 +16,8 @@ pub enum TimingError {
     Scale { numerator: u64, denominator: u64 },
     /// Invalid cache shape.
     #[error(
-        "a texture cache of {bytes} bytes in lines of {line_bytes} bytes, {ways} ways, cannot be; lines must be a power of \
-         two of at least 16 bytes, and the size a whole number of sets of {ways} lines"
+        "a texture cache of {bytes} bytes in lines of {line_bytes} bytes, {ways} ways, is invalid; lines must be a power \
+         of two of at least 16 bytes, and the size a whole number of sets of {ways} lines"
     )]
     CacheShape { bytes: u64, line_bytes: u64, ways: u64 },
 }

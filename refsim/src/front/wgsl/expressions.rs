@@ -159,10 +159,10 @@ impl<'a> Translator<'a> {
             return Ok(());
         }
         let message = "expected uniform control flow, found a condition that differs between fragments: neighbors of this \
-                       fragment may not get here";
+                       fragment may not execute this";
         Err(Refusal::new(message, self.builder.span).with_help(
-            "call it in front of the condition, or use textureSampleGrad or textureSampleLevel; the directive \
-             `diagnostic(off, derivative_uniformity);` lets it pass",
+            "call it before the condition, or use textureSampleGrad or textureSampleLevel; the directive \
+             `diagnostic(off, derivative_uniformity);` allows it",
         ))
     }
 
