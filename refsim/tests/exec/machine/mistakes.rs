@@ -74,7 +74,7 @@ fn every_mistake_has_its_error() {
     assert!(bad(machine.draw(&swapped).unwrap_err()).contains("expected a Pixel program, found `vs_1_1`"));
     let data = [[0; 4]; 3];
     for (streams, expected) in [
-        (vec![(0, StepRate::Vertex)], "has 3 entries, the draw needs 4 (one a vertex)"),
+        (vec![(0, StepRate::Vertex)], "has 3 entries, the draw needs 4 (one per vertex)"),
         (vec![(16, StepRate::Instance)], "found v16"),
         (vec![(1, StepRate::Instance), (1, StepRate::Instance)], "two streams feed v1"),
     ] {
