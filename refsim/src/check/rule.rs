@@ -114,6 +114,6 @@ rules! {
     /// A warning about legal code that does not do what its text suggests.
     WarningId:
     ClampedConstant W01 "constants of ps_1_x are clamped to -1 to 1";
-    FogIsNotBlended W02 "oFog has no effect: fixed-function fog is not emulated";
+    FogIsNotBlended W02 "oFog does not cause fog: fixed-function fog is not emulated";
     PointsAreNotDrawn W03 "oPts has no effect: points are not drawn";
 }

@@ -19,7 +19,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             RegisterFile::FogOut => warn(
                 context,
                 (WarningId::FogIsNotBlended, destination.span),
-                "`oFog` has no effect, because fixed-function fog is not emulated",
+                "`oFog` does not cause fog, because fixed-function fog is not emulated",
                 "blend in the pixel program; only OpenGL's pixel programs can read oFog (as FOGC and fragment.fogcoord)",
             ),
             RegisterFile::PointSizeOut => warn(

@@ -319,7 +319,7 @@ impl<'a> Parser<'a> {
             _ => Err(unknown(
                 token,
                 "a temporary, fragment.*, program.*, state.*, a constant or a name of one",
-                "declare names by TEMP, ATTRIB or PARAM before their first use",
+                "declare names with TEMP, ATTRIB or PARAM before their first use",
             )),
         }
     }

@@ -221,7 +221,7 @@ impl<'a> Parser<'a> {
             (None, None) => Err(unknown(
                 token,
                 "R#, H#, f[...], p[#], a name or a constant",
-                "declare names by DEFINE or DECLARE before their first use",
+                "declare names with DEFINE or DECLARE before their first use",
             )),
         }
     }
