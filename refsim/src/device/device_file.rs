@@ -213,7 +213,7 @@ impl Profile {
         self.instruction_formats.set(program, index, format)
     }
 
-    /// Replaces the formats of all instructions of a program; instructions that are not listed have none. Returns
+    /// Replaces the formats of all instructions of a program; unlisted instructions get no format. Returns
     /// `false`, without effect, if [`Self::set_instruction_format`] would for any listed instruction.
     pub fn set_instruction_formats(&mut self, program: &Program, formats: BTreeMap<usize, Format>) -> bool {
         self.instruction_formats.set_all(program, formats)

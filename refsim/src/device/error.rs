@@ -25,7 +25,7 @@ pub enum DeviceError {
     #[error("device `{device}` has no switch `{name}`; expected one of {allowed}")]
     #[diagnostic(code(device::unknown_switch), help("`crossbar devices {device}` lists the switches"))]
     UnknownSwitch { device: String, name: String, allowed: String },
-    /// The switch does not take this value.
+    /// The switch does not have this value.
     #[error("switch `{switch}` of device `{device}`: expected one of {allowed}, found `{value}`")]
     #[diagnostic(code(device::switch_value), help("`crossbar devices {device}` lists the switches"))]
     SwitchValue { device: String, switch: String, value: String, allowed: String },
@@ -38,8 +38,8 @@ pub enum DeviceError {
     FormatRule { device: String, switch: String, value: String, format: Format },
     /// The switch sets a rule of exponents or significands, which fixed point lacks.
     #[error(
-        "switch `{switch}` of device `{device}`: expected float registers for `{value}`, whose rule depends on exponents or \
-         significands, found `{format}`"
+        "switch `{switch}` of device `{device}`: expected float registers for `{value}`, whose rule depends on \
+         exponents or significands, found `{format}`"
     )]
     #[diagnostic(
         code(device::needs_floats),

@@ -130,7 +130,7 @@ pub struct Program {
     pub declarations: Vec<Declaration>,
     /// Instructions, including `phase` and flow control.
     pub instructions: Vec<Instruction>,
-    /// Host-set constants without a register number, in the order in which the text names them.
+    /// Host-set constants without a register number, in the order in which the text uses them.
     pub parameters: Vec<Parameter>,
     /// Resources that an `!!ARBfp1.0` program declares or binds, used or not, each with the span where it first occurs.
     pub resources: BTreeMap<ProgramResource, Span>,

@@ -65,7 +65,7 @@ impl<const PATH: u8> IeeeLane<PATH> {
     /// Rounds a single precision number into the format.
     ///
     /// A pivot, 1.5 times `2^(23-m)` times the binade, is added and subtracted: the sum stays in one binade for either
-    /// sign, and its last place is the format's unit. A zero takes the sign of the number that became zero. Infinities
+    /// sign, and its last place is the format's unit. A zero has the sign of the number that became zero. Infinities
     /// and NaN are unchanged, because their pivot is a finite number.
     #[inline(always)]
     fn narrow_single(&self, x: f32) -> f32 {

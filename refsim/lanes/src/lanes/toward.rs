@@ -2,9 +2,9 @@
 //! moved by one unit where its error has the wrong sign.
 //!
 //! Truncating twice, to 24 bits and then to fewer, equals truncating once; so does rounding down twice. Rounding to
-//! nearest away after a truncation sees the same ties. So these functions serve every format of up to 24 bits. A finite
-//! sum or product that is too large for single precision is the largest number if truncated, and the host's result if
-//! rounded to nearest; a reciprocal is infinite.
+//! nearest away after a truncation finds the same ties. So these functions serve every format of up to 24 bits. A
+//! finite sum or product that is too large for single precision is the largest number if truncated, and the host's
+//! result if rounded to nearest; a reciprocal is infinite.
 
 use super::round::{AWAY, DOWN};
 

@@ -234,8 +234,8 @@ impl<'a> Translator<'a> {
         Ok(())
     }
 
-    /// Executes a block where two conditions hold. Returns the mask of fragments that reach its end, and `true` if none
-    /// has left.
+    /// Executes a block where two conditions hold. Returns the mask of fragments that reach its end, and `true` if no
+    /// fragment has left.
     fn path(
         &mut self,
         frame: &mut Frame<'a>,

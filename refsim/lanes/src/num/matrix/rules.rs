@@ -17,9 +17,9 @@ fn sum(addends: impl Iterator<Item = Addend> + Clone, bits: u32, least: i32, res
     result.round(sum.sum < 0, sum.sum.unsigned_abs(), sum.top - bits.cast_signed())
 }
 
-/// `mma.sync` with FP8 on Hopper and data-center Blackwell: two aligned sums, first of zero and the products whose
-/// index modulo 4 is 0 or 1, then of that result and the other products; `c` is added by an ordinary addition, to
-/// nearest even. NaN, infinities and zeros have not been measured.
+/// `mma.sync` with FP8 on Hopper and data-center Blackwell: two aligned sums. The first adds zero and the products
+/// whose index modulo 4 is 0 or 1; the second adds that result and the other products. An ordinary addition, to nearest
+/// even, then adds `c`. NaN, infinities and zeros have not been measured.
 pub(super) fn synchronous(products: &[Value], c: u64, bits: u32, least: i32, result: ResultFormat) -> u64 {
     let element = result.element;
     let half = |which: usize, sum: u64| {
