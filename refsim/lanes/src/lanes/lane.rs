@@ -164,7 +164,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
     }
     /// `a` clamped to [0, 1].
     fn saturate(&self, a: Self::T) -> Self::T;
-    /// `a > 1/2`with an exact 1/2; false for NaN.
+    /// `a > 1/2` with an exact 1/2; false for NaN.
     fn above_half(&self, a: Self::T) -> bool;
     /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
     fn factor(&self, a: Self::T, b: Self::T) -> Self::T;
