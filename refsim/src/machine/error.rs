@@ -8,7 +8,7 @@ use crate::texture::{TexelFormat, TextureError};
 
 /// The pixel or vertex at which a program failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[expect(missing_docs, reason = "the fields are what the variants name")]
+#[expect(missing_docs, reason = "the variants explain the fields")]
 pub enum ProgramPlace {
     /// A pixel, by column and row of the targets.
     Pixel { x: u32, y: u32 },

@@ -169,7 +169,7 @@ impl Answer {
         let text = request.text.as_str();
         if text.len() > MAX_TEXT {
             let message = format!("expected a program of at most {MAX_TEXT} bytes, found {}", text.len());
-            return Err(vec![Remark::about_nothing(message, "use `crossbar run` for longer ones")]);
+            return Err(vec![Remark::about_nothing(message, "use `crossbar run` for longer programs")]);
         }
         let failed =
             |error: MachineError| vec![Remark::about_nothing(error.to_string(), "change the program or the device")];

@@ -113,10 +113,7 @@ fn error(a: f32, b: f32, p: f32) -> f32 {
 
 /// `a b + c`, rounded once.
 #[inline(always)]
-#[expect(
-    clippy::disallowed_methods,
-    reason = "fused on every host, in software where need be: its one rounding is wanted"
-)]
+#[expect(clippy::disallowed_methods, reason = "fused on every host, if necessary in software: it must round once")]
 fn multiply_add(a: f32, b: f32, c: f32) -> f32 {
     a.mul_add(b, c)
 }

@@ -101,7 +101,7 @@ pub(super) fn pairs(x: &[Value], y: &[Value], block: usize, c: Value, is_first: 
 }
 
 /// `fma(a, b, c)`: the exact value, rounded once; signs of zeros as in IEEE 754.
-#[expect(clippy::disallowed_methods, reason = "one rounding is what the unit has")]
+#[expect(clippy::disallowed_methods, reason = "the unit rounds once")]
 pub(super) fn fused(a: u64, b: u64, c: u64, element: Element) -> u64 {
     if element == Element::FP32 {
         return ops::fused_mad(Format::FP32, a as u32, b as u32, c as u32).bits.into();
