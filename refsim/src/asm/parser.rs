@@ -37,7 +37,6 @@ impl DerefMut for Parser<'_> {
     }
 }
 
-/// Prefix of a statement.
 #[derive(Clone, Copy)]
 struct StatementPrefix {
     coissue: bool,
