@@ -6,7 +6,7 @@ use crossbar::case::{Setup, device_named};
 use crossbar::error::InputError;
 use crossbar::picture::metrics::{ScreenPicture, flip, ssim};
 use crossbar::picture::{ChannelUnit, Picture, Samples};
-use crossbar::study::precision::{CaseSubject, FormatCosts, FormatFamily, Goal, PaperSystem, Precision};
+use crossbar::study::precision::{CaseSubject, FormatFamily, Goal, PaperSystem, Precision};
 use crossbar::study::reproduce::{ENTRIES, Parameters, choose};
 use crossbar::study::{Study as _, StudyError};
 use numpy::ndarray::Array2;
@@ -61,7 +61,7 @@ pub(crate) fn precision(
             (None, Some((system, profile))) => system.subject(profile)?,
             (None, None) => return Err(StudyError::new("crossbar::precision", "expected a case or a system")),
         };
-        let study = Precision { subject, goal, families, budget, costs: FormatCosts::default() };
+        let study = Precision { subject, goal, families, budget };
         Ok(study.findings(progress)?.plain_document().to_string())
     })?;
     found.map_err(|error: StudyError| refused(&error))

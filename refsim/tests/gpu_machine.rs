@@ -1,4 +1,5 @@
-//! Tests draws on a GPU against the reference: targets, depth buffers and counts must be bit-identical.
+//! Tests draws on a GPU against the reference: targets and counts must be bit-identical. tests/agree draws random
+//! programs and states.
 
 #[path = "common/adapter.rs"]
 mod adapter;
@@ -13,17 +14,15 @@ mod sums;
 
 use environment::by_form;
 use random::Random;
-use refsim::device::Profile;
+use refsim::exec::Constants;
 use refsim::exec::gpu::{BINDINGS, Gpu};
 use refsim::exec::wgsl::follow::{ENTRY, FRAGMENT, HEAD, STEP_WORDS, UNFINISHED, module};
 use refsim::exec::wgsl::kernel::RESUMES;
-use refsim::exec::{CheckedProgram, Constants};
-use refsim::machine::{DepthId, DrawCall, ExecutorKind, Machine, TextureId, VertexSource};
-use refsim::num::Format;
-use refsim::output::{CompareFunction, DepthFormat, DepthState};
+use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
 use refsim::raster::{Primitive, Vertex};
-use refsim::texture::{Filter, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
-use running::{bits, checked, ideal};
+use refsim::texture::{Image, SamplerState, TexelFormat};
+use running::{bits, checked, ideal, image};
+use std::fmt::Debug;
 use std::process::ExitCode;
 use std::sync::Arc;
 
@@ -31,8 +30,6 @@ fn main() -> ExitCode {
     adapter::run(adapter::trials![on_adapter:
         memory_follows,
         products_and_sums_agree,
-        short_programs_agree_on_any_driver,
-        units_of_cards_agree,
         buffers_of_a_trace_run_elsewhere,
     ])
 }
@@ -54,67 +51,6 @@ fn vertices(random: &mut Random, count: usize) -> Vec<Vertex> {
         .collect()
 }
 
-/// A scalar reference machine and a GPU machine, given the same resources and draws.
-struct Pair {
-    reference: Machine,
-    device: Machine,
-}
-
-impl Pair {
-    fn new(profile: &Profile, gpu: &Arc<Gpu>) -> Self {
-        Self {
-            reference: Machine::new(profile.clone(), ExecutorKind::Scalar),
-            device: Machine::with_gpu(profile.clone(), Arc::clone(gpu)).unwrap(),
-        }
-    }
-
-    fn target(&mut self, format: TexelFormat, width: u32, height: u32, color: [u32; 4]) -> TextureId {
-        let id = self.reference.create_target(format, width, height).unwrap();
-        assert_eq!(self.device.create_target(format, width, height), Ok(id));
-        self.reference.clear_target(id, color).unwrap();
-        self.device.clear_target(id, color).unwrap();
-        id
-    }
-
-    fn depth(&mut self, format: DepthFormat, width: u32, height: u32, depth: u32) -> DepthId {
-        let id = self.reference.create_depth(format, width, height).unwrap();
-        assert_eq!(self.device.create_depth(format, width, height), Ok(id));
-        self.reference.clear_depth(id, depth).unwrap();
-        self.device.clear_depth(id, depth).unwrap();
-        id
-    }
-
-    fn draw(&mut self, call: &DrawCall<'_>, what: &str) {
-        let expected = self.reference.draw(call).unwrap();
-        let found = self.device.draw(call).unwrap_or_else(|e| panic!("{what}: {e}"));
-        assert_eq!(found, expected, "{what}: counts");
-    }
-
-    fn same(&self, targets: &[TextureId], depth: Option<DepthId>, what: &str) {
-        for &id in targets {
-            let (expected, found) = (self.reference.read_back(id).unwrap(), self.device.read_back(id).unwrap());
-            let size = expected.format().bytes();
-            let differs = expected.bytes().chunks(size).zip(found.bytes().chunks(size)).position(|(a, b)| a != b);
-            if let Some(i) = differs {
-                let (x, y) = (i % expected.width() as usize, i / expected.width() as usize);
-                let at = |image: &Image| image.raw(0, 0, y as u32, x as u32);
-                panic!("{what}: {} ({x}, {y}): expected {:x}, found {:x}", expected.format(), at(expected), at(found));
-            }
-        }
-        if let Some(id) = depth {
-            let (expected, found) = (self.reference.read_depth(id).unwrap(), self.device.read_depth(id).unwrap());
-            let differs = expected.data().iter().zip(found.data()).position(|(a, b)| a != b);
-            if let Some(i) = differs {
-                panic!("{what}: depth {i}: expected {:x}, found {:x}", expected.data()[i], found.data()[i]);
-            }
-        }
-    }
-}
-
-fn copy(profile: &Profile) -> CheckedProgram {
-    checked("ps_2_0\ndcl t0\nmov oC0, t0", profile)
-}
-
 /// Rules for products and sums, with each format of the list used twice.
 fn products_and_sums_agree(gpu: &Arc<Gpu>) {
     // Each draw has its own shader, which a driver compiles for seconds. Formats alternate.
@@ -126,105 +62,51 @@ fn products_and_sums_agree(gpu: &Arc<Gpu>) {
     }
 }
 
+/// What both machines answer.
+fn both<T: PartialEq + Debug>(machines: &mut [Machine; 2], ask: impl Fn(&mut Machine) -> T) -> T {
+    let [expected, found] = machines.each_mut().map(ask);
+    assert_eq!(found, expected);
+    expected
+}
+
 /// Tests handles, clears, releases and read-back between draws.
 fn memory_follows(gpu: &Arc<Gpu>) {
     let profile = ideal("fp32");
-    let program = copy(&profile);
-    let host = Constants::default();
-    let mut pair = Pair::new(&profile, gpu);
-    let mut random = Random::new(5);
-    let first = pair.target(TexelFormat::Rgba8, 33, 17, bits([0.5; 4]));
-    let second = pair.target(TexelFormat::Bgr565, 33, 17, bits([0.25; 4]));
-    let corners = vertices(&mut random, 6);
-    let draw = |pair: &mut Pair, target| {
-        let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
-        pair.draw(&call, "memory");
-        pair.same(&[target], None, "memory");
+    let program = checked("ps_2_0\ndcl t0\nmov oC0, t0", &profile);
+    let (host, corners) = (Constants::default(), vertices(&mut Random::new(5), 6));
+    let reference = Machine::new(profile.clone(), ExecutorKind::Scalar);
+    let machines = &mut [reference, Machine::with_gpu(profile.clone(), Arc::clone(gpu)).unwrap()];
+    let create = |machines: &mut [Machine; 2], format, grey: f32| {
+        both(machines, |machine| {
+            let target = machine.create_target(format, 33, 17).unwrap();
+            machine.clear_target(target, bits([grey; 4])).unwrap();
+            target
+        })
     };
-    draw(&mut pair, first);
-    draw(&mut pair, second);
-    for machine in [&mut pair.reference, &mut pair.device] {
-        machine.clear_target(first, bits([1.0, 0.0, 0.5, 0.25])).unwrap();
-    }
-    pair.same(&[first, second], None, "cleared");
-    draw(&mut pair, first);
-    let image = pair.reference.read_back(second).unwrap().clone();
-    pair.device.update_texture(first, &image).unwrap_err();
-    let released = [pair.reference.release_texture(first), pair.device.release_texture(first)];
-    assert_eq!(released[0], released[1], "what is released is what was drawn");
+    let image = |machines: &mut [Machine; 2], target| both(machines, |m| m.read_back(target).unwrap().clone());
+    let draw = |machines: &mut [Machine; 2], target| {
+        let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
+        both(machines, |machine| machine.draw(&call).unwrap());
+        image(machines, target)
+    };
+    let first = create(machines, TexelFormat::Rgba8, 0.5);
+    let second = create(machines, TexelFormat::Bgr565, 0.25);
+    draw(machines, first);
+    let drawn = draw(machines, second);
+    both(machines, |machine| machine.clear_target(first, bits([1.0, 0.0, 0.5, 0.25])).unwrap());
+    image(machines, first);
+    draw(machines, first);
+    machines[1].update_texture(first, &drawn).unwrap_err();
+    both(machines, |machine| machine.release_texture(first).unwrap());
     // Reuses the memory of the first on the GPU.
-    let third = pair.target(TexelFormat::Rgba16f, 33, 17, bits([0.125; 4]));
-    draw(&mut pair, third);
-    pair.same(&[second, third], None, "a new target");
-}
-
-/// Compares short programs, for drivers that compile slowly.
-fn short_programs_agree_on_any_driver(gpu: &Arc<Gpu>) {
-    for (device, text) in [
-        ("ideal-fp32", "ps_2_0\ndcl t0\nmad r0, t0, c0, c1\nmov oC0, r0"),
-        ("r200", "ps_1_4\ntexld r0, t0\nmad r0, r0, c0, r0"),
-    ] {
-        let profile = Profile::named(device).unwrap();
-        let program = checked(text, &profile);
-        let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]; 4]);
-        let mut pair = Pair::new(&profile, gpu);
-        let mut random = Random::new(77);
-        let target = pair.target(TexelFormat::Bgra8, 24, 24, [0; 4]);
-        let depth = pair.depth(DepthFormat::Unorm24, 24, 24, 0x3f80_0000);
-        let image = texture(&mut random);
-        let id = pair.reference.create_texture(image.clone()).unwrap();
-        assert_eq!(pair.device.create_texture(image), Ok(id));
-        for filter in [Filter::Nearest, Filter::Linear] {
-            let corners = vertices(&mut random, 9);
-            let source = VertexSource::Transformed(&corners);
-            let state = SamplerState { min: filter, mag: filter, ..SamplerState::NEAREST_CLAMP };
-            let mut call =
-                DrawCall::new(source, Primitive::TriangleList, &program, &host, target).with_texture(0, id, state);
-            call.depth_buffer = Some(depth);
-            call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
-            pair.draw(&call, text);
-            pair.same(&[target], Some(depth), text);
-        }
-    }
-}
-
-/// Programs in the units of cards, on numbers of every size.
-fn units_of_cards_agree(gpu: &Arc<Gpu>) {
-    let text = "ps_2_0\ndcl t0\ndcl t1\ndcl_2d s0\ntexld r2, t0, s0\nmul r0, t0, c0\nmad r1, t1, r0, -c1\n\
-                dp3 r0.x, r1, t1\ndp4 r0.y, r0, c2\nrcp r3.x, r1.y\nrsq r3.y, r1.x\nexp r3.z, t0.x\nlog r3.w, t1.y\n\
-                min r1, r1, r3\nmax_sat r3, r3, r2\nfrc r4, r1\ncmp r4, r0, r4, r2\nlrp r1, c3, r3, r1\n\
-                sub r1, r1, r0\nmov oC0, r1\nmov oC1, r4\nmov oC2, r0";
-    let huge =
-        [[3.0e38, -1.0e-38, 0.125, 1.0], [0.3, -7.0, 1.0e20, f32::INFINITY], [1.0e-40, 2.0, -0.7, 5.0], [0.3; 4]];
-    for (seed, unit) in (0..).zip(["nv3x", "gt200", "nv2x", "gt200-zero-wins"]) {
-        let mut profile = ideal("fp32");
-        profile.set_format(format!("e8m23:{unit}").parse().unwrap()).unwrap();
-        let program = checked(text, &profile);
-        let host = running::constants(&huge);
-        let mut pair = Pair::new(&profile, gpu);
-        let mut random = Random::new(seed);
-        let formats = [TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rgba8];
-        let targets = formats.map(|format| pair.target(format, 24, 24, [0; 4]));
-        let image = texture(&mut random);
-        let id = pair.reference.create_texture(image.clone()).unwrap();
-        assert_eq!(pair.device.create_texture(image), Ok(id));
-        let corners = vertices(&mut random, 12);
-        let source = VertexSource::Transformed(&corners);
-        let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, targets[0]).with_texture(
-            0,
-            id,
-            SamplerState::NEAREST_CLAMP,
-        );
-        call.targets = targets.to_vec();
-        pair.draw(&call, unit);
-        pair.same(&targets, None, unit);
-    }
+    let third = create(machines, TexelFormat::Rgba16f, 0.125);
+    draw(machines, third);
+    assert_eq!(image(machines, second), drawn, "as it was");
 }
 
 fn texture(random: &mut Random) -> Image {
     let values: Vec<[u32; 4]> = (0..64).map(|_| bits([0; 4].map(|_| random.between(0.0, 1.0)))).collect();
-    let kind = TextureKind::D2;
-    Image::from_values(TexelFormat::Rgba8, kind, [8, 8, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
+    image(TexelFormat::Rgba8, [8; 2], &values)
 }
 
 /// The buffers of a trace yield the first fragment of each pixel, in several dispatches if the trace is long.

@@ -74,28 +74,24 @@ impl InputError {
     }
 
     /// Replaces the code by the code of the step that needed the input.
-    #[must_use]
     pub fn coded(mut self, code: &'static str) -> Self {
         self.0.code = code;
         self
     }
 
     /// Adds advice to the user.
-    #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self
     }
 
     /// Adds the file, or a line of it, and puts it at the start of the message.
-    #[must_use]
     pub fn at(mut self, place: impl Into<FilePlace>) -> Self {
         self.0.place = Some(place.into());
         self
     }
 
     /// Adds the error that caused this one.
-    #[must_use]
     pub fn with_source(mut self, source: impl Error + Send + Sync + 'static) -> Self {
         self.0.cause = Some(Cause::Source(Arc::new(source)));
         self

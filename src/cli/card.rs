@@ -6,7 +6,6 @@ use refsim::machine::Executor;
 use super::executor::DeviceExecutor;
 use super::{Problem, switch};
 
-/// The card of a study.
 #[derive(Debug, clap::Args)]
 pub(super) struct CardArgs {
     /// The card [default: the paper's]
@@ -33,12 +32,10 @@ impl CardArgs {
         [("--device", self.device.is_some()), ("--switch", !self.switch.is_empty())]
     }
 
-    /// The switches that were given.
     pub(super) fn switches(&self) -> Vec<(String, String)> {
         self.switch.clone()
     }
 
-    /// The executor, ready to run.
     pub(super) fn executor(&self) -> Result<Executor, Problem> {
         self.executor.open()
     }

@@ -6,7 +6,8 @@ use std::io::{self, IsTerminal as _, Write as _};
 
 use clap::error::ContextKind;
 use miette::{
-    Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteHandlerOpts, Report, ReportHandler,
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, JSONReportHandler, MietteDiagnostic, MietteHandlerOpts, Report,
+    ReportHandler,
 };
 
 use refsim::device::DeviceError;
@@ -57,36 +58,22 @@ impl Problem {
     }
 }
 
-/// An error about a device, with a suggested name in its help.
-#[derive(Debug, thiserror::Error)]
-#[error(transparent)]
-struct Suggestion {
-    #[from]
-    error: DeviceError,
-}
-
-impl Diagnostic for Suggestion {
-    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.error.code()
-    }
-
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        let help = self.error.help().map(|help| help.to_string()).unwrap_or_default();
-        let help = format!("{}{help}", meant(&self.error)).trim_end().to_owned();
-        (!help.is_empty()).then(|| Box::new(help) as Box<dyn fmt::Display>)
-    }
-}
-
 /// Adds a suggested name to a report about a device; the emulator's error only lists all names.
 fn suggested(report: Report) -> Report {
     let error = match (report.downcast_ref::<DeviceError>(), report.downcast_ref::<CaseError>()) {
         (Some(error), _) | (_, Some(CaseError::Device(error))) => error.clone(),
         _ => return report,
     };
+    let meant = meant(&error);
+    if meant.is_empty() {
+        return report;
+    }
+    let help = error.help().map(|help| help.to_string()).unwrap_or_default();
+    let mut suggestion = MietteDiagnostic::new(error.to_string()).with_help(format!("{meant}{help}").trim_end());
+    suggestion.code = error.code().map(|code| code.to_string());
     // Keeps the contexts that were added to the error.
     let (outer, inner) = (report.to_string(), error.to_string());
-    let suggestion = Report::from(Suggestion { error });
-    if outer == inner { suggestion } else { suggestion.wrap_err(outer) }
+    if outer == inner { suggestion.into() } else { Report::from(suggestion).wrap_err(outer) }
 }
 
 /// Colors and box drawing on a terminal; otherwise plain text of fixed width. No name is broken at a hyphen.
@@ -116,12 +103,10 @@ fn render(diagnostic: &dyn Diagnostic, terminal: bool) -> String {
     text
 }
 
-/// A finding of the checker, as text for standard output.
 pub(super) fn render_finding(finding: &dyn Diagnostic) -> String {
     render(finding, io::stdout().is_terminal())
 }
 
-/// Writes the error to standard error.
 pub(super) fn print(report: Report, json: bool) {
     write_report("Error", &suggested(report), json);
 }
@@ -154,7 +139,6 @@ pub(super) fn without_tip(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// A usage error as JSON: clap's sentence and its help.
 fn usage_problem(error: &clap::Error) -> Problem {
     let text = visible(&error.render().to_string()).into_owned();
     let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
@@ -175,7 +159,6 @@ pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString]) {
     };
 }
 
-/// Returns `true` if the error is a closed output pipe.
 pub(super) fn reader_left(report: &Report) -> bool {
     report.downcast_ref::<OutputError>().is_some_and(|error| error.0.kind() == io::ErrorKind::BrokenPipe)
 }

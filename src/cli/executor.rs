@@ -8,7 +8,6 @@ use super::ProgressBar;
 use super::{Problem, given};
 use crate::study::caster::CasterOptions;
 
-/// The executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum DeviceExecutor {
     /// The reference: one fragment at a time, in integer arithmetic
@@ -37,7 +36,6 @@ fn open_gpu() -> Result<Executor, Problem> {
 }
 
 impl DeviceExecutor {
-    /// The executor, ready to run.
     pub(super) fn open(self) -> Result<Executor, Problem> {
         Ok(match self {
             Self::Scalar => ExecutorKind::Scalar.into(),
@@ -61,8 +59,7 @@ pub(super) enum Decider {
 }
 
 impl Decider {
-    /// The requested executor; without a request, the card's if one is named, otherwise exact arithmetic, `None`. Fails
-    /// for a card with exact arithmetic, and if there is no GPU.
+    /// The requested executor; without a request, the card's if one is named, else `None`, exact arithmetic.
     pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Result<Option<Executor>, Problem> {
         let idle = device.is_some() && executor == Some(Self::Exact);
         let help = "name `--executor scalar`, `batch` or `wgpu`, or leave it out";
@@ -83,9 +80,6 @@ impl Decider {
 }
 
 /// Executor of the Ray Engine's card, for a command whose `--executor` also decides hits without a caster.
-///
-/// # Errors
-/// If an executor is given for the host caster, or exact arithmetic for the engine.
 pub(super) fn engine_executor(caster: &CasterOptions, executor: Option<Decider>) -> Result<Executor, Problem> {
     if caster.is_named() && !caster.is_engine() && executor.is_some() {
         let help = "add `--caster engine`, or leave it out";

@@ -12,9 +12,7 @@ const GROUPS: [(&str, &str); 5] = [
     ("Numbers", "alu precision matmul units"),
     ("Tools", "diff completions man help"),
 ];
-/// Width of the list; clap also limits its help to this width.
 const WIDTH: usize = 100;
-/// Column at which descriptions begin.
 const COLUMN: usize = 17;
 
 /// The program with its commands grouped in the help.

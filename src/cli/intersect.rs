@@ -168,29 +168,24 @@ fn beyond_single(mesh: &Mesh, ray: &Ray, hit: Hit) -> f64 {
 }
 
 fn findings(args: &Args, answer: &Answer) -> Findings {
-    let (rays, hits) = (answer.hits.len(), answer.hits.iter().flatten().count());
-    let rate = rays as f64 / answer.cast_s.max(1e-9);
+    let Answer { hits, engine, warning, build_s, cast_s } = answer;
+    let (rays, hits) = (hits.len(), hits.iter().flatten().count());
+    let mut found = Findings::new("First hits");
+    found.fields(json!({ "rays": rays, "hits": hits, "out": args.out }));
+    // Failed writes to standard error are ignored.
     if args.time {
-        let Answer { build_s, cast_s, .. } = answer;
+        let rate = rays as f64 / cast_s.max(1e-9);
+        found.field("time", json!({ "build_s": build_s, "cast_s": cast_s, "rays_per_s": rate }));
         let rate = rate / 1e6;
-        // A failed write is ignored.
         writeln!(std::io::stderr().lock(), "time: {cast_s:.4} s to cast, {rate:.3} M rays/s; {build_s:.4} s to build")
             .ok();
     }
-    if let Some(warning) = &answer.warning {
-        // A failed write is ignored.
+    if let Some(warning) = warning {
+        found.field("warning", json!(warning));
         writeln!(std::io::stderr().lock(), "warning: {warning}").ok();
     }
-    let mut found = Findings::new("First hits");
-    found.fields(json!({ "rays": rays, "hits": hits, "out": args.out }));
-    if let Some(warning) = &answer.warning {
-        found.field("warning", json!(warning));
-    }
-    if let Some(engine) = &answer.engine {
+    if let Some(engine) = engine {
         engine.report(&mut found);
-    }
-    if args.time {
-        found.field("time", json!({ "build_s": answer.build_s, "cast_s": answer.cast_s, "rays_per_s": rate }));
     }
     let [hits, rays] = [hits, rays].map(counted);
     found.print(format!("{hits} of {rays} rays hit; written to {}", args.out.display()));

@@ -153,18 +153,11 @@ fn configurations(args: &Args) -> miette::Result<Vec<Configuration>> {
     for text in formats {
         text.parse().and_then(Format::for_registers).map_err(view::bad_format)?;
     }
-    let all = match (devices.is_empty(), formats.is_empty()) {
-        (true, true) => {
-            let of_formats = ["fp16", "fp24", "fp32"].map(Configuration::format);
-            let switched = Configuration::device_under_each_switch("r200")?.into_iter().map(Ok);
-            switched.chain(of_formats).collect::<Result<Vec<_>, _>>()?
-        }
-        (true, false) => formats.iter().map(|text| Configuration::format(text)).collect::<Result<_, _>>()?,
-        (false, true) => devices.iter().map(|device| Configuration::device(device)).collect::<Result<_, _>>()?,
-        (false, false) => {
-            let pairs = devices.iter().flat_map(|device| formats.iter().map(move |text| (device, text)));
-            pairs.map(|(device, text)| Configuration::device_in_format(device, text)).collect::<Result<_, _>>()?
-        }
+    let all = if devices.is_empty() && formats.is_empty() {
+        let of_formats = Configuration::each(&[], &["fp16", "fp24", "fp32"].map(str::to_owned))?;
+        [Configuration::device_under_each_switch("r200")?, of_formats].concat()
+    } else {
+        Configuration::each(devices, formats)?
     };
     let mut labels = BTreeSet::new();
     if let Some(row) = all.iter().find(|row| !labels.insert(&row.label)) {

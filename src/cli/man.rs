@@ -33,7 +33,6 @@ pub(super) fn run(args: &Args, program: clap::Command, out: &mut Out) -> miette:
     study::show(&found, out)
 }
 
-/// Name and text of each page.
 fn pages(program: clap::Command) -> Vec<(String, Vec<u8>)> {
     let mut program = program.disable_help_subcommand(true);
     program.build();

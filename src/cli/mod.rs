@@ -80,9 +80,7 @@ Three things to try:
 All commands: `crossbar --help`. One of them, with examples: `crossbar leaky-teapot --help`.
 ";
 
-/// Exit code for a failed check.
 const CHECK_FAILED: u8 = 1;
-/// Exit code for bad input or usage.
 const BAD_INPUT: u8 = 2;
 
 /// Global illumination on the first programmable graphics cards, emulated to the bit.

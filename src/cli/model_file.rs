@@ -18,7 +18,6 @@ const NAMED_BY: [&str; 3] = ["mesh", "scene", "model"];
 const UP: &str = "model_up";
 const STRICT: &str = "strict";
 
-/// Options of reading models in this run.
 static OPTIONS: OnceLock<ModelOptions> = OnceLock::new();
 
 /// Adds the options of models to every command that takes a model.
@@ -42,7 +41,6 @@ pub(super) fn with_options(program: Command) -> Command {
     program.arg(up).arg(strict)
 }
 
-/// The argument that takes the command's model, if there is one.
 fn named_by(command: &Command) -> Option<&'static str> {
     NAMED_BY.into_iter().find(|name| command.get_arguments().any(|arg| arg.get_id() == *name))
 }
@@ -80,7 +78,6 @@ pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
     ))
 }
 
-/// A mesh from an OBJ, PLY, STL or glTF file.
 pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
     let (mesh, notes) = load_mesh_with(path, options())?;
     tell(path, &notes);

@@ -45,8 +45,7 @@ impl Out {
         self.outlive_reader = true;
     }
 
-    /// Writes text and a line end; hidden characters in the text are escaped, its line ends stay. Fails if standard
-    /// output cannot be written.
+    /// Writes text and a line end; hidden characters in the text are escaped, its line ends stay.
     pub fn line(&mut self, text: impl std::fmt::Display) -> Result<(), OutputError> {
         Ok(writeln!(self, "{}", visible(&text.to_string()))?)
     }
@@ -56,8 +55,7 @@ impl Out {
         self.line(wrapped(&visible_line(&text.to_string()), Self::width(), "  ").join("\n"))
     }
 
-    /// Writes a table without its title, within the terminal's width, and notes about folded rows. Fails if standard
-    /// output cannot be written.
+    /// Writes a table without its title, within the terminal's width, and notes about folded rows.
     pub fn table(&mut self, table: &Table) -> Result<(), OutputError> {
         self.line(table.text_within(Self::width()))?;
         table.notes().into_iter().try_for_each(|note| self.sentence(note))
@@ -67,6 +65,18 @@ impl Out {
     pub fn titled_table(&mut self, table: &Table) -> Result<(), OutputError> {
         self.sentence(table.title())?;
         self.table(table)
+    }
+
+    /// Writes a table as JSON, or as text with sentences below it. Fails if standard output cannot be written.
+    pub fn listing(&mut self, table: &Table, below: &[&str]) -> Result<(), OutputError> {
+        if self.json {
+            return self.document(&table.json());
+        }
+        self.table(table)?;
+        if !below.is_empty() {
+            self.line("")?;
+        }
+        below.iter().try_for_each(|text| self.sentence(text))
     }
 
     /// Writes a check's finding in the format of an error. Fails if standard output cannot be written.

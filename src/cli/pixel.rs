@@ -2,7 +2,6 @@
 
 use super::Problem;
 
-/// Column and row.
 pub(super) fn parse(text: &str) -> Result<[u32; 2], String> {
     let number = |part: &str| part.trim().parse::<u32>().ok();
     text.split_once(',')

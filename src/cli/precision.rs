@@ -9,10 +9,10 @@ use super::uniform::{self, Uniform};
 use super::{given, switch};
 use crate::case::{Overrides, Setup};
 use crate::options::number;
-use crate::options::one_of::{OneOf, one_of};
+use crate::options::one_of::{OneOf, one_of, variants};
 use crate::study::Study;
 use crate::study::precision::{
-    CaseSubject, ExpressionStudy, FormatCosts, FormatFamily, Goal, InputDraw, PaperSystem, Precision, PrecisionSubject,
+    CaseSubject, ExpressionStudy, FormatFamily, Goal, InputDraw, PaperSystem, Precision, PrecisionSubject,
 };
 
 const EXAMPLES: &str = "\
@@ -29,13 +29,11 @@ Examples:
       one of the six systems, on a small input of its own and the card of its paper
   crossbar precision docs/examples/wgsl/ggx.wgsl --uniform roughness=0.3 --out out/ggx
       a fragment shader in WGSL, line by line (a build with the feature wgsl)
-  crossbar precision docs/examples/highlight.toml --costs docs/examples/multiplier_area.csv --out out/area
-      costs of formats of your own, for the format per instruction
 
 The smallest format of an expression has the fewest bits of all formats of its family that meet the goal; of several, it \
 is the one with the smallest error.
 
-Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. Costs have the header `bits,cost`. \
+Goals are `MEASURE<=NUMBER`, with <=, <, >=, > or =; the page lists the measures. \
 Written to --out: index.html, mixed.toml (a device with a format per instruction, for --device), curve.csv and other \
 tables. docs/precision.md describes what is measured.
 
@@ -74,12 +72,12 @@ pub(super) struct Args {
     seed: Option<u64>,
 
     /// Distribution of the inputs of an expression [default: floats]
-    #[arg(long, value_parser = draws())]
+    #[arg(long, value_parser = variants::<InputDraw>())]
     draw: Option<InputDraw>,
 
     /// Bound that the result must meet [default: largest_codes<=1, or mean_relative<=0.01 for expressions and where no
     /// target has integer codes; of systems wrong<=0.001 for the Ray Engine, largest_relative<=0.01 for radiosity,
-    /// largest_255ths<=1]
+    /// largest_codes<=1]
     #[arg(long, value_name = "GOAL")]
     goal: Option<Goal>,
 
@@ -108,10 +106,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", value_parser = number::whole::<u64>(1..=u64::MAX))]
     budget: Option<u64>,
 
-    /// Cost of a format by its bits, a CSV file [default: the bits]
-    #[arg(long, value_name = "FILE.csv")]
-    costs: Option<PathBuf>,
-
     /// Where to write the page, the tables and the device
     #[arg(long, value_name = "DIR", default_value = "out/precision")]
     out: PathBuf,
@@ -130,20 +124,13 @@ fn families() -> OneOf<Families> {
     ])
 }
 
-fn draws() -> OneOf<InputDraw> {
-    one_of([
-        ("floats", "Every number of the format is equally likely, as in Herbie", InputDraw::Floats),
-        ("reals", "Every real number of the range is equally likely, then rounded", InputDraw::Reals),
-    ])
-}
-
 impl StudyArgs for Args {
     type Study = Box<dyn Study>;
     const QUICKER: &'static str = "`--family`, a smaller `--budget`, fewer `--samples` or smaller targets";
 
     fn files(&self) -> StudyFiles<'_> {
         let case = self.case.iter().filter(|_| self.system().is_none());
-        let inputs = case.chain(&self.fpcore).chain(&self.held_back).chain(&self.costs).map(PathBuf::as_path).collect();
+        let inputs = case.chain(&self.fpcore).chain(&self.held_back).map(PathBuf::as_path).collect();
         StudyFiles::new(Some(&self.out), inputs)
     }
 
@@ -169,7 +156,6 @@ impl Args {
             ("--switch", !self.switch.is_empty()),
             ("--uniform", !self.uniform.is_empty()),
             ("--budget", self.budget.is_some()),
-            ("--costs", self.costs.is_some()),
         ];
         given::refuse(of_cases, "cases", "leave it out: an expression runs on no device")?;
         let mut study = match (&self.expr, &self.fpcore) {
@@ -187,22 +173,32 @@ impl Args {
         Ok(study)
     }
 
+    /// The study of a case or a system.
     fn precision(&self, case: &Path) -> miette::Result<Precision> {
-        let costs = self.costs.as_deref().map(FormatCosts::load).transpose()?.unwrap_or_default();
+        let both = vec![FormatFamily::Float, FormatFamily::Fixed];
+        Ok(Precision {
+            subject: self.subject(case)?,
+            goal: self.goal.clone(),
+            families: self.family.clone().map_or(both, |Families(families)| families),
+            budget: self.budget.unwrap_or(BUDGET),
+        })
+    }
+
+    fn subject(&self, case: &Path) -> miette::Result<Box<dyn PrecisionSubject>> {
         if let Some(system) = self.system() {
             let of_cases = [("--held-back", self.held_back.is_some()), ("--uniform", !self.uniform.is_empty())];
             given::refuse(of_cases, "cases", "leave it out: a system has inputs of its own")?;
             let profile = switch::device(self.device.as_deref().unwrap_or(system.card()), &self.switch)?;
-            return Ok(self.of(system.subject(profile)?, costs));
+            return Ok(system.subject(profile)?);
         }
         let systems: Vec<&str> = PaperSystem::iter().map(Into::into).collect();
         given::require_file(case, "system", &systems, "toml")?;
-        let mut subject = self.case(case)?;
+        let name = case.file_stem().unwrap_or_default().to_string_lossy();
+        let mut subject = CaseSubject::new(self.setup(case, &self.uniform)?, &name)?;
         if let Some(path) = &self.held_back {
-            let (other, _) = self.setup(path, &[])?;
-            subject = subject.holding_back(&other, &path.display().to_string())?;
+            subject = subject.holding_back(&self.setup(path, &[])?, &path.display().to_string())?;
         }
-        Ok(self.of(Box::new(subject), costs))
+        Ok(Box::new(subject))
     }
 
     /// The system that is named in place of a case.
@@ -210,28 +206,10 @@ impl Args {
         self.case.as_ref()?.to_str()?.parse().ok()
     }
 
-    fn case(&self, path: &Path) -> miette::Result<CaseSubject> {
-        let (setup, name) = self.setup(path, &self.uniform)?;
-        Ok(CaseSubject::new(setup, &name)?)
-    }
-
-    /// A case on the device that the options choose, and its name.
-    fn setup(&self, path: &Path, uniforms: &[Uniform]) -> miette::Result<(Setup, String)> {
+    /// A case on the device that the options choose.
+    fn setup(&self, path: &Path, uniforms: &[Uniform]) -> miette::Result<Setup> {
         let device = self.device.as_deref().map(|name| switch::device(name, &[])).transpose()?;
         let (switches, uniforms) = (self.switch.clone(), uniforms.to_vec());
-        let overrides = Overrides { device, switches, uniforms, ..Overrides::default() };
-        let setup = Setup::read_with(path, &overrides)?;
-        Ok((setup, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
-    }
-
-    fn of(&self, subject: Box<dyn PrecisionSubject>, costs: FormatCosts) -> Precision {
-        let both = vec![FormatFamily::Float, FormatFamily::Fixed];
-        Precision {
-            subject,
-            goal: self.goal.clone(),
-            families: self.family.clone().map_or(both, |Families(families)| families),
-            budget: self.budget.unwrap_or(BUDGET),
-            costs,
-        }
+        Ok(Setup::read_with(path, &Overrides { device, switches, uniforms, ..Overrides::default() })?)
     }
 }

@@ -11,9 +11,7 @@ use indicatif::{ProgressDrawTarget, ProgressStyle};
 use crate::report::digits::count;
 use crate::report::visible::visible_line;
 
-/// Time before the first plain line.
 const FIRST: Duration = Duration::from_secs(2);
-/// Time between plain lines.
 const EVERY: Duration = Duration::from_secs(10);
 /// Estimated remaining time above which work announces itself.
 const LONG: Duration = Duration::from_secs(45);
@@ -21,7 +19,6 @@ const LONG: Duration = Duration::from_secs(45);
 /// `true` with `--quiet`, and if errors are JSON, which other lines would corrupt.
 static SILENT: AtomicBool = AtomicBool::new(false);
 
-/// Shows no progress from now on.
 pub(super) fn silence() {
     SILENT.store(true, Ordering::Relaxed);
 }
@@ -127,7 +124,6 @@ impl Drop for ProgressBar {
     }
 }
 
-/// The messages that were written.
 #[derive(Debug, Default)]
 struct Said {
     is_announced: bool,
@@ -135,7 +131,6 @@ struct Said {
     line: Option<Duration>,
 }
 
-/// Formats a duration with about two digits.
 fn about(duration: Duration) -> String {
     match duration.as_secs() {
         seconds @ 0..90 => format!("about {} s", seconds.max(1)),
@@ -144,7 +139,6 @@ fn about(duration: Duration) -> String {
     }
 }
 
-/// Message that the work will take long.
 fn long_work(what: &str, left: Duration, quicker: &str) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "this" } else { &what };
@@ -152,7 +146,6 @@ fn long_work(what: &str, left: Duration, quicker: &str) -> String {
     format!("{what} will take {} at this pace{quicker}", about(left))
 }
 
-/// A line of progress: steps done, total, and remaining time.
 fn plain_line(what: &str, done: u64, total: u64, left: Option<Duration>) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "working" } else { &what };

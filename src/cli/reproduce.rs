@@ -128,7 +128,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
 
 /// Runs an entry at full size, and writes its record. Pieces of an interrupted run are stored next to the record.
 fn made(entry: &ReproduceEntry, path: &Path) -> miette::Result<RecordMade> {
-    let work = KeptWork::new(version::program()?, format!("crossbar reproduce {} --record", entry.id), &[])?;
+    let work = KeptWork::new(&version::program()?, format!("crossbar reproduce {} --record", entry.id), &[])?;
     let kept = Rc::new(KeptResults::new(path.with_extension("pieces"), work, clock));
     let found = entry.at_full_size(Rc::clone(&kept))?;
     let spent = kept.spent();

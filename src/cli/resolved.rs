@@ -9,7 +9,6 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 /// Options that change no result: the output folder, the executor and its adapter, messages.
 const WITHOUT_EFFECT: [&str; 6] = ["out", "executor", "json", "threads", "help", "resume"];
 
-/// A resolved command line.
 #[derive(Debug)]
 pub(super) struct CommandLine {
     pub(super) text: String,
@@ -47,7 +46,6 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> CommandLi
     line
 }
 
-/// Quotes a value for a POSIX shell.
 fn quoted(value: &OsStr) -> String {
     let text = value.to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-+=:,./@%".contains(c);

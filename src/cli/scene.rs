@@ -40,18 +40,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     }
 }
 
-/// All scenes, one per line.
 fn all(out: &mut Out) -> miette::Result<Verdict> {
     let mut table = Table::new("Scenes", &["scene", "triangles", "views", "what"]);
     for name in scenes::names() {
         let (Some(what), Some(scene)) = (scenes::description(name), scenes::named(name)) else { continue };
         table.push([name.into(), scene.mesh().len().into(), views(&scene).into(), what.into()]);
     }
-    if out.json() {
-        out.document(&table.json())?
-    } else {
-        out.table(&table)?
-    }
+    out.listing(&table, &[])?;
     Ok(Verdict::Done)
 }
 

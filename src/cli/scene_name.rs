@@ -67,14 +67,12 @@ pub(super) struct EyeArgs {
 }
 
 impl EyeArgs {
-    /// Returns `true` if no option was given.
     pub(super) fn is_default(&self) -> bool {
         let Self { eye, target, tan_half_height } = *self;
         eye.is_none() && target.is_none() && tan_half_height.is_none()
     }
 
-    /// A camera; without `--eye`, one that shows the whole mesh. Up is z, or y if the eye is directly above or below
-    /// the target.
+    /// A camera; without `--eye`, one that shows the whole mesh. Up is z, or y for a vertical line of sight.
     pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
         let is_upright = self.eye.zip(self.target).is_some_and(|(eye, target)| eye[..2] == target[..2]);
         let up = if is_upright { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
@@ -91,7 +89,6 @@ impl EyeArgs {
     }
 }
 
-/// The requested camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Viewpoint<'a> {
     pub(super) size: Size,
@@ -100,8 +97,7 @@ pub(super) struct Viewpoint<'a> {
 }
 
 impl Viewpoint<'_> {
-    /// The requested view, otherwise the requested eye, otherwise the scene's first view, otherwise a view of the whole
-    /// scene.
+    /// The requested view or eye, otherwise the scene's first view, otherwise a view of the whole scene.
     pub(super) fn camera(&self, scene: &Scene) -> miette::Result<Camera> {
         let aimed = self.eye.eye.is_some() || self.eye.target.is_some();
         let view = match self.view {

@@ -21,7 +21,6 @@ pub(super) struct ShownError {
     excerpt: Option<Excerpt>,
     labels: Vec<LabeledSpan>,
     related: Vec<Self>,
-    /// Number of omitted related diagnostics.
     more: usize,
     cause: Option<Box<Self>>,
     /// `true` if a cause is a diagnostic, so that its code and help are shown.
@@ -60,7 +59,6 @@ impl ShownError {
         }
     }
 
-    /// An error that is not a diagnostic.
     fn plain(error: &dyn std::error::Error) -> Self {
         Self { cause: error.source().map(Self::plain).map(Box::new), ..Self::message(&error.to_string()) }
     }

@@ -30,14 +30,11 @@ pub(super) trait StudyArgs {
 
 /// Output folder and input files of a study.
 pub(super) struct StudyFiles<'a> {
-    /// Output folder; `None` for no files.
     folder: Option<&'a Path>,
-    /// The files that the study reads.
     inputs: Vec<&'a Path>,
 }
 
 impl<'a> StudyFiles<'a> {
-    /// A folder for output, and the files that are read.
     pub(super) fn new(folder: Option<&'a Path>, inputs: Vec<&'a Path>) -> Self {
         Self { folder, inputs }
     }

@@ -3,8 +3,6 @@
 use std::path::PathBuf;
 
 use super::study::{StudyArgs, StudyFiles};
-use crate::options::Size;
-use crate::options::number;
 use crate::study::tour::Parameters;
 
 const EXAMPLES: &str = "\
@@ -19,13 +17,8 @@ for https://ui.perfetto.dev or chrome://tracing), formats.csv (what each number 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Pixels of the picture
-    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
-    size: Size,
-
-    /// Lengthen edges of patches and models by this factor, for a quick look
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = number::whole::<u32>(1..=8))]
-    coarser: u32,
+    #[command(flatten)]
+    parameters: Parameters,
 
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/tour")]
@@ -41,6 +34,6 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<Parameters> {
-        Ok(Parameters { size: self.size, coarser: self.coarser })
+        Ok(self.parameters)
     }
 }

@@ -9,15 +9,13 @@ use refsim::num::FormatError;
 use super::Problem;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
-use crate::io::PictureFile;
+use crate::io::load_picture;
 use crate::options::Size;
 use crate::picture::Picture;
 use crate::scene::Camera;
 
-/// The default card.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
 
-/// Converts an error of parsing a number format.
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
     Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`")
         .into()
@@ -69,7 +67,6 @@ pub(super) fn framing(
 /// Default direction from the target to the eye: from the front, and a little from above.
 const FRONT: [f64; 3] = [0.3, -0.8, 0.52];
 
-/// The fraction of half the picture's width or height that a model fills.
 const FILLED: f64 = 0.92;
 
 /// The nearest eye that looks along [`FRONT`] and sees every vertex, and a target near `middle`; `None` if no such
@@ -109,18 +106,11 @@ pub(super) fn exact_hits<T>(
     sides: Sides,
     rounded: fn(&ExactT) -> T,
 ) -> Vec<Option<(u32, T)>> {
-    /// Number of rays whose exact numbers are in memory at the same time.
     const AT_ONCE: usize = 1 << 16;
-    let mut hits = Vec::with_capacity(rays.len());
-    for some in rays.chunks(AT_ONCE) {
-        hits.extend(
-            tracer.nearest_all(some, sides).into_iter().map(|hit| Some((hit.as_ref()?.triangle, rounded(&hit?.t)))),
-        );
-    }
-    hits
+    let hits = rays.chunks(AT_ONCE).flat_map(|some| tracer.nearest_all(some, sides));
+    hits.map(|hit| Some((hit.as_ref()?.triangle, rounded(&hit?.t)))).collect()
 }
 
-/// Reads a picture. The error says what is wrong with the file.
 pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
-    Ok(PictureFile::open(path)?.decode()?)
+    Ok(load_picture(path)?)
 }

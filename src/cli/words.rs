@@ -2,7 +2,6 @@
 
 use crate::report::digits::{Quantity, count, shown};
 
-/// A count, for a sentence: `177,694`.
 pub(super) fn counted(number: usize) -> String {
     count(number as u64)
 }

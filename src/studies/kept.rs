@@ -1,7 +1,6 @@
 //! Results stored in a folder during long work, so that interrupted work can continue from them.
 
 use std::cell::Cell;
-use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -17,46 +16,22 @@ use crate::report::sha256;
 /// Bytes of the digest at the end of a result's file.
 const DIGEST: usize = 32;
 
-/// The work that results belong to.
+/// The work that results belong to, line by line: the program, the command, and every input with its digest.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct KeptWork {
-    /// The program: version, and commit or digest.
-    pub program: String,
-    /// The command that computes the results, as a line, without options that change no result.
-    pub command: String,
-    /// The SHA-256 of every file that the results depend on, by its path as it was opened.
-    pub inputs: BTreeMap<String, String>,
-}
+pub struct KeptWork(Vec<String>);
 
 impl KeptWork {
-    /// The work of a program and a command on files. Fails if a file cannot be read; a pipe can be read only once.
-    pub fn new(program: String, command: String, inputs: &[&Path]) -> Result<Self, InputError> {
+    /// The work of a program (version, and commit or digest) and a command, as a line without options that change no
+    /// result, on files. Fails if a file cannot be read; a pipe can be read only once.
+    pub fn new(program: &str, command: String, inputs: &[&Path]) -> Result<Self, InputError> {
         let digest = |path: &&Path| match File::open(path).and_then(sha256) {
-            Ok(digest) if path.is_file() => Ok((path.display().to_string(), digest)),
+            Ok(digest) if path.is_file() => Ok(format!("`{}` with SHA-256 {digest}", path.display())),
             Ok(_) => Err(input_error!("crossbar::kept::input" => "{}: expected a file, found a pipe", path.display();
                 help "save it to a file: kept results belong to the contents of their input")),
             Err(source) => Err(unreadable(path, source)),
         };
-        Ok(Self { program, command, inputs: inputs.iter().map(digest).collect::<Result<_, _>>()? })
-    }
-
-    /// First difference of other work from this work: program, command, or input.
-    fn difference(&self, found: &Self) -> Option<[String; 2]> {
-        if self.program != found.program {
-            return Some([&self.program, &found.program].map(|program| format!("crossbar {program}")));
-        }
-        if self.command != found.command {
-            return Some([self.command.clone(), found.command.clone()]);
-        }
-        let inputs = [&self.inputs, &found.inputs];
-        let of = |name: &String| {
-            inputs.map(|inputs| match inputs.get(name) {
-                Some(digest) => format!("`{name}` with SHA-256 {digest}"),
-                None => format!("another file than `{name}`"),
-            })
-        };
-        let differs = |name: &&String| inputs[0].get(*name) != inputs[1].get(*name);
-        inputs.iter().flat_map(|inputs| inputs.keys()).find(differs).map(of)
+        let own = [format!("crossbar {program}"), command].map(Ok);
+        own.into_iter().chain(inputs.iter().map(digest)).collect::<Result<_, _>>().map(Self)
     }
 }
 
@@ -83,14 +58,12 @@ pub struct SpentTime {
 }
 
 impl KeptResults {
-    /// Results of some work in a folder, which is created with the first result. `clock` returns the time since a fixed
-    /// moment.
+    /// Results in a folder, created with the first one; `clock` returns the time since a fixed moment.
     pub fn new(folder: PathBuf, work: KeptWork, clock: fn() -> SpentTime) -> Self {
         Self { folder, work, clock, taken: Cell::default(), start: clock(), before: Cell::default() }
     }
 
-    /// Rejects a folder with results of other work, which would be lost. The error names the first such result. Also
-    /// fails for a path that is not a folder.
+    /// Rejects a folder with results of other work, which would be lost, and a path that is not a folder.
     pub fn require_no_other_work(&self) -> Result<(), InputError> {
         let unreadable = |source| unreadable(&self.folder, source);
         let files = match fs::read_dir(&self.folder) {
@@ -102,7 +75,7 @@ impl KeptResults {
         for path in paths {
             // Other files are left alone, and damaged results are computed again.
             if let Some((work, _)) = read(&path)
-                && let Some([expected, found]) = self.work.difference(&work)
+                && let Some((expected, found)) = self.work.0.iter().zip(&work.0).find(|(own, other)| own != other)
             {
                 let other = input_error!(
                     "crossbar::kept::other" => "expected a result of\n{expected}\nfound one of\n{found}";

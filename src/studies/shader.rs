@@ -43,7 +43,6 @@ pub struct SourceLine {
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum ShaderError {
-    /// The file cannot be read.
     #[error("shader `{name}` cannot be read")]
     #[diagnostic(code(crossbar::shader::unreadable), help("check the path"))]
     Unreadable { name: String, source: io::Error },
@@ -51,7 +50,6 @@ pub enum ShaderError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Input(#[from] InputError),
-    /// The text is not shader assembly.
     #[error("`{name}` has {}", count(errors.len(), "syntax error"))]
     #[diagnostic(code("asm::syntax"))]
     Syntax {
@@ -62,7 +60,6 @@ pub enum ShaderError {
         #[related]
         errors: Vec<SyntaxError>,
     },
-    /// The text is WGSL that has no translation.
     #[error("`{name}` cannot be translated: {reason}")]
     #[diagnostic(code("front::wgsl"), help("{}", reason.help()))]
     Refused {
@@ -73,7 +70,6 @@ pub enum ShaderError {
         #[label("here")]
         span: Option<SourceSpan>,
     },
-    /// The program violates rules of its version or limits of the device.
     #[error("`{name}` is not a legal {version} program for `{device}`: {}", count(violations.len(), "violation"))]
     #[diagnostic(code("check"))]
     Illegal {
@@ -188,8 +184,7 @@ impl ShaderText {
         is_wgsl(Path::new(self.name()))
     }
 
-    /// Assembles the text; WGSL is translated. Fails with all syntax errors, or for WGSL with the first construct that
-    /// has no translation.
+    /// Assembles the text, or translates WGSL; fails with all syntax errors, or with the first untranslated construct.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
         if self.is_wgsl() {
             return front::translate_wgsl(self.source.text()).map_err(|reason| ShaderError::Refused {

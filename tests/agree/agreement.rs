@@ -60,17 +60,17 @@ pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
     differs(&expected, draw(case, &programs, executor), executor)
 }
 
-/// The seeds of a run, and further seeds to draw if these cover nothing. By default, a suite draws the first or the
-/// second half of its seeds, depending on its name; a suite of the project's files draws all. `CROSSBAR_FULL=1` draws
-/// 105 times as many seeds.
+/// The seeds of a run, and further seeds to draw if these cover nothing. By default, a suite draws one of three parts of
+/// its seeds, depending on its name; a suite of the project's files draws all. `CROSSBAR_FULL=1` draws 105 times as many
+/// seeds.
 fn seeds_of(suite: &Suite) -> [Range<u64>; 2] {
     let all = seeds(suite.seeds, 105);
     if all != (0..suite.seeds) || matches!(suite.kind, Kind::Kernels | Kind::Shaders) {
         return [all, 0..0];
     }
-    let half = suite.seeds.div_ceil(2);
-    let (first, last) = (0..half, half..suite.seeds);
-    if suite.turn(0).is_multiple_of(2) || last.is_empty() { [first, last] } else { [last, first] }
+    let part = suite.seeds.div_ceil(3);
+    let first = (suite.turn(0) % 3 * part).min(suite.seeds - part);
+    [first..first + part, all]
 }
 
 /// Runs a suite; draws further seeds if the first ones cover nothing.

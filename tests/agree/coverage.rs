@@ -17,6 +17,7 @@ use refsim::raster::{ClipSpace, Cull, PixelCenter};
 use refsim::texture::{AddressMode, Filter, MipFilter, TexelFormat, TextureKind};
 use std::collections::BTreeSet;
 use std::fmt::Debug;
+use std::ops::Range;
 
 /// The features seen so far, as text.
 #[derive(Default)]
@@ -38,8 +39,8 @@ fn each<T: Debug>(what: &str, all: impl IntoIterator<Item = T>) -> Vec<String> {
     all.into_iter().map(|value| format!("{what} {value:?}")).collect()
 }
 
-/// Random legal programs of a version, for the device without limits.
-fn programs(version: Version, count: u64) -> Vec<Program> {
+/// The legal ones of these random programs of a version, for the device without limits.
+fn programs(version: Version, seeds: Range<u64>) -> Vec<Program> {
     let mut samplers = vec![(0, TextureKind::D2), (2, TextureKind::Cube), (3, TextureKind::Volume)];
     if version.is_fragment_program() {
         samplers.extend([(4, TextureKind::D1), (5, TextureKind::Rectangle)]);
@@ -47,7 +48,7 @@ fn programs(version: Version, count: u64) -> Vec<Program> {
     let layout = |sampling, targets| Layout { samplers: samplers.clone(), targets, sampling };
     let profile = rules::profile("ideal-fp32");
     let mut out = Vec::new();
-    for seed in 0..count {
+    for seed in seeds {
         let mut r = Random::new(seed);
         let layout = layout(seed % 4 == 0, 1 + seed as usize % 4);
         let lines = generate::program(version, &layout, &profile, seed as usize % 4, &mut r);
@@ -185,24 +186,29 @@ pub(crate) fn programs_reach_every_opcode_modifier_and_swizzle() {
         let mut seen = SeenFeatures::default();
         // OpenGL's programs are not all legal.
         let count = if version.is_fragment_program() || version == Version::Ps2A { 1500 } else { 1000 };
-        let all = programs(version, count);
-        assert!(3 * all.len() as u64 > count, "{version}: only {} of {count} programs are legal", all.len());
-        for program in &all {
-            for instruction in &program.instructions {
-                note(&mut seen, version, instruction);
-            }
-            for declaration in &program.declarations {
-                seen.add("usage", declaration.usage);
-            }
-            note_state(&mut seen, program);
-        }
-        seen.require(wanted(version));
+        let (mut wanted, mut legal, mut tried) = (wanted(version), 0, 0);
         if version == Version::ArbFp1_0 {
-            seen.require(wanted_state());
+            wanted.extend(wanted_state());
         }
         if version.is_ps_2() {
-            seen.require(each("usage", [Usage::Sampler2d, Usage::SamplerCube, Usage::SamplerVolume]));
+            wanted.extend(each("usage", [Usage::Sampler2d, Usage::SamplerCube, Usage::SamplerVolume]));
         }
+        for seeds in (0..count).step_by(50).map(|first| first..first + 50) {
+            let all = programs(version, seeds);
+            legal += all.len() as u64;
+            tried += 50;
+            for program in &all {
+                program.instructions.iter().for_each(|instruction| note(&mut seen, version, instruction));
+                program.declarations.iter().for_each(|declaration| seen.add("usage", declaration.usage));
+                note_state(&mut seen, program);
+            }
+            wanted.retain(|feature| !seen.0.contains(feature));
+            if wanted.is_empty() {
+                break;
+            }
+        }
+        seen.require(wanted);
+        assert!(4 * legal > tried, "{version}: only {legal} of {tried} programs are legal");
     }
 }
 
@@ -222,25 +228,10 @@ fn note_state(seen: &mut SeenFeatures, program: &Program) {
 }
 
 fn wanted_state() -> Vec<String> {
-    let kinds = [
-        "Material",
-        "Emission",
-        "Shininess",
-        "Light",
-        "LightPosition",
-        "LightAttenuation",
-        "SpotDirection",
-        "LightHalf",
-        "LightModelAmbient",
-        "SceneColor",
-        "LightProduct",
-        "TextureEnvironment",
-        "FogColor",
-        "FogParams",
-        "FogFactors",
-        "DepthRange",
-    ];
-    let mut out = each("state", kinds);
+    let kinds = "Material Emission Shininess Light LightPosition LightAttenuation SpotDirection LightHalf \
+                 LightModelAmbient SceneColor LightProduct TextureEnvironment FogColor FogParams FogFactors \
+                 DepthRange";
+    let mut out = each("state", kinds.split(' '));
     out.extend(each("fog", FogMode::ALL.map(Some).into_iter().chain([None])));
     // Executors treat a matrix row like any constant, so not all combinations of matrix, form and row must occur.
     out.extend(each("matrix", ["ModelView", "Projection", "Mvp", "Texture", "Program"]));

@@ -2,8 +2,7 @@
 //! is up, and reports the number of comparisons.
 
 use crate::agreement::{compare, report};
-use crate::executors::EXECUTORS;
-use crate::suite::{self, Suite};
+use crate::suite;
 use std::io::Write as _;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -14,18 +13,6 @@ const REPORTS: usize = 10;
 /// The first seed, unless `CROSSBAR_SEED` names another. It is larger than all seeds of the suites, including
 /// `CROSSBAR_FULL=1`.
 const FIRST: u64 = 1 << 32;
-
-/// Counts and reports of a run.
-#[derive(Default)]
-struct Counts {
-    cases: u64,
-    draws: u64,
-    fragments: u64,
-    /// Per executor: draws, fragments, cases that differ.
-    executors: Vec<(u64, u64, u64)>,
-    reports: Vec<String>,
-    illegal: Vec<String>,
-}
 
 /// `90`, `90s`, `30m` or `1h`.
 fn duration(text: &str) -> Option<Duration> {
@@ -44,81 +31,37 @@ pub(crate) fn fuzz() {
     let time = duration(&text).unwrap_or_else(|| panic!("CROSSBAR_FUZZ is `90`, `30m` or `1h`, found `{text}`"));
     let first = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()).unwrap_or(FIRST);
     let (suites, end) = (suite::all(), Instant::now() + time);
-    let counts = Mutex::new(Counts { executors: vec![(0, 0, 0); EXECUTORS.len()], ..Counts::default() });
-    let next = AtomicU64::new(0);
+    let [next, fragments] = [0, 0].map(AtomicU64::new);
+    let faults = Mutex::new(Vec::new());
+    // The first faults are shrunk and printed, the others are only counted.
+    let fault = |told: &dyn Fn() -> String| {
+        let mut faults = faults.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = if faults.len() < REPORTS { told() } else { String::new() };
+        say(&text);
+        faults.push(text);
+    };
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     say(&format!("fuzzing {} suites for {text} on {workers} threads from seed {first}", suites.len()));
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(|| {
-                while Instant::now() < end {
-                    let n = next.fetch_add(1, Ordering::Relaxed);
-                    let suite = &suites[(n % suites.len() as u64) as usize];
-                    one(suite, first + n / suites.len() as u64, &counts);
+    let work = || {
+        while Instant::now() < end {
+            let n = next.fetch_add(1, Ordering::Relaxed);
+            let (suite, seed) = (&suites[(n % suites.len() as u64) as usize], first + n / suites.len() as u64);
+            match compare(&suite.case(seed), suite.turn(seed)) {
+                Ok((drawn, differences)) => {
+                    fragments.fetch_add(drawn.fragments(), Ordering::Relaxed);
+                    differences.first().into_iter().for_each(|first| fault(&|| report(suite, seed, first)));
                 }
-            });
-        }
-    });
-    let counts = counts.into_inner().unwrap_or_else(PoisonError::into_inner);
-    say(&summary(&counts));
-    assert!(counts.illegal.is_empty(), "cases that are not legal:\n{}", counts.illegal.join("\n"));
-    let found: u64 = counts.executors.iter().map(|e| e.2).sum();
-    assert_eq!(found, 0, "{}", counts.reports.join("\n\n"));
-}
-
-/// Compares one case.
-fn one(suite: &Suite, seed: u64, counts: &Mutex<Counts>) {
-    let case = suite.case(seed);
-    let turn = suite.turn(seed);
-    let result = compare(&case, turn);
-    let mut counts = counts.lock().unwrap_or_else(PoisonError::into_inner);
-    let (drawn, differences) = match result {
-        Ok(compared) => compared,
-        Err(why) => {
-            counts.illegal.push(format!("seed {seed} of {}: {why}", suite.name));
-            return;
+                Err(why) => fault(&|| format!("seed {seed} of {} is no legal case: {why}", suite.name)),
+            }
         }
     };
-    let (draws, fragments) = (drawn.events.len() as u64, drawn.fragments());
-    counts.cases += 1;
-    counts.draws += draws;
-    counts.fragments += fragments;
-    for (entry, executor) in counts.executors.iter_mut().zip(EXECUTORS.iter()) {
-        if executor.draws(turn) {
-            entry.0 += draws;
-            entry.1 += fragments;
-        }
-    }
-    for difference in &differences {
-        counts.executors[difference.executor].2 += 1;
-    }
-    if let Some(first) = differences.first()
-        && counts.reports.len() < REPORTS
-    {
-        let text = report(suite, seed, first);
-        say(&text);
-        counts.reports.push(text);
-    }
-}
-
-fn summary(counts: &Counts) -> String {
-    let mut text = format!(
-        "compared {} programs in {} draws of {} fragments\nexecutor            draws   fragments  cases that differ",
-        counts.cases, counts.draws, counts.fragments
-    );
-    for (executor, (draws, fragments, differ)) in EXECUTORS.iter().zip(&counts.executors) {
-        text.push_str(&format!("\n{:16} {draws:8} {fragments:11} {differ:18}", executor.name));
-    }
-    text
+    std::thread::scope(|scope| (0..workers).for_each(|_| drop(scope.spawn(work))));
+    say(&format!("compared {} cases of {} fragments", next.into_inner(), fragments.into_inner()));
+    let faults = faults.into_inner().unwrap_or_else(PoisonError::into_inner);
+    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }
 
 /// Writes to standard error directly, because the test harness would withhold the text until the end.
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
-}
-
-pub(crate) fn times_are_seconds_minutes_or_hours() {
-    let seconds = |text| duration(text).map(|d| d.as_secs());
-    assert_eq!(["90", "5s", "30m", "1h"].map(seconds), [Some(90), Some(5), Some(1800), Some(3600)]);
-    assert_eq!(["", "h", "1d", "-1", "1.5h"].map(seconds), [None; 5]);
 }

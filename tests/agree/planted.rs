@@ -1,13 +1,11 @@
-//! Tests of the tools: a planted difference is found, and shrunk to its cause.
+//! Test of the tools: a planted difference is found, and shrunk to its cause.
 
 use crate::executors::REFERENCE;
 use crate::scene::{Case, Outcome};
-use crate::shapes::Shape;
 use crate::shrink::shrink;
 use crate::suite::{self, Kind};
 use refsim::device::MadMode;
 use refsim::isa::Version;
-use strum::VariantArray as _;
 
 /// Instructions of ps_2_0 that are or contain a `mad`.
 const WITH_MAD: [&str; 4] = ["mad", "lrp", "crs", "sincos"];
@@ -48,18 +46,4 @@ pub(crate) fn a_planted_difference_is_cut_down() {
     assert!(small.pixel.iter().any(has_mad), "{}", small.pixel.join("\n"));
     assert!(small.scene.size[0] * small.scene.size[1] <= case.scene.size[0] * case.scene.size[1]);
     assert!(small.scene.alpha.is_none() && small.scene.blend.is_none() && !small.scene.second_pass);
-}
-
-pub(crate) fn every_shape_of_geometry_covers_pixels() {
-    for &shape in Shape::VARIANTS {
-        let suites = suite::all();
-        let suite = suites.iter().find(|s| s.name == format!("geometry::{}", <&str>::from(shape)));
-        let suite = suite.unwrap_or_else(|| panic!("a suite of {shape:?}"));
-        let covered = (0..suite.seeds).filter(|&seed| {
-            let case = suite.case(seed);
-            drawn(&case, MadMode::TwoRoundings).is_some_and(|o| o.fragments() > 0)
-        });
-        let (covered, seeds) = (covered.count() as u64, suite.seeds);
-        assert!(4 * covered > seeds, "{shape:?}: {covered} of {seeds} scenes cover something");
-    }
 }

@@ -100,23 +100,13 @@ fn luminance(system: &System, block: usize) -> Vec<CardSystem> {
     (0..3).map(channel).collect()
 }
 
-pub(crate) fn every_rgb_pass_is_the_hosts() {
-    for (size, block) in [(1, 254), (5, 2), (23, 6), (64, 16)] {
-        let system = room(size, size as u64);
-        let rgb = CardSystem::rgb(&system, block, LIMIT).expect("it fits");
-        for (name, executor) in executors() {
-            iterations_agree(
-                &format!("{name}, {size} patches in blocks of {block}"),
-                &executor,
-                std::slice::from_ref(&rgb),
-            );
-        }
-    }
-}
-
-pub(crate) fn every_luminance_pass_is_the_hosts() {
-    for (size, block) in [(1, 254), (6, 1), (23, 4), (64, 5)] {
-        let systems = luminance(&room(size, size as u64), block);
+pub(crate) fn every_pass_is_the_hosts() {
+    let rgb = [(1, 254), (5, 2), (23, 6), (64, 16)].map(|(size, block)| {
+        (size, block, vec![CardSystem::rgb(&room(size, size as u64), block, LIMIT).expect("it fits")])
+    });
+    let four = [(1, 254), (6, 1), (23, 4), (64, 5)]
+        .map(|(size, block)| (size, block, luminance(&room(size, size as u64), block)));
+    for (size, block, systems) in rgb.into_iter().chain(four) {
         for (name, executor) in executors() {
             iterations_agree(&format!("{name}, {size} patches in blocks of {block}"), &executor, &systems);
         }

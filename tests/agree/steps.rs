@@ -19,15 +19,6 @@ const SUITES: [&str; 7] = [
 /// More than the steps of any random program.
 const PLENTY: u32 = 1 << 16;
 
-fn case(n: u64) -> Case {
-    let suites = suite::all();
-    let some: Vec<_> = suites.iter().filter(|s| s.name.starts_with(SUITES[n as usize % SUITES.len()])).collect();
-    let mut case = some[(n as usize * 61) % some.len()].case(2000 + n);
-    (case.scene.draws, case.scene.second_pass) = (1, false);
-    case.scene.size = case.scene.size.map(|side| side.min(21));
-    case
-}
-
 fn draw(case: &mut Case, programs: &Programs, executor: &Executor, budget: u32) -> Result<Outcome, MachineError> {
     case.scene.profile.limits.set_step_budget(budget);
     case.scene.draw(executor, programs)
@@ -50,7 +41,8 @@ fn least(case: &mut Case, programs: &Programs) -> u32 {
 pub(crate) fn executors_run_out_of_steps_at_the_same_place() {
     let (seeds, mut failures) = (seeds(12, 100), 0);
     for seed in seeds.clone() {
-        let mut case = case(seed);
+        let prefix = SUITES[seed as usize % SUITES.len()];
+        let mut case = suite::small_case(|name| name.starts_with(prefix), seed, 2000, 21);
         let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
         let least = least(&mut case, &programs);
         for budget in [least, least - 1, least / 2, least / 7 + 1] {

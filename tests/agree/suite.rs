@@ -67,60 +67,45 @@ impl Suite {
     pub(crate) fn case(&self, seed: u64) -> Case {
         let mut random = Random::named(&self.name, seed);
         let r = &mut random;
-        let options = |version: Version| Options::new(version);
-        // Small programs, so that the suite's fixed property dominates the picture.
         let version = first_throws(r);
         let any = r.next();
         let family = Family::VARIANTS[seed as usize % Family::VARIANTS.len()];
         let together = Group::Together;
+        let options = Options::new(version);
+        // Small programs, so that the suite's fixed property dominates the picture.
+        let of_ideal =
+            |options: Options, r: &mut Random| pixel_case(rules::ideal(family, together, any, r), &options, 2, r);
         match self.kind {
             Kind::Program(version, family, group) if version.stage() == Stage::Vertex => {
                 vertex_case(rules::vertex_ideal(family, group, seed, r), version, r)
             }
             Kind::Program(version, family, group) => {
                 let sampling = group == Group::Sampling && r.one_in(2);
-                let options = Options { sampling, ..options(version) };
+                let options = Options { sampling, ..Options::new(version) };
                 pixel_case(rules::ideal(family, group, seed, r), &options, 4, r)
             }
             Kind::Mixed(version) if version.stage() == Stage::Vertex => {
                 mixed(version, vertex_case(rules::vertex_ideal(family, together, any, r), version, r), r)
             }
             Kind::Mixed(version) => {
-                mixed(version, pixel_case(rules::ideal(family, together, any, r), &options(version), 4, r), r)
+                mixed(version, pixel_case(rules::ideal(family, together, any, r), &Options::new(version), 4, r), r)
             }
             Kind::Card(card, version) if version.stage() == Stage::Vertex => {
                 vertex_case(rules::card(card, r), version, r)
             }
-            Kind::Card(card, version) => pixel_case(rules::card(card, r), &options(version), 4, r),
+            Kind::Card(card, version) => pixel_case(rules::card(card, r), &Options::new(version), 4, r),
             Kind::Texture(format) => {
                 let version = if r.one_in(3) { PIXEL[r.below(3)] } else { version };
-                let options = Options { texture: Some(format), sampling: true, ..options(version) };
-                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
+                of_ideal(Options { texture: Some(format), sampling: true, ..Options::new(version) }, r)
             }
             Kind::Address(kind, address) => {
-                let options = Options { kind: Some(kind), address: Some(address), sampling: true, ..options(version) };
-                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
+                of_ideal(Options { kind: Some(kind), address: Some(address), sampling: true, ..options }, r)
             }
-            Kind::Target(format) => {
-                let options = Options { target: Some(format), ..options(version) };
-                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
-            }
-            Kind::Depth(format) => {
-                let options = Options { depth: Some(format), ..options(version) };
-                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
-            }
-            Kind::Compare(compare) => {
-                let options = Options { compare: Some(compare), ..options(version) };
-                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
-            }
-            Kind::Blend(blend) => {
-                let options = Options { blend: Some(blend), ..options(version) };
-                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
-            }
-            Kind::Geometry(shape) => {
-                let options = Options { shape: Some(shape), ..options(version) };
-                pixel_case(rules::ideal(family, together, any, r), &options, 2, r)
-            }
+            Kind::Target(format) => of_ideal(Options { target: Some(format), ..options }, r),
+            Kind::Depth(format) => of_ideal(Options { depth: Some(format), ..options }, r),
+            Kind::Compare(compare) => of_ideal(Options { compare: Some(compare), ..options }, r),
+            Kind::Blend(blend) => of_ideal(Options { blend: Some(blend), ..options }, r),
+            Kind::Geometry(shape) => of_ideal(Options { shape: Some(shape), ..options }, r),
             Kind::Kernels => files::program_case(&files::KERNELS, seed, r),
             Kind::Shaders => files::program_case(&files::SHADERS, seed, r),
         }
@@ -308,4 +293,13 @@ pub(crate) fn all() -> Vec<Suite> {
     out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.short()));
     out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.short()));
     out
+}
+
+/// Case `first` + `n` of one of the suites whose names fit, drawn once on a target of at most `side` x `side` pixels.
+pub(crate) fn small_case(fits: impl Fn(&str) -> bool, n: u64, first: u64, side: u32) -> Case {
+    let suites: Vec<Suite> = all().into_iter().filter(|suite| fits(&suite.name)).collect();
+    let mut case = suites[(n as usize * 61) % suites.len()].case(first + n);
+    (case.scene.draws, case.scene.second_pass) = (1, false);
+    case.scene.size = case.scene.size.map(|length| length.min(side));
+    case
 }

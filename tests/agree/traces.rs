@@ -6,22 +6,12 @@ use crate::scene::{Case, Programs};
 use crate::suite;
 use refsim::machine::FragmentTrace;
 
-/// Case number `n`: the suites of random pixel programs in turn, each case drawn once.
-fn case(n: u64) -> Case {
-    let suites = suite::all();
-    let is_pixel = |name: &str| name.starts_with("programs::") && !name.starts_with("programs::vs_");
-    let pixel: Vec<_> = suites.iter().filter(|s| is_pixel(&s.name)).collect();
-    let mut case = pixel[(n as usize * 61) % pixel.len()].case(1000 + n);
-    (case.scene.draws, case.scene.second_pass) = (1, false);
-    case.scene.size = case.scene.size.map(|side| side.min(17));
-    case
-}
-
 pub(crate) fn the_trace_is_what_the_executors_draw() {
     let (mut steps, mut fragments) = (0, 0);
     let seeds = seeds(75, 60);
     for seed in seeds.clone() {
-        let case = case(seed);
+        let is_pixel = |name: &str| name.starts_with("programs::") && !name.starts_with("programs::vs_");
+        let case = suite::small_case(is_pixel, seed, 1000, 17);
         let programs = case.build().unwrap_or_else(|e| panic!("seed {seed}: {e}"));
         let traces = case.scene.traces(&REFERENCE, &programs).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
         for executor in EXECUTORS.iter().filter(|executor| executor.draws(seed)) {

@@ -85,6 +85,10 @@ fn circles_are_seen_through_re_exports_and_without_tests() {
     assert!(of(&round)[0].contains("room/b.rs needs room/a.rs for room::A"), "{:?}", of(&round));
     round[1].1 = "pub struct A; fn f() { assert_eq!(super::b::b(A), ()) }";
     assert_eq!(of(&round).len(), 1, "macros are looked into");
+    round[1].1 = "use super::{Other, b::{b}}; pub struct A; // super::b";
+    assert_eq!(of(&round).len(), 1, "groups are looked into");
+    round[1].1 = "pub struct A; // use super::b::b;";
+    assert_eq!(of(&round), [""; 0], "comments are passed over");
     round = straight;
     round[0].1 = "pub use a::A; mod a; mod b; pub struct Own(A);";
     round[1].1 = "pub struct A(super::Own);";

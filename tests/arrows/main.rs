@@ -211,12 +211,3 @@ fn only_linalg_names_nalgebra() {
         }
     }
 }
-
-#[test]
-fn the_scanner_sees_groups_and_macros_and_passes_over_comments() {
-    let text =
-        "use crate::{num::Format, isa::{Mask, Swizzle}};\n// crate::exec\nfn f() { let x = vec![crate::asm::f()]; }";
-    let source = Crate::of_texts([("lib.rs".into(), text.to_owned())]);
-    let names: BTreeSet<&str> = source.after(&[], "crate").collect();
-    assert_eq!(names.into_iter().collect::<Vec<_>>(), ["asm", "isa", "num"], "two from the group, one from the macro");
-}

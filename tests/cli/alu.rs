@@ -58,28 +58,6 @@ fn lines_of_many_numbers() {
     // With ten bits the last bit below 2048 is 2, with eleven it is 1.
     assert_eq!(results("dot --format fp16 --summation aligned:10 --flags", terms), ["6800 01", "3C00 00"]);
     assert_eq!(results("dot --format fp16 --summation aligned:11 --flags", terms), ["6801 00", "3C00 00"]);
-    let many = "0 ".repeat(33);
-    for (arguments, input, expected) in [
-        ("quantize --format fp32", "0", "blocks need a block format"),
-        ("quantize --format fp32 --block mxfp4", &many, "line 1: expected 1 to 32 numbers, found 33 fields"),
-        (
-            "dequantize --format fp32 --block mxfp4",
-            "7f",
-            "line 1: expected a scale and 1 to 32 elements, found 1 field",
-        ),
-        ("dequantize --format fp32 --block mxfp4", "7f 10", "line 1: expected at most 1 hexadecimal digits (4 bits)"),
-        ("add --format fp32 --block mxfp4", "0 0", "`--block` is for `quantize` and `dequantize` only"),
-        ("add --format fp32 --summation tree", "0 0", "`--accumulator` and `--summation` are for `dot` only"),
-        ("dot --format s3.12 --summation aligned:9", "0 0", "expected sums in a float format, found `s3.12`"),
-        ("dot --format fp16 --accumulator n3.8 --summation aligned:9", "0 0", "a float format, found `n3.8`"),
-        ("dot --format fp16 --summation aligned:29", "0 0", "or aligned:F with F from 0 to 28"),
-        ("dot --format fp32 --accumulator fp16:rst", "0 0", "round more than once"),
-        ("dot --format fp32", "0 0 0", "line 1: expected 1 to 32 pairs of numbers, found 3 fields"),
-        ("dequantize --format fp32 --block mxint8", "7F 100", "expected at most 2 hexadecimal digits (8 bits)"),
-    ] {
-        let said = alu(arguments, input).refusal(arguments);
-        assert!(said.contains(expected), "alu {arguments}: {said}");
-    }
 }
 
 #[test]
@@ -95,24 +73,6 @@ fn devices_without_a_measured_unit_compute_by_their_rules() {
     );
     // NV20's pixel stage is in fixed point.
     assert_eq!(results("mov --device nv20 --stage pixel", "0FF"), ["0FF"]);
-    for (arguments, expected) in [
-        ("ex2 --device nv20", "the vertex unit of NV20 and NV25 has no `ex2`"),
-        ("expp --device gt200", "`expp` is an instruction of the vertex units"),
-        ("rcc --format fp16", "`rcc` is an instruction of the vertex units"),
-        ("div --device nv20", "`div` is not an instruction of any device"),
-        ("mul --device nv20 --state legacy", "the vertex arithmetic of `nv20` has no such state"),
-        ("mul --device gt200 --state modern", "the pixel arithmetic of `gt200` has no such state"),
-        ("mul --device nv20 --stage geometry", "invalid value 'geometry'"),
-        ("mul --device nv20 --format fp32", "cannot be used with"),
-        ("mul", "--format <F>"),
-        ("mul --format fp32 --state ieee", "`--stage` and `--state` are for `--device` only"),
-        ("mul --device nv02", "nv20"),
-        ("dp3 --device nv20", "line 1: expected 6 numbers (a.x a.y a.z b.x b.y b.z), found 2 fields"),
-        ("dp3 --device nv20 --verify", "support neither `--verify` nor `--to`"),
-    ] {
-        let said = alu(arguments, "0 0").refusal(arguments);
-        assert!(said.contains(expected), "alu {arguments}: {said}");
-    }
 }
 
 #[test]
@@ -130,7 +90,7 @@ fn mismatches_are_printed_and_counted() {
 fn mismatches_for_machines() {
     let lines = "3C00 3C00 4001 00\n3C00 3C00 4000 00\n3C00 3C00 4002 00\n";
     let ran = alu("add --format fp16 --verify --json", lines);
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!(report["passed"], 1);
     assert_eq!(report["failed"], 2);
     assert_eq!(report["mismatches"][1]["line"], 3);
@@ -141,26 +101,9 @@ fn mismatches_for_machines() {
 }
 
 #[test]
-fn bad_lines_name_their_number() {
-    for (arguments, input, expected) in [
-        ("add --format fp16", "3C00 3C00\n3C00\n", "line 2: expected 2 operands, found 1 field"),
-        ("add --format fp16", "\n\n3C00 3G00\n", "line 3: expected hexadecimal digits, found `3G00`"),
-        ("add --format fp16", "3C00 13C00\n", "line 1: expected at most 4 hexadecimal digits (16 bits), found `13C00`"),
-        ("add --format e3m2", "40 00\n", "line 1: expected at most 2 hexadecimal digits (6 bits), found `40`"),
-        ("add --format e3m2", "001 1\n", "line 1: expected at most 2 hexadecimal digits (6 bits), found `001`"),
-        ("add --format e3m2", "1 2 3 4 5 6 7\n", "line 1: expected 2 operands, found 7 fields"),
-        ("add --format e3m2", "1 0x2\n", "line 1: expected hexadecimal digits, found `0x2`"),
-        ("add --format e3m2", "é 1\n", "line 1: expected hexadecimal digits"),
-        ("sqrt --format fp32", "1FFFFFFFF\n", "line 1: expected at most 8 hexadecimal digits (32 bits)"),
-        ("sqrt --format fp16 --verify --flags", "3C00 3C00\n", "line 1: expected 1 operand, result and flags"),
-        ("eq --format fp16 --verify", "3C00 3C00 2 00\n", "line 1: expected at most 1 hexadecimal digits (1 bits)"),
-    ] {
-        let ran = alu(arguments, input);
-        assert_eq!(ran.code, Some(2), "alu {arguments}");
-        assert!(ran.stderr.contains(expected), "alu {arguments}: {}", ran.stderr);
-    }
+fn a_long_line_is_not_echoed_whole() {
     let long = alu("add --format e3m2", &"F".repeat(4000)).refusal("a long line");
-    assert!(long.len() < 400, "a long line is not echoed whole: {long}");
+    assert!(long.len() < 400, "{long}");
 }
 
 #[test]
@@ -215,23 +158,6 @@ fn matrix_units_take_the_vectors_as_they_are() {
     }
     let wrong = alu("dot --unit volta-f16 --verify", "3C00 3C00 00000000 3f800001\n");
     assert_eq!((wrong.code, wrong.stdout.lines().count()), (Some(1), 2), "{}", wrong.stdout);
-    for (unit, line) in [
-        ("hopper-f16", "3C0 3C00 00000000"),
-        ("hopper-f16", "3C00 3C003C00 00000000"),
-        ("hopper-f16", "3C00 3C00"),
-        ("hopper-f16", "3C00 3C00 3C00"),
-        ("hopper-fp8", "fp8 e4m3 38 38 00000000"),
-        ("blackwell-f8f6f4", "e2m3 e2m3 40 40 00000000"),
-        ("blackwell-nvf4", "1 1 00000000 38 3838"),
-        ("hopper-f16", "3C00 3C00 0000000000000000"),
-    ] {
-        let ran = alu(&format!("dot --unit {unit}"), line);
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{unit} {line}: {}", ran.stderr);
-    }
-    assert_eq!(alu("add --unit hopper-f16", "").code, Some(2));
-    for (arguments, input) in [("--state modern", ""), ("--stage pixel", ""), ("--verify", "3C00 3C00 00000000 3F8000")]
-    {
-        assert_eq!(alu(&format!("dot --unit hopper-f16 {arguments}"), input).code, Some(2), "{arguments}");
-    }
-    assert_eq!(alu("add", "").code, Some(2));
+    let short = alu("dot --unit hopper-f16 --verify", "3C00 3C00 00000000 3F8000");
+    assert_eq!(short.code, Some(2), "{}", short.stdout);
 }

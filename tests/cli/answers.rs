@@ -17,11 +17,25 @@ pub(crate) fn place(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().expect("a name in UTF-8").to_owned()
 }
 
+/// A temporary folder with these files.
+pub(crate) fn folder_with(files: &[(&str, impl AsRef<[u8]>)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (name, bytes) in files {
+        std::fs::write(folder.path().join(name), bytes).expect("a file");
+    }
+    folder
+}
+
+/// Runs the program in a folder; the arguments are separated by spaces.
+pub(crate) fn line_in(folder: &Path, line: &str) -> ProgramOutput {
+    crossbar_in(folder, &line.split_whitespace().collect::<Vec<_>>(), "")
+}
+
 /// JSON document of a run in the project's folder, which must succeed without a message.
 pub(crate) fn document(arguments: &[&str]) -> Value {
     let ran = crossbar(&[arguments, &["--json"]].concat(), "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-    serde_json::from_str(&ran.stdout).expect("one JSON document")
+    ran.json()
 }
 
 /// JSON document of a run; the arguments are separated by spaces.
@@ -39,6 +53,11 @@ pub(crate) fn number(value: &Value) -> f64 {
 }
 
 impl ProgramOutput {
+    /// The JSON document on standard output.
+    pub(crate) fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|e| panic!("one JSON document, {e}: {}", self.transcript()))
+    }
+
     /// Words of the message of a refused run with `arguments`: exit code 2, and nothing on standard output.
     pub(crate) fn refusal(&self, arguments: impl Debug) -> String {
         assert_eq!((self.code, self.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", self.stderr);
@@ -56,11 +75,25 @@ pub(crate) fn refused_line(line: &str) -> String {
     refused(&line.split_whitespace().collect::<Vec<_>>())
 }
 
-/// Words of the message of a refused run in `folder`, where it must leave nothing.
-pub(crate) fn refused_in(folder: &Path, arguments: &[&str]) -> String {
-    let entries = || std::fs::read_dir(folder).expect("a folder").count();
-    let before = entries();
-    let said = crossbar_in(folder, arguments, "").refusal(arguments);
-    assert_eq!(entries(), before, "{arguments:?} left something behind");
-    said
+/// Messages of refused runs of a command in fresh folders with these files, for one snapshot; no run leaves anything.
+pub(crate) fn refusals(
+    command: &[&str],
+    files: &[(&str, impl AsRef<[u8]>)],
+    cases: &[(&'static str, &[&str])],
+) -> String {
+    listed(cases.iter().map(|(name, arguments)| {
+        let folder = folder_with(files);
+        let ran = crossbar_in(folder.path(), &[command, arguments].concat(), "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
+        assert_eq!(names_in(folder.path()).len(), files.len(), "{name} left something behind");
+        (*name, ran.stderr)
+    }))
+}
+
+/// The names of a folder's entries, sorted.
+pub(crate) fn names_in(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder").flatten();
+    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
 }

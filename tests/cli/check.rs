@@ -2,15 +2,12 @@
 
 use std::fs;
 
+use crate::answers::folder_with;
 use crate::{ProgramOutput, crossbar_in};
 
 /// Checks `text` as `shader.psa` in a new folder.
 fn check(text: &[u8], arguments: &[&str]) -> ProgramOutput {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::write(folder.path().join("shader.psa"), text).expect("a file");
-    let mut all = vec!["check", "shader.psa"];
-    all.extend(arguments);
-    crossbar_in(folder.path(), &all, "")
+    crossbar_in(folder_with(&[("shader.psa", text)]).path(), &[&["check", "shader.psa"], arguments].concat(), "")
 }
 
 #[test]
@@ -30,7 +27,7 @@ fn all_violations_with_their_places() {
 #[test]
 fn violations_for_machines() {
     let ran = check(b"ps_1_4\nmov r0, c9\n", &["--device", "r200", "--json"]);
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!(ran.code, Some(1));
     assert_eq!(report["legal"], false);
     let violation = &report["violations"][0];
@@ -39,7 +36,7 @@ fn violations_for_machines() {
     assert_eq!(violation["limit"], 8);
     assert!(violation["start"].as_u64() < violation["end"].as_u64(), "{violation}");
     let ran = check(b"ps_1_4\nmov r0, c1\n", &["--device", "r200", "--json"]);
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
 }
 
@@ -51,12 +48,12 @@ fn warnings() {
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     insta::assert_snapshot!(ran.stdout);
     let ran = check(clamped, &["--device", "r200", "--json"]);
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
     assert_eq!(report["warnings"][0]["code"], "W01");
     assert_eq!((&report["warnings"][0]["start"], &report["warnings"][0]["end"]), (&7.into(), &31.into()));
     let illegal = check(b"ps_1_4\ndef c2, 2, 0, 0, 1\nmov r0, c9\n", &["--device", "r200", "--json"]);
-    let report: serde_json::Value = serde_json::from_str(&illegal.stdout).expect("one JSON document");
+    let report = illegal.json();
     assert_eq!((illegal.code, &report["warnings"][0]["code"]), (Some(1), &"W01".into()));
 }
 
@@ -65,7 +62,7 @@ fn warnings() {
 fn outputs_that_change_no_pixel() {
     let vertex = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmov oFog, v0.z\nmov oPts, v0.w\nmov oFog.x, v0.w\n";
     let ran = check(vertex.as_bytes(), &["--device", "r300", "--json"]);
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!((ran.code, &report["legal"]), (Some(0), &serde_json::Value::Bool(true)));
     let codes: Vec<&str> =
         report["warnings"].as_array().expect("a list").iter().filter_map(|w| w["code"].as_str()).collect();
@@ -113,7 +110,7 @@ fn more_slots_than_sixteen_bits_count() {
     // Each instruction takes three slots.
     let text = format!("ps_2_a\nmov r0, c0\n{}mov oC0, r0\n", "nrm r1, r0\n".repeat(30_000));
     let ran = check(text.as_bytes(), &["--device", "ideal-fp32", "--json"]);
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!((ran.code, &report["arithmetic_slots"]), (Some(0), &serde_json::Value::from(90_002)));
     let ran = check(text.as_bytes(), &["--device", "ideal-fp32"]);
     assert!(ran.stdout.contains("90002 arithmetic slots"), "{}", ran.stdout);

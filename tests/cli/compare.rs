@@ -1,31 +1,27 @@
 //! `crossbar compare` and `crossbar run --trace`: equal sides, differences derived by hand, and bad input.
 
-use std::fs;
-
 use serde_json::{Value, json};
 
-use crate::answers::listed;
+use crate::answers::{folder_with, listed, refusals};
 use crate::{ProgramOutput, case::CASES, case::example, crossbar_in};
 
 /// Runs the program on `text` as `case.toml` in a new folder.
 fn on(text: &str, arguments: &[&str]) -> ProgramOutput {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    fs::write(folder.path().join("case.toml"), text).expect("a file");
-    crossbar_in(folder.path(), arguments, "")
+    crossbar_in(folder_with(&[("case.toml", text)]).path(), arguments, "")
 }
 
 /// The JSON report of a comparison that finds a difference.
 fn difference(text: &str, arguments: &[&str]) -> Value {
     let ran = on(text, &[&["compare", "case.toml", "--json"], arguments].concat());
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(1), ""), "{}", ran.stdout);
-    let report: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let report = ran.json();
     assert_eq!(report["equal"], false);
     report["first"].clone()
 }
 
 #[test]
 fn both_executors_are_equal_on_every_example() {
-    for name in CASES {
+    for name in CASES.iter() {
         for scope in [&[][..], &["--registers"], &["--pixel", "1,1"]] {
             let folder = tempfile::tempdir().expect("a folder for the test");
             let ran = crossbar_in(folder.path(), &[&["compare", &example(name)], scope].concat(), "");
@@ -111,12 +107,7 @@ fn bad_sides() {
         ("no_pixel", &["--pixel", "4"]),
         ("pixel_and_registers", &["--pixel", "1,1", "--registers"]),
     ];
-    let said = listed(cases.map(|(name, arguments)| {
-        let ran = on(&plain, &[&["compare", "case.toml"], arguments].concat());
-        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
-        (name, ran.stderr)
-    }));
-    insta::assert_snapshot!(said);
+    insta::assert_snapshot!(refusals(&["compare", "case.toml"], &[("case.toml", plain)], &cases));
 }
 
 #[test]
@@ -149,7 +140,7 @@ format = "rgba16f"
     let trace = |executor: &str| {
         let ran = on(text, &["run", "case.toml", "--trace", "1,0", "--json", "--executor", executor]);
         assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-        let report: Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+        let report = ran.json();
         report["trace"].clone()
     };
     let scalar = trace("scalar");

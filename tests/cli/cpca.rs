@@ -1,12 +1,11 @@
 //! `crossbar cpca`: transfer, compression, errors and pictures from the command line.
 
 use std::fs;
-use std::path::Path;
 
 use approx::assert_relative_eq;
 use crossbar::transfer::file::load_prt;
 
-use crate::answers::{document, number, place, refused, refused_in};
+use crate::answers::{document, number, place, refused};
 
 const STEP: [&str; 3] = ["docs/examples/step.obj", "docs/examples/step.npz", "docs/examples/step_small.npz"];
 
@@ -23,44 +22,6 @@ fn the_examples_are_made_by_the_commands() {
         document(&[&["cpca", "compress", transfer][..], &options].concat());
         assert_eq!(fs::read(&out).expect("written"), fs::read(small).expect("an example"), "{threads} threads");
     }
-}
-
-#[test]
-fn what_does_not_go_together_is_refused() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let root = |path: &str| place(Path::new(env!("CARGO_MANIFEST_DIR")), path);
-    let [model, transfer, small] = STEP.map(root);
-    let (square, signal) = (root("fixtures/models/square.obj"), root("docs/examples/signal.csv"));
-    for (arguments, words) in [
-        (&["render", &transfer, "--model", &square][..], "expected transfer of a mesh with"),
-        (&["compress", &small, "--out", "y.npz"], "expected transfer, found clusters only"),
-        (&["compress", &transfer, "--clusters", "1000", "--out", "y.npz"], "expected 1 to"),
-        (
-            &["compress", &transfer, "--vectors", "10", "--clusters", "2", "--out", "y.npz"],
-            "expected at most 9 `--vectors`",
-        ),
-        (&["error", &transfer, &transfer], "expected clusters, found transfer only"),
-        (&["error", &signal, &small], "expected 24 points of 3 numbers"),
-        (&["show", &model], "expected a .npz file, found other first bytes"),
-    ] {
-        let said = refused_in(folder.path(), &[&["cpca"], arguments].concat());
-        assert!(said.contains(words), "{arguments:?}: {said}");
-    }
-}
-
-/// Files and formats that a card does not support are refused with advice, and nothing is written.
-#[test]
-fn cards_refuse_what_they_have_no_programs_for() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let [model, whole, small] = STEP;
-    let refused = |arguments: &[&str]| {
-        let out = place(folder.path(), "out");
-        let said = refused(&[&["cpca", "card"], arguments, &["--size", "8x8", "--out", &out]].concat());
-        assert!(!folder.path().join("out").exists(), "{arguments:?}");
-        said
-    };
-    assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer only"));
-    assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
 }
 
 /// Light at a place in a scene: a lamp has the flux of its solid angle in closed form, and the model's picture depends on
@@ -85,17 +46,6 @@ fn light_comes_from_a_place_in_a_scene() {
         number(&document(&[&["cpca", "render", transfer, "--model", model][..], &options].concat())["exposure"])
     });
     assert!(exposures[1] > 10.0 * exposures[0], "a lamp at a fifth of the distance: {exposures:?}");
-    for (light, words) in [
-        ("scene:cornel@0,0,0", "cornell"),
-        ("scene:docs/examples/step.obj@0,0,0", "expected a scene with lights"),
-        ("scene:cornell", "expected constant"),
-        ("scene:cornell@0,0", "X,Y,Z"),
-        ("scene:cornell-box@9,9,9", "expected a place"),
-        ("scene:cornell-box@1e9,0,0", "expected a place of light within 2^24 of the origin"),
-    ] {
-        let said = refused(&["cpca", "render", transfer, "--model", model, "--light", light]);
-        assert!(said.contains(words), "{light}: {said}");
-    }
 }
 
 /// A square whose first texture coordinate grows with y: the anisotropic material follows it, the file stores the
@@ -129,28 +79,4 @@ fn tangents_come_from_the_texture_and_stay_with_the_file() {
     // A square without texture coordinates is a different mesh and is refused.
     let square = ["cpca", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
     refused(&square);
-}
-
-/// Options that other options make useless are refused by name.
-#[test]
-fn idle_options_of_compression_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let ([model, transfer, _], out) = (STEP, place(folder.path(), "out.npz"));
-    let signal = "docs/examples/signal.csv";
-    for (from, options, words) in [
-        (transfer, "--vectors 0 --method static", "`--method` is for clusters with vectors"),
-        (transfer, "--model M", "`--model` is for `--reclassify`"),
-        (transfer, "--clusters 1 --model M --reclassify 0.1", "`--reclassify` is for several clusters"),
-        (transfer, "--reclassify 0.1", "--model"),
-        (transfer, "--model M --reclassify -1", "not below 0"),
-        (transfer, "--model white-box --reclassify 0.1 --clusters 4", "expected transfer of a mesh with"),
-        (signal, "--model M --reclassify 0.1 --clusters 4", "found that of no mesh"),
-    ] {
-        let options = options.replace(" M", &format!(" {model}"));
-        let words_of: Vec<&str> =
-            ["cpca", "compress", from, "--out", &out].into_iter().chain(options.split(' ')).collect();
-        let said = refused(&words_of);
-        assert!(said.contains(words), "{options}: {said}");
-        assert!(!Path::new(&out).exists(), "{options}");
-    }
 }

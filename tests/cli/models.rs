@@ -4,22 +4,14 @@
 use std::fs;
 use std::path::Path;
 
-use crate::program::{ProgramOutput, crossbar_in};
+use crate::answers::{folder_with, line_in as run};
 
 const BLENDER: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nusemtl m\nf 1 2 3\nf 1 4 3\n";
 const RAYS: &str = "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0\n0.25,-1,0.75,0,1,0\n";
 
 fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    fs::write(folder.path().join("m.obj"), BLENDER).expect("written");
     let mtl = "newmtl m\nNs 225\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nd 1\nillum 2\n";
-    fs::write(folder.path().join("m.mtl"), mtl).expect("written");
-    fs::write(folder.path().join("r.csv"), RAYS).expect("written");
-    folder
-}
-
-fn run(folder: &Path, line: &str) -> ProgramOutput {
-    crossbar_in(folder, &line.split(' ').collect::<Vec<_>>(), "")
+    folder_with(&[("m.obj", BLENDER), ("m.mtl", mtl), ("r.csv", RAYS)])
 }
 
 /// Every command that reads a model reports its repaired defects in the same words.
@@ -95,7 +87,7 @@ fn leaks_of_any_model() {
     let line = format!("leaks --mesh {mesh} --size 24x24 --device r200 --rays-per-edge 1 --out a --json");
     let ran = run(folder.path(), &line);
     assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let report = ran.json();
     assert!(report["rows"][0]["hits"].as_u64().is_some_and(|hits| hits > 50), "{report}");
     assert!(report["edges"][0]["edge_rays"].as_u64().is_some_and(|rays| rays > 50), "{report}");
     let page = fs::read_to_string(folder.path().join("a/index.html")).expect("the page");
@@ -104,13 +96,13 @@ fn leaks_of_any_model() {
     let line = format!("leaks --mesh {mesh} --rays {rays} --device r200 --device r300 --out b --json");
     let ran = run(folder.path(), &line);
     assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let report = ran.json();
     let rows = report["rows"].as_array().expect("rows");
     assert_eq!(rows.len(), 2);
     // `intersect` finds the same number of hits.
     for (row, device) in rows.iter().zip(["r200", "r300"]) {
         let line = format!("intersect --mesh {mesh} --rays {rays} --device {device} --out h.csv --json");
-        let asked: serde_json::Value = serde_json::from_str(&run(folder.path(), &line).stdout).expect("JSON");
+        let asked = run(folder.path(), &line).json();
         assert_eq!(row["hits"], asked["hits"], "{device}");
     }
     for name in ["r200-map.png", "r300-map.png", "exact.exr", "rows.csv"] {

@@ -11,20 +11,13 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
     let run = |arguments: &[&str]| crossbar_in(root.path(), arguments, "");
     let found = run(&["precision", "docs/examples/lerp.toml", "--goal", "largest_codes<=0", "--out", "out", "--json"]);
     assert_eq!(found.code, Some(0), "{}", found.transcript());
-    let document: serde_json::Value = serde_json::from_str(&found.stdout).expect("JSON");
+    let document = found.json();
     assert_eq!(document["families"][0]["one_minimal"], true, "{document}");
     let device = fs::read_to_string(root.path().join("out/mixed.toml")).expect("a device");
     assert!(device.starts_with("device = \"nv25\"") && device.contains("# lrp r0, t0, c0, c1"), "{device}");
-    let compared = run(&[
-        "compare",
-        "docs/examples/lerp.toml",
-        "--left-device",
-        "out/mixed.toml",
-        "--right-device",
-        "nv25",
-        "--right-format",
-        "fp32",
-    ]);
+    let compared =
+        "compare docs/examples/lerp.toml --left-device out/mixed.toml --right-device nv25 --right-format fp32";
+    let compared = run(&compared.split(' ').collect::<Vec<_>>());
     assert_eq!(compared.code, Some(0), "{}", compared.transcript());
     // Formats of a changed program have no effect, and a warning says so.
     let case = fs::read_to_string(root.path().join("docs/examples/lerp.toml")).expect("a case");
@@ -47,9 +40,8 @@ fn the_mixed_device_meets_the_goal_that_it_was_made_for() {
 }
 
 #[test]
-fn goals_and_costs_that_cannot_be_used_are_explained() {
+fn goals_that_cannot_be_used_are_explained() {
     let root = copy_of_the_repository();
-    fs::write(root.path().join("short.csv"), "bits,cost\n8,1\n").expect("a file");
     let case = fs::read_to_string(root.path().join("docs/examples/lerp.toml")).expect("a case");
     fs::write(root.path().join("other.toml"), case.replace("lrp r0, t0, c0, c1", "mul r0, t0, c0")).expect("a file");
     let run = |options: &[&str]| {
@@ -61,7 +53,6 @@ fn goals_and_costs_that_cannot_be_used_are_explained() {
         run(&["--goal", "leaks"]),
         run(&["--goal", "largest_codes<0"]),
         run(&["--budget", "0"]),
-        run(&["--costs", "short.csv"]),
         run(&["--held-back", "other.toml"]),
         run(&["--held-back", "missing.toml"]),
         crossbar_in(root.path(), &["precision", "cpca", "--held-back", "docs/examples/lerp.toml"], "").transcript(),
@@ -76,12 +67,12 @@ fn expressions_are_studied_listed_and_refused() {
         |arguments: &[&str]| crossbar_in(root.path(), &[&["precision", "--samples", "60"], arguments].concat(), "");
     let one = run(&["--expr", "-x/3 + x*x", "--range", "x=-1..1", "--json", "--out", "one"]);
     assert_eq!(one.code, Some(0), "{}", one.transcript());
-    let document: serde_json::Value = serde_json::from_str(&one.stdout).expect("JSON");
+    let document = one.json();
     assert_eq!(document["formats"][0]["format"], "e4m3", "{document}");
     assert_eq!(document["provenance"]["seed"], 0, "{document}");
     assert!(root.path().join("one/index.html").exists() && root.path().join("one/operations.csv").exists());
     let all = run(&["--fpcore", "fixtures/fpbench/suite.fpcore", "--out", "all", "--json"]);
-    let document: serde_json::Value = serde_json::from_str(&all.stdout).expect("JSON");
+    let document = all.json();
     assert_eq!(document["expressions"].as_array().map(Vec::len), Some(32), "{document}");
     assert_eq!(document["not_studied"][0]["place"], "109:3", "{document}");
     fs::write(root.path().join("none.fpcore"), "(FPCore (x) :pre (< x x) x)").expect("a file");
@@ -116,7 +107,7 @@ fn the_rewritten_shader_draws_what_the_study_states() {
     let run = |arguments: &str| crossbar_in(root.path(), &arguments.split(' ').collect::<Vec<_>>(), "");
     let given = "fresnel.wgsl --uniform f0=0.04,0.3,0.9";
     let study = run(&format!("precision docs/examples/wgsl/{given} --family float --budget 75 --out out --json"));
-    let document: serde_json::Value = serde_json::from_str(&study.stdout).expect("JSON");
+    let document = study.json();
     let rows = document["half"].as_array().cloned().unwrap_or_default();
     let refuted: Vec<&serde_json::Value> = rows.iter().filter(|row| row["may_be_f16"] != "yes").collect();
     assert_eq!(rows.len(), 13, "{}", study.transcript());

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::answers::listed;
+use crate::answers::{folder_with, names_in, refusals};
 use crate::{ProgramOutput, crossbar_in};
 
 fn radiosity(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
@@ -23,11 +23,7 @@ fn what_it_says_and_writes() {
     let (ran, folder) = radiosity(&arguments);
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     insta::assert_snapshot!("radiosity_tables", ran.stdout);
-    let mut written: Vec<String> = std::fs::read_dir(folder.path().join("out/radiosity"))
-        .expect("a folder")
-        .map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned())
-        .collect();
-    written.sort();
+    let written = names_in(&folder.path().join("out/radiosity"));
     insta::assert_snapshot!("radiosity_files", written.join("\n"));
     let page = std::fs::read_to_string(folder.path().join("out/radiosity/index.html")).expect("a page");
     assert_eq!(page.matches("<img").count(), 6 * 2 + 4 + 2, "two pictures a way, one error on a card, two frames");
@@ -61,10 +57,8 @@ fn vertices_have_radiosities() {
 /// If no patch sees another, every solver ends at once, without a curve to draw.
 #[test]
 fn a_flat_scene_has_no_residuals_to_draw() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
     let model = "mtllib m.mtl\nusemtl shining\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
-    std::fs::write(folder.path().join("m.obj"), model).expect("written");
-    std::fs::write(folder.path().join("m.mtl"), "newmtl shining\nKd 0.5 0.5 0.5\nKe 1 1 1\n").expect("written");
+    let folder = folder_with(&[("m.obj", model), ("m.mtl", "newmtl shining\nKd 0.5 0.5 0.5\nKe 1 1 1\n")]);
     for solver in ["gauss-seidel", "shooting", "jacobi"] {
         let arguments = ["radiosity", "m.obj", "--patches", "16", "--size", "8x8", "--solver", solver, "--out", solver];
         let ran = crossbar_in(folder.path(), &arguments, "");
@@ -78,7 +72,7 @@ fn a_document_for_machines() {
     let mut arguments = SMALL.to_vec();
     arguments.extend(["--solver", "direct", "--enforce-closure", "--json"]);
     let (ran, _folder) = radiosity(&arguments);
-    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let found = ran.json();
     assert_eq!(found["room"][0]["enforced"], "closure");
     let [card, direct] = &found["ways"].as_array().expect("ways")[..] else { panic!("{found}") };
     assert_eq!((card["way"].as_str(), direct["way"].as_str()), (Some("nv35-rgb-fp32"), Some("direct")));
@@ -122,26 +116,13 @@ fn bad_input() {
         ("no_patches", &["cornell-room", "--patches", "0"]),
         ("unknown_view", &["cornell-room", "--view", "behind"]),
     ];
-    let said = listed(cases.map(|(name, arguments)| {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        for (file, text) in FILES {
-            std::fs::write(folder.path().join(file), text).expect("written");
-        }
-        let ran = crossbar_in(folder.path(), &[&["radiosity"], arguments].concat(), "");
-        assert_eq!(ran.code, Some(2), "{name}: {}", ran.stderr);
-        assert!(!folder.path().join("out").exists(), "{name} left something behind");
-        (name, ran.stderr)
-    }));
-    insta::assert_snapshot!(said);
+    insta::assert_snapshot!(refusals(&["radiosity"], &FILES, &cases));
 }
 
 /// Every command accepts a model with triangles without area, and reports their number.
 #[test]
 fn a_triangle_without_area_is_no_patch() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    for (file, text) in FILES {
-        std::fs::write(folder.path().join(file), text).expect("written");
-    }
+    let folder = folder_with(&FILES);
     let ran = crossbar_in(folder.path(), &["radiosity", "flat.obj", "--patches", "8", "--size", "8x8"], "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     assert_eq!(ran.stderr, "warning: flat.obj: 1 triangle without area: never hit\n");

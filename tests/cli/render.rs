@@ -1,6 +1,6 @@
 //! `crossbar render` with the host renderers.
 
-use crate::answers::listed;
+use crate::answers::refusals;
 use crate::{ProgramOutput, crossbar_in};
 
 fn render(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
@@ -26,7 +26,7 @@ fn what_it_says() {
     insta::assert_snapshot!("render_cornell_box", ran.transcript());
     let engine = ["cornell-box", "--size", "16x16", "--samples", "1", "--caster", "engine", "--json"];
     let (ran, _folder) = render(&engine);
-    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let found = ran.json();
     assert_eq!(found["pixels"], 256);
     assert_eq!(found["not_finite"], 0);
     assert_eq!(found["rays"]["total"], found["engine"]["rays"]);
@@ -52,19 +52,9 @@ fn bad_input() {
         ("scene_file_field", &["field.toml"]),
         ("broken_ply", &["broken.ply"]),
     ];
-    let said = listed(cases.map(|(name, arguments)| {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        let point = "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n";
-        let files = [("square.obj", SQUARE), ("point.obj", point), ("field.toml", FIELD), ("broken.ply", BROKEN)];
-        for (file, text) in files {
-            std::fs::write(folder.path().join(file), text).expect("written");
-        }
-        let ran = crossbar_in(folder.path(), &[&["render"], arguments].concat(), "");
-        assert_eq!(ran.code, Some(2), "{name}: {}", ran.stderr);
-        assert!(!folder.path().join("out").exists(), "{name} left something behind");
-        (name, ran.stderr)
-    }));
-    insta::assert_snapshot!(said);
+    let point = "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n";
+    let files = [("square.obj", SQUARE), ("point.obj", point), ("field.toml", FIELD), ("broken.ply", BROKEN)];
+    insta::assert_snapshot!(refusals(&["render"], &files, &cases));
 }
 
 #[test]

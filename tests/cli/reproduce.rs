@@ -26,7 +26,7 @@ fn the_rows_are_these() {
         ["ray-engine-radeon-8500", "ray-engine-vertex-variant", "ray-engine-equation-11", "ray-engine-figure-7"];
     let ran = crossbar_in(folder.path(), &[&["reproduce", "--json", "--out", "found"], &quick[..]].concat(), "");
     assert_eq!(ran.code, Some(0), "a missed figure is no failure: {}", ran.stderr);
-    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let document = ran.json();
     assert_eq!(document["rows"].as_array().map(Vec::len), Some(8));
     let tally = document["tally"].as_array().expect("a tally");
     let counted: u64 = tally.iter().filter_map(|row| row["rows"].as_u64()).sum();
@@ -47,7 +47,7 @@ fn what_is_recorded_stays() {
     let entries = ["cpca-section-6", "cpca-figure-6"];
     let ran = crossbar_in(folder.path(), &[&["reproduce", "--record", ".", "--json"], &entries[..]].concat(), "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
-    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let document = ran.json();
     let records = document["records"].as_array().expect("records").iter();
     let records: Vec<_> = records.map(|record| (record["entry"].clone(), record["record"].clone())).collect();
     assert_eq!(records, [(entries[0].into(), "new".into()), (entries[1].into(), "kept".into())]);
@@ -62,7 +62,7 @@ fn recorded_rows_say_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let entries = ["cpca-figure-6", "ray-engine-equation-11"];
     let ran = crossbar_in(folder.path(), &[&["reproduce", "--json", "--out", "found"], &entries[..]].concat(), "");
-    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let document = ran.json();
     for row in document["rows"].as_array().expect("rows") {
         let is_recorded = row["entry"] == "cpca-figure-6";
         assert_eq!(row["source"], if is_recorded { "recorded" } else { "computed" }, "{row}");

@@ -10,7 +10,7 @@ fn resolved(arguments: &[&str]) -> String {
     std::fs::write(folder.path().join("docs/examples/it's.obj"), room).expect("written");
     let ran = crossbar_in(folder.path(), &[arguments, &["--json"]].concat(), "");
     assert_eq!(ran.code, Some(0), "{arguments:?}: {}", ran.stderr);
-    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let document = ran.json();
     document["provenance"]["command"].as_str().expect("a command").to_owned()
 }
 

@@ -7,16 +7,8 @@ use wait4::Wait4 as _;
 
 use crossbar::report::visible::is_hidden;
 
+use crate::answers::folder_with;
 use crate::{ProgramOutput, crossbar, crossbar_in};
-
-/// A temporary folder with the files of a test.
-fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    for (name, bytes) in files {
-        fs::write(folder.path().join(name), bytes).expect("a file");
-    }
-    folder
-}
 
 fn check(text: &str, more: &[&str]) -> ProgramOutput {
     let folder = folder_with(&[("shader.psa", text.as_bytes())]);
@@ -87,7 +79,7 @@ fn nothing_from_outside_acts_on_the_terminal() {
     let ran = crossbar_in(folder.path(), &["run", "good.toml", "--out", "out"], "");
     assert!(ran.stdout.starts_with("a\\u{1b}]0;title"), "a title is one line, escaped: {}", ran.stdout);
     let ran = crossbar_in(folder.path(), &["run", "good.toml", "--out", "out", "--json"], "");
-    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let document = ran.json();
     assert_eq!(document["title"], format!("a{HOSTILE}\nb"), "machines get the very text");
     nothing_hidden(&crossbar(&["alu", "sqrt", "--format", "fp16"], &format!("{HOSTILE}\n")), "standard input");
 }
@@ -110,8 +102,7 @@ fn lists_of_errors_are_cut_but_for_machines() {
             .expect("a count");
     assert_eq!((ran.code, shown(&ran.stdout)), (Some(1), 20), "{}", ran.stdout);
     assert!(ran.stdout.ends_with(" more: `--json` lists all\n"), "{}", ran.stdout);
-    let document: serde_json::Value =
-        serde_json::from_str(&check(&bad_lines(50), &["--json"]).stdout).expect("one JSON document");
+    let document = check(&bad_lines(50), &["--json"]).json();
     assert_eq!(document["violations"].as_array().map(Vec::len), Some(total));
     let ran = check(&format!("ps_1_4\n{}", "frobnicate\n".repeat(30)), &[]);
     assert!(ran.stderr.ends_with("... and 10 more: `--json` lists all\n"), "{}", ran.stderr);

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
-use crate::answers::words;
+use crate::answers::{folder_with, names_in, words};
 use crate::generated::{filled, hold};
 use crate::{ProgramOutput, crossbar_in};
 
@@ -16,40 +16,18 @@ const SMALL: [&str; 10] =
     ["subsurface", "m.obj", "--mm-per-unit", "5", "--material", "marble", "--atlas", "16", "--size", "16x16"];
 
 fn subsurface(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    std::fs::write(folder.path().join("m.obj"), MODEL).expect("written");
+    let folder = folder_with(&[("m.obj", MODEL)]);
     (crossbar_in(folder.path(), &[&SMALL[..], more].concat(), ""), folder)
-}
-
-fn files(folder: &tempfile::TempDir) -> Vec<String> {
-    let entries = std::fs::read_dir(folder.path().join("out/subsurface")).expect("a folder").flatten();
-    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
 }
 
 #[test]
 fn what_it_says_and_writes() {
-    let more = [
-        "--choice",
-        "fixed",
-        "--choice",
-        "adaptive",
-        "--links",
-        "4,16",
-        "--map",
-        "8bit",
-        "--map",
-        "fp32",
-        "--light",
-        "directional:1,1,1:2,2,1",
-        "--light",
-        "ambient:0.1,0.1,0.2",
-    ];
-    let (ran, folder) = subsurface(&more);
+    let more = "--choice fixed --choice adaptive --links 4,16 --map 8bit --map fp32 --light directional:1,1,1:2,2,1 \
+                --light ambient:0.1,0.1,0.2";
+    let (ran, folder) = subsurface(&more.split_whitespace().collect::<Vec<_>>());
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     insta::assert_snapshot!("subsurface_tables", ran.stdout);
-    insta::assert_snapshot!("subsurface_files", files(&folder).join("\n"));
+    insta::assert_snapshot!("subsurface_files", names_in(&folder.path().join("out/subsurface")).join("\n"));
     let page = std::fs::read_to_string(folder.path().join("out/subsurface/index.html")).expect("a page");
     assert_eq!(page.matches("<img").count(), 3 + 2 + 8 + 8, "lead, maps, ways, their errors");
     let faces = std::fs::read_to_string(folder.path().join("out/subsurface/faces.csv")).expect("a table");
@@ -206,8 +184,7 @@ fn all_pairs_are_gathered_up_to_the_side_that_help_and_page_say() {
     let help = crossbar_in(Path::new("."), &["subsurface", "--help"], "");
     assert!(words(&help.stdout).contains("[default: yes for atlases up to 32]"), "{}", help.stdout);
     for (side, is_gathered) in [("16", true), ("64", false)] {
-        let folder = tempfile::tempdir().expect("a folder for the test");
-        std::fs::write(folder.path().join("m.obj"), MODEL).expect("written");
+        let folder = folder_with(&[("m.obj", MODEL)]);
         let arguments = SMALL.map(|word| if word == "16" { side } else { word });
         let ran = crossbar_in(folder.path(), &[&arguments[..], &["--links", "4", "--channels", "scalar"]].concat(), "");
         assert_eq!(ran.code, Some(0), "{}", ran.stderr);
@@ -236,8 +213,7 @@ fn a_face_that_stands_twice_is_said() {
 /// A corner at 1e12 makes texels whose areas differ by 1e20: factors with such ratios overflow half precision.
 #[test]
 fn factors_beyond_their_format_are_refused() {
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    std::fs::write(folder.path().join("m.obj"), MODEL.replace("v 0 0 2", "v 0 0 1e12")).expect("written");
+    let folder = folder_with(&[("m.obj", MODEL.replace("v 0 0 2", "v 0 0 1e12"))]);
     let run = |format| {
         let more = ["--all-pairs", "no", "--links", "16", "--link-format", format];
         crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "")

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::answers::listed;
+use crate::answers::{line_in, names_in, refusals};
 use crate::crossbar_in;
 
 fn in_project(path: &str) -> String {
@@ -22,7 +22,7 @@ fn casting_is_timed_apart_from_building() {
         assert!(cast && build && ran.stderr.starts_with("time: "), "{}", ran.stderr);
         assert_eq!(ran.stdout.contains("engine: "), more.contains(&"engine"), "{}", ran.stdout);
         let ran = crossbar_in(folder.path(), &[&all[..], more, &["--json"]].concat(), "");
-        let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+        let report = ran.json();
         let seconds = |what: &str| report["time"][what].as_f64().expect("seconds");
         assert!(seconds("cast_s") > 0.0 && seconds("build_s") >= 0.0 && seconds("rays_per_s") > 0.0, "{report}");
         assert_eq!(report["engine"]["rays"].is_u64(), more.contains(&"engine"), "{report}");
@@ -55,8 +55,7 @@ fn short_formats_leak_into_the_room() {
     let folder = tempfile::tempdir().expect("a folder");
     let line = "radiosity cornell-room-blocks --patches 60 --size 8x8 --solver direct --caster engine \
                 --caster-format fp32 --caster-format s3.12 --out r --json";
-    let ran = crossbar_in(folder.path(), &line.split_whitespace().collect::<Vec<_>>(), "");
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let report = line_in(folder.path(), line).json();
     let cell = |row: usize, name: &str| report["casters"][row][name].as_f64().expect("a number");
     for name in ["differing", "factors_percent", "largest_relative", "mean_relative"] {
         assert!(cell(0, name) == 0.0 && cell(1, name) > 0.0, "{name}: {report}");
@@ -66,7 +65,6 @@ fn short_formats_leak_into_the_room() {
 
 #[test]
 fn casters_refuse_what_is_not_for_them() {
-    let folder = tempfile::tempdir().expect("a folder");
     let (mesh, rays) = (in_project("fixtures/models/square.obj"), in_project("fixtures/rays/square.csv"));
     let cases: [(&str, &[&str]); 9] = [
         ("device_of_the_host", &["--caster", "host", "--device", "r300"]),
@@ -79,14 +77,8 @@ fn casters_refuse_what_is_not_for_them() {
         ("unknown_mode", &["--caster", "engine", "--readback", "async"]),
         ("unknown_caster", &["--caster", "card"]),
     ];
-    let said = listed(cases.map(|(name, more)| {
-        let all = ["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "hits.csv"];
-        let ran = crossbar_in(folder.path(), &[&all[..], more].concat(), "");
-        assert_eq!(ran.code, Some(2), "{name}: {}", ran.transcript());
-        assert_eq!(fs::read_dir(folder.path()).expect("the folder").count(), 0, "{name} left something behind");
-        (name, ran.stderr)
-    }));
-    insta::assert_snapshot!(said);
+    let all = ["intersect", "--mesh", &mesh, "--rays", &rays, "--out", "hits.csv"];
+    insta::assert_snapshot!(refusals(&all, &[("", ""); 0], &cases));
 }
 
 #[test]
@@ -104,25 +96,20 @@ fn leaky_teapot_writes_everything_it_promises() {
     let folder = tempfile::tempdir().expect("a folder");
     let arguments =
         "leaky-teapot --size 20x16 --tessellation 2 --device r200 --device r300 --rays-per-edge 1 --out a/b --json";
-    let arguments: Vec<&str> = arguments.split(' ').collect();
-    let ran = crossbar_in(folder.path(), &arguments, "");
+    let ran = line_in(folder.path(), arguments);
     assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let report = ran.json();
     assert_eq!(report["rows"].as_array().map(Vec::len), Some(2), "a row a device");
     assert_eq!(report["provenance"]["version"], env!("CARGO_PKG_VERSION"), "provenance");
     let out = folder.path().join("a/b");
-    let mut names: Vec<String> = fs::read_dir(&out)
-        .expect("the folder")
-        .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
+    let names = names_in(&out);
     let expected = "edges.csv exact.exr exact.png index.html r200-map.png \
                     r200.exr r200.png r300-map.png r300.exr r300.png rows.csv study.json";
     assert_eq!(names.join(" "), expected, "these files and no others");
     let page = fs::read_to_string(out.join("index.html")).expect("the page");
     assert!(page.matches("data:image/png;base64,").count() == 5, "exact, two pictures, two maps");
     assert!(!page.contains("http://") && !page.contains("https://"), "self-contained");
-    let again = crossbar_in(folder.path(), &arguments, "");
+    let again = line_in(folder.path(), arguments);
     assert_eq!(again.stdout, ran.stdout, "the same run gives the same report");
     assert_eq!(fs::read_to_string(out.join("index.html")).expect("the page"), page, "and the same page");
 }
@@ -137,9 +124,9 @@ fn a_format_keeps_the_rounding_of_device_files() {
     }
     let arguments = "leaky-teapot --size 32x32 --tessellation 2 --rays-per-edge 0 --device rne.toml --device rdn.toml \
                      --format s3.11 --json";
-    let ran = crossbar_in(folder.path(), &arguments.split(' ').collect::<Vec<_>>(), "");
+    let ran = line_in(folder.path(), arguments);
     assert_eq!(ran.code, Some(0), "{}", ran.transcript());
-    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let report = ran.json();
     assert_eq!([0, 1].map(|row| report["rows"][row]["format"].as_str()), [Some("s3.11"), Some("s3.11:rdn")]);
     assert_eq!(report["same_bits"], serde_json::json!({}), "they trace otherwise");
 }

@@ -2,10 +2,7 @@
 
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Hit, Mesh, Ray, Sides, exact};
-use crossbar::oracle::{
-    Aim, DisagreementKind, HardRay, Oracle, Tolerance, assert_bits_eq, assert_hits_eq, assert_images_equal,
-    assert_within_ulps, bits_equal, hard_rays, hits_equal, images_equal, within_ulps,
-};
+use crossbar::oracle::{Aim, DisagreementKind, HardRay, Oracle, Tolerance, hard_rays};
 
 /// A square in z = 0 seen from above, a triangle that touches its corner, one far below, and one that faces down.
 fn scene() -> Mesh {
@@ -104,10 +101,6 @@ fn the_report_reads_well() {
     let oracle = Oracle::new(&mesh, Sides::Front, Tolerance::ulps(1));
     let report = oracle.judge(&rays, &found).expect("one answer a ray");
     insta::assert_snapshot!("report", report);
-    let json = serde_json::to_value(&report).expect("JSON");
-    insta::assert_snapshot!("report_counts", serde_json::to_string(&json["counts"]).expect("JSON"));
-    insta::assert_snapshot!("report_worst_in_json", serde_json::to_string(&json["worst"][1]).expect("JSON"));
-    assert!(json["worst"][3]["found"]["t"].is_null(), "JSON has no NaN: {json}");
     let leaks = report.only(DisagreementKind::is_leak);
     assert_eq!((leaks.leaks(), leaks.disagreements().len()), (2, 2));
 }
@@ -146,8 +139,6 @@ fn long_reports_are_cut() {
     let text = report.to_string();
     assert_eq!(text.lines().count(), 3 + 10 * 2, "{text}");
     assert!(text.ends_with("and 1490 more"), "{text}");
-    let json = serde_json::to_value(&report).expect("JSON");
-    assert_eq!((json["worst"].as_array().map(Vec::len), json["not_listed"].as_u64()), (Some(1000), Some(500)));
     assert_eq!(report.disagreements().len(), 1500);
 }
 
@@ -163,37 +154,18 @@ fn answers_are_counted() {
     assert!(hard_rays(&nothing, 100, 1).is_empty());
 }
 
-/// The message of the panic that `test` causes.
-fn said(test: impl FnOnce() + std::panic::UnwindSafe) -> String {
-    let payload = std::panic::catch_unwind(test).expect_err("it panics");
-    payload.downcast_ref::<String>().expect("words").clone()
-}
-
 #[test]
 fn assertions_say_what_differs() {
-    let next = f32::from_bits(1.0f32.to_bits() + 1);
-    insta::assert_snapshot!("bits_differ", bits_equal(&[0.0, 1.0, 2.0], &[-0.0, 1.0, 2.5]).unwrap_err());
-    insta::assert_snapshot!("lengths_differ", bits_equal(&[0.0], &[]).unwrap_err());
-    insta::assert_snapshot!("ulps_differ", within_ulps(&[1.0, 1.0, 1.0], &[next, f32::NAN, 1.000_1], 1).unwrap_err());
-    insta::assert_snapshot!("hits_differ", hits_equal(&[None, hit(1, 2.0)], &[None, hit(2, 2.0)]).unwrap_err());
-    let left = [[0u8, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]];
-    let right = [[0u8, 1, 2], [3, 6, 5], [6, 7, 8], [90, 10, 11]];
-    insta::assert_snapshot!("pictures_differ", images_equal(2, &left, &right, 1).unwrap_err());
-    assert_bits_eq(&[f32::NAN], &[f32::NAN]);
-    assert_within_ulps(&[1.0, f32::NAN, 0.0], &[next, f32::NAN, -0.0], 1);
-    assert_hits_eq(&[hit(1, 2.0)], &[hit(1, 2.0)]);
-    assert_images_equal(2, &left, &right, 255);
-    assert!(said(|| assert_bits_eq(&[1.0], &[next])).contains("1 ULP apart"));
-    assert!(said(|| assert_within_ulps(&[1.0], &[-1.0], 4)).contains("more than 4 ULPs"));
-    assert!(said(|| assert_hits_eq(&[None], &[hit(1, 2.0)])).contains("nothing and triangle 1"));
-    assert!(said(|| assert_images_equal(1, &[[1.0f32]], &[[2.0]], 0)).contains("pixel (0, 0)"));
+    let payload = std::panic::catch_unwind(|| {
+        let mesh = scene();
+        let rays = [HardRay { ray: down(0.5, 0.25), aim: Aim::Edge }];
+        Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T).assert_watertight(&rays, |_| hit(3, 5.0));
+    });
+    let payload = payload.expect_err("it panics");
+    let said = payload.downcast_ref::<String>().expect("words");
     assert!(
-        said(|| {
-            let mesh = scene();
-            let rays = [HardRay { ray: down(0.5, 0.25), aim: Aim::Edge }];
-            Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T).assert_watertight(&rays, |_| hit(3, 5.0));
-        })
-        .ends_with("| aim | rays | leak through to what is behind |\n|---|---|---|\n| edge | 1 | 1 |")
+        said.ends_with("| aim | rays | leak through to what is behind |\n|---|---|---|\n| edge | 1 | 1 |"),
+        "{said}"
     );
 }
 

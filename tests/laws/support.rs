@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 use crossbar::clustering::{CpcaForm, CpcaMethod, CpcaOptions};
 use crossbar::geom::vector::wide;
 use crossbar::geom::{Hit, Mesh};
+use crossbar::scene::Camera;
 use proptest::sample::Index;
 use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::timing::{Level, Model};
 
 use crate::archive::{archive, members};
 
@@ -63,6 +66,18 @@ pub(crate) fn cuboid(low: [f32; 3], high: [f32; 3]) -> Mesh {
     let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     Mesh::new((0..8).map(corner).collect(), triangles).expect("a box")
+}
+
+/// A camera above the hills of [`crossbar::transfer::synthetic::hills`], so that no hill hides another.
+pub(crate) fn over_hills([width, height]: [u32; 2]) -> Camera {
+    Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, width, height).expect("a camera")
+}
+
+/// The clocks in which a card transforms the vertices of all draws of a log.
+pub(crate) fn vertex_clocks(card: &Profile, log: &[Event]) -> f64 {
+    let model = Model::new(Level::Pipeline, card).expect("a model");
+    let of = |event: &Event| if let Event::Draw(draw) = event { model.clocks(draw).vertices.0 } else { 0 };
+    log.iter().map(of).sum::<u64>() as f64
 }
 
 /// Options for affine clusters, with the same number of both kinds of iterations, and start points chosen by the seed.

@@ -45,7 +45,6 @@ fn time_never_changes_a_pixel() {
                 let mut strange = setup.clone();
                 strange.profile = absurd(&setup.profile, up);
                 let found = case::run(&strange, executor).expect("the case draws");
-                assert_eq!(found.events, plain.events, "{}", path.display());
                 let bytes =
                     |o: &case::CaseOutcome| o.pictures.iter().map(|(_, bytes)| bytes.clone()).collect::<Vec<_>>();
                 assert_eq!(bytes(&found), bytes(&plain), "{}: a pixel changed", path.display());

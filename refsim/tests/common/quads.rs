@@ -7,7 +7,7 @@ use refsim::exec::{Constants, FragmentResult, NoObserver, PixelBindings};
 use refsim::isa::{Program, Version};
 use refsim::raster::FragmentInput;
 
-pub(crate) const PS_2: [Version; 3] = [Version::Ps2_0, Version::Ps2A, Version::Ps2B];
+const PS_2: [Version; 3] = [Version::Ps2_0, Version::Ps2A, Version::Ps2B];
 
 /// Formats whose numbers are all representable in fp32.
 pub(crate) const WITHIN_FP32: [&str; 8] =
@@ -32,6 +32,13 @@ pub(crate) fn inputs(data: &[[u32; 4]]) -> [FragmentInput; 4] {
         (0..8).for_each(|set| input.t[set] = data[(lane + 3 * set) % data.len()]);
         (0..2).for_each(|color| input.v[color] = data[(2 * lane + color) % data.len()]);
         input
+    })
+}
+
+/// The text of a legal program of `ps_2_x`, the inputs of a quad, and constants.
+pub(crate) fn cases() -> impl Strategy<Value = (String, [FragmentInput; 4], Constants)> {
+    (select(&PS_2[..]), any::<u64>(), vectors(24), vectors(8)).prop_map(|(version, seed, data, float)| {
+        (crate::generate::legal(version, seed), inputs(&data), Constants { float, ..Constants::default() })
     })
 }
 

@@ -1,4 +1,4 @@
-//! Runs a program from text on one quad, and records every step.
+//! Runs a program from text on one quad, and records every step; draws over a whole target.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use refsim::asm::assemble;
@@ -6,8 +6,10 @@ use refsim::device::{Profile, Rules};
 use refsim::exec::scalar::{PixelProgram, VertexProgram, VertexResult};
 use refsim::exec::{CheckedProgram, Constants, FragmentResult, NoObserver, PixelBindings, Step, Trace};
 use refsim::isa::Program;
+use refsim::machine::{DrawCall, TextureId, VertexSource};
 use refsim::num::{Format, ops};
-use refsim::raster::FragmentInput;
+use refsim::raster::{FragmentInput, PixelCenter, Primitive, Vertex, full_screen_quad};
+use refsim::texture::{Image, TargetRounding, TexelFormat, TextureKind};
 
 /// Assembles and checks a program; panics with all errors if it fails.
 pub(crate) fn checked(text: &str, profile: &Profile) -> CheckedProgram {
@@ -107,4 +109,26 @@ pub(crate) fn run_vertex(text: &str, profile: &Profile, constants: &Constants, v
         *slot = bits(v);
     }
     VertexProgram::new(&program, &profile.rules, constants).run(&attributes, &mut NoObserver).0
+}
+
+/// A quad over the whole target; its coordinates go from (0, 0) in the first row to (1, 1).
+pub(crate) fn screen() -> [Vertex; 4] {
+    full_screen_quad(|u, v| [[u, v, 0.0, 1.0]; 8])
+}
+
+/// A draw of quads with pixel centers at one half.
+pub(crate) fn quads<'a>(
+    vertices: &'a [Vertex],
+    program: &'a CheckedProgram,
+    constants: &'a Constants,
+    target: TextureId,
+) -> DrawCall<'a> {
+    let call = DrawCall::new(VertexSource::Transformed(vertices), Primitive::QuadList, program, constants, target);
+    DrawCall { center: PixelCenter::OpenGl, ..call }
+}
+
+/// A texture from texels in single precision, row by row.
+pub(crate) fn image(format: TexelFormat, [width, height]: [u32; 2], texels: &[[u32; 4]]) -> Image {
+    let (kind, extents) = (TextureKind::D2, [width, height, 1]);
+    Image::from_values(format, kind, extents, Format::FP32, texels, TargetRounding::Nearest).unwrap()
 }

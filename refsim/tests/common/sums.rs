@@ -2,36 +2,24 @@
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use crate::random::Random;
-use crate::running::{checked, ideal};
+use crate::running::{checked, ideal, image, quads, screen};
 use refsim::device::{AddMode, MadMode, Profile};
 use refsim::exec::Constants;
-use refsim::machine::{DrawCall, Machine, VertexSource};
+use refsim::machine::Machine;
 use refsim::num::{DotOrder, Format, Rounding};
-use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
-use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{SamplerState, TexelFormat};
 
 /// Width and height of the target, in pixels.
 const SIDE: u32 = 24;
 
-const FORMATS: [&str; 12] = [
-    "fp24:rtz:ftz",
-    "fp24",
-    "fp16",
-    "fp16:rdn:ftz",
-    "fp32",
-    "fp32:rtz:ftz",
-    "fp32:rna:nvovf:nv",
-    "e5m2:rdn:sat",
-    "e4m3fn",
-    "fp24:rup",
-    "s3.12:rtz",
-    "n3.8:rna",
-];
+const FORMATS: &str = "fp24:rtz:ftz fp24 fp16 fp16:rdn:ftz fp32 fp32:rtz:ftz fp32:rna:nvovf:nv e5m2:rdn:sat \
+                       e4m3fn fp24:rup s3.12:rtz n3.8:rna";
 
 /// A device with random rules for products and sums; the seed selects the format in turn.
 pub(crate) fn profile(seed: u64) -> Profile {
     let mut random = Random::new(seed);
-    let mut profile = ideal(FORMATS[seed as usize % FORMATS.len()]);
+    let formats: Vec<&str> = FORMATS.split(' ').collect();
+    let mut profile = ideal(formats[seed as usize % formats.len()]);
     let rules = &mut profile.rules;
     let roundings = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
     rules.product_rounding = [None, Some(random.of(&roundings))][random.below(2usize)];
@@ -86,17 +74,12 @@ pub(crate) fn pixels(machine: &mut Machine, profile: &Profile, text: &str, textu
     let side = textures[0].len().isqrt() as u32;
     let program = checked(text, profile);
     let target = machine.create_target(TexelFormat::Rgba32f, side, side).unwrap();
-    let vertices = full_screen_quad(|u, v| [[u, v, 0.0, 1.0]]);
-    let constants = Constants::default();
-    let source = VertexSource::Transformed(&vertices);
-    let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target);
+    let (vertices, constants) = (screen(), Constants::default());
+    let mut call = quads(&vertices, &program, &constants, target);
     for (sampler, values) in textures.iter().enumerate() {
-        let (format, kind, extents) = (TexelFormat::Rgba32f, TextureKind::D2, [side, side, 1]);
-        let image = Image::from_values(format, kind, extents, Format::FP32, values, TargetRounding::Nearest).unwrap();
-        let texture = machine.create_texture(image).unwrap();
+        let texture = machine.create_texture(image(TexelFormat::Rgba32f, [side; 2], values)).unwrap();
         call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
     }
-    call.center = PixelCenter::OpenGl;
     machine.draw(&call).unwrap();
     machine.read_back(target).unwrap().bytes().to_vec()
 }

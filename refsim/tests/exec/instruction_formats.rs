@@ -1,12 +1,11 @@
 //! Formats of single instructions: laws over random programs, examples, and device files.
 
-use crate::quads::{PS_2, WITHIN_FP32, inputs, results, vectors};
+use crate::quads::{WITHIN_FP32, cases, results};
+use crate::running;
 use crate::running::run_with_coordinates;
-use crate::{generate, running};
 use proptest::{collection::vec, prelude::*, sample::select};
 use refsim::asm::assemble;
 use refsim::device::{MAX_INSTRUCTION_FORMATS, Profile, takes_format};
-use refsim::exec::Constants;
 use refsim::isa::{Opcode, Program};
 use refsim::num::{Format, ops};
 
@@ -34,26 +33,22 @@ proptest! {
     /// `_pp` on every instruction equals setting the format of `_pp` for every instruction.
     #[test]
     fn a_format_of_its_own_is_that_of_the_hint(
-        version in select(&PS_2[..]),
-        seed in any::<u64>(),
-        data in vectors(24),
-        constants in vectors(8),
+        (text, inputs, host) in cases(),
         [main, own] in [select(vec!["fp32", "fp24", "s3.12", "n3.8:rna"]), select(WITHIN_FP32.to_vec())],
     ) {
-        let program = assemble(&generate::legal(version, seed)).expect("a legal program");
-        let host = Constants { float: constants, ..Constants::default() };
+        let program = assemble(&text).expect("a legal program");
         let mut mixed = running::ideal(main);
         assign(&mut mixed, &program, own.parse().unwrap());
         let mut hinted = running::ideal(main);
         hinted.rules.partial = Some(own.parse().unwrap());
-        let mut text = program.clone();
-        for instruction in &mut text.instructions {
+        let mut hints = program.clone();
+        for instruction in &mut hints.instructions {
             if takes_format(instruction) && let Some(destination) = &mut instruction.destination {
                 destination.partial_precision = true;
             }
         }
-        if let Some(expected) = results(text, &hinted, &inputs(&data), &host) {
-            prop_assert_eq!(Some(expected), results(program, &mixed, &inputs(&data), &host));
+        if let Some(expected) = results(hints, &hinted, &inputs, &host) {
+            prop_assert_eq!(Some(expected), results(program, &mixed, &inputs, &host));
         }
     }
 
@@ -61,23 +56,19 @@ proptest! {
     /// format.
     #[test]
     fn one_format_for_all_is_the_device_of_that_format(
-        version in select(&PS_2[..]),
-        seed in any::<u64>(),
-        data in vectors(24),
-        constants in vectors(8),
+        (text, inputs, host) in cases(),
         own in select(WITHIN_FP32.to_vec()),
     ) {
         // Texture results are rounded twice; kills and flow-control comparisons read unrounded inputs.
-        let text: String = generate::legal(version, seed).lines().map(without_texture).collect();
+        let text: String = text.lines().map(without_texture).collect();
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e}")))?;
         prop_assume!(!program.instructions.iter().any(|i| matches!(i.opcode, Opcode::IfC | Opcode::BreakC)));
-        let host = Constants { float: constants, ..Constants::default() };
         let format: Format = own.parse().unwrap();
         let mut mixed = running::ideal("fp32");
         assign(&mut mixed, &program, format);
-        let uniform = results(program.clone(), &running::ideal(own), &inputs(&data), &host);
+        let uniform = results(program.clone(), &running::ideal(own), &inputs, &host);
         let uniform = uniform.unwrap_or_else(|| panic!("it runs on ideal devices:\n{text}"));
-        let mixed = results(program, &mixed, &inputs(&data), &host).expect("it runs on ideal devices");
+        let mixed = results(program, &mixed, &inputs, &host).expect("it runs on ideal devices");
         let wide = |x: u32| ops::convert(&format, Format::FP32, x).bits;
         for (a, b) in uniform.iter().zip(&mixed) {
             prop_assert_eq!(a.colors.map(|c| c.map(wide)), b.colors);
@@ -224,27 +215,19 @@ fn formats_that_change_nothing_are_found() {
 }
 
 #[test]
-fn messages_of_device_files() {
-    let message = |text: &str| Profile::from_device_file(text).unwrap_err().to_string();
-    assert_eq!(message("device = \"r9\""), message_of(Profile::named("r9")));
-    assert_eq!(
-        message("device = \"r200\"\n[switches]\nmad = \"x\""),
-        "switch `mad` of device `r200`: expected one of two-roundings fused, found `x`"
-    );
-    assert_eq!(
-        message("device = \"r200\"\n[programs.12]\n0 = \"fp16\""),
-        "device file: programs.12: expected the 16 hexadecimal digits of a program's digest"
-    );
-    assert_eq!(
-        message("device = \"r200\"\n[programs.0123456789abcdef]\nx = \"fp16\""),
-        "device file: programs.0123456789abcdef.x: expected an instruction's index"
-    );
-    assert!(message("device = \"r200\"\nspeed = 1").contains("unknown field `speed`"));
-    assert!(message("device = \"r200\"\n[programs.0123456789abcdef]\n0 = \"fp99\"").contains("fp99"));
-}
-
-fn message_of(result: Result<Profile, refsim::device::DeviceError>) -> String {
-    result.unwrap_err().to_string()
+fn wrong_device_files_are_refused() {
+    for text in [
+        "device = \"r9\"",
+        "device = \"r200\"\n[switches]\nmad = \"x\"",
+        "device = \"r200\"\n[programs.12]\n0 = \"fp16\"",
+        "device = \"r200\"\n[programs.0123456789abcdef]\nx = \"fp16\"",
+        "device = \"r200\"\nspeed = 1",
+        "device = \"r200\"\n[storage]\ntexels = \"fp16\"",
+        "device = \"r200\"\n[storage]\nsamples = \"fp16\"",
+        "device = \"r200\"\n[programs.0123456789abcdef]\n0 = \"fp99\"",
+    ] {
+        assert!(Profile::from_device_file(text).is_err(), "{text}");
+    }
 }
 
 #[test]

@@ -4,49 +4,41 @@ mod mipmaps;
 mod mistakes;
 
 use crate::random::Random;
-use crate::running::{bits, checked, constants, ideal};
+use crate::running::{self, bits, checked, constants, ideal, image};
 use refsim::device::Profile;
 use refsim::event::DrawEvents;
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{
     AttributeStream, DrawCall, ExecutorKind, Machine, MachineError, StepRate, TextureId, VertexSource, VertexStreams,
 };
-use refsim::num::Format;
 use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask};
 use refsim::raster::{Primitive, Vertex};
-use refsim::texture::{Filter, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{Filter, Image, Region, SamplerState, TexelFormat};
 
 /// Corners of a quad that covers a target of `n` x `n` pixels; its coordinates hit the texel centers of an n x n
 /// texture.
-fn screen(n: u32) -> Vec<Vertex> {
+pub(crate) fn screen(n: u32) -> Vec<Vertex> {
     // Shifted up and left by half a pixel, because Direct3D 9 has pixel centers at integers.
     let step = 1.0 / n as f32;
-    let corner = |x: f32, y: f32, u: f32, v: f32| Vertex {
-        position: bits([x - step, y + step, 0.5, 1.0]),
-        texcoords: [bits([u, v, 0.0, 1.0]); 8],
-        colors: [bits([0.25, 0.5, 0.75, 1.0]); 2],
-        ..Vertex::default()
+    let corner = |vertex: Vertex| {
+        let [x, y, ..] = vertex.position.map(f32::from_bits);
+        let (position, colors) = (bits([x - step, y + step, 0.5, 1.0]), [bits([0.25, 0.5, 0.75, 1.0]); 2]);
+        Vertex { position, colors, ..vertex }
     };
-    vec![
-        corner(-1.0, 1.0, 0.0, 0.0),
-        corner(1.0, 1.0, 1.0, 0.0),
-        corner(1.0, -1.0, 1.0, 1.0),
-        corner(-1.0, -1.0, 0.0, 1.0),
-    ]
+    running::screen().map(corner).to_vec()
 }
 
 fn gradient(n: u32) -> Image {
     let values: Vec<[u32; 4]> =
         (0..n * n).map(|i| bits([(i % n) as f32 / 255.0, (i / n) as f32 / 255.0, 0.5, 1.0])).collect();
-    let kind = TextureKind::D2;
-    Image::from_values(TexelFormat::Rgba8, kind, [n, n, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
+    image(TexelFormat::Rgba8, [n; 2], &values)
 }
 
 fn pixel(image: &Image, x: u32, y: u32) -> [u8; 4] {
     (image.raw(0, 0, y, x) as u32).to_le_bytes()
 }
 
-/// A draw of quads.
+/// A draw of quads with pixel centers at integers.
 fn quads<'a>(
     vertices: &'a [Vertex],
     program: &'a CheckedProgram,
@@ -155,31 +147,20 @@ fn draw_quads(
 const TEXTURED: &str = "ps_1_4\ntexld r0, t0\nmul r0.rgb, r0, v0\n+mov r0.a, v0.a";
 
 #[test]
-fn any_number_of_threads_gives_the_same_bits_and_counts() {
+fn fifty_quads_at_once_are_fifty_draws_on_any_number_of_threads() {
     let profile = Profile::named("r200").unwrap();
     let program = checked(TEXTURED, &profile);
     let vertices = random_quads(50);
-    let run = |threads| {
+    let run = |threads, at_once| {
         let mut machine = Machine::with_threads(profile.clone(), ExecutorKind::Scalar, threads).unwrap();
-        draw_quads(&mut machine, &program, &vertices, true)
+        draw_quads(&mut machine, &program, &vertices, at_once)
     };
-    let one = run(1);
+    let one = run(1, true);
     assert!(one.2.fragments.passed > 1000 && one.2.fragments.depth_failed > 100, "the scene has both: {:?}", one.2);
-    assert_eq!(one, run(2));
-    assert_eq!(one, run(3));
-}
-
-#[test]
-fn fifty_quads_at_once_are_fifty_draws() {
-    let profile = Profile::named("r200").unwrap();
-    let program = checked(TEXTURED, &profile);
-    let vertices = random_quads(50);
-    let run =
-        |at_once| draw_quads(&mut Machine::new(profile.clone(), ExecutorKind::Scalar), &program, &vertices, at_once);
-    let (together, apart) = (run(true), run(false));
-    assert_eq!(together.0, apart.0, "colour");
-    assert_eq!(together.1, apart.1, "depth");
-    assert_eq!(DrawEvents { draws: 50, instances: 50, ..together.2 }, apart.2, "counts");
+    assert_eq!(one, run(2, true));
+    assert_eq!(one, run(3, true));
+    let (color, depth, total) = one;
+    assert_eq!((color, depth, DrawEvents { draws: 50, instances: 50, ..total }), run(1, false));
 }
 
 #[test]

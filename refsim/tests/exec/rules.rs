@@ -2,13 +2,13 @@
 
 mod textures;
 
-use crate::running::{bits, constants, ideal, input, into, run, run_quad, run_with_coordinates};
+use crate::running::{bits, constants, ideal, image, input, into, run, run_quad, run_with_coordinates};
 use refsim::device::{Profile, TexcrdOverflow, TexkillComponents};
 use refsim::exec::DepthValue;
 use refsim::exec::{BumpStage, Constants, PixelBindings, SamplerBinding};
 use refsim::num::{Flags, Format};
 use refsim::raster::FragmentInput;
-use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{Filter, Image, MipFilter, SamplerState, TexelFormat, TextureKind};
 use textures::with_texture;
 
 const S3_12: Format = Format::S3_12;
@@ -224,18 +224,8 @@ fn results_of_nv2x_are_clamped_to_one() {
 
 #[test]
 fn addresses_are_not_rounded_to_the_register_format() {
-    let image = {
-        let values: Vec<[u32; 4]> = (0..8192).map(|i| bits([(i % 64) as f32, 0.0, 0.0, 0.0])).collect();
-        Image::from_values(
-            TexelFormat::R32f,
-            TextureKind::D2,
-            [8192, 1, 1],
-            Format::FP32,
-            &values,
-            TargetRounding::Nearest,
-        )
-        .unwrap()
-    };
+    let values: Vec<[u32; 4]> = (0..8192).map(|i| bits([(i % 64) as f32, 0.0, 0.0, 0.0])).collect();
+    let image = image(TexelFormat::R32f, [8192, 1], &values);
     let constants = Constants::default();
     let mut bindings = PixelBindings::new(&constants);
     bindings.samplers[0] = Some(SamplerBinding { image: &image, state: SamplerState::NEAREST_CLAMP });

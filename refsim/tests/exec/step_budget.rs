@@ -1,6 +1,7 @@
 //! Tests step budgets: programs that would run for years end with an error that names the location; programs within the
 //! budget are unaffected.
 
+use crate::machine::screen;
 use crate::running::{bits, checked, constants, ideal, input, run_quad};
 use refsim::device::{DEFAULT_STEP_BUDGET, Profile};
 use refsim::event::{FlowConstants, ProgramWork};
@@ -19,13 +20,12 @@ const EXECUTORS: [ExecutorKind; 2] = [ExecutorKind::Scalar, ExecutorKind::Batch]
 
 /// A quad over the whole target whose t0 counts columns and rows.
 fn corners() -> Vec<Vertex> {
-    let (side, step) = (SIDE as f32, 1.0 / SIDE as f32);
-    let corner = |x: f32, y: f32| Vertex {
-        position: bits([2.0 * x - 1.0 - step, 1.0 - 2.0 * y + step, 0.5, 1.0]),
-        texcoords: [bits([side * x, side * y, 0.0, 1.0]); 8],
-        ..Vertex::default()
-    };
-    vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]
+    let mut corners = screen(SIDE);
+    for vertex in &mut corners {
+        let [u, v, ..] = vertex.texcoords[0].map(f32::from_bits);
+        vertex.texcoords[0] = bits([SIDE as f32 * u, SIDE as f32 * v, 0.0, 1.0]);
+    }
+    corners
 }
 
 /// Draws the quad into a target cleared to 0.25; returns the target's bytes.

@@ -65,40 +65,33 @@ fn every_pair() {
     }
 }
 
-/// Each digest covers 2,048 numbers.
-#[test]
-fn every_half_in_every_rounding() {
-    let lines = lines("fp16");
-    assert_eq!(lines.len(), (4 * 2 + 3) * 6);
-    let halves: Vec<u32> = (0..0x7c00).chain(0x8000..0xfc00).collect();
+/// Compares the results of a conversion, which gets the format and the number's index, for all finite halves; each
+/// digest covers 2,048 of them.
+fn every_half(table: &str, formats: usize, convert: impl Fn(Format, u64, u32) -> u32) {
+    let lines = lines(table);
+    assert_eq!(lines.len(), formats);
+    let halves: Vec<(u64, u32)> = (0..).zip((0..0x7c00).chain(0x8000..0xfc00)).collect();
     for line in lines {
         let f = format(line[0]);
         assert_eq!(line.len() - 1, halves.len() / 2048, "{f}");
         for (halves, expected) in halves.chunks(2048).zip(&line[1..]) {
-            let found = digest(halves.iter().map(|&half| ops::convert(&Format::FP16, f, half).bits));
-            assert_eq!(found, **expected, "{f}: fp16 from {:#x}", halves[0]);
+            let found = digest(halves.iter().map(|&(i, half)| convert(f, i, half)));
+            assert_eq!(found, **expected, "{f}: fp16 from {:#x}", halves[0].1);
         }
     }
+}
+
+#[test]
+fn every_half_in_every_rounding() {
+    every_half("fp16", (4 * 2 + 3) * 6, |f, _, half| ops::convert(&Format::FP16, f, half).bits);
 }
 
 /// Number i of the list is rounded with random word i of seed 2002.
 #[test]
 fn every_half_by_chance() {
-    let lines = lines("stochastic");
-    assert_eq!(lines.len(), 5);
-    let halves: Vec<u32> = (0..0x7c00).chain(0x8000..0xfc00).collect();
-    for line in lines {
-        let f = format(line[0]);
-        assert_eq!(line.len() - 1, halves.len() / 2048, "{f}");
-        let indexed: Vec<(u64, u32)> = (0..).zip(halves.iter().copied()).collect();
-        for (halves, expected) in indexed.chunks(2048).zip(&line[1..]) {
-            let rounded = |&(i, half): &(u64, u32)| {
-                let drawn = f.with_rounding(Rounding::Stochastic(random_word(2002, i)));
-                ops::convert(&Format::FP16, drawn, half).bits
-            };
-            assert_eq!(digest(halves.iter().map(rounded)), **expected, "{f}: fp16 from {:#x}", halves[0].1);
-        }
-    }
+    every_half("stochastic", 5, |f, i, half| {
+        ops::convert(&Format::FP16, f.with_rounding(Rounding::Stochastic(random_word(2002, i))), half).bits
+    });
 }
 
 /// A remainder of 2^-k units is rounded up by the fraction 2^-k of all random words: sums, products, quotients, roots,

@@ -1,10 +1,9 @@
 //! Tests of "Constants": the values that a pixel program reads, on both executors of the host.
 
-use super::running::{checked, constants};
+use super::running::{checked, constants, quads, screen};
 use super::{Random, probes};
 use refsim::device::{ConstantStorage, Profile};
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
-use refsim::raster::{PixelCenter, Primitive, full_screen_quad};
+use refsim::machine::{ExecutorKind, Machine};
 use refsim::texture::TexelFormat;
 
 /// The value of a constant as docs/numbers.md states it, for FP32 registers.
@@ -55,11 +54,7 @@ fn constants_are_stored_as_the_page_says() {
             for kind in [ExecutorKind::Scalar, ExecutorKind::Batch] {
                 let mut machine = Machine::new(profile.clone(), kind);
                 let target = machine.create_target(TexelFormat::Rgba32f, 1, 1).expect("a target");
-                let quad = full_screen_quad(|_, _| []);
-                let source = VertexSource::Transformed(&quad);
-                let mut call = DrawCall::new(source, Primitive::QuadList, &program, &host, target);
-                call.center = PixelCenter::OpenGl;
-                machine.draw(&call).expect("drawn");
+                machine.draw(&quads(&screen(), &program, &host, target)).expect("drawn");
                 let texel = machine.read_back(target).expect("read").raw(0, 0, 0, 0);
                 let found: [f32; 4] = std::array::from_fn(|i| f32::from_bits((texel >> (32 * i)) as u32));
                 for (found, expected) in found.into_iter().zip(expected) {

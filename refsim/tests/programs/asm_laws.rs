@@ -1,20 +1,31 @@
 //! Properties of the assembler: it parses what it prints, and never panics.
 
-use crate::{generate, spacing};
+use crate::{asm::texts, generate, spacing};
 use proptest::prelude::*;
 use refsim::asm::{ErrorKind, MAX_ERRORS, MAX_STATEMENTS, MAX_TEXT, assemble, print};
-use std::{fs, path::PathBuf};
 
-fn good_texts() -> Vec<String> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fixtures/shaders/asm");
-    let mut paths: Vec<_> = fs::read_dir(folder)
-        .expect("the fixtures are there")
-        .map(|entry| entry.expect("a readable folder").path())
-        .filter(|path| path.is_file())
-        .collect();
-    paths.sort();
-    let read = |path| fs::read_to_string(path).expect("a readable text");
-    paths.into_iter().map(read).collect()
+/// A place, the kind of an edit, and a byte for it.
+pub(crate) type Edit = (prop::sample::Index, u8, u8);
+
+/// A text with bytes removed, doubled or replaced, and pieces repeated.
+pub(crate) fn mutated(mut bytes: Vec<u8>, edits: Vec<Edit>) -> Vec<u8> {
+    for (at, kind, byte) in edits {
+        if bytes.is_empty() {
+            break;
+        }
+        let at = at.index(bytes.len());
+        match kind {
+            0 => drop(bytes.remove(at)),
+            1 => bytes.insert(at, bytes[at]),
+            2 => bytes[at] = byte & 0x7f,
+            _ => {
+                let end = (at + usize::from(byte)).min(bytes.len());
+                let piece = bytes[at..end].to_vec();
+                bytes.splice(at..at, piece);
+            }
+        }
+    }
+    bytes
 }
 
 /// Checks the properties that hold for any text.
@@ -75,43 +86,16 @@ proptest! {
         which in any::<prop::sample::Index>(),
         edits in prop::collection::vec((any::<prop::sample::Index>(), 0u8..4, any::<u8>()), 1..8),
     ) {
-        let texts = good_texts();
-        let mut bytes = which.get(&texts).clone().into_bytes();
-        for (at, kind, byte) in edits {
-            if bytes.is_empty() {
-                break;
-            }
-            let at = at.index(bytes.len());
-            match kind {
-                0 => drop(bytes.remove(at)),
-                1 => bytes.insert(at, bytes[at]),
-                2 => bytes[at] = byte & 0x7f,
-                _ => {
-                    let end = (at + usize::from(byte)).min(bytes.len());
-                    let piece = bytes[at..end].to_vec();
-                    bytes.splice(at..at, piece);
-                }
-            }
-        }
+        let texts = texts("asm");
+        let bytes = mutated(which.get(&texts).1.clone().into_bytes(), edits);
         survives(&String::from_utf8_lossy(&bytes));
     }
 }
 
 #[test]
-fn fixtures_print_idempotently() {
-    for text in good_texts() {
-        let program = assemble(&text).expect("a good fixture");
-        let once = print(&program);
-        let twice = assemble(&once).expect("printed text reads back");
-        assert_eq!(twice, program, "{once}");
-        assert_eq!(print(&twice), once);
-    }
-}
-
-#[test]
 fn every_prefix_of_a_program_is_survived() {
-    for text in good_texts() {
-        for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
+    for (_, text) in texts("asm") {
+        for end in (0..=text.len()).filter(|&end| text.is_char_boundary(end)) {
             survives(&text[..end]);
         }
     }

@@ -1,6 +1,6 @@
 //! Facts about the opcode table and the other types of `refsim::isa`.
 
-use refsim::isa::{DestinationRule, Opcode, OpcodeClass, Register, RegisterFile, Spelling, Stage, Version};
+use refsim::isa::{DestinationRule, Opcode, OpcodeClass, Spelling, Stage, Version};
 use std::collections::BTreeMap;
 
 #[test]
@@ -110,12 +110,4 @@ fn version_tokens_read_back() {
     }
     assert!("ps_3_0".parse::<Version>().is_err());
     assert!("".parse::<Version>().is_err());
-}
-
-#[test]
-fn registers_are_written_as_direct3d_writes_them() {
-    assert_eq!(Register::new(RegisterFile::ColorOut, 2).to_string(), "oC2");
-    assert_eq!(Register::new(RegisterFile::DepthOut, 0).to_string(), "oDepth");
-    assert_eq!(Register::new(RegisterFile::Loop, 0).to_string(), "aL");
-    assert_eq!(Register::new(RegisterFile::Address, 0).to_string(), "a0");
 }

@@ -1,14 +1,14 @@
 //! Tests the texture cache against an independent simulator, and on draws whose texture reads are observed.
 
-use crate::running::{bits, checked};
+use crate::only_draw;
+use crate::running::{bits, checked, image, quads, screen};
 use proptest::prelude::*;
 use refsim::device::Profile;
-use refsim::event::{DrawEvents, DrawRecord, Event, SamplerTraffic};
+use refsim::event::{DrawEvents, DrawRecord, SamplerTraffic};
 use refsim::exec::Constants;
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
-use refsim::num::Format;
-use refsim::raster::{PixelCenter, Primitive, Vertex};
-use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::machine::{ExecutorKind, Machine};
+use refsim::raster::full_screen_quad;
+use refsim::texture::{Filter, Image, MipFilter, SamplerState, TexelFormat, TextureKind};
 use refsim::timing::TimingError;
 use refsim::timing::cache::{TextureCache, TextureCaches};
 use std::collections::{BTreeMap, BTreeSet};
@@ -94,16 +94,8 @@ fn impossible_caches_are_refused() {
     assert!(matches!(ideal, Err(TimingError::Missing { figure: "texture_cache_bytes", .. })));
 }
 
-fn screen(scale: f32) -> [Vertex; 4] {
-    [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| Vertex {
-        position: bits([x, y, 0.5, 1.0]),
-        texcoords: [bits([(x + 1.0) / 2.0 * scale, (1.0 - y) / 2.0 * scale, 0.0, 1.0]); 8],
-        ..Vertex::default()
-    })
-}
-
-fn image(format: TexelFormat, n: u32, levels: u32) -> Image {
-    let mut image = Image::new(format, TextureKind::D2, [n, n, 1], levels).unwrap();
+fn noise(n: u32, levels: u32) -> Image {
+    let mut image = Image::new(TexelFormat::Rgba8, TextureKind::D2, [n, n, 1], levels).unwrap();
     for (i, byte) in (0_u32..).zip(image.bytes_mut()) {
         *byte = (i.wrapping_mul(2_654_435_761) >> 24) as u8;
     }
@@ -133,21 +125,19 @@ fn draw(
         machine.observe_textures(Some(Box::new(TextureCaches::new(&profile).unwrap())));
     }
     let id = machine.create_texture(texture.clone()).unwrap();
-    let other = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
+    let other = machine.create_texture(noise(16, 1)).unwrap();
     // A separate texture, because lines fetched through one sampler hit through another sampler of the same texture.
-    let third = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
+    let third = machine.create_texture(noise(16, 1)).unwrap();
     let target = machine.create_target(TexelFormat::Bgra8, 64, 64).unwrap();
-    let (vertices, host) = (screen(scale), Constants::default());
-    let mut call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, target)
+    let vertices = full_screen_quad(|u, v| [[u * scale, v * scale, 0.0, 1.0]; 8]);
+    let host = Constants::default();
+    let call = quads(&vertices, &program, &host, target)
         .with_texture(0, id, state)
         .with_texture(1, other, SamplerState::NEAREST_CLAMP)
         .with_texture(2, third, SamplerState::default());
-    call.center = PixelCenter::OpenGl;
     let events = machine.draw(&call).unwrap();
     let bits = machine.read_back(target).unwrap().bytes().to_vec();
-    let log = machine.take_log();
-    let mut draws = log.into_iter().filter_map(|e| if let Event::Draw(draw) = e { Some(*draw) } else { None });
-    Drawn { events, bits, record: draws.next().unwrap() }
+    Drawn { events, bits, record: only_draw(&machine.take_log()).clone() }
 }
 
 fn traffic(drawn: &Drawn) -> Vec<SamplerTraffic> {
@@ -159,7 +149,7 @@ fn traffic(drawn: &Drawn) -> Vec<SamplerTraffic> {
 fn watching_changes_nothing_and_depends_on_nobody() {
     let linear =
         SamplerState { min: Filter::Linear, mag: Filter::Linear, mip: MipFilter::Linear, ..SamplerState::default() };
-    let texture = image(TexelFormat::Rgba8, 64, 7);
+    let texture = noise(64, 7);
     for (state, scale) in [(SamplerState::NEAREST_CLAMP, 1.0), (linear, 1.0), (linear, 3.7), (linear, 0.3)] {
         let plain = draw(ExecutorKind::Scalar, 1, false, (&texture, state), scale);
         let watched = draw(ExecutorKind::Scalar, 1, true, (&texture, state), scale);
@@ -181,7 +171,7 @@ fn watching_changes_nothing_and_depends_on_nobody() {
 /// twice where it is shared by the quad's two triangles.
 #[test]
 fn a_copy_moves_the_texture_once() {
-    let texture = image(TexelFormat::Rgba8, 64, 1);
+    let texture = noise(64, 1);
     let watched = draw(ExecutorKind::Scalar, 1, true, (&texture, SamplerState::NEAREST_CLAMP), 1.0);
     let seen = traffic(&watched)[0];
     assert_eq!((seen.accesses, seen.distinct), (64 * 64, 64 * 64 * 4 / 32));
@@ -207,20 +197,11 @@ fn a_texture_of_floats_is_watched_like_any_other() {
     machine.record(true);
     machine.observe_textures(Some(Box::new(TextureCaches::new(&profile).unwrap())));
     let values = vec![bits([1.0, 2.0, 3.0, 4.0]); 32 * 32];
-    let extents = [32, 32, 1];
-    let rounding = TargetRounding::Nearest;
-    let texture =
-        Image::from_values(TexelFormat::Rgba32f, TextureKind::D2, extents, Format::FP32, &values, rounding).unwrap();
-    let id = machine.create_texture(texture).unwrap();
+    let id = machine.create_texture(image(TexelFormat::Rgba32f, [32; 2], &values)).unwrap();
     let target = machine.create_target(TexelFormat::Rgba32f, 32, 32).unwrap();
-    let (vertices, host) = (screen(1.0), Constants::default());
-    let mut call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, target)
-        .with_texture(0, id, SamplerState::NEAREST_CLAMP);
-    call.center = PixelCenter::OpenGl;
+    let (vertices, host) = (screen(), Constants::default());
+    let call = quads(&vertices, &program, &host, target).with_texture(0, id, SamplerState::NEAREST_CLAMP);
     machine.draw(&call).unwrap();
-    let Some(Event::Draw(record)) = machine.take_log().into_iter().find(|e| matches!(e, Event::Draw(_))) else {
-        panic!()
-    };
-    let seen = record.samplers[0].traffic.unwrap();
+    let seen = only_draw(&machine.take_log()).samplers[0].traffic.unwrap();
     assert_eq!((seen.accesses, seen.distinct), (1024, 1024 * 16 / 32));
 }

@@ -7,3 +7,9 @@ mod queue;
 #[path = "../common/running.rs"]
 mod running;
 mod units;
+
+use refsim::event::{DrawRecord, Event};
+
+fn only_draw(log: &[Event]) -> &DrawRecord {
+    log.iter().find_map(|e| if let Event::Draw(draw) = e { Some(&**draw) } else { None }).expect("one draw")
+}

@@ -1,24 +1,16 @@
 //! Tests the timing models on draws with known counts.
 
-use crate::running::{bits, checked};
+use crate::only_draw;
+use crate::running::{bits, checked, quads, screen};
 use refsim::asm::assemble;
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event, FlowConstants, ProgramWork};
 use refsim::exec::Constants;
 use refsim::machine::{AttributeStream, DrawCall, ExecutorKind, Machine, StepRate, VertexSource, VertexStreams};
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
-use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::raster::Primitive;
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{Bottleneck, Clocks, Level, Model, Picoseconds, TimingError};
-
-fn screen() -> [Vertex; 4] {
-    [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| Vertex {
-        position: bits([x, y, 0.5, 1.0]),
-        texcoords: [bits([(x + 1.0) / 2.0, (1.0 - y) / 2.0, 0.0, 1.0]); 8],
-        colors: [bits([0.25, 0.5, 0.75, 1.0]); 2],
-        ..Vertex::default()
-    })
-}
 
 /// Draws a quad over an n x n target with depth test and write; the first `samplers` samplers read n x n textures.
 fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) -> DrawRecord {
@@ -31,17 +23,14 @@ fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) 
     let target = machine.create_target(TexelFormat::Bgra8, n, n).unwrap();
     let depth = machine.create_depth(DepthFormat::Unorm24, n, n).unwrap();
     let (vertices, host) = (screen(), Constants::default());
-    let mut call = DrawCall::new(VertexSource::Transformed(&vertices), Primitive::QuadList, &program, &host, target);
-    call.center = PixelCenter::OpenGl;
+    let mut call = quads(&vertices, &program, &host, target);
     call.depth = DepthState { test: Some(CompareFunction::Less), write: true };
     call.depth_buffer = Some(depth);
     for (sampler, texture) in textures.into_iter().enumerate() {
         call = call.with_texture(sampler, texture, SamplerState::NEAREST_CLAMP);
     }
     machine.draw(&call).unwrap();
-    let log = machine.take_log();
-    let mut draws = log.into_iter().filter_map(|e| if let Event::Draw(draw) = e { Some(*draw) } else { None });
-    draws.next().expect("one draw")
+    only_draw(&machine.take_log()).clone()
 }
 
 const DUAL: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1";
@@ -220,10 +209,6 @@ fn indexed(order: &[u32], constants: &[[f32; 4]]) -> Vec<Event> {
     machine.record(true);
     machine.draw(&call).unwrap();
     machine.take_log()
-}
-
-fn only_draw(log: &[Event]) -> &DrawRecord {
-    log.iter().find_map(|e| if let Event::Draw(draw) = e { Some(&**draw) } else { None }).expect("one draw")
 }
 
 /// Three instructions and 16 bytes per processed vertex: a strip processes each vertex once; a vertex is processed

@@ -224,7 +224,7 @@ fn tried(operation: NumberOperation) -> bool {
 pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
     let formats = formats();
     let all: Vec<Vec<u32>> = formats.iter().map(edges).collect();
-    let count = by_form(300, 20_000);
+    let count = by_form(100, 20_000);
     let mut words = Random::new(1);
     let ideal = formats.iter().filter(|format| !format.unit.is_card()).count();
     let mut by_cards = Vec::new();
@@ -242,57 +242,26 @@ pub(crate) fn every_operation_in_many_formats(gpu: &Arc<Gpu>) {
 }
 
 pub(crate) fn every_pair_of_short_formats(gpu: &Arc<Gpu>) {
-    let formats: Vec<Format> = [
-        "e3m2",
-        "s1.2",
-        "e2m2:rdn:nvovf:nv",
-        "e3m2:rtz:ftz:sat",
-        "s2.2:rdn:wrap",
-        "s0.4:rna",
-        "e4m1:rna",
-        "n1.3:rna",
-        "n0.4:rdn:wrap",
-        "s2.2:rup",
-        "s1.3:rod:wrap",
-        "n1.3:rod",
-        "n0.4:rup",
-        "e3m2:rup",
-        "e2m3:rod:ftz",
-        "e3m2fn",
-        "e2m1fn:rup:nv",
-        "e3m3fn:rod:nvovf",
-        "e4m2fn:sat",
-        "e2m3fnuz:rup:ftz",
-        "e3m2fnuz",
-    ]
-    .iter()
-    .map(|f| f.parse().expect("a format"))
-    .collect();
+    let texts = "e3m2 s1.2 e2m2:rdn:nvovf:nv e3m2:rtz:ftz:sat s2.2:rdn:wrap s0.4:rna e4m1:rna n1.3:rna \
+                 n0.4:rdn:wrap s2.2:rup s1.3:rod:wrap n1.3:rod n0.4:rup e3m2:rup e2m3:rod:ftz e3m2fn \
+                 e2m1fn:rup:nv e3m3fn:rod:nvovf e4m2fn:sat e2m3fnuz:rup:ftz e3m2fnuz";
+    let formats: Vec<Format> = texts.split(' ').map(|f| f.parse().expect("a format")).collect();
+    // The short form computes with two operands in every third format only.
+    let step = by_form(3, 1);
     let mut items = Vec::new();
     for (format, layout) in formats.iter().enumerate() {
-        for operation in NumberOperation::ALL.into_iter().filter(|&o| exhausted(o)) {
+        let pairs = format.is_multiple_of(step);
+        for operation in NumberOperation::ALL.into_iter().filter(|&o| exhausted(o) && (pairs || o.operands() < 2)) {
+            let item = |format, source, operands| Item { operation, format, source, operands };
             for a in 0..=layout.mask() {
                 match operation {
-                    NumberOperation::Convert => items.extend((0..formats.len()).map(|to| Item {
-                        operation,
-                        format: to,
-                        source: format,
-                        operands: [a, 0, 0],
-                    })),
-                    NumberOperation::Scale => items.extend((-8..=8i32).map(|k| Item {
-                        operation,
-                        format,
-                        source: format,
-                        operands: [a, k.cast_unsigned(), 0],
-                    })),
+                    NumberOperation::Convert => items.extend((0..formats.len()).map(|to| item(to, format, [a, 0, 0]))),
+                    NumberOperation::Scale => {
+                        items.extend((-8..=8i32).map(|k| item(format, format, [a, k.cast_unsigned(), 0])));
+                    }
                     _ => {
                         let seconds = if operation.operands() == 2 { layout.mask() } else { 0 };
-                        items.extend((0..=seconds).map(|b| Item {
-                            operation,
-                            format,
-                            source: format,
-                            operands: [a, b, 0],
-                        }));
+                        items.extend((0..=seconds).map(|b| item(format, format, [a, b, 0])));
                     }
                 }
             }

@@ -84,9 +84,9 @@ pub(crate) fn functions_beside_the_switch(gpu: &Arc<Gpu>) {
     let table: Vec<u32> = all.iter().flat_map(format_words).collect();
     let shader = text(include_str!("functions.wgsl"), "run_functions");
     let mut words = Random::new(3);
-    let rounds = by_form(1, 40);
+    let rounds = by_form(1, 80);
     for _ in 0..rounds {
-        let calls: Vec<Call> = (0..100_000).map(|_| Call::random(&mut words, &all, &edges_of)).collect();
+        let calls: Vec<Call> = (0..50_000).map(|_| Call::random(&mut words, &all, &edges_of)).collect();
         let items: Vec<u32> = calls
             .iter()
             .flat_map(|c| [c.function, c.formats[0] as u32, c.formats[1] as u32].into_iter().chain(c.operands))

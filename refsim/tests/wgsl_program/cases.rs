@@ -13,25 +13,8 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 
 pub(crate) const PIXEL: [Version; 7] =
     [Version::Ps1_1, Version::Ps1_2, Version::Ps1_3, Version::Ps1_4, Version::Ps2_0, Version::Ps2A, Version::Ps2B];
-pub(crate) const FORMATS: [&str; 17] = [
-    "fp32",
-    "s3.12",
-    "fp16",
-    "fp24",
-    "s1.10",
-    "s3.12:rtz",
-    "fp16:rtz:nv",
-    "s7.16",
-    "fp32:ftz",
-    "e4m3",
-    "n3.8:rna",
-    "n2.6:rdn",
-    "s3.12:rup",
-    "fp16:rod",
-    "e4m3fn",
-    "e5m2fnuz:rup",
-    "e3m2fn",
-];
+pub(crate) const FORMATS: &str = "fp32 s3.12 fp16 fp24 s1.10 s3.12:rtz fp16:rtz:nv s7.16 fp32:ftz e4m3 n3.8:rna \
+                                  n2.6:rdn s3.12:rup fp16:rod e4m3fn e5m2fnuz:rup e3m2fn";
 
 pub(crate) fn ideal(format: &str) -> Profile {
     static KNOWN: LazyLock<Mutex<BTreeMap<String, Profile>>> = LazyLock::new(Mutex::default);

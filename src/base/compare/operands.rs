@@ -119,7 +119,6 @@ impl RegisterValues {
         }
     }
 
-    /// Value of a register; `None` if it holds no numbers.
     fn value(&self, side: &TraceSide<'_>, register: &Register) -> Option<[u32; 4]> {
         match register.file {
             RegisterFile::Constant => {

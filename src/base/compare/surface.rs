@@ -59,7 +59,6 @@ pub(super) fn differing_channels(
     })
 }
 
-/// Distance between numbers: 0 between two NaN, infinite if only one is NaN.
 fn distance(left: f64, right: f64) -> f64 {
     if left == right || (left.is_nan() && right.is_nan()) {
         return 0.0;

@@ -153,7 +153,6 @@ pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usiz
     })
 }
 
-/// Fragment with its traces on both sides.
 struct Pair<'a> {
     left: &'a TraceSide<'a>,
     right: &'a TraceSide<'a>,
@@ -166,7 +165,6 @@ impl Pair<'_> {
         (Number { format: self.left.format, bits: a }, Number { format: self.right.format, bits: b })
     }
 
-    /// Components in which two vectors of register values differ.
     fn registers(&self, name: impl Fn(usize) -> String, a: [u32; 4], b: [u32; 4], mask: Mask) -> Vec<Compared> {
         let pairs = mask.components().map(|c| (c, self.numbers(a[c], b[c])));
         pairs.filter(|(_, (a, b))| !a.equals(b)).map(|(c, (a, b))| Compared::registers(name(c), &a, &b)).collect()
@@ -218,7 +216,6 @@ impl Pair<'_> {
         })
     }
 
-    /// Components in which two steps of one instruction differ.
     fn written(&self, x: &Step, y: &Step) -> Vec<Compared> {
         let Some(destination) = self.left.program.instructions.get(x.instruction).and_then(|i| i.destination) else {
             return Vec::new();
@@ -281,7 +278,6 @@ impl Pair<'_> {
     }
 }
 
-/// Returns the differences between two states of a pixel's targets.
 fn differing_states(a: &PixelState, b: &PixelState, shape: &TargetFormats<'_>) -> Vec<Compared> {
     let mut values = Vec::new();
     for (n, (format, (a, b))) in shape.targets.iter().zip(a.colors.iter().zip(&b.colors)).enumerate() {

@@ -2,6 +2,7 @@
 
 use num_bigint::BigUint;
 
+use super::exact::integer::whole;
 use super::exact::{ExactT, NearestHit, ratio};
 use super::{Contact, Mesh};
 
@@ -73,7 +74,7 @@ pub fn t_error(exact: &ExactT, t: f32) -> TError {
         return TError { absolute: f64::INFINITY, relative: f64::INFINITY };
     }
     // t = whole / 2^149 exactly; the error is |whole * den - num * 2^149| / (den * 2^149).
-    let magnitude = whole_units(t.abs());
+    let magnitude = whole(t, -149).into_parts().1;
     let (num, den) = (exact.numerator() << 149_u8, exact.denominator());
     let scaled = &magnitude * den;
     let difference = if t < 0.0 {
@@ -93,13 +94,4 @@ pub fn t_error(exact: &ExactT, t: f32) -> TError {
         ratio::to_f64(&difference, &num)
     };
     TError { absolute, relative }
-}
-
-/// Converts a finite, non-negative f32 to units of 2^-149.
-fn whole_units(value: f32) -> BigUint {
-    let bits = value.to_bits();
-    match bits >> 23 {
-        0 => BigUint::from(bits),
-        field => BigUint::from(bits & 0x7f_ffff | 0x80_0000) << (field - 1),
-    }
 }

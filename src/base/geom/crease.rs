@@ -10,7 +10,6 @@ impl Mesh {
     /// Returns the mesh with a normal per corner: the area-weighted mean over the triangles at the corner's position
     /// whose normals lie within an angle of the normal of the corner's triangle. `cosine` is the cosine of that angle.
     /// Vertices with several normals are duplicated; the order of triangles and the texture coordinates do not change.
-    #[must_use]
     pub fn creased(&self, cosine: f64) -> Self {
         let areas: Vec<DVec3> = self.iter_corners().map(|corners| area_vector(corners.map(wide))).collect();
         let place = |vertex: u32| place_bits(self.positions()[vertex as usize]);

@@ -77,9 +77,6 @@ impl Mesh {
     }
 
     /// Adds a normal per vertex, of any length; the zero vector means that the normal is unknown.
-    ///
-    /// # Errors
-    /// [`InputError`] if there is not one finite normal per vertex.
     pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self, InputError> {
         self.check_attribute("normals", &normals)?;
         self.normals = normals;
@@ -87,9 +84,6 @@ impl Mesh {
     }
 
     /// Adds texture coordinates per vertex.
-    ///
-    /// # Errors
-    /// [`InputError`] if there is not one finite pair per vertex.
     pub fn with_texcoords(mut self, texcoords: Vec<[f32; 2]>) -> Result<Self, InputError> {
         self.check_attribute("texture coordinates", &texcoords)?;
         self.texcoords = texcoords;
@@ -97,7 +91,6 @@ impl Mesh {
     }
 
     /// Rotates every position and normal.
-    #[must_use]
     pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         self.positions.iter_mut().chain(&mut self.normals).for_each(|vector| *vector = rotation(*vector));
         self
@@ -108,12 +101,14 @@ impl Mesh {
         self.triangles = ids.iter().map(|&id| self.triangles[id as usize]).collect();
     }
 
-    pub(super) fn turn_round(&mut self, triangles: &[u32]) {
+    /// Flips triangles: exchanges their second and third corners. Ids that do not exist are ignored.
+    pub fn turned_round(mut self, triangles: &[u32]) -> Self {
         for &triangle in triangles {
             if let Some([_, b, c]) = self.triangles.get_mut(triangle as usize) {
                 std::mem::swap(b, c);
             }
         }
+        self
     }
 
     fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), InputError> {

@@ -45,13 +45,6 @@ impl Mesh {
         welded.keep(&ids);
         (welded, ids)
     }
-
-    /// Flips triangles: exchanges their second and third corners. Ids that do not exist are ignored.
-    #[must_use]
-    pub fn turned_round(mut self, triangles: &[u32]) -> Self {
-        self.turn_round(triangles);
-        self
-    }
 }
 
 /// Returns the triangles to flip in the surface of triangle `first`; empty if there are none.

@@ -98,7 +98,6 @@ fn projection(outline: &[[f32; 3]]) -> Option<Vec<[f32; 2]>> {
     })
 }
 
-/// Winding of the triangle of three corners.
 fn turn(flat: &[[f32; 2]], triangle: [usize; 3]) -> Ordering {
     winding(&triangle.map(|corner| flat[corner % flat.len()]))
 }
@@ -128,7 +127,6 @@ fn touches_itself(flat: &[[f32; 2]]) -> bool {
     (0..n).any(|i| folds(i) || meets(i))
 }
 
-/// Returns `true` if two segments have a common point.
 fn meet(a: [[f32; 2]; 2], b: [[f32; 2]; 2]) -> bool {
     let near = |axis: usize| {
         let [[a, c], [b, d]] = [a, b].map(|edge| edge.map(|end| end[axis]));

@@ -13,9 +13,6 @@ pub struct Ray {
 
 impl Ray {
     /// Creates a ray from an origin along a direction of any length but zero.
-    ///
-    /// # Errors
-    /// [`InputError`] when a number is not finite or the direction is zero.
     pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Result<Self, InputError> {
         for (what, vector) in [("origin", origin), ("direction", direction)] {
             for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vector) {

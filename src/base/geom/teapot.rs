@@ -57,9 +57,6 @@ pub fn teapot(rate: u32) -> Result<Mesh, InputError> {
 }
 
 /// Like [`teapot`], with the patch of every triangle.
-///
-/// # Errors
-/// [`InputError`] for a rate outside 1 to [`MAX_RATE`].
 pub fn tessellate(rate: u32) -> Result<Teapot, InputError> {
     ensure!(
         (1..=MAX_RATE).contains(&rate),

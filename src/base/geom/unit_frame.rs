@@ -31,7 +31,6 @@ impl UnitFrame {
     }
 }
 
-/// Smallest power of two above a length; 1 for 0.
 fn power_of_two_above(length: f64) -> f64 {
     if length.is_normal() { f64::from_bits(((length.to_bits() >> 52) + 1) << 52) } else { 1.0 }
 }

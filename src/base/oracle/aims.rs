@@ -3,20 +3,17 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use serde::Serialize;
-
 use super::disagreement::DisagreementKind;
 use super::hard::{Aim, JudgedRay};
 use super::report::Report;
 
-/// Number of wrong hits of each kind among the rays of each [`Aim`]. Displays as a table, serializes as a map.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(transparent)]
+/// Number of wrong hits of each kind among the rays of each [`Aim`]. Displays as a table.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct AimCounts {
     rows: BTreeMap<Aim, AimRow>,
 }
 
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct AimRow {
     rays: usize,
     counts: BTreeMap<DisagreementKind, usize>,

@@ -3,8 +3,6 @@
 use std::cmp::Reverse;
 use std::fmt;
 
-use serde::Serialize;
-
 use super::hard::Aim;
 use crate::compare::shortest;
 use crate::error::InputError;
@@ -18,8 +16,7 @@ use crate::geom::{ExactT, Hit, Ray};
 /// ray makes a leak correct: at an edge whose two triangles face the same way, seen along the ray, every nearby ray
 /// hits one of the two.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DisagreementKind {
     /// A triangle id that the mesh does not have.
     NoSuchTriangle,
@@ -68,19 +65,16 @@ impl DisagreementKind {
     ];
 
     /// Returns `true` if an existing surface was missed, for this ray and all nearby rays: a hole.
-    #[must_use]
     pub const fn is_leak(self) -> bool {
         matches!(self, Self::Leak | Self::LeakThrough)
     }
 
     /// Returns `true` if a surface was hit that does not exist, for this ray and all nearby rays.
-    #[must_use]
     pub const fn is_false_hit(self) -> bool {
         matches!(self, Self::NoSuchTriangle | Self::FalseHit | Self::BackFace | Self::WrongTriangle)
     }
 
     /// Name: `leak`, `wrong neighbour`.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::NoSuchTriangle => "no such triangle",
@@ -105,22 +99,17 @@ impl fmt::Display for DisagreementKind {
 }
 
 /// Exact first hit of a ray.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
     /// All triangles at the first t, in ascending order; each is a correct answer.
     pub triangles: Vec<u32>,
-    /// First t, in multiples of the ray's direction; serialized as the nearest double.
-    #[serde(serialize_with = "nearest_double")]
+    /// First t, in multiples of the ray's direction.
     pub t: ExactT,
-}
-
-fn nearest_double<S: serde::Serializer>(t: &ExactT, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_f64(t.to_f64())
 }
 
 /// Ray with a wrong hit.
 #[non_exhaustive]
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Disagreement {
     /// Index of the ray among all judged rays.
     pub ray: usize,
@@ -135,61 +124,24 @@ pub struct Disagreement {
     /// Exact first hit, if there is one.
     pub expected: Option<Expected>,
     /// Hit of the intersector, if there is one.
-    #[serde(serialize_with = "found")]
     pub found: Option<Hit>,
     /// Number of f32 steps between the found t and the exact first t rounded to f32. `None` if only one side has a t,
     /// or a t is not finite.
     pub t_ulps: Option<u64>,
-    /// Exact t at which the ray hits the triangle that was found, from either side, if at all; serialized as the
-    /// nearest double.
-    #[serde(serialize_with = "nearest_double_if_any")]
+    /// Exact t at which the ray hits the triangle that was found, from either side, if at all.
     pub met_at: Option<ExactT>,
     /// A ray within a few ULPs of this one for which the found triangle, or the miss, is exactly correct. Not searched
     /// for if the triangle does not exist or is the correct one.
-    #[serde(serialize_with = "ray_if_any")]
     pub right_for: Option<Ray>,
     /// This ray, or a nearby one, that passes within a few ULPs of a feature of the found triangle: the vertex or edge
     /// shared with that ray's first triangle, or a corner at the same t. Only if `right_for` is `None`.
-    #[serde(serialize_with = "ray_if_any")]
     pub touched_by: Option<Ray>,
     /// Corners of the found triangle, or of the expected one if no triangle was found or its id does not exist.
     pub corners: Option<[[f32; 3]; 3]>,
 }
 
-fn ray_if_any<S: serde::Serializer>(ray: &Option<Ray>, serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Nearby {
-        origin: [f32; 3],
-        direction: [f32; 3],
-    }
-    ray.map(|ray| Nearby { origin: ray.origin(), direction: ray.direction() }).serialize(serializer)
-}
-
-fn nearest_double_if_any<S: serde::Serializer>(t: &Option<ExactT>, serializer: S) -> Result<S::Ok, S::Error> {
-    t.as_ref().map(ExactT::to_f64).serialize(serializer)
-}
-
-/// Serializes a hit. JSON has no infinity and no NaN: such a t is null, and its bits are given.
-fn found<S: serde::Serializer>(hit: &Option<Hit>, serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Found {
-        triangle: u32,
-        t: Option<f32>,
-        t_bits: String,
-    }
-    let found = hit.map(|Hit { triangle, t }| Found {
-        triangle,
-        t: t.is_finite().then_some(t),
-        t_bits: format!("0x{:08x}", t.to_bits()),
-    });
-    found.serialize(serializer)
-}
-
 impl Disagreement {
     /// Returns the ray with its original bits.
-    ///
-    /// # Errors
-    /// [`InputError`] if the fields have been changed and are not a valid ray any more.
     pub fn ray(&self) -> Result<Ray, InputError> {
         Ray::new(self.origin, self.direction)
     }
@@ -197,7 +149,6 @@ impl Disagreement {
     /// Returns `true` if rounding explains the result: it is correct for a ray within a few ULPs, or it names a
     /// neighbour of the correct triangle and such a ray passes their common edge or vertex, or the two t are equal
     /// within the tolerance.
-    #[must_use]
     pub fn is_rounding(&self) -> bool {
         match self.kind {
             DisagreementKind::Silhouette | DisagreementKind::Start | DisagreementKind::NearTie => true,
@@ -207,7 +158,6 @@ impl Disagreement {
     }
 
     /// Formats the ray and [`Disagreement::corners`] as Rust source for a test; numbers read back to the same bits.
-    #[must_use]
     pub fn literal(&self) -> String {
         let Self { origin, direction, .. } = self;
         let ray = format!("let ray = Ray::new({origin:?}, {direction:?}).unwrap();");
@@ -250,7 +200,7 @@ impl fmt::Display for ShownVector {
 }
 
 /// Shortest text that reads back to the same f32, with an exponent if the number is far from 1.
-pub(super) fn short(x: f32) -> String {
+fn short(x: f32) -> String {
     let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
     if plain { format!("{x}") } else { format!("{x:e}") }
 }

@@ -3,7 +3,6 @@
 use std::fmt;
 
 use glam::DVec3;
-use serde::Serialize;
 
 use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
 use crate::geom::random::CounterRng;
@@ -12,8 +11,7 @@ use crate::geom::{Mesh, Ray};
 
 /// Aim of a hard ray.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Aim {
     /// From outside at a point of a shared edge.
     Edge,
@@ -81,7 +79,7 @@ impl AsRef<Ray> for HardRay {
 
 /// Ray that an oracle can judge: a [`Ray`], a [`HardRay`], or a type of your own with an aim.
 pub trait JudgedRay: AsRef<Ray> {
-    /// Returns the aim, if known.
+    /// The aim, if known.
     fn aim(&self) -> Option<Aim> {
         None
     }
@@ -153,13 +151,11 @@ fn spread(each: usize, rays: impl Fn(u64, usize) -> Vec<Ray>) -> Vec<Ray> {
     (0..EYES).flat_map(|eye| rays(eye as u64, (each + eye) / EYES)).collect()
 }
 
-/// Selects at most `most` rays, at even distances.
 fn some(aimed: Vec<Aimed>, most: usize) -> Vec<Ray> {
     let step = aimed.len().div_ceil(most.max(1)).max(1);
     aimed.into_iter().step_by(step).take(most).map(|aimed| aimed.ray).collect()
 }
 
-/// Center and size of a mesh.
 struct MeshExtent {
     middle: DVec3,
     size: f64,
@@ -183,12 +179,10 @@ impl MeshExtent {
     }
 }
 
-/// Rounds to the nearest finite f32 coordinates.
 fn in_f32(point: DVec3) -> [f32; 3] {
     narrow(point.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())))
 }
 
-/// Triangle with a point on it.
 struct AimedTriangle {
     corners: [DVec3; 3],
     point: [f32; 3],

@@ -23,7 +23,6 @@ pub struct Oracle<'a> {
 
 impl Oracle<'static> {
     /// Creates an oracle like [`Oracle::new`], and takes ownership of the mesh.
-    #[must_use]
     pub fn owning(mesh: Mesh, sides: Sides, tolerance: Tolerance) -> Self {
         Self { tracer: Tracer::owning(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
     }
@@ -35,26 +34,22 @@ const NEARBY_ULPS: u32 = 8;
 
 impl<'a> Oracle<'a> {
     /// Creates an oracle over a mesh. `sides` determines whether backs can be hit, `tolerance` the allowed error of t.
-    #[must_use]
     pub fn new(mesh: &'a Mesh, sides: Sides, tolerance: Tolerance) -> Self {
         Self { tracer: Tracer::new(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
     }
 
     /// Mesh that is judged.
-    #[must_use]
     pub fn mesh(&self) -> &Mesh {
         self.tracer.mesh()
     }
 
     /// Returns the exact first hit of a ray.
-    #[must_use]
     pub fn first_hit(&self, ray: &Ray) -> Option<NearestHit> {
         self.tracer.nearest(ray, self.sides)
     }
 
     /// Judges the hit of one ray, whose index among all rays is `place`. Returns the exact first hit, and the
     /// disagreement if there is one.
-    #[must_use]
     pub fn judge_one(
         &self,
         place: usize,
@@ -69,16 +64,12 @@ impl<'a> Oracle<'a> {
     /// Sets the maximum distance of nearby rays in ULPs; the default is 8. A missed surface is a
     /// [`DisagreementKind::Silhouette`] if the miss is correct for a nearby ray, otherwise a leak. With 0 there are no
     /// nearby rays: every missed surface is a leak, even at a silhouette.
-    #[must_use]
     pub fn with_nearby_ulps(mut self, ulps: u32) -> Self {
         self.nearby_ulps = ulps;
         self
     }
 
     /// Judges one hit per ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
-    ///
-    /// # Errors
-    /// [`InputError`] unless the numbers of hits and rays are equal.
     pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, InputError> {
         ensure!(
             rays.len() == hits.len(),
@@ -96,9 +87,6 @@ impl<'a> Oracle<'a> {
     }
 
     /// Checks by [`Oracle::examine`] that every result is exact.
-    ///
-    /// # Errors
-    /// The report, if anything disagrees.
     pub fn agrees<R: JudgedRay>(
         &self,
         rays: &[R],
@@ -109,10 +97,6 @@ impl<'a> Oracle<'a> {
     }
 
     /// Checks by [`Oracle::examine`] that the surface has no holes.
-    ///
-    /// # Errors
-    /// The report of the leaks alone, if there are any: surfaces missed by this ray and by every nearby ray. Everything
-    /// else passes.
     pub fn watertight<R: JudgedRay>(
         &self,
         rays: &[R],
@@ -125,9 +109,6 @@ impl<'a> Oracle<'a> {
     /// Checks by [`Oracle::examine`] that rounding explains every result that is not exact
     /// ([`Disagreement::is_rounding`]): it is correct for a ray within a few ULPs of the given one, up to the order of
     /// the triangles that this ray passes. A t beyond the tolerance fails; [`Tolerance::ANY_T`] judges triangles alone.
-    ///
-    /// # Errors
-    /// The report of the errors that rounding does not explain, if there are any.
     pub fn faithful<R: JudgedRay>(
         &self,
         rays: &[R],
@@ -138,9 +119,6 @@ impl<'a> Oracle<'a> {
     }
 
     /// Asserts [`Oracle::agrees`].
-    ///
-    /// # Panics
-    /// With the report and its counts by aim, if anything disagrees.
     #[track_caller]
     pub fn assert_agrees<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.agrees(rays, intersector) {
@@ -149,9 +127,6 @@ impl<'a> Oracle<'a> {
     }
 
     /// Asserts [`Oracle::watertight`].
-    ///
-    /// # Panics
-    /// With the report of the leaks and their counts by aim, if there are any.
     #[track_caller]
     pub fn assert_watertight<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.watertight(rays, intersector) {
@@ -160,9 +135,6 @@ impl<'a> Oracle<'a> {
     }
 
     /// Asserts [`Oracle::faithful`]: no leaks and no false hits.
-    ///
-    /// # Panics
-    /// With the report of the errors that rounding does not explain and their counts by aim, if there are any.
     #[track_caller]
     pub fn assert_faithful<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.faithful(rays, intersector) {

@@ -53,19 +53,15 @@
 
 mod aims;
 mod disagreement;
-mod equal;
 mod hard;
 mod judge;
 mod nearby;
-mod pictures;
 mod report;
 mod tolerance;
 
 pub use aims::AimCounts;
 pub use disagreement::{Disagreement, DisagreementKind, Expected};
-pub use equal::{Unequal, assert_bits_eq, assert_hits_eq, assert_within_ulps, bits_equal, hits_equal, within_ulps};
 pub use hard::{Aim, HardRay, JudgedRay, hard_rays};
 pub use judge::Oracle;
-pub use pictures::{Sample, assert_images_equal, images_equal};
 pub use report::Report;
 pub use tolerance::Tolerance;

@@ -2,18 +2,13 @@
 
 use std::fmt;
 
-use serde::Serialize;
-use serde::ser::{SerializeStruct as _, Serializer};
-
 use super::Tolerance;
 use super::disagreement::{Disagreement, DisagreementKind};
 use crate::geom::Sides;
 
 const LISTED: usize = 10;
-const LISTED_IN_JSON: usize = 1000;
 
-/// Result of an oracle. At most ten disagreements are listed as text, and 1000 as JSON, worst first;
-/// [`Report::disagreements`] has them all.
+/// Result of an oracle. At most ten disagreements are displayed, worst first; [`Report::disagreements`] has them all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     rays: usize,
@@ -37,43 +32,36 @@ impl Report {
     }
 
     /// Number of rays judged.
-    #[must_use]
     pub fn rays(&self) -> usize {
         self.rays
     }
 
     /// Number of rays that hit something in exact arithmetic.
-    #[must_use]
     pub fn surface(&self) -> usize {
         self.surface
     }
 
     /// Number of rays for which a hit was found.
-    #[must_use]
     pub fn hits(&self) -> usize {
         self.hits
     }
 
     /// Returns `true` if every result is correct.
-    #[must_use]
     pub fn agrees(&self) -> bool {
         self.disagreements.is_empty()
     }
 
     /// Wrong results, worst first: by [`DisagreementKind`], then by the error of t, then by index.
-    #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
     }
 
     /// Number of wrong results of one kind.
-    #[must_use]
     pub fn count(&self, kind: DisagreementKind) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind == kind).count()
     }
 
     /// Number of holes: [`DisagreementKind::Leak`] and [`DisagreementKind::LeakThrough`].
-    #[must_use]
     pub fn leaks(&self) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind.is_leak()).count()
     }
@@ -84,13 +72,11 @@ impl Report {
     }
 
     /// Returns the report reduced to some kinds.
-    #[must_use]
     pub fn only(self, wanted: impl Fn(DisagreementKind) -> bool) -> Self {
         self.retain(|wrong| wanted(wrong.kind))
     }
 
     /// Returns the report reduced to some disagreements.
-    #[must_use]
     pub fn retain(mut self, wanted: impl Fn(&Disagreement) -> bool) -> Self {
         self.disagreements.retain(wanted);
         self
@@ -119,24 +105,3 @@ impl fmt::Display for Report {
 }
 
 impl std::error::Error for Report {}
-
-impl Serialize for Report {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let counts: std::collections::BTreeMap<DisagreementKind, usize> = self.counts().collect();
-        let listed = &self.disagreements[..self.disagreements.len().min(LISTED_IN_JSON)];
-        let sides = match self.sides {
-            Sides::Front => "front",
-            Sides::Both => "both",
-        };
-        let mut out = serializer.serialize_struct("Report", 8)?;
-        out.serialize_field("rays", &self.rays)?;
-        out.serialize_field("surface", &self.surface)?;
-        out.serialize_field("hits", &self.hits)?;
-        out.serialize_field("sides", sides)?;
-        out.serialize_field("tolerance", &self.tolerance)?;
-        out.serialize_field("counts", &counts)?;
-        out.serialize_field("worst", listed)?;
-        out.serialize_field("not_listed", &(self.disagreements.len() - listed.len()))?;
-        out.end()
-    }
-}

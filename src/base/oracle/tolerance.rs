@@ -14,7 +14,7 @@ use crate::geom::classify::t_error;
 /// let tolerance = Tolerance::ulps(4).or_absolute(1e-6);
 /// assert_eq!(tolerance.to_string(), "t within 4 ULPs or 1e-6");
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Maximum number of f32 steps from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: any t.
     pub ulps: u32,
@@ -28,13 +28,11 @@ impl Tolerance {
     pub const ANY_T: Self = Self::ulps(u32::MAX);
 
     /// Accepts t within this many steps of f32.
-    #[must_use]
     pub const fn ulps(ulps: u32) -> Self {
         Self { ulps, absolute: 0.0 }
     }
 
     /// Also accepts t within this distance, in multiples of the ray's direction.
-    #[must_use]
     pub const fn or_absolute(self, absolute: f64) -> Self {
         Self { absolute, ..self }
     }

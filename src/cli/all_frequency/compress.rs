@@ -5,18 +5,19 @@ use std::path::PathBuf;
 use miette::IntoDiagnostic;
 use serde_json::json;
 
-use super::file::{FileOfModel, path_from};
+use super::precompute::path_from;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
-use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
+use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency, save_all_frequency};
 use crate::cli::study::written;
+use crate::cli::transfer::model::model_of;
 use crate::cli::words::counted;
 use crate::cli::{CommandLine, Problem, ProgressBar, version};
 use crate::clustering::CpcaMethod;
 use crate::kept::{KeptResults, KeptWork, SpentTime};
 use crate::options::number;
 use crate::report::{Cell, Findings, Table};
-use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
+use crate::study::prt::{SegmentTally, SegmentedCompression};
 use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::SegmentCensus;
 
@@ -64,19 +65,17 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Findings> {
-    let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.signal, &args.model)?;
+    let file = load_all_frequency(&args.signal, None)?;
+    let (_, vertices, _) = model_of(&args.signal, Some(file.mesh), &args.model, None)?;
     let Some(maps) = &file.visibility else {
         let what = format!("{}: expected visibility, found coded transfer only", args.signal.display());
         return Err(Problem::usage(what, "name a file that `crossbar all-frequency precompute` wrote").into());
     };
-    let numbers = 4 * 256 * file.reflectance.terms() as u64;
-    if u64::from(args.vectors) > numbers / 4 {
-        let what = format!("expected at most {} `--vectors`, found {}", numbers / 4, args.vectors);
-        return Err(Problem::usage(
-            what,
-            "this is how many numbers a vertex has in a segment; more vectors do not help",
-        )
-        .into());
+    let most = 256 * file.reflectance.terms() as u64;
+    if u64::from(args.vectors) > most {
+        let what = format!("expected at most {most} `--vectors`, found {}", args.vectors);
+        let help = "this is how many numbers a vertex has in a segment; more vectors do not help";
+        return Err(Problem::usage(what, help).into());
     }
     let options = SegmentOptions {
         points_per_cluster: args.points_per_cluster as usize,
@@ -86,7 +85,7 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     };
     let code = CodeOptions { representative_bits: args.bits, weight_bits: args.bits, ..CodeOptions::default() };
     let kept = |folder: &PathBuf| {
-        let work = KeptWork::new(version::program()?, command_line.text.clone(), &[&args.signal, &args.model])?;
+        let work = KeptWork::new(&version::program()?, command_line.text.clone(), &[&args.signal, &args.model])?;
         let kept = KeptResults::new(folder.clone(), work, SpentTime::default);
         kept.require_no_other_work().map(|()| kept)
     };
@@ -106,40 +105,37 @@ pub(super) fn run(args: &Args, command_line: &CommandLine) -> miette::Result<Fin
     let census = SegmentCensus::new(&vertices, maps, &LinearBasis::new(file.hats));
     let raw = compression.raw_bytes();
     let model = file.model.as_ref().map(|_| path_from(&args.out, &args.model)).transpose().into_diagnostic()?;
+    let found = findings(args, (&coded, kept.as_ref().map_or(0, KeptResults::taken)), &tally, &census, raw);
     let small = AllFrequencyFile { visibility: None, coded: Some(coded), model, ..file };
     save_all_frequency(&small, &args.out).map_err(Problem::from)?;
-    let coded = small.coded.as_ref();
-    let taken = kept.as_ref().map_or(0, KeptResults::taken);
-    Ok(coded.map(|coded| findings(args, (coded, taken), &tally, &census, raw)).unwrap_or_default())
-}
-
-/// Bytes of weights and representatives in single precision.
-fn clustered_bytes(coded: &CodedTransfer) -> u64 {
-    4 * (coded.nonzeros().1 + coded.segments.iter().map(|part| part.weights.len()).sum::<usize>()) as u64
+    Ok(found)
 }
 
 fn findings(
     args: &Args,
     (coded, taken): (&CodedTransfer, usize),
-    tally: &CompressionTally,
+    tallies: &[SegmentTally],
     census: &SegmentCensus,
     raw: u64,
 ) -> Findings {
     let mut found = Findings::new("Transfer by segments");
-    found.table(segments(&tally.segments));
+    found.table(segments(tallies));
     let segment = |part: &SegmentTally| {
         json!({
             "segment": part.segment, "vertices": part.vertices, "clusters": part.clusters, "squares": part.squares,
             "squared_error": part.squared_error, "coded_squared_error": part.coded_squared_error,
         })
     };
-    let (nonzeros, all) = coded.nonzeros();
-    let (size, clustered) = (coded.size(), clustered_bytes(coded));
+    let ((nonzeros, all), size) = (coded.nonzeros(), coded.size());
+    let weights: usize = coded.segments.iter().map(|part| part.weights.len()).sum();
+    // Weights and representatives in single precision.
+    let clustered = 4 * (all + weights) as u64;
     let blocks: usize = coded.segments.iter().map(|part| part.representatives.block_count()).sum();
-    let squares = tally.sum(|part| part.squares);
-    let [after, before] =
-        [tally.sum(|part| part.coded_squared_error), tally.sum(|part| part.squared_error)].map(|error| error / squares);
-    let [transfer, clusters, code] = [0, 1, 2].map(|step| tally.sum(|part| part.seconds[step]));
+    let sum = |of: &dyn Fn(&SegmentTally) -> f64| tallies.iter().map(of).sum::<f64>();
+    let squares = sum(&|part| part.squares);
+    let after = sum(&|part| part.coded_squared_error) / squares;
+    let before = sum(&|part| part.squared_error) / squares;
+    let [transfer, clusters, code] = [0, 1, 2].map(|step| sum(&|part| part.seconds[step]));
     found.fields(json!({
         "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
@@ -151,7 +147,7 @@ fn findings(
                              "weights": size.weights, "steps": size.steps, "clusters": size.clusters } },
         "squared_error": after, "squared_error_before_coding": before,
         "seconds": { "transfer": transfer, "clusters": clusters, "code": code },
-        "segments": tally.segments.iter().map(segment).collect::<Vec<_>>(),
+        "segments": tallies.iter().map(segment).collect::<Vec<_>>(),
     }));
     let percent = |part: f64, whole: f64| 100.0 * part / whole;
     found.print(format!("segments  {:.1} % of all hold transfer", 100.0 * census.omega()));
@@ -171,13 +167,11 @@ fn findings(
 }
 
 fn segments(segments: &[SegmentTally]) -> Table {
-    let mut table = Table::new("Segments", &["segment", "vertices", "clusters", "squared error (%)", "coded (%)"]);
-    for part in segments {
-        let share = |error: f64| {
-            if part.squares > 0.0 { Cell::measured(100.0 * error / part.squares) } else { Cell::Empty }
-        };
-        let [error, coded] = [part.squared_error, part.coded_squared_error].map(share);
-        table.push([part.segment.into(), part.vertices.into(), part.clusters.into(), error, coded]);
-    }
-    table
+    let row = |part: &SegmentTally| {
+        let [error, coded] = [part.squared_error, part.coded_squared_error]
+            .map(|error| (part.squares > 0.0).then(|| Cell::measured(100.0 * error / part.squares)));
+        [part.segment.into(), part.vertices.into(), part.clusters.into(), Cell::from(error), coded.into()]
+    };
+    let headings = ["segment", "vertices", "clusters", "squared error (%)", "coded (%)"];
+    Table::new("Segments", &headings).with(segments.iter().map(row))
 }

@@ -31,10 +31,8 @@ docs/papers/all_frequency.md explains the options.";
 
 /// Isotropy of Schlick's model, as in the paper.
 const ISOTROPY: f64 = 0.2;
-/// Exponent of Phong's model.
 const EXPONENT: f64 = 20.0;
 
-/// Reflectance models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum ModelArg {
     /// Cook and Torrance 1982
@@ -98,58 +96,57 @@ pub(super) struct Args {
 }
 
 impl Args {
-    fn lobe(&self, lobe: Lobe) -> Result<FactorSubject, Problem> {
+    fn lobe(&self, lobe: Lobe) -> Result<FactorSubject, InputError> {
         let lobe = Lobe {
             fresnel: self.fresnel_form.unwrap_or(lobe.fresnel),
             shadowing: self.shadowing.unwrap_or_default(),
             denominators: self.denominators.unwrap_or_default(),
             ..lobe
         };
-        lobe.check().map_err(|error| refused(&error))?;
-        Ok(FactorSubject::Lobe(lobe))
+        lobe.check().map(|()| FactorSubject::Lobe(lobe))
     }
 
     /// Rejects options of other models than this one.
     fn refuse_others(&self, model: ModelArg) -> Result<(), Problem> {
-        use ModelArg::{CookTorrance, Lambert, Phong, Schlick};
-        let figures: [(&str, bool, &[ModelArg]); 5] = [
-            ("--roughness", self.roughness.is_some(), &[CookTorrance, Schlick]),
-            ("--fresnel", self.fresnel.is_some(), &[CookTorrance, Schlick, Phong]),
-            ("--denominators", self.denominators.is_some(), &[CookTorrance, Schlick]),
-            ("--fresnel-form", self.fresnel_form.is_some(), &[CookTorrance, Schlick]),
-            ("--shadowing", self.shadowing.is_some(), &[CookTorrance, Schlick]),
-        ];
-        let name = match model {
-            CookTorrance => "cook-torrance",
-            Schlick => "schlick",
-            Phong => "phong",
-            Lambert => "lambert",
+        let (name, is_lobe) = match model {
+            ModelArg::CookTorrance => ("cook-torrance", true),
+            ModelArg::Schlick => ("schlick", true),
+            ModelArg::Phong => ("phong", false),
+            ModelArg::Lambert => ("lambert", false),
         };
-        let foreign = figures.into_iter().map(|(option, given, models)| (option, given && !models.contains(&model)));
+        let foreign = [
+            ("--roughness", self.roughness.is_some() && !is_lobe),
+            ("--fresnel", self.fresnel.is_some() && model == ModelArg::Lambert),
+            ("--denominators", self.denominators.is_some() && !is_lobe),
+            ("--fresnel-form", self.fresnel_form.is_some() && !is_lobe),
+            ("--shadowing", self.shadowing.is_some() && !is_lobe),
+        ];
         given::refuse(foreign, &format!("other models than {name}"), "leave it out, or choose another `--brdf`")
     }
 
-    fn model(&self, model: ModelArg) -> Result<FactorSubject, Problem> {
+    fn model(&self, model: ModelArg) -> Result<(&'static str, FactorSubject), Problem> {
         self.refuse_others(model)?;
-        let of_brdf = |brdf: Brdf| brdf.check().map(|()| FactorSubject::Brdf(brdf)).map_err(|error| refused(&error));
-        match model {
+        let [roughness, fresnel] = [self.roughness, self.fresnel];
+        let of_brdf = |brdf: Brdf| brdf.check().map(|()| FactorSubject::Brdf(brdf));
+        let (name, subject) = match model {
             ModelArg::CookTorrance => {
-                self.lobe(Lobe::cook_torrance(self.roughness.unwrap_or(0.4), self.fresnel.unwrap_or(0.5)))
+                let lobe = Lobe::cook_torrance(roughness.unwrap_or(0.4), fresnel.unwrap_or(0.5));
+                ("Cook and Torrance's model", self.lobe(lobe))
             }
             ModelArg::Schlick => {
-                let [roughness, fresnel] = [self.roughness.unwrap_or(0.2), self.fresnel.unwrap_or(0.8)];
-                self.lobe(Lobe::schlick(roughness, ISOTROPY, fresnel))
+                let lobe = Lobe::schlick(roughness.unwrap_or(0.2), ISOTROPY, fresnel.unwrap_or(0.8));
+                ("Schlick's model", self.lobe(lobe))
             }
             ModelArg::Phong => {
-                of_brdf(Brdf::Phong { albedo: 0.0, specular: self.fresnel.unwrap_or(0.5), exponent: EXPONENT })
+                let brdf = Brdf::Phong { albedo: 0.0, specular: fresnel.unwrap_or(0.5), exponent: EXPONENT };
+                ("Phong's model", of_brdf(brdf))
             }
-            ModelArg::Lambert => of_brdf(Brdf::Lambert { albedo: 1.0 }),
-        }
+            ModelArg::Lambert => ("Lambert's law", of_brdf(Brdf::Lambert { albedo: 1.0 })),
+        };
+        let refused =
+            |error: InputError| Problem::usage(error.to_string(), "see `crossbar all-frequency factor --help`");
+        Ok((name, subject.map_err(refused)?))
     }
-}
-
-fn refused(error: &InputError) -> Problem {
-    Problem::usage(error.to_string(), "see `crossbar all-frequency factor --help`")
 }
 
 impl StudyArgs for Args {
@@ -161,17 +158,11 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<BrdfFactors> {
-        let (name, subject) = match (&self.table, self.brdf) {
-            (Some(path), _) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),
-            (None, model) => {
-                let model = model.unwrap_or(ModelArg::CookTorrance);
-                let name = match model {
-                    ModelArg::CookTorrance => "Cook and Torrance's model",
-                    ModelArg::Schlick => "Schlick's model",
-                    ModelArg::Phong => "Phong's model",
-                    ModelArg::Lambert => "Lambert's law",
-                };
-                (name.to_owned(), self.model(model)?)
+        let (name, subject) = match &self.table {
+            Some(path) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),
+            None => {
+                let (name, subject) = self.model(self.brdf.unwrap_or(ModelArg::CookTorrance))?;
+                (name.to_owned(), subject)
             }
         };
         let sampling = FactorSampling { side: self.side as usize, ..FactorSampling::default() };

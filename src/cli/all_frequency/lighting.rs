@@ -2,16 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use serde_json::json;
 
 use crate::cli::Problem;
 use crate::cli::study::written;
-use crate::cli::transfer::light::{CUBE_LIGHT, DEFAULT_LIGHT, DistantLightArg};
-use crate::error::InputError;
+use crate::cli::transfer::light::{DEFAULT_LIGHT, DistantLightArg, LIGHT};
 use crate::io::{write_cube_table, write_file};
 use crate::options::number;
-use crate::options::one_of::variants;
+use crate::options::one_of::{OneOf, one_of, variants};
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
 use crate::transfer::light::{HaarLight, TruncationPriority};
@@ -25,20 +23,17 @@ Examples:
   crossbar all-frequency lighting --light disk:1,0,2:5 --keep 40 --out light.csv --json
       what remains of a small source, as a table of the cube's texels, which `--light light.csv` reads";
 
-/// Measure of importance of coefficients.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ByArg {
-    /// Magnitude
-    Magnitude,
-    /// Magnitude times the solid angle of the wavelet
-    Area,
+/// Values of `--by`: measures of importance of coefficients.
+fn priorities() -> OneOf<TruncationPriority> {
+    let magnitude = ("magnitude", "Magnitude", TruncationPriority::Magnitude);
+    one_of([magnitude, ("area", "Magnitude times the solid angle of the wavelet", TruncationPriority::Area)])
 }
 
 /// Transform light into Haar wavelets over a cube, and keep the most important coefficients
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = CUBE_LIGHT)]
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = LIGHT)]
     light: DistantLightArg,
 
     /// Number of squares of the cube, each with its own Haar transform
@@ -50,8 +45,8 @@ pub(super) struct Args {
     keep: Option<u32>,
 
     /// Measure of importance for --keep
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "area", requires = "keep")]
-    by: ByArg,
+    #[arg(long, value_name = "WHAT", default_value = "area", value_parser = priorities(), requires = "keep")]
+    by: TruncationPriority,
 
     /// Write the radiances of the cube's texels to this file, as `--light` reads them
     #[arg(long, value_name = "FILE.csv")]
@@ -59,13 +54,13 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let cube = args.light.distant()?.cube().map_err(refused)?;
+    let cube = args
+        .light
+        .distant()?
+        .cube()
+        .map_err(|error| Problem::usage(error.to_string(), "see `crossbar all-frequency lighting --help`"))?;
     let keep = args.keep.map_or(usize::MAX, |keep| keep as usize);
-    let priority = match args.by {
-        ByArg::Area => TruncationPriority::Area,
-        ByArg::Magnitude => TruncationPriority::Magnitude,
-    };
-    let cut = HaarLight::new(&cube, args.segments).truncated(keep, priority);
+    let cut = HaarLight::new(&cube, args.segments).truncated(keep, args.by);
     let texels = cut.light.radiances();
     if let Some(path) = &args.out {
         let text = write_cube_table(&texels, LIGHT_SIDE);
@@ -79,16 +74,12 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         "negative_texels": negative,
     }));
     let title = format!("{} in {} segments", args.light.name(), args.segments.count());
-    let mut table = Table::new(title, &["figure", "value"]);
-    table.push(["not 0, of 6,144".into(), cut.nonzero.into()]);
-    table.push(["kept".into(), cut.kept.into()]);
-    table.push(["energy kept (%)".into(), Cell::measured(100.0 * cut.kept_energy)]);
-    table.push(["texels below 0 after truncation".into(), negative.into()]);
-    found.table(table);
+    found.table(Table::new(title, &["figure", "value"]).with([
+        ["not 0, of 6,144".into(), cut.nonzero.into()],
+        ["kept".into(), cut.kept.into()],
+        ["energy kept (%)".into(), Cell::measured(100.0 * cut.kept_energy)],
+        ["texels below 0 after truncation".into(), negative.into()],
+    ]));
     written(&mut found, [("out", args.out.as_deref())]);
     Ok(found)
-}
-
-fn refused(error: InputError) -> Problem {
-    Problem::usage(error.to_string(), "see `crossbar all-frequency lighting --help`")
 }

@@ -1,13 +1,10 @@
-//! `crossbar all-frequency`: transfer for light of all frequencies, one file per verb.
+//! `crossbar all-frequency`: transfer for light of all frequencies.
 
-mod card;
 mod compress;
-mod error;
+mod draw;
 mod factor;
-mod file;
 mod lighting;
 mod precompute;
-mod render;
 mod show;
 
 use super::{CommandLine, Out, Verdict, study};
@@ -43,10 +40,9 @@ enum Verb {
     Lighting(lighting::Args),
     Precompute(precompute::Args),
     Compress(compress::Args),
-    Error(error::Args),
     Show(show::Args),
-    Render(render::Args),
-    Card(card::Args),
+    Render(draw::Render),
+    Card(draw::Card),
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
@@ -55,7 +51,6 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
         Verb::Lighting(args) => lighting::run(args)?,
         Verb::Precompute(args) => precompute::run(args)?,
         Verb::Compress(args) => compress::run(args, command_line)?,
-        Verb::Error(args) => error::run(args)?,
         Verb::Show(args) => show::run(args)?,
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),

@@ -1,30 +1,30 @@
 //! `crossbar all-frequency precompute`: visibility at the vertices of a model.
 
-use std::path::{Path, PathBuf};
+use std::fmt::Display;
+use std::io;
+use std::ops::Range;
+use std::path::{Component, Path, PathBuf, absolute};
 
 use miette::IntoDiagnostic;
-use refsim::machine::ExecutorKind;
 use serde_json::json;
 
-use super::file::path_from;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::ProductFactors;
-use crate::all_frequency::file::save_all_frequency;
-use crate::cli::model_name::transfer_model_help;
+use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
 use crate::cli::study::written;
-use crate::cli::transfer::model::{load, note_vertices, refused, vertices};
-use crate::cli::transfer::values::TangentsArg;
+use crate::cli::transfer::model::{ModelArgs, note_rays, note_vertices, refused};
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
+use crate::error::InputError;
 use crate::geom::{Mesh, Sides};
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
 use crate::options::number;
 use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
-use crate::study::caster::CasterOptions;
-use crate::study::prt::{FoundSight, SightOfModel};
-use crate::transfer::linear_basis::BasisWidth;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
+use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Tangents, Vertices};
 
 /// Maximum size of an array of factors, in bytes.
@@ -43,9 +43,8 @@ The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes t
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    // Names come from the one list of built models, `meshes`.
-    #[arg(value_name = "MODEL", help = transfer_model_help())]
-    model: PathBuf,
+    #[command(flatten)]
+    of: ModelArgs,
 
     /// Output of `crossbar all-frequency factor`: view_factors.npy and light_factors.npy in a folder [default: the one
     /// term of a diffuse surface]
@@ -56,65 +55,49 @@ pub(super) struct Args {
     /// ground.npz and ground.obj: the ground's own file and its model
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(2..=1024))]
     ground: Option<u32>,
-
-    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
-    /// axis X,Y,Z
-    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
-    tangents: TangentsArg,
-
-    /// The file to write
-    #[arg(long, value_name = "X.npz")]
-    out: PathBuf,
-
-    #[command(flatten)]
-    caster: CasterOptions,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let (tangents, path) = (args.tangents.0, args.out.as_path());
-    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
+    let path = args.of.out.as_path();
     let reflectance =
         args.reflectance.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
-    let model = load(&args.model, tangents)?;
-    let vertices = vertices(&model, tangents)?;
+    let (caster, model, vertices) = args.of.load(None)?;
     let ground = args.ground.map(|side| Ground::new(&model.mesh, side)).transpose()?;
+    let joined = ground.as_ref().map(|ground| vertices.joined(&ground.vertices));
+    let (count, all) = (vertices.len() as u32, joined.as_ref().unwrap_or(&vertices));
     let bar = ProgressBar::new("", 1).quicker("a model of fewer vertices");
-    let sight = SightOfModel {
-        scene: ground.as_ref().map_or(&model.mesh, |ground| &ground.scene),
-        vertices: &vertices,
-        hats: BasisWidth::TwoTexels,
-        reflectance,
-        ground: ground.as_ref().map(|ground| &ground.vertices),
+    let scene = ground.as_ref().map_or(&model.mesh, |ground| &ground.scene);
+    let mut caster = caster.open_judged(scene, Sides::Both)?;
+    let mut maps = |of: Range<u32>| -> Result<VisibilityMaps, InputError> {
+        let of: Vec<u32> = of.collect();
+        let mut done = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
+        VisibilityMaps::trace(all, &of, &mut caster, &mut done)
     };
-    let mut caster = caster.open_judged(sight.scene, Sides::Both)?;
-    let (found, mut below) = sight.run(&mut caster, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
-    save_all_frequency(&found.file, path).map_err(Problem::from)?;
-    let [ground_path, ground_mesh] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
-    if let (Some(ground), Some(below)) = (&ground, &mut below) {
-        below.file.model = Some(path_from(&ground_path, &ground_mesh).into_diagnostic()?);
-        save_all_frequency(&below.file, &ground_path).map_err(Problem::from)?;
-        write_file(&ground_mesh, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
-    }
+    let (of_model, of_ground) = (maps(0..count)?, maps(count..all.len() as u32)?);
     drop(bar);
-    let mut findings = findings(&found, path);
-    note_vertices(&mut findings, &vertices, &[]);
-    caster.record().iter().for_each(|record| record.report(&mut findings));
-    let below = below.map(|below| {
-        let mut below = self::findings(&below, &ground_path);
-        written(&mut below, [("model", Some(ground_mesh.as_path()))]);
-        findings.print("ground    below the model, diffuse".to_owned());
-        below.printed_lines().iter().for_each(|line| findings.print(line.clone()));
-        below.plain_document()
+    let mut found = Findings::new("Visibility");
+    write_sight(&vertices, of_model, reflectance, (path, None), &mut found)?;
+    note_vertices(&mut found, &vertices, &[]);
+    caster.record().iter().for_each(|record| record.report(&mut found));
+    let below = ground.as_ref().map(|ground| -> miette::Result<_> {
+        let [path, model] = ["ground.npz", "ground.obj"].map(|ending| path.with_extension(ending));
+        let name = path_from(&path, &model).into_diagnostic()?;
+        let (maps, mut below) = (of_ground.counted_from(count), Findings::new("Visibility"));
+        write_sight(&ground.vertices, maps, Reflectance::Diffuse, (&path, Some(name)), &mut below)?;
+        write_file(&model, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
+        written(&mut below, [("model", Some(model.as_path()))]);
+        found.print("ground    below the model, diffuse".to_owned());
+        below.printed_lines().iter().for_each(|line| found.print(line.clone()));
+        Ok(below.plain_document())
     });
-    findings.field("ground", json!(below));
-    Ok(findings)
+    let below = below.transpose()?;
+    found.field("ground", json!(below));
+    Ok(found)
 }
 
-/// A ground below a model.
 struct Ground {
     mesh: Mesh,
     vertices: Vertices,
-    /// The model on it.
     scene: Mesh,
 }
 
@@ -128,21 +111,26 @@ impl Ground {
     }
 }
 
-fn findings(sight: &FoundSight, path: &Path) -> Findings {
-    let FoundSight { file, census } = sight;
-    let counts = file.visibility.as_ref().map(|maps| maps.counts.clone()).unwrap_or_default();
-    let terms = file.reflectance.terms();
-    let mut found = Findings::new("Visibility");
+/// Writes the visibility at the vertices of a model or its ground to a file, which may name its model.
+fn write_sight(
+    vertices: &Vertices,
+    maps: VisibilityMaps,
+    reflectance: Reflectance,
+    (path, model): (&Path, Option<String>),
+    found: &mut Findings,
+) -> Result<(), Problem> {
+    let (hats, terms, counts) = (BasisWidth::TwoTexels, reflectance.terms(), maps.counts.clone());
+    let census = SegmentCensus::new(vertices, &maps, &LinearBasis::new(hats));
+    let mesh = MeshDigest::new(vertices);
+    let file = AllFrequencyFile { mesh, hats, reflectance, visibility: Some(maps), coded: None, model };
+    save_all_frequency(&file, path)?;
     found.fields(json!({
-        "vertices": file.mesh.vertices, "terms": terms, "omega": census.omega(),
+        "vertices": vertices.len(), "terms": terms, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
         "segments_shadowed": census.shadowed, "segments_nonempty": census.nonempty,
-        "directions_above": counts.above, "rays_traced": counts.traced, "directions_visible": counts.visible,
-        "unclear_vertices": counts.unclear,
     }));
-    found.print(format!("vertices  {}, {terms} terms of reflectance", counted(file.mesh.vertices as usize)));
-    let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
-    found.print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon see light"));
+    found.print(format!("vertices  {}, {terms} terms of reflectance", counted(vertices.len())));
+    note_rays(found, &counts);
     found.print(format!(
         "segments  {:.1} % hold transfer; of 24, at least {} and on average {:.2} lie below the horizon",
         100.0 * census.omega(),
@@ -153,8 +141,17 @@ fn findings(sight: &FoundSight, path: &Path) -> Findings {
         let count = counted(counts.unclear.len());
         found.print(format!("note      {count} vertices lie on triangles that face each other"));
     }
-    written(&mut found, [("out", Some(path))]);
-    found
+    written(found, [("out", Some(path))]);
+    Ok(())
+}
+
+/// Relative path from a file's folder to another file.
+pub(super) fn path_from(file: &Path, to: &Path) -> io::Result<String> {
+    let [file, to] = [absolute(file)?, absolute(to)?];
+    let (from, to) = (file.parent().unwrap_or(&file).components(), to.components());
+    let shared = from.clone().zip(to.clone()).take_while(|(a, b)| a == b).count();
+    let up = from.skip(shared).map(|_| Component::ParentDir);
+    Ok(up.chain(to.skip(shared)).collect::<PathBuf>().to_string_lossy().into_owned())
 }
 
 /// Reads the factors that `crossbar all-frequency factor` wrote into a folder.
@@ -164,32 +161,30 @@ fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
     let (view_table, light_table) = (table(&view)?, table(&light)?);
     let terms = view_table.columns;
     if light_table.columns != terms {
-        let what = format!(
-            "{}: expected {terms} terms as in {}, found {}",
-            light.display(),
-            view.display(),
-            light_table.columns
-        );
-        return Err(Problem::usage(what, "name a folder that `crossbar all-frequency factor` wrote").into());
+        let expected = format!("{terms} terms as in {}", view.display());
+        return Err(no_factors(&light, &expected, light_table.columns).into());
     }
     Ok(ProductFactors::new(terms, map(&view, view_table)?, map(&light, light_table)?))
 }
 
+fn no_factors(path: &Path, expected: &str, found: impl Display) -> Problem {
+    let what = format!("{}: expected {expected}, found {found}", path.display());
+    Problem::usage(what, "name a folder that `crossbar all-frequency factor` wrote")
+}
+
 fn map(path: &Path, table: NumberTable<f64>) -> Result<(ParabolicMap, Vec<f64>), Problem> {
-    let texels = table.values.len() / table.columns.max(1);
-    let wrong = |expected: &str, found: String| {
-        let what = format!("{}: expected {expected}, found {found}", path.display());
-        Problem::usage(what, "name a folder that `crossbar all-frequency factor` wrote")
-    };
+    let NumberTable { columns, values } = table;
+    let texels = values.len() / columns.max(1);
     let side = texels.isqrt();
-    if side == 0 || side * side != texels || table.columns == 0 {
-        return Err(wrong("a row for each texel of a square map", format!("{texels} rows of {}", table.columns)));
+    if side == 0 || side * side != texels || columns == 0 {
+        let found = format!("{texels} rows of {columns}");
+        return Err(no_factors(path, "a row for each texel of a square map", found));
     }
-    if table.columns > 1024 {
-        return Err(wrong("at most 1024 terms", table.columns.to_string()));
+    if columns > 1024 {
+        return Err(no_factors(path, "at most 1024 terms", columns));
     }
-    if let Some(value) = table.values.iter().find(|value| !value.is_finite()) {
-        return Err(wrong("finite numbers", value.to_string()));
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(value) => Err(no_factors(path, "finite numbers", value)),
+        None => Ok((ParabolicMap::new(side), values)),
     }
-    Ok((ParabolicMap::new(side), table.values))
 }

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
+use crate::all_frequency::code::CodeOptions;
+use crate::all_frequency::file::load_all_frequency;
 use crate::cli::words::counted;
 use crate::report::Findings;
 
@@ -28,29 +29,9 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let file = &load_all_frequency(&args.file, None)?;
-    let mut found = Findings::new("All-frequency transfer");
-    found.fields(header(file));
-    all(file, &mut found);
-    Ok(found)
-}
-
-fn header(file: &AllFrequencyFile) -> Value {
-    let visible = file.visibility.as_ref().map(|maps| maps.counts.visible);
-    let coded = file.coded.as_ref().map(|coded| {
-        let (nonzeros, numbers) = coded.nonzeros();
-        json!({ "segments": coded.segments.len(), "clusters": coded.clusters(), "nonzeros": nonzeros,
-                "numbers": numbers, "bytes": coded.size().total(),
-                "representative_bits": coded.options.representative_bits, "weight_bits": coded.options.weight_bits })
-    });
-    json!({
-        "kind": "all-frequency", "mesh": file.mesh.to_string(), "vertices": file.mesh.vertices,
-        "terms": file.reflectance.terms(), "model": file.model, "hats": file.hats.to_string(), "directions_visible": visible, "coded": coded,
-    })
-}
-
-fn all(file: &AllFrequencyFile, found: &mut Findings) {
+    let file = load_all_frequency(&args.file, None)?;
     let terms = file.reflectance.terms();
+    let mut found = Findings::new("All-frequency transfer");
     found.introduce("kind      all-frequency transfer".to_owned());
     found.introduce(format!("mesh      {}", file.mesh));
     let reflectance = match &file.reflectance {
@@ -62,21 +43,29 @@ fn all(file: &AllFrequencyFile, found: &mut Findings) {
     };
     found.introduce(format!("factors   {reflectance}; hats of {}", file.hats));
     file.model.iter().for_each(|model| found.introduce(format!("model     {model}")));
+    let visible = file.visibility.as_ref().map(|maps| maps.counts.visible);
     if let Some(maps) = &file.visibility {
         let per_vertex = maps.counts.visible as f64 / maps.len().max(1) as f64;
         found.introduce(format!("sees      {per_vertex:.0} of 98,304 directions on average"));
     }
-    if let Some(coded) = &file.coded {
-        let (nonzeros, all) = coded.nonzeros();
+    let coded = file.coded.as_ref().map(|coded| {
+        let (nonzeros, numbers) = coded.nonzeros();
+        let (segments, clusters, bytes) = (coded.segments.len(), coded.clusters(), coded.size().total());
+        let CodeOptions { representative_bits, weight_bits, .. } = coded.options;
         found.introduce(format!(
-            "coded     {} clusters in {} segments; {} of {} numbers are not 0; {} bits, weights {}; {} bytes",
-            counted(coded.clusters()),
-            coded.segments.len(),
+            "coded     {} clusters in {segments} segments; {} of {} numbers are not 0; {representative_bits} bits, \
+             weights {weight_bits}; {} bytes",
+            counted(clusters),
             counted(nonzeros),
-            counted(all),
-            coded.options.representative_bits,
-            coded.options.weight_bits,
-            counted(coded.size().total() as usize)
+            counted(numbers),
+            counted(bytes as usize)
         ));
-    }
+        json!({ "segments": segments, "clusters": clusters, "nonzeros": nonzeros, "numbers": numbers, "bytes": bytes,
+                "representative_bits": representative_bits, "weight_bits": weight_bits })
+    });
+    found.fields(json!({
+        "kind": "all-frequency", "mesh": file.mesh.to_string(), "vertices": file.mesh.vertices, "terms": terms,
+        "model": file.model, "hats": file.hats.to_string(), "directions_visible": visible, "coded": coded,
+    }));
+    Ok(found)
 }

@@ -15,7 +15,6 @@ pub(super) fn other_fields(line: u64, expected: &str, found: usize) -> InputErro
         help "write the fields of one operation on one line, separated by blanks or commas")
 }
 
-/// The fields of a line, separated by blanks or commas.
 fn fields(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(|byte| byte.is_ascii_whitespace() || *byte == b',').filter(|field| !field.is_empty())
 }
@@ -28,7 +27,6 @@ pub(super) struct Asked {
     pub(super) json: bool,
 }
 
-/// The result of a line.
 pub(super) enum Answer {
     /// The line has what `--verify` expects.
     Passed,
@@ -127,7 +125,6 @@ fn hex(field: &[u8], width: u32, line: u64) -> Result<u32, InputError> {
     })
 }
 
-/// `value` in as many digits as `width` bits need.
 fn digits(value: u32, width: u32) -> String {
     format!("{value:0places$X}", places = width.div_ceil(4) as usize)
 }

@@ -113,7 +113,6 @@ pub(super) struct Args {
     seed: Option<u64>,
 }
 
-/// Parses the value of `--summation`.
 fn summation(text: &str) -> Result<DotOrder, String> {
     DotOrder::named(text).ok_or_else(|| "expected sequential, tree, exact, or aligned:F with F from 0 to 28".to_owned())
 }
@@ -134,7 +133,6 @@ fn states() -> OneOf<State> {
     ])
 }
 
-/// Values of `--block`: the block formats.
 fn blocks() -> OneOf<BlockFormat> {
     one_of(BlockFormat::ALL.map(|block| (block.name(), "OCP Microscaling: 32 elements and a scale", block)))
 }

@@ -9,10 +9,8 @@ use refsim::num::{DotOrder, Env, Format, NumberOperation as Op, Outcome, Roundin
 
 use crate::options::one_of::{OneOf, one_of};
 
-/// An operation that the command has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AluOperation {
-    /// An operation of the emulator's table.
     Table(Op),
     RoundToInt,
     Convert,
@@ -23,11 +21,10 @@ pub(super) enum AluOperation {
     Dot,
     /// `a * b + c`, as the format or device computes it.
     Mad,
-    /// A copy.
     Mov,
     /// The clamped reciprocal of the vertex units.
     Rcc,
-    /// A comparison that gives one or zero; `true` swaps its operands.
+    /// `true` swaps the operands.
     Set(Op, bool),
     // Instructions on vectors: a line holds the components of a, then those of b.
     Dp3,
@@ -86,12 +83,10 @@ const NAMED: [(AluOperation, &str, &str); 42] = [
 ];
 
 impl AluOperation {
-    /// Parses an operation by its name.
     pub(super) fn parser() -> OneOf<Self> {
         one_of(NAMED.map(|(operation, name, help)| (name, help, operation)))
     }
 
-    /// The name on the command line.
     pub(super) fn name(self) -> &'static str {
         NAMED.iter().find(|(operation, ..)| *operation == self).map_or("", |&(_, name, _)| name)
     }
@@ -115,7 +110,6 @@ impl AluOperation {
         self.many().is_some()
     }
 
-    /// Number of words in a line, and its description for errors.
     pub(super) fn words(self) -> (RangeInclusive<usize>, &'static str) {
         let operands = match self {
             Self::Table(operation) => operation.operands(),
@@ -132,7 +126,6 @@ impl AluOperation {
     }
 }
 
-/// An operation in its format.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AluUnit {
     pub(super) op: AluOperation,
@@ -140,11 +133,8 @@ pub(super) struct AluUnit {
     pub(super) env: Env,
     /// The format of the result: the operands' format, except for `convert`.
     pub(super) to: Format,
-    /// The seed of stochastic rounding.
     pub(super) seed: u64,
-    /// A device's rules of products and sums.
     pub(super) sums: Option<SumRules>,
-    /// The block format, for `quantize` and `dequantize` only.
     pub(super) block: Option<BlockFormat>,
     /// The order of `dot`, and its accumulator.
     pub(super) dot: (DotOrder, Format),
@@ -156,24 +146,20 @@ impl AluUnit {
         self.block.filter(|_| self.op == op).map(|block| if at == 0 { Format::E8M0 } else { block.element() })
     }
 
-    /// Width of operand `at` in bits.
     pub(super) fn operand_width(&self, at: usize) -> u32 {
         self.block_format(AluOperation::Dequantize, at).unwrap_or(self.env.format).width()
     }
 
-    /// Width of result `at` in bits.
     pub(super) fn result_width(&self, at: usize) -> u32 {
         let format = self.block_format(AluOperation::Quantize, at).unwrap_or(self.to);
         if self.op.is_comparison() { 1 } else { format.width() }
     }
 
-    /// Returns `true` if a result is a NaN.
     pub(super) const fn is_nan(&self, result: u32) -> bool {
         !self.op.is_comparison() && self.to.is_nan(result)
     }
 
-    /// Returns the results of a line; for a block, the scale comes first. Stochastic rounding uses random word number
-    /// `index`.
+    /// Returns the results of a line, a block's scale first; stochastic rounding uses random word `index`.
     pub(super) fn evaluate(&self, words: &[u32], index: u64) -> Vec<Outcome> {
         use AluOperation as Alu;
         let (mut env, mut to) = (self.env, self.to);
@@ -219,15 +205,13 @@ impl AluUnit {
     }
 }
 
-/// The dot product of the two halves of the words.
 fn dot(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let (a, b) = words.split_at(words.len() / 2);
     let terms: Vec<(u32, u32)> = a.iter().copied().zip(b.iter().copied()).collect();
     sums.dot(env, env.format, &terms)
 }
 
-/// DPH: in a card's unit, with 1 as the fourth component of `a`; otherwise the dot product of three components, and a
-/// sum.
+/// DPH: in a card's unit a dot product with 1 as the fourth component of `a`, otherwise one of three, and a sum.
 fn homogeneous(env: Env, sums: SumRules, words: &[u32]) -> Outcome {
     let mut words = words.to_vec();
     if env.format.unit.is_card() {

@@ -11,7 +11,6 @@ use super::line::{Answer, Asked};
 use crate::cli::{Out, OutputError, Verdict};
 use crate::error::{InputError, input_error};
 
-/// Maximum number of bytes per read.
 const READ: usize = 1 << 20;
 /// Minimum number of lines for a task of a thread.
 const TASK_LINES: usize = 256;

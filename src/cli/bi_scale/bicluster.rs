@@ -1,13 +1,12 @@
 //! `crossbar bi-scale bicluster`: a sparse matrix as a sum of constant-column biclusters.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use serde_json::json;
 
-use super::file::{histogram, load, value_counts, values_document};
-use crate::bi_scale::bicluster::{BiclusterResidual, Biclustering, SEED, bicluster};
+use super::file::{histogram, load, unit, value_counts, values_document};
+use crate::bi_scale::bicluster::{Biclustering, SEED, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
@@ -24,9 +23,8 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --json
       the figures as JSON
 
-The sum of the biclusters equals the matrix bit for bit where its values are multiples of a power of two that 32 bits \
-hold; of other values residuals are rounded to double precision. Products in single precision, on host and cards, round \
-values that they do not hold. The summary counts both.";
+The values must be multiples of one power of two, at least 2^-30, that 32 bits hold. The sum of the biclusters equals \
+the matrix bit for bit.";
 
 /// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
 #[derive(Debug, clap::Args)]
@@ -42,19 +40,52 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let BiScaleFile { meaning, matrix, .. } = load(&args.file)?;
-    let matrix = matrix.ok_or_else(|| {
-        let what = format!("{}: expected a matrix, found biclusters only", args.file.display());
+    let name = args.file.display();
+    let file = load(&args.file)?;
+    let matrix = file.matrix.as_ref().ok_or_else(|| {
+        let what = format!("{name}: expected a matrix, found biclusters only");
         Problem::usage(what, "name the file that they were made from")
     })?;
     let start = Instant::now();
-    let biclusters = made(&matrix).map_err(|error| refused(&args.file, &error))?;
+    let biclusters =
+        made(matrix).map_err(|error| Problem::usage(format!("{name}: {error}"), "name a smaller matrix"))?;
     let seconds = start.elapsed().as_secs_f64();
-    let residual = biclusters.residual(&matrix);
-    let summary = Summary { matrix: &matrix, biclusters: &biclusters, residual, seconds };
-    let mut found = summary.findings();
+    let values = value_counts(&file);
+    let (rows, columns, nonzeros) = (matrix.rows(), matrix.columns(), matrix.nonzeros());
+    let (before, after) = (2 * nonzeros as u64, biclusters.cost());
+    let [dense_1, dense_4, rows_3, rows_8, of_biclusters] = bytes(matrix, &biclusters);
+    let figures = [
+        ("rows", Some(rows.into())),
+        ("columns", Some(columns.into())),
+        ("values other than 0", Some(nonzeros.into())),
+        ("values are", Some(unit(matrix.fraction_bits()).into())),
+        ("biclusters", Some(biclusters.len().into())),
+        ("their rows", Some(biclusters.row_entries().into())),
+        ("their columns", Some(biclusters.column_entries().into())),
+        ("operations per product, matrix", Some(before.into())),
+        ("operations per product, biclusters", Some(after.into())),
+        ("share (%)", (before > 0).then(|| Cell::measured(100.0 * after as f64 / before as f64))),
+        ("bytes, dense, a byte each", Some(dense_1.into())),
+        ("bytes, dense, floats", Some(dense_4.into())),
+        ("bytes, by rows, 3 bytes each", Some(rows_3.into())),
+        ("bytes, by rows, 8 bytes each", Some(rows_8.into())),
+        ("bytes, biclusters", Some(of_biclusters.into())),
+        ("seconds", Some(Cell::measured(seconds))),
+    ];
+    let figures = figures.into_iter().filter_map(|(what, value)| Some([what.into(), value?]));
+    let mut found = Findings::new("Biclusters");
+    found.table(Table::new("Biclusters", &["figure", "value"]).with(figures));
+    found.table(histogram(&values));
+    found.fields(json!({
+        "rows": rows, "columns": columns, "nonzeros": nonzeros, "values": values_document(&values),
+        "flops_before": before, "flops_after": after, "biclusters": biclusters.len(),
+        "row_entries": biclusters.row_entries(), "column_entries": biclusters.column_entries(),
+        "bytes": { "dense_1": dense_1, "dense_4": dense_4, "rows_3": rows_3, "rows_8": rows_8,
+                   "biclusters": of_biclusters },
+        "unit_bits": matrix.fraction_bits(), "seconds": seconds,
+    }));
     if let Some(path) = &args.out {
-        let file = BiScaleFile { meaning, matrix: None, biclusters: Some(biclusters) };
+        let file = BiScaleFile { meaning: file.meaning, matrix: None, biclusters: Some(biclusters) };
         save_bi_scale(&file, path).map_err(Problem::from)?;
     }
     written(&mut found, [("out", args.out.as_deref())]);
@@ -75,99 +106,11 @@ fn made(matrix: &SparseMatrix) -> Result<Biclustering, InputError> {
     bicluster(matrix, SEED, &mut found)
 }
 
-fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
-    Problem::usage(format!("{}: {error}", path.display()), "name a smaller matrix")
-}
-
-struct Summary<'a> {
-    matrix: &'a SparseMatrix,
-    biclusters: &'a Biclustering,
-    residual: BiclusterResidual,
-    seconds: f64,
-}
-
-impl Summary<'_> {
-    fn flops_before(&self) -> u64 {
-        2 * self.matrix.nonzeros() as u64
-    }
-
-    /// Bytes by layout: dense as bytes and as floats; compressed rows with columns and values of 2 and 1 bytes, and of
-    /// 4 and 4; biclusters with 4 bytes per row and 4 + 4 per column, as in the paper.
-    fn bytes(&self) -> [(&'static str, &'static str, u64); 5] {
-        let (rows, columns) = (self.matrix.rows() as u64, self.matrix.columns() as u64);
-        let nonzeros = self.matrix.nonzeros() as u64;
-        let begins = 4 * (rows + 1);
-        let entries = self.biclusters.row_entries() as u64 + 2 * self.biclusters.column_entries() as u64;
-        [
-            ("dense_1", "dense, a byte each", rows * columns),
-            ("dense_4", "dense, floats", 4 * rows * columns),
-            ("rows_3", "by rows, 3 bytes each", 3 * nonzeros + begins),
-            ("rows_8", "by rows, 8 bytes each", 8 * nonzeros + begins),
-            ("biclusters", "biclusters", 4 * entries),
-        ]
-    }
-
-    /// Number of bicluster columns whose value must be rounded to single precision, and number of columns beyond its
-    /// range.
-    fn rounded(&self) -> [usize; 2] {
-        let mut rounded = [0; 2];
-        for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {
-            let value = self.biclusters.value(entry.value);
-            let single = value as f32;
-            rounded[0] += usize::from(single.is_finite() && f64::from(single) != value);
-            rounded[1] += usize::from(!single.is_finite());
-        }
-        rounded
-    }
-
-    fn findings(&self) -> Findings {
-        let values = value_counts(self.matrix);
-        let rounded = self.rounded();
-        let [singles, beyond_singles] = rounded;
-        let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
-        let mut found = Findings::new("Biclusters");
-        found.table(self.table(rounded));
-        found.table(histogram(&values));
-        found.fields(json!({
-            "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
-            "values": values_document(&values), "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
-            "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
-            "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
-            "unit_bits": self.matrix.values().fraction_bits(), "distinct_values": self.matrix.values().table_len(),
-            "rounded_in_singles": singles, "beyond_singles": beyond_singles,
-            "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
-            "seconds": self.seconds,
-        }));
-        found
-    }
-
-    fn table(&self, counts: [usize; 2]) -> Table {
-        let (before, after) = (self.flops_before(), self.biclusters.cost());
-        let mut table = Table::new("Biclusters", &["figure", "value"]);
-        table.push(["rows".into(), self.matrix.rows().into()]);
-        table.push(["columns".into(), self.matrix.columns().into()]);
-        table.push(["values other than 0".into(), self.matrix.nonzeros().into()]);
-        table.push(["values are".into(), self.matrix.values().to_string().into()]);
-        table.push(["biclusters".into(), self.biclusters.len().into()]);
-        table.push(["their rows".into(), self.biclusters.row_entries().into()]);
-        table.push(["their columns".into(), self.biclusters.column_entries().into()]);
-        table.push(["operations per product, matrix".into(), before.into()]);
-        table.push(["operations per product, biclusters".into(), after.into()]);
-        if before > 0 {
-            table.push(["share (%)".into(), Cell::measured(100.0 * after as f64 / before as f64)]);
-        }
-        for (_, what, bytes) in self.bytes() {
-            table.push([format!("bytes, {what}").into(), bytes.into()]);
-        }
-        let rounded = ["columns whose value single precision rounds", "columns whose value is beyond single precision"];
-        for (what, count) in rounded.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
-            table.push([what.into(), count.into()]);
-        }
-        table.push(["entries where the biclusters' sum differs from the matrix".into(), self.residual.count.into()]);
-        if self.residual.count > 0 {
-            table.push(["largest difference".into(), Cell::measured(self.residual.largest)]);
-        }
-        table.push(["seconds".into(), Cell::measured(self.seconds)]);
-        table
-    }
+/// Bytes by layout: dense as bytes and as floats; compressed rows with columns and values of 2 and 1 bytes, and of 4
+/// and 4; biclusters with 4 bytes per row and 4 + 4 per column, as in the paper.
+fn bytes(matrix: &SparseMatrix, biclusters: &Biclustering) -> [u64; 5] {
+    let [rows, columns, nonzeros] = [matrix.rows(), matrix.columns(), matrix.nonzeros()].map(|count| count as u64);
+    let begins = 4 * (rows + 1);
+    let entries = biclusters.row_entries() as u64 + 2 * biclusters.column_entries() as u64;
+    [rows * columns, 4 * rows * columns, 3 * nonzeros + begins, 8 * nonzeros + begins, 4 * entries]
 }

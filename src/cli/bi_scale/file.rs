@@ -9,14 +9,10 @@ use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
-use crate::cli::model_name::Model;
-use crate::cli::transfer::model::load as load_model;
 use crate::cli::words::counted;
-use crate::io::{load_matrix_market, write_file, write_matrix_market};
+use crate::io::load_matrix_market;
 use crate::options::number;
 use crate::report::{Cell, Table};
-use crate::study::prt::creased;
-use crate::transfer::Tangents;
 
 /// An angle from 0 to 180 degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {
@@ -25,13 +21,6 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
         return Ok(degrees);
     }
     Err(format!("expected an angle from 0 to 180 degrees, found `{text}`"))
-}
-
-/// Loads a model. A crease angle in degrees recomputes its normals, smooth over edges up to this angle.
-pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette::Result<Model> {
-    let model = load_model(path, tangents)?;
-    let Some(degrees) = crease else { return Ok(model) };
-    Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
 }
 
 /// Reads a Matrix Market file, or a `.npz` file of bi-scale transfer, by the extension.
@@ -61,33 +50,33 @@ fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), Problem>
     Err(Problem::usage(what, "name a smaller matrix"))
 }
 
-/// Writes a matrix in text form.
-pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) -> Result<(), Problem> {
-    let size = [matrix.rows(), matrix.columns(), matrix.nonzeros()];
-    write_file(path, |out| {
-        let entries = (0..matrix.rows()).flat_map(|row| {
-            matrix.row(row).iter().map(move |entry| (row, entry.index as usize, matrix.value(entry.value)))
-        });
-        write_matrix_market(size, comment, entries, out)
-    })
-    .map_err(Problem::from)
+/// The unit of values, in words.
+pub(super) fn unit(fraction_bits: u32) -> String {
+    if fraction_bits == 0 { "whole numbers".to_owned() } else { format!("whole numbers of 2^-{fraction_bits}") }
 }
 
-pub(super) fn value_counts(matrix: &SparseMatrix) -> Vec<(f64, u64)> {
+/// Values with their counts: of a matrix, or of biclusters, in their columns times their rows.
+pub(super) fn value_counts(file: &BiScaleFile) -> Vec<(f64, u64)> {
     let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
-    for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {
-        *counts.entry(entry.value).or_insert(0) += 1;
+    if let Some(matrix) = &file.matrix {
+        let entries = (0..matrix.rows()).flat_map(|row| matrix.row(row));
+        entries.for_each(|entry| *counts.entry(entry.value).or_insert(0) += 1);
+        return counts.into_iter().map(|(value, count)| (matrix.value(value), count)).collect();
     }
-    counts.into_iter().map(|(value, count)| (matrix.value(value), count)).collect()
+    let Some(biclusters) = &file.biclusters else { return Vec::new() };
+    for number in 0..biclusters.len() {
+        for entry in biclusters.columns_of(number) {
+            *counts.entry(entry.value).or_insert(0) += biclusters.rows_of(number).len() as u64;
+        }
+    }
+    counts.into_iter().map(|(value, count)| (biclusters.value(value), count)).collect()
 }
 
 /// Table of values with their counts; a limited number of rows.
 pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
     const MOST: usize = 17;
-    let mut table = Table::new("Values", &["value", "count"]);
-    for &(value, count) in values.iter().take(MOST) {
-        table.push([Cell::measured(value), count.into()]);
-    }
+    let shown = values.iter().take(MOST).map(|&(value, count)| [Cell::measured(value), count.into()]);
+    let mut table = Table::new("Values", &["value", "count"]).with(shown);
     if let Some(more @ [_, ..]) = values.get(MOST..) {
         let count: u64 = more.iter().map(|(_, count)| count).sum();
         table.push([format!("{} more", counted(more.len())).into(), count.into()]);
@@ -95,7 +84,6 @@ pub(super) fn histogram(values: &[(f64, u64)]) -> Table {
     table
 }
 
-/// Values with their counts, as JSON.
 pub(super) fn values_document(values: &[(f64, u64)]) -> Vec<Value> {
     values.iter().map(|(value, count)| json!({ "value": value, "count": count })).collect()
 }

@@ -1,15 +1,11 @@
-//! `crossbar bi-scale`: transfer at two scales, one file per verb.
+//! `crossbar bi-scale`: transfer at two scales.
 
 mod bicluster;
-mod card;
+mod draw;
 mod file;
-mod patch;
 mod precompute;
-mod render;
 mod show;
 mod texture;
-mod texture_args;
-mod textures;
 
 use super::{CommandLine, Out, Verdict, study};
 
@@ -42,8 +38,8 @@ enum Verb {
     Bicluster(bicluster::Args),
     Texture(texture::Args),
     Show(show::Args),
-    Render(render::Args),
-    Card(card::Args),
+    Render(draw::Render),
+    Card(draw::Card),
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {

@@ -1,24 +1,18 @@
 //! `crossbar bi-scale precompute`: the macro-scale transfer of a model's vertices.
 
-use std::path::PathBuf;
-
-use refsim::machine::ExecutorKind;
 use serde_json::json;
 
-use super::file::{angle, load_creased};
+use super::file::angle;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
 use crate::bi_scale::transfer::transfer_matrix;
-use crate::cli::model_name::transfer_model_help;
 use crate::cli::study::written;
-use crate::cli::transfer::model::{note_vertices, refused, vertices};
-use crate::cli::transfer::values::TangentsArg;
+use crate::cli::transfer::model::{ModelArgs, note_rays, note_vertices, refused};
 use crate::cli::words::counted;
 use crate::cli::{Problem, ProgressBar};
 use crate::geom::Sides;
 use crate::options::number;
 use crate::report::Findings;
-use crate::study::caster::CasterOptions;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
@@ -37,9 +31,8 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    // Names come from the one list of built models, `meshes`.
-    #[arg(value_name = "MODEL", help = transfer_model_help())]
-    model: PathBuf,
+    #[command(flatten)]
+    of: ModelArgs,
 
     /// Local directions per side of the square that is mapped to the hemisphere
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = number::whole::<u8>(1..=64))]
@@ -49,27 +42,13 @@ pub(super) struct Args {
     /// needs the same [default: the model's own normals]
     #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
     crease: Option<f64>,
-
-    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
-    /// axis X,Y,Z
-    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
-    tangents: TangentsArg,
-
-    /// The file to write
-    #[arg(long, value_name = "X.npz")]
-    out: PathBuf,
-
-    #[command(flatten)]
-    caster: CasterOptions,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
-    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
+    let (side, path) = (args.directions, args.of.out.as_path());
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
-    let model = load_creased(&args.model, tangents, args.crease)?;
-    let vertices = vertices(&model, tangents)?;
+    let (caster, model, vertices) = args.of.load(args.crease)?;
     let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon: Horizon::Geometry };
     let bar = ProgressBar::new("visibility", 1).quicker("fewer `--directions`");
     let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;
@@ -87,13 +66,10 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     save_bi_scale(&file, path).map_err(Problem::from)?;
     let mut found = Findings::new("Bi-scale transfer");
     found.fields(json!({
-        "vertices": vertices.len(), "rows": rows, "columns": LIGHT_TEXELS,
-        "nonzeros": nonzeros, "directions_above": counts.above, "rays_traced": counts.traced,
-        "directions_visible": counts.visible, "unclear_vertices": counts.unclear,
+        "vertices": vertices.len(), "rows": rows, "columns": LIGHT_TEXELS, "nonzeros": nonzeros,
     }));
     found.print(format!("vertices  {}, {} local directions each", counted(vertices.len()), u32::from(side).pow(2)));
-    let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
-    found.print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon see light"));
+    note_rays(&mut found, &counts);
     found.print(format!(
         "transfer  {} x {}, {} values other than 0: {:.2} %",
         counted(rows),

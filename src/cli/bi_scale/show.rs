@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::file::{histogram, load, value_counts, values_document, write_matrix};
+use super::file::{histogram, load, unit, value_counts, values_document};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
-use crate::bi_scale::matrix::EntryValues;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::Problem;
 use crate::cli::study::written;
 use crate::cli::words::counted;
+use crate::io::{write_file, write_matrix_market};
 use crate::report::{Cell, Findings, Table};
 
 const EXAMPLES: &str = "\
@@ -39,52 +39,53 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
-    let rows = rows(&file);
+    let of_biclusters = || file.biclusters.as_ref().map_or(0, |biclusters| biclusters.matrix_size()[0]);
+    let rows = file.matrix.as_ref().map_or_else(of_biclusters, SparseMatrix::rows);
     let local = file.meaning.map_or(1, |meaning| meaning.side.pow(2) as usize);
     if let Some(path) = &args.matrix {
         write_text(&file, &args.file, path)?;
     }
     let mut found = Findings::new("Bi-scale transfer");
-    found.fields(document(&file, rows, local));
-    all(&file, rows, local, &mut found);
+    if let Some(meaning) = file.meaning {
+        let vertices = counted(rows / local);
+        found.introduce(format!("transfer  bi-scale, {vertices} vertices, {local} local directions each"));
+        found.introduce(format!("horizon   {}", meaning.horizon));
+        found.introduce(format!("mesh      {}", meaning.mesh));
+    } else {
+        found.introduce(format!("matrix    {} rows", counted(rows)));
+    }
+    let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
+    found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
+    if let Some(bits) = file.fraction_bits() {
+        found.introduce(format!("values    {}", unit(bits)));
+    }
+    let values = value_counts(&file);
+    found.table(histogram(&values));
+    if let Some(biclusters) = &file.biclusters {
+        let headings = ["rows up to", "biclusters", "their rows", "their columns", "operations"];
+        let sizes = sizes(biclusters).into_iter().map(|size| size.map(Cell::from));
+        found.table(Table::new("Biclusters", &headings).with(sizes));
+    }
+    found.fields(document(&file, rows, local, &values));
     written(&mut found, [("matrix", args.matrix.as_deref())]);
     Ok(found)
 }
 
-/// Writes the matrix of a file in text form.
 fn write_text(file: &BiScaleFile, name: &Path, path: &Path) -> Result<(), Problem> {
+    let refused = |error: String| Problem::usage(error, "name another file");
+    let sum = match (&file.matrix, &file.biclusters) {
+        (None, Some(biclusters)) => {
+            Some(biclusters.sum().map_err(|error| refused(format!("{}: {error}", name.display())))?)
+        }
+        _ => None,
+    };
+    let matrix = file.matrix.as_ref().or(sum.as_ref()).ok_or_else(|| refused("no matrix".to_owned()))?;
+    let size = [matrix.rows(), matrix.columns(), matrix.nonzeros()];
+    let entries = (0..matrix.rows()).flat_map(|row| {
+        matrix.row(row).iter().map(move |entry| (row, entry.index as usize, matrix.value(entry.value)))
+    });
     let comment = format!("of {}, by crossbar bi-scale show", name.display());
-    match (&file.matrix, &file.biclusters) {
-        (Some(matrix), _) => write_matrix(matrix, &comment, path),
-        (None, Some(biclusters)) => {
-            let sum = biclusters.sum();
-            let sum = sum.map_err(|e| Problem::usage(format!("{}: {e}", name.display()), "name another file"))?;
-            write_matrix(&sum, &comment, path)
-        }
-        (None, None) => Err(Problem::usage("no matrix", "name another file")),
-    }
-}
-
-fn rows(file: &BiScaleFile) -> usize {
-    let of_biclusters = || file.biclusters.as_ref().map_or(0, |biclusters| biclusters.matrix_size()[0]);
-    file.matrix.as_ref().map_or_else(of_biclusters, SparseMatrix::rows)
-}
-
-/// Frequency of each value in a matrix, or, for biclusters, in their columns multiplied by their rows.
-fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
-    match (&file.matrix, &file.biclusters) {
-        (Some(matrix), _) => value_counts(matrix),
-        (None, Some(biclusters)) => {
-            let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
-            for number in 0..biclusters.len() {
-                for entry in biclusters.columns_of(number) {
-                    *counts.entry(entry.value).or_insert(0) += biclusters.rows_of(number).len() as u64;
-                }
-            }
-            counts.into_iter().map(|(value, count)| (biclusters.value(value), count)).collect()
-        }
-        (None, None) => Vec::new(),
-    }
+    write_file(path, |out| write_matrix_market(size, &comment, entries, out)).map_err(Problem::from)
 }
 
 /// Biclusters by number of rows (up to 1, 3, 7, 15 and so on), with their total rows and columns, and their cost.
@@ -101,50 +102,21 @@ fn sizes(biclusters: &Biclustering) -> Vec<[u64; 5]> {
     sizes.into_values().collect()
 }
 
-fn all(file: &BiScaleFile, rows: usize, local: usize, found: &mut Findings) {
-    if let Some(meaning) = file.meaning {
-        found.introduce(format!(
-            "transfer  bi-scale, {} vertices, {local} local directions each",
-            counted(rows / local)
-        ));
-        found.introduce(format!("horizon   {}", meaning.horizon));
-        found.introduce(format!("mesh      {}", meaning.mesh));
-    } else {
-        found.introduce(format!("matrix    {} rows", counted(rows)));
-    }
-    let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
-    found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
-    if let Some(values) = file.values() {
-        found.introduce(format!("values    {values}"));
-    }
-    found.table(histogram(&values(file)));
-    if let Some(biclusters) = &file.biclusters {
-        let mut table =
-            Table::new("Biclusters", &["rows up to", "biclusters", "their rows", "their columns", "operations"]);
-        sizes(biclusters).into_iter().for_each(|size| table.push(size.map(Cell::from)));
-        found.table(table);
-    }
-}
-
-fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
+fn document(file: &BiScaleFile, rows: usize, local: usize, values: &[(f64, u64)]) -> Value {
     let mesh = file.meaning.map(|meaning| {
         json!({ "vertices": meaning.mesh.vertices, "triangles": meaning.mesh.triangles,
                 "tangents": meaning.mesh.tangents.to_string(), "horizon": meaning.horizon.to_string(),
                 "local_directions": local })
     });
-    let values = values_document(&values(file));
     let biclusters = file.biclusters.as_ref().map(|biclusters| {
-        let sizes: Vec<Value> = sizes(biclusters)
-            .into_iter()
-            .map(|[most, count, rows, columns, operations]| {
-                json!({ "rows_up_to": most, "biclusters": count, "rows": rows, "columns": columns,
-                        "operations": operations })
-            })
-            .collect();
+        let size = |[most, count, rows, columns, operations]: [u64; 5]| {
+            json!({ "rows_up_to": most, "biclusters": count, "rows": rows, "columns": columns,
+                    "operations": operations })
+        };
+        let sizes: Vec<Value> = sizes(biclusters).into_iter().map(size).collect();
         json!({ "count": biclusters.len(), "operations": biclusters.cost(), "sizes": sizes })
     });
-    let stored = file.values();
-    json!({ "rows": rows, "mesh": mesh, "unit_bits": stored.and_then(EntryValues::fraction_bits),
-            "distinct_values": stored.and_then(EntryValues::table_len),
-            "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values, "biclusters": biclusters })
+    json!({ "rows": rows, "mesh": mesh, "unit_bits": file.fraction_bits(),
+            "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values_document(values),
+            "biclusters": biclusters })
 }

@@ -1,17 +1,22 @@
 //! `crossbar bi-scale texture`: bidirectional textures of patches.
 
-use std::path::PathBuf;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use serde_json::json;
+use strum::VariantNames as _;
 
-use super::patch::patch_of;
 use crate::bi_scale::directions::LocalDirections;
-use crate::bi_scale::texture::{BidirectionalTexture, TextureSampling, write_bidirectional_texture};
+use crate::bi_scale::texture::{
+    BidirectionalTexture, HeightField, MesoMaterial, MesoPatch, MesoTexel, PatchKind, TextureSampling,
+    write_bidirectional_texture,
+};
 use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Problem, ProgressBar};
-use crate::io::write_file;
+use crate::cli::{Problem, ProgressBar, given};
+use crate::error::InputError;
+use crate::io::{PictureFile, load_numbers, write_file};
 use crate::options::number;
 use crate::picture::{RgbImage, display, png, rgb8};
 use crate::report::Findings;
@@ -56,12 +61,21 @@ pub(super) struct Args {
     sheet: Option<PathBuf>,
 }
 
+const PLAIN: &str = "plain";
+/// Maximum length of a table of heights, in bytes (1 GiB).
+const MAX_BYTES: u64 = 1 << 30;
+/// Height of white above black in a picture, in edges of the patch.
+const PICTURE_DEPTH: f64 = 0.1;
+/// Reflectance of `plain` and of patches from a file.
+const COLOR: [f64; 3] = [0.5; 3];
+
+fn refused(error: impl Display) -> Problem {
+    Problem::usage(error.to_string(), "see `crossbar bi-scale texture --help`")
+}
+
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
-    let directions = |side: u8| {
-        LocalDirections::new(side.into())
-            .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale texture --help`"))
-    };
-    let (view, light) = (directions(args.views)?, directions(args.directions)?);
+    let view = LocalDirections::new(args.views.into()).map_err(refused)?;
+    let light = LocalDirections::new(args.directions.into()).map_err(refused)?;
     let (views, lights) = (view.directions().len(), light.directions().len());
     let size = args.texels as usize;
     let nearest = view.nearest(glam::DVec3::Z);
@@ -69,9 +83,8 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let bar = ProgressBar::new("views", 1).quicker("fewer `--views` or `--texels`");
     let start = Instant::now();
     let sampling = TextureSampling { size, view, light, samples: 1 };
-    let texture = patch
-        .texture(&sampling, &mut |done, of| bar.show("views".to_owned(), done as u64, of as u64))
-        .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale texture --help`"))?;
+    let mut done = |done: usize, of: usize| bar.show("views".to_owned(), done as u64, of as u64);
+    let texture = patch.texture(&sampling, &mut done).map_err(refused)?;
     let seconds = start.elapsed().as_secs_f64();
     drop(bar);
     write_file(&args.out, |out| write_bidirectional_texture(&texture, out)).map_err(Problem::from)?;
@@ -79,13 +92,13 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         let image = png(&sheet(&texture, nearest))?;
         write_file(path, |out| out.write_all(&image)).map_err(Problem::from)?;
     }
-    let (mean, largest) =
-        (mean_reflectance(&texture), texture.samples().iter().flatten().fold(0.0_f32, |a, b| a.max(*b)));
+    let mean = mean_reflectance(&texture);
+    let largest = texture.samples().iter().flatten().fold(0.0_f32, |a, b| a.max(*b));
     let (depth, bytes) = (patch.heights().depth(), views * lights * size * size * 12);
     let mut found = Findings::new("Bidirectional texture");
     found.fields(json!({
-        "views": views, "lights": lights, "size": size, "depth": depth, "bytes": bytes, "bytes_of_8_bits": bytes / 4, "mean_reflectance": mean, "largest": largest,
-        "seconds": seconds,
+        "views": views, "lights": lights, "size": size, "depth": depth, "bytes": bytes, "bytes_of_8_bits": bytes / 4,
+        "mean_reflectance": mean, "largest": largest, "seconds": seconds,
     }));
     found.print(format!("patch     {size} x {size} texels, {depth:.3} of its edge deep"));
     let texels = counted(bytes / 12);
@@ -95,6 +108,45 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     found.print(format!("bytes     {} as written; {} with 8 bits per channel", counted(bytes), counted(bytes / 4)));
     written(&mut found, [("out", Some(args.out.as_path())), ("sheet", args.sheet.as_deref())]);
     Ok(found)
+}
+
+fn patch_of(source: &Path) -> miette::Result<MesoPatch> {
+    let name = source.to_str().unwrap_or_default();
+    if let Ok(kind) = name.parse::<PatchKind>() {
+        return Ok(kind.patch(1.0));
+    }
+    let material = MesoMaterial::diffuse(COLOR);
+    if name == PLAIN {
+        return Ok(MesoPatch::plain(material).map_err(refused)?);
+    }
+    given::require_file(source, "patch", &[PatchKind::VARIANTS, &[PLAIN]].concat(), "png")?;
+    let heights = heights(source)?;
+    let texels = vec![MesoTexel::default(); heights.side() * heights.side()];
+    Ok(MesoPatch::new(heights, vec![material], texels).map_err(refused)?)
+}
+
+/// Heights from a table of numbers, in edges of the patch, or from the mean of a picture's channels.
+fn heights(path: &Path) -> miette::Result<HeightField> {
+    let no_heights = |error: InputError| refused(format!("{}: {error}", path.display()));
+    let ends = |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
+    let (columns, heights) = if ["csv", "npy", "txt"].into_iter().any(ends) {
+        let table = load_numbers::<f64>(path, "table of heights", MAX_BYTES)?;
+        (table.columns, table.values)
+    } else {
+        let file = PictureFile::open(path)?;
+        let [side, rows] = [file.size().width, file.size().height].map(|side| side as usize);
+        HeightField::check_side(side.max(rows)).map_err(no_heights)?;
+        let picture = file.decode()?;
+        let mean = |rgb: &[f32; 3]| rgb.iter().map(|&value| f64::from(value)).sum::<f64>() / 3.0;
+        let linear = picture.linear().map_err(no_heights)?;
+        (picture.width() as usize, linear.iter().map(|rgb| PICTURE_DEPTH * mean(rgb)).collect())
+    };
+    let rows = heights.len() / columns.max(1);
+    if rows != columns {
+        let what = format!("{}: expected as many rows as columns, found {columns} x {rows}", path.display());
+        return Err(Problem::usage(what, "cut a square out of it").into());
+    }
+    Ok(HeightField::new(columns, &heights).map_err(no_heights)?)
 }
 
 /// Mean radiance over texels and views, under uniform light of radiance 1.

@@ -73,17 +73,9 @@ pub(in crate::cli) struct Args {
     registers: bool,
 }
 
-/// One side, as requested.
-#[derive(Debug)]
-struct SideRequest {
-    name: &'static str,
-    executor: Executor,
-    overrides: Overrides,
-}
-
 impl Args {
-    /// The two sides; fails if they do not differ in any setting.
-    fn sides(&self) -> miette::Result<[SideRequest; 2]> {
+    /// The case with its executor on both sides; fails if they do not differ in any setting.
+    fn sides(&self) -> miette::Result<[(Setup, Executor); 2]> {
         let left = (self.left_device.as_deref(), self.left_format.as_deref(), self.left_switch.as_slice());
         let right = (self.right_device.as_deref(), self.right_format.as_deref(), self.right_switch.as_slice());
         let left_executor = self.left.unwrap_or(DeviceExecutor::Scalar);
@@ -94,7 +86,16 @@ impl Args {
                         `--right-switch rounding=rtz` for example";
             return Err(Problem::usage("both sides are the same", help).into());
         }
-        Ok([request("left", left, left_executor.open()?)?, request("right", right, right_executor.open()?)?])
+        let overrides = [overrides("left", left)?, overrides("right", right)?];
+        let executors = [left_executor.open()?, right_executor.open()?];
+        let read = |overrides: &Overrides, name: &str| {
+            Setup::read_with(&self.case, overrides)
+                .map_err(miette::Report::from)
+                .wrap_err_with(|| format!("the case cannot be set up on the {name} side"))
+        };
+        let setups = [read(&overrides[0], "left")?, read(&overrides[1], "right")?];
+        let ([left, right], [left_executor, right_executor]) = (setups, executors);
+        Ok([(left, left_executor), (right, right_executor)])
     }
 
     fn scope(&self, size: [u32; 2]) -> miette::Result<Scope> {
@@ -106,38 +107,24 @@ impl Args {
     }
 }
 
-/// Requested device, format and switches.
-type SideSettings<'a> = (Option<&'a str>, Option<&'a str>, &'a [(String, String)]);
-
-fn request(name: &'static str, settings: SideSettings<'_>, executor: Executor) -> miette::Result<SideRequest> {
-    let (device, format, switches) = settings;
+/// Device, format and switches in place of the case's.
+fn overrides(
+    name: &str,
+    (device, format, switches): (Option<&str>, Option<&str>, &[(String, String)]),
+) -> miette::Result<Overrides> {
     let checked =
         |text: &str| text.parse().and_then(Format::for_registers).map(|_| text.to_owned()).map_err(bad_format);
-    let overrides = || -> miette::Result<Overrides> {
-        Ok(Overrides {
-            device: device.map(device_named).transpose()?,
-            format: format.map(checked).transpose()?,
-            switches: switches.to_vec(),
-            ..Overrides::default()
-        })
-    };
-    let overrides = overrides().wrap_err_with(|| format!("the {name} side cannot be set up"))?;
-    Ok(SideRequest { name, executor, overrides })
+    let (device, format) = (device.map(device_named).transpose(), format.map(checked).transpose());
+    let made = device.map_err(miette::Report::from).and_then(|device| {
+        Ok(Overrides { device, format: format?, switches: switches.to_vec(), ..Overrides::default() })
+    });
+    made.wrap_err_with(|| format!("the {name} side cannot be set up"))
 }
 
 pub(in crate::cli) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
-    let [left, right] = args.sides()?;
-    let read = |request: &SideRequest| {
-        Setup::read_with(&args.case, &request.overrides)
-            .map_err(miette::Report::from)
-            .wrap_err_with(|| format!("the case cannot be set up on the {} side", request.name))
-    };
-    let setups = [read(&left)?, read(&right)?];
-    let sides = [
-        Side { setup: &setups[0], executor: left.executor.clone() },
-        Side { setup: &setups[1], executor: right.executor.clone() },
-    ];
-    let comparison = case::compare(&sides[0], &sides[1], args.scope(setups[0].size)?)?;
+    let sides = args.sides()?;
+    let sides = sides.each_ref().map(|(setup, executor)| Side { setup, executor: executor.clone() });
+    let comparison = case::compare(&sides[0], &sides[1], args.scope(sides[0].setup.size)?)?;
     out.outlive_reader();
     let case = args.case.display().to_string();
     let compared = ComparedSides { case: &case, sides: &sides, comparison: &comparison };

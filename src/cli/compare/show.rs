@@ -6,15 +6,13 @@ use miette::{Diagnostic, SourceSpan};
 
 use super::super::Out;
 use crate::{
-    case::{ComparedSides, Comparison, First, Setup, pass_text},
+    case::{ComparedSides, Comparison, First, pass_text},
     compare::{Compared, SurfaceDifference, TraceDifference},
     report::{Cell, SourceText, Table, visible::visible_line},
 };
 
-/// A comparison as tables.
 pub(super) struct ShownComparison<'a>(pub(super) ComparedSides<'a>);
 
-/// An instruction, quoted.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error("{message}")]
 #[diagnostic(severity(Advice))]
@@ -58,12 +56,8 @@ fn surfaces_table(surfaces: &[SurfaceDifference]) -> Table {
 }
 
 impl ShownComparison<'_> {
-    fn setup(&self) -> &Setup {
-        self.0.sides[0].setup
-    }
-
     pub(super) fn print(&self, out: &mut Out) -> miette::Result<()> {
-        if let Some(title) = &self.setup().title {
+        if let Some(title) = &self.0.setup().title {
             out.line(visible_line(title))?;
         }
         for (name, side) in ["left ", "right"].into_iter().zip(self.0.sides) {
@@ -122,7 +116,7 @@ impl ShownComparison<'_> {
 
     fn print_first(&self, first: &First, out: &mut Out) -> miette::Result<()> {
         let [x, y] = first.pixel;
-        let place = format!("first difference: draw {} `{}`", first.draw, self.0.draw_name());
+        let place = format!("first difference: draw 0 `{}`", self.0.draw_name());
         let Some(difference) = &first.difference else {
             out.line(format_args!("{place}, pixel {x}, {y}"))?;
             out.line("no traced step differs: on one side the draw disagrees with its own trace")?;
@@ -168,8 +162,8 @@ impl ShownComparison<'_> {
     }
 
     fn quote(&self, index: usize, message: String) -> Option<Quote> {
-        let instruction = self.setup().pixel.instructions.get(index)?;
-        let text = &self.setup().pixel_text;
+        let instruction = self.0.setup().pixel.instructions.get(index)?;
+        let text = &self.0.setup().pixel_text;
         Some(Quote {
             message,
             source_code: text.named_source(),

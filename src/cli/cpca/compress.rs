@@ -2,20 +2,19 @@
 
 use std::path::PathBuf;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
-use super::coherence::{Coherence, CoherenceArgs};
-use super::compress_report::{most_vectors, steps_document, table};
 use crate::cli::study::written;
+use crate::cli::transfer::model::model_of;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
 use crate::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Signal, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, Signal, compress,
 };
+use crate::cpca::coherence::{Reclassified, reclassify};
 use crate::options::number;
 use crate::options::one_of::{name, variants};
-use crate::report::Findings;
-use crate::study::prt::CompressionError;
+use crate::report::{Cell, Findings, Table};
 use crate::transfer::file::{PrtFile, save_prt};
 use crate::transfer::load_signal;
 
@@ -34,7 +33,6 @@ CSV and NumPy arrays hold a row per point. The output file holds the clusters an
 
 /// Maximum number of iterations per number of vectors, and maximum number of rounds of redistribution.
 const ITERATIONS: usize = 10;
-/// Seed of the start points.
 const SEED: u64 = 1;
 
 /// Compress transfer, or any signal, by clustered principal components
@@ -61,58 +59,67 @@ pub(super) struct Args {
     #[arg(long, value_name = "Y.npz")]
     out: PathBuf,
 
-    #[command(flatten)]
-    coherence: CoherenceArgs,
+    /// The model that the transfer was made from, as it was given to `precompute`
+    #[arg(long, value_name = "MODEL", help_heading = "Clusters on the mesh")]
+    model: Option<PathBuf>,
+
+    /// Move vertices to clusters of their neighbours, so that fewer triangles are drawn more than once, if that
+    /// increases the squared error by at most this share: 0 or more, 0.05 to 0.1 in the paper
+    #[arg(long, value_name = "SHARE", value_parser = number::not_negative, requires = "model",
+          help_heading = "Clusters on the mesh")]
+    reclassify: Option<f64>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     args.refuse_idle()?;
     let (meaning, mesh, signal) = load_signal(&args.signal)?;
-    let vertices = args.coherence.vertices(&args.signal, mesh)?;
+    let model = args.model.as_ref().map(|model| model_of(&args.signal, mesh, model, None)).transpose()?;
     let options = args.options(&signal)?;
     let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters`");
     let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, options.vectors as u64 + 1);
-    let Compression { clustering, steps } = compress(&signal, &options, observe).map_err(|error| refused(&error))?;
+    let Compression { mut clustering, steps } =
+        compress(&signal, &options, observe).map_err(|error| refused(&error))?;
     drop(bar);
-    let provenance = args.provenance(&options, &clustering, &steps);
-    let coherence = vertices.map(|vertices| args.coherence.apply(&signal, &clustering, &vertices)).transpose()?;
-    let clustering = coherence.as_ref().map_or(&clustering, |coherence| &coherence.found.clustering);
-    let error = CompressionError::new(&signal, clustering);
-    let file =
-        PrtFile { meaning, mesh, transfer: None, clustering: Some(clustering.clone()), provenance: Some(provenance) };
+    let provenance = Some(args.provenance(&options, &clustering, &steps));
+    let (mut moved, energy) = (None, signal.sum_of_squares());
+    if let (Some((_, vertices, _)), Some(share)) = (model, args.reclassify) {
+        let found = reclassify(&signal, &clustering, vertices.triangles(), share);
+        let help = "name the model that the transfer was made from";
+        let found = found.map_err(|error| Problem::usage(error.to_string(), help))?;
+        moved = Some(MovedVertices::new(&found, vertices.triangles().len(), energy));
+        clustering = found.clustering;
+    }
+    let found = findings(args, (&signal, energy), &clustering, &steps, moved);
+    let file = PrtFile { meaning, mesh, transfer: None, clustering: Some(clustering), provenance };
     save_prt(&file, &args.out).map_err(Problem::from)?;
-    Ok(findings(args, (&signal, clustering), &steps, &error, coherence.as_ref()))
+    Ok(found)
 }
 
 impl Args {
     /// Rejects options that other options make useless.
     fn refuse_idle(&self) -> Result<(), Problem> {
         let no_vectors = [("--method", self.vectors == Some(0) && self.method.is_some())];
-        given::refuse(
-            no_vectors,
-            "clusters with vectors, and `--vectors` is 0",
-            "choose more `--vectors`, or leave it out",
-        )?;
-        given::refuse(
-            [("--reclassify", self.clusters == Some(1) && self.coherence.reclassify.is_some())],
-            "several clusters, and `--clusters` is 1",
-            "choose more `--clusters`, or leave it out",
-        )
+        let more = "choose more `--vectors`, or leave it out";
+        given::refuse(no_vectors, "clusters with vectors, and `--vectors` is 0", more)?;
+        let one_cluster = [("--reclassify", self.clusters == Some(1) && self.reclassify.is_some())];
+        let more = "choose more `--clusters`, or leave it out";
+        given::refuse(one_cluster, "several clusters, and `--clusters` is 1", more)?;
+        let no_moves = [("--model", self.model.is_some() && self.reclassify.is_none())];
+        given::refuse(no_moves, "`--reclassify`", "name it, or leave the model out")
     }
 
     fn method(&self) -> CpcaMethod {
         self.method.unwrap_or(CpcaMethod::Iterative)
     }
 
-    /// Options of the compression.
-    fn options(&self, signal: &Signal) -> miette::Result<CpcaOptions> {
+    fn options(&self, signal: &Signal) -> Result<CpcaOptions, Problem> {
         let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
         let (clusters, vectors) = (self.clusters.unwrap_or(256), self.vectors.unwrap_or(most.min(8)));
         if vectors > most {
             let what = format!(
                 "expected at most {most} `--vectors`, the lesser of points and numbers per point, found {vectors}"
             );
-            return Err(Problem::usage(what, "more vectors do not help").into());
+            return Err(Problem::usage(what, "more vectors do not help"));
         }
         Ok(CpcaOptions {
             clusters: clusters as usize,
@@ -128,17 +135,14 @@ impl Args {
     /// Provenance of the clusters, for the file: the actual values, not the limits.
     fn provenance(&self, options: &CpcaOptions, clustering: &Clustering, steps: &[CpcaStep]) -> String {
         let vectors = steps.last().map_or(options.vectors, |step| step.vectors);
-        let mut parts = vec![
-            format!("clusters={}", clustering.subspaces().len()),
-            format!("vectors={vectors}"),
-            format!("method={}", name(&self.method())),
-            "form=affine".to_owned(),
-            format!("vq-iterations={}", options.vq_iterations),
-            format!("iterations={}", options.iterations),
-            format!("seed={SEED}"),
-        ];
-        parts.extend(self.coherence.reclassify.map(|share| format!("reclassify={share}")));
-        parts.join(" ")
+        let mut line = format!(
+            "clusters={} vectors={vectors} method={} form=affine vq-iterations={ITERATIONS} iterations={ITERATIONS} \
+             seed={SEED}",
+            clustering.subspaces().len(),
+            name(&self.method()),
+        );
+        self.reclassify.iter().for_each(|share| line += &format!(" reclassify={share}"));
+        line
     }
 }
 
@@ -151,37 +155,78 @@ fn refused(error: &CpcaError) -> Problem {
     Problem::usage(error.to_string(), help)
 }
 
+/// The changes by reclassification (section 5 of the paper), as a line and as JSON.
+struct MovedVertices(String, Value);
+
+impl MovedVertices {
+    fn new(found: &Reclassified, triangles: usize, energy: f64) -> Self {
+        let &Reclassified { moved, added_error, drawn, .. } = found;
+        let [before, after] = drawn.map(|drawn| drawn as f64 / triangles.max(1) as f64);
+        let share = measured(if energy > 0.0 { added_error / energy } else { 0.0 });
+        let line = format!(
+            "moved     {} vertices, for {share} of the signal's squares; triangles drawn {before:.3} times, then {after:.3}",
+            counted(moved)
+        );
+        let document = json!({
+            "triangles": triangles, "vertices_moved": moved, "added_squared_error": added_error,
+            "triangles_drawn": { "clusters": drawn[0], "reclassified": drawn[1] },
+        });
+        Self(line, document)
+    }
+}
+
+const fn word(kind: CpcaStepKind) -> &'static str {
+    match kind {
+        CpcaStepKind::Classified => "classified",
+        CpcaStepKind::Fitted => "fitted",
+        CpcaStepKind::Redistributed => "redistributed",
+    }
+}
+
+/// Table of the last step for each number of vectors, and every redistribution; the document has all steps.
+fn table(steps: &[CpcaStep], energy: f64) -> Table {
+    let last = |at: usize| steps.get(at + 1).is_none_or(|next| next.vectors != steps[at].vectors);
+    let shown = |(at, step): &(usize, &CpcaStep)| last(*at) || step.kind == CpcaStepKind::Redistributed;
+    let row = |(at, step): (usize, &CpcaStep)| {
+        let share = (energy > 0.0).then(|| Cell::measured(100.0 * step.squared_error / energy));
+        let error = Cell::measured(step.squared_error);
+        [(at + 1).into(), step.vectors.into(), word(step.kind).into(), error, share.into()]
+    };
+    Table::new("Steps", &["steps", "vectors", "ends", "squared error", "of the signal (%)"])
+        .with(steps.iter().enumerate().filter(shown).map(row))
+}
+
 fn findings(
     args: &Args,
-    (signal, clustering): (&Signal, &Clustering),
+    (signal, energy): (&Signal, f64),
+    clustering: &Clustering,
     steps: &[CpcaStep],
-    error: &CompressionError,
-    coherence: Option<&Coherence>,
+    moved: Option<MovedVertices>,
 ) -> Findings {
     let mut found = Findings::new("Clustered principal components");
     let (numbers, stored) = (signal.values().len(), clustering.stored_numbers());
-    let (clusters, vectors) = (clustering.subspaces().len(), most_vectors(clustering));
+    let error = clustering.squared_error(signal);
+    let relative = if error > 0.0 { error / energy } else { 0.0 };
+    let step = |&CpcaStep { vectors, kind, moved, squared_error }: &CpcaStep| json!({ "vectors": vectors, "step": word(kind), "moved": moved, "squared_error": squared_error });
     found.fields(json!({
         "points": signal.points(),
         "numbers_per_point": signal.dimension(),
-        "clusters": clusters,
-        "most_vectors": vectors,
+        "clusters": clustering.subspaces().len(),
+        "most_vectors": clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0),
         "stored_numbers": stored,
-        "squared_error": error.total,
-        "squared_signal": error.energy,
-        "relative_error": error.relative(),
-        "coherence": coherence.map(Coherence::document),
-        "steps": steps_document(steps),
+        "squared_error": error,
+        "squared_signal": energy,
+        "relative_error": relative,
+        "coherence": moved.as_ref().map(|moved| &moved.1),
+        "steps": steps.iter().map(step).collect::<Vec<_>>(),
     }));
-    found.table(table(steps, error.energy));
+    found.table(table(steps, energy));
     let [points, of] = [signal.points(), signal.dimension()].map(counted);
     found.print(format!("signal    {points} points of {of} numbers"));
     let share = 100.0 * stored as f64 / numbers as f64;
     found.print(format!("stored    {} numbers in place of {}: {share:.1} %", counted(stored), counted(numbers)));
-    if let Some(coherence) = coherence {
-        coherence.report(error.energy, &mut found);
-    }
-    found.print(format!("error     {} of the signal's squares", measured(error.relative())));
+    moved.into_iter().for_each(|moved| found.print(moved.0));
+    found.print(format!("error     {} of the signal's squares", measured(relative)));
     written(&mut found, [("out", Some(args.out.as_path()))]);
     found
 }

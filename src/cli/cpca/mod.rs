@@ -1,14 +1,8 @@
-//! `crossbar cpca`: low-frequency transfer and its clusters, one file per verb.
+//! `crossbar cpca`: low-frequency transfer and its clusters.
 
-mod card;
-mod coherence;
 mod compress;
-mod compress_report;
-mod error;
-mod file;
+mod draw;
 mod precompute;
-mod precompute_values;
-mod render;
 mod show;
 
 use super::{CommandLine, Out, Verdict, study};
@@ -19,8 +13,6 @@ Examples:
       transfer of every vertex
   crossbar cpca compress docs/examples/step.npz --clusters 8 --vectors 3 --out small.npz
       the same by 8 clusters of 3 vectors
-  crossbar cpca error docs/examples/step.npz docs/examples/step_small.npz
-      the error of compression
   crossbar cpca show docs/examples/step_small.npz
       the contents of a file
   crossbar cpca render docs/examples/step_small.npz --model docs/examples/step.obj --size 64x48
@@ -42,17 +34,15 @@ pub(super) struct Args {
 enum Verb {
     Precompute(precompute::Args),
     Compress(compress::Args),
-    Error(error::Args),
     Show(show::Args),
-    Render(render::Args),
-    Card(card::Args),
+    Render(draw::Render),
+    Card(draw::Card),
 }
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
         Verb::Precompute(args) => precompute::run(args)?,
         Verb::Compress(args) => compress::run(args)?,
-        Verb::Error(args) => error::run(args)?,
         Verb::Show(args) => show::run(args)?,
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),

@@ -1,29 +1,25 @@
 //! `crossbar cpca precompute`: transfer at the vertices of a model.
 
-use std::path::PathBuf;
-
-use refsim::machine::ExecutorKind;
+use clap::ValueEnum;
 use serde_json::json;
 
-use super::precompute_values::{KindArg, RowsArg};
 use crate::cli::materials::published;
-use crate::cli::model_name::{Model, transfer_model_help};
+use crate::cli::model_name::Model;
 use crate::cli::study::written;
-use crate::cli::transfer::model::{load, note_vertices, vertices};
-use crate::cli::transfer::values::{BrdfArg, TangentsArg};
+use crate::cli::transfer::model::{ModelArgs, note_vertices};
+use crate::cli::transfer::values::brdf;
 use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given};
 use crate::cpca::transfer::{Incident, ScatteringOptions, TransferCounts};
-use crate::error::InputError;
 use crate::geom::Sides;
 use crate::options::number;
 use crate::options::one_of::{OneOf, one_of};
 use crate::report::Findings;
-use crate::study::caster::CasterOptions;
+use crate::scene::Material;
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 use crate::subsurface::Dipole;
 use crate::transfer::Vertices;
-use crate::transfer::brdf::Brdf;
+use crate::transfer::brdf::{Brdf, ExitBasis};
 use crate::transfer::file::save_prt;
 
 const EXAMPLES: &str = "\
@@ -45,13 +41,21 @@ const INCIDENT_ORDER: usize = 5;
 /// The solid angle, in steradians, below which scattering vertices count as one point.
 const SOLID_ANGLE: f64 = 0.05;
 
+/// Kind of transfer at a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum KindArg {
+    /// A vector per vertex: the same radiance in all directions
+    Diffuse,
+    /// A matrix per vertex: radiance by direction
+    Glossy,
+}
+
 /// Precompute how each vertex of a model transfers distant light
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    // Names come from the one list of built models, `meshes`.
-    #[arg(value_name = "MODEL", help = transfer_model_help())]
-    model: PathBuf,
+    #[command(flatten)]
+    of: ModelArgs,
 
     /// Kind of transfer at a vertex
     #[arg(long, value_enum, value_name = "KIND", default_value = "diffuse")]
@@ -63,14 +67,14 @@ pub(super) struct Args {
 
     /// Functions of exit radiance, for --kind glossy: 16, 25 and other squares; 24 and others that are one less are
     /// without l = 1, m = 0 [default: 25]
-    #[arg(long, value_name = "COUNT")]
-    rows: Option<RowsArg>,
+    #[arg(long, value_name = "COUNT", value_parser = rows)]
+    rows: Option<ExitBasis>,
 
     /// One reflectance for all of the model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0,
     /// schlick:A,S,ROUGHNESS,ISOTROPY,F0, ward:A,S,X,Y or ashikhmin-shirley:A,S,U,V with albedo A and specular
     /// reflectance S [default: the model's materials]
-    #[arg(long, value_name = "BRDF")]
-    brdf: Option<BrdfArg>,
+    #[arg(long, value_name = "BRDF", value_parser = brdf)]
+    brdf: Option<Brdf>,
 
     /// A published medium below the surface, which adds scattered light: see `crossbar materials`
     #[arg(long, value_name = "NAME", requires = "mm_per_unit")]
@@ -84,11 +88,6 @@ pub(super) struct Args {
     #[arg(long, value_name = "C", default_value = "scalar", value_parser = channels_of())]
     channels: &'static [usize],
 
-    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
-    /// axis X,Y,Z
-    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
-    tangents: TangentsArg,
-
     /// Size D of the quadrature over each hemisphere, 18 to 255. From 40 on D / 2 + 1 rings of D + 2 directions
     /// of different heights; below, rings of D + 1 directions, each ring of one height
     #[arg(long, value_name = "D", default_value_t = 44, value_parser = number::whole::<u16>(18..=255))]
@@ -97,13 +96,6 @@ pub(super) struct Args {
     /// Bounces: interreflections before the reflection towards the eye
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = number::whole::<u32>(0..=100))]
     bounces: u32,
-
-    /// The file to write
-    #[arg(long, value_name = "X.npz")]
-    out: PathBuf,
-
-    #[command(flatten)]
-    caster: CasterOptions,
 }
 
 /// Values of `--channels`: the channels of transfer; red, green and blue are 0, 1 and 2.
@@ -112,12 +104,23 @@ fn channels_of() -> OneOf<&'static [usize]> {
     one_of([scalar, ("rgb", "Red, green and blue", &[0, 1, 2])])
 }
 
+/// Functions of exit radiance by their number: all functions of an order, or all but (1, 0).
+fn rows(text: &str) -> Result<ExitBasis, String> {
+    let count: usize = text.trim().parse().unwrap_or(0);
+    let basis = (1..=10).find_map(|order| match order * order {
+        all if all == count => Some(ExitBasis::of_order(order)),
+        all if all == count + 1 => ExitBasis::without_1_0(order).ok(),
+        _ => None,
+    });
+    basis.ok_or_else(|| {
+        format!("expected a square from 1 to 100, or one less than a square from 4 on (without l = 1, m = 0), found `{text}`")
+    })
+}
+
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let exit = exit(args)?;
-    let caster = args.caster.choose(ExecutorKind::Batch.into())?;
     let scatterer = scatterer(args)?;
-    let model = load(&args.model, args.tangents.0)?;
-    let vertices = vertices(&model, args.tangents.0)?;
+    let (caster, model, vertices) = args.of.load(None)?;
     let precomputation = Precomputation {
         mesh: &model.mesh,
         vertices: &vertices,
@@ -131,7 +134,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");
     let mut caster = caster.open_judged(&model.mesh, Sides::Both)?;
     let found = precomputation.run_by(&mut caster, &mut |what, done, of| bar.show(what.to_owned(), done, of))?;
-    save_prt(&found.file, &args.out).map_err(Problem::from)?;
+    save_prt(&found.file, &args.of.out).map_err(Problem::from)?;
     let mut findings = findings(args, &vertices, &found);
     if let Some(record) = caster.record() {
         let host = precomputation.run(&mut |what, done, of| bar.show(format!("{what} of the host"), done, of))?;
@@ -152,33 +155,34 @@ fn exit(args: &Args) -> Result<ExitRadiance, Problem> {
         return Ok(ExitRadiance::Diffuse);
     }
     let incident = Incident::Harmonics { order: INCIDENT_ORDER, inverse: true };
-    Ok(ExitRadiance::Glossy { basis: args.rows.unwrap_or_default().basis(), least_squares: true, incident })
+    let basis = args.rows.clone().unwrap_or_else(|| ExitBasis::of_order(5));
+    Ok(ExitRadiance::Glossy { basis, least_squares: true, incident })
 }
 
 fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {
     let (Some(name), Some(mm_per_unit)) = (&args.material, args.mm_per_unit) else { return Ok(None) };
     let medium = published(name)?.material();
     let dipole = |channel: usize| Dipole::new(medium.channels[channel], medium.eta);
-    let refused = |error: InputError| Problem::usage(error.to_string(), "see `crossbar materials`");
-    let dipoles = [dipole(0).map_err(refused)?, dipole(1).map_err(refused)?, dipole(2).map_err(refused)?];
+    let dipoles = dipole(0).and_then(|red| Ok([red, dipole(1)?, dipole(2)?]));
+    let dipoles = dipoles.map_err(|error| Problem::usage(error.to_string(), "see `crossbar materials`"))?;
     Ok(Some(Scatterer { dipoles, options: ScatteringOptions { mm_per_unit, solid_angle: SOLID_ANGLE } }))
 }
 
 /// For each channel, a BRDF of each material.
 fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Problem> {
-    let of = |channel: usize| {
-        let brdfs: Result<Vec<Brdf>, Problem> = (model.materials.iter())
-            .map(|material| match args.brdf {
-                Some(BrdfArg(brdf)) => Ok(brdf),
-                None => Brdf::of_surface(&material.surface, channel).map_err(|error| {
-                    let help = "give a `--brdf` for all of the model";
-                    Problem::usage(format!("material `{}`: {error}", material.name), help)
-                }),
-            })
-            .collect();
+    let brdf = |channel: usize, material: &Material| {
+        let of_surface = || Brdf::of_surface(&material.surface, channel);
+        args.brdf.map_or_else(of_surface, Ok).map_err(|error| {
+            let what = format!("material `{}`: {error}", material.name);
+            Problem::usage(what, "give a `--brdf` for all of the model")
+        })
+    };
+    let of = |&channel: &usize| {
+        let brdfs: Result<Vec<Brdf>, Problem> =
+            model.materials.iter().map(|material| brdf(channel, material)).collect();
         brdfs.map(|brdfs| (channel, brdfs))
     };
-    args.channels.iter().map(|&channel| of(channel)).collect()
+    args.channels.iter().map(of).collect()
 }
 
 fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
@@ -205,6 +209,6 @@ fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
         (unclear.len(), "vertices lie on triangles that face each other"),
     ];
     note_vertices(&mut found, vertices, &more);
-    written(&mut found, [("out", Some(args.out.as_path()))]);
+    written(&mut found, [("out", Some(args.of.out.as_path()))]);
     found
 }

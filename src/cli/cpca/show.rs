@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use crate::cli::words::counted;
-use crate::clustering::Clustering;
+use crate::clustering::{AffineSubspace, Clustering};
 use crate::report::{Cell, Findings, Table};
 use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 
@@ -19,7 +19,6 @@ Examples:
 
 The file itself is an archive of NumPy's arrays: docs/npz.md says which.";
 
-/// Number of eigenvalues in a table.
 const EIGENVALUES: usize = 4;
 
 /// Show the contents of a .npz file: header, clusters with spectra
@@ -34,11 +33,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load_prt(&args.file, None)?;
     let mut found = Findings::new("Low-frequency transfer");
-    found.fields(header_document(&file));
-    found.fields(json!({
-        "clusters": file.clustering.as_ref().map(clusters_document),
-        "made": file.provenance.as_deref().map(made_document),
-    }));
+    found.fields(document(&file));
     all(&file, &mut found);
     Ok(found)
 }
@@ -73,18 +68,14 @@ fn all(file: &PrtFile, found: &mut Findings) {
     found.table(spectra(clustering));
 }
 
-/// Table of clusters with their sizes and largest eigenvalues.
 fn spectra(clustering: &Clustering) -> Table {
     let mut headings = vec!["cluster".to_owned(), "points".to_owned(), "vectors".to_owned()];
     headings.extend((1..=EIGENVALUES).map(|number| format!("eigenvalue {number}")));
-    let mut table = Table::new("Clusters", &headings);
-    for ((cluster, subspace), points) in clustering.subspaces().iter().enumerate().zip(sizes(clustering)) {
-        let eigenvalue = |at: usize| subspace.eigenvalues.get(at).map_or(Cell::Empty, |&value| Cell::measured(value));
-        let mut row: Vec<Cell> = vec![cluster.into(), points.into(), subspace.len().into()];
-        row.extend((0..EIGENVALUES).map(eigenvalue));
-        table.push(row);
-    }
-    table
+    let clusters = clustering.subspaces().iter().enumerate().zip(sizes(clustering));
+    Table::new("Clusters", &headings).with(clusters.map(|((cluster, subspace), points)| {
+        let eigenvalues = subspace.eigenvalues.iter().take(EIGENVALUES).map(|&value| Cell::measured(value));
+        [Cell::from(cluster), points.into(), subspace.len().into()].into_iter().chain(eigenvalues)
+    }))
 }
 
 /// Number of points of each cluster.
@@ -94,7 +85,7 @@ fn sizes(clustering: &Clustering) -> Vec<usize> {
     sizes
 }
 
-fn header_document(file: &PrtFile) -> Value {
+fn document(file: &PrtFile) -> Value {
     let meaning = match &file.meaning {
         PrtMeaning::Numbers { dimension } => json!({ "numbers_per_point": dimension }),
         PrtMeaning::Transfer { channels, exit_functions, light_order, includes_albedo } => json!({
@@ -107,20 +98,16 @@ fn header_document(file: &PrtFile) -> Value {
         json!({ "vertices": mesh.vertices, "triangles": mesh.triangles, "tangents": mesh.tangents.to_string(),
                 "vertex_crc": vertex_crc, "triangle_crc": triangle_crc })
     });
-    json!({ "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some() })
-}
-
-/// The words of a provenance line, by name.
-fn made_document(line: &str) -> BTreeMap<&str, &str> {
-    line.split(' ').map(|word| word.split_once('=').unwrap_or((word, "yes"))).collect()
-}
-
-fn clusters_document(clustering: &Clustering) -> Value {
-    let clusters = clustering.subspaces().iter().zip(sizes(clustering));
-    let clusters: Vec<Value> = clusters
-        .map(|(subspace, points)| {
+    let clusters = file.clustering.as_ref().map(|clustering| {
+        let cluster = |(subspace, points): (&AffineSubspace, usize)| {
             json!({ "points": points, "vectors": subspace.len(), "eigenvalues": subspace.eigenvalues })
-        })
-        .collect();
-    json!({ "stored_numbers": clustering.stored_numbers(), "clusters": clusters })
+        };
+        let clusters: Vec<Value> = clustering.subspaces().iter().zip(sizes(clustering)).map(cluster).collect();
+        json!({ "stored_numbers": clustering.stored_numbers(), "clusters": clusters })
+    });
+    // The words of the provenance line, by name.
+    let made: Option<BTreeMap<&str, &str>> = (file.provenance.as_deref())
+        .map(|line| line.split(' ').map(|word| word.split_once('=').unwrap_or((word, "yes"))).collect());
+    json!({ "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some(),
+            "clusters": clusters, "made": made })
 }

@@ -65,7 +65,6 @@ pub(in crate::cli) struct Args {
     pub(super) caster: CasterOptions,
 }
 
-/// How light is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Renderer {
     /// Eye rays alone, with a lamp at the eye
@@ -83,7 +82,6 @@ pub(super) enum Renderer {
 }
 
 impl Renderer {
-    /// Title of its pictures.
     pub(super) const fn title(self) -> &'static str {
         match self {
             Self::Eye => "Eye rays with a lamp at the eye",
@@ -141,7 +139,6 @@ pub(super) struct LightArgs {
 }
 
 impl LightArgs {
-    /// Returns `true` if an option was given that needs a lit scene.
     pub(super) fn asked(&self) -> bool {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some()
     }

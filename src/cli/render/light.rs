@@ -7,31 +7,38 @@ use refsim::device::Profile;
 use serde_json::json;
 
 use super::args::{Args, Renderer};
-use super::page::{hits_line, page};
-use super::scene::{LitScene, camera};
 use crate::card::RasterizedEyes;
 use crate::case::device_named;
 use crate::cli::executor::{Decider, engine_executor};
-use crate::cli::{CommandLine, Out, Problem, ProgressBar, given, scene_name, study, view};
+use crate::cli::scene_name::{self, Viewpoint};
+use crate::cli::words::counted;
+use crate::cli::{CommandLine, Out, Problem, ProgressBar, given, study, view};
 use crate::geom::exact::Sides;
 use crate::io::{require_writable, write_files};
+use crate::picture::{Picture, RgbImage};
 use crate::renderer::environment::{self, EnvironmentCard};
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
 use crate::report::digits::count;
-use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
+use crate::report::{Findings, FoundTable, NamedPicture, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::study::caster::CastRecord;
 use crate::tracer::Caster;
 use crate::tracer::offset::unit_roundoff;
 
-/// The default random seed.
 const SEED: u64 = 1;
 
-pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
-    let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
+/// Renders a scene; `is_lit` if it has its own lights and views.
+pub(super) fn run(
+    args: &Args,
+    scene: &Scene,
+    is_lit: bool,
+    command_line: &CommandLine,
+    out: &mut Out,
+) -> miette::Result<Verdict> {
+    let renderer = args.light.renderer.unwrap_or(if is_lit { Renderer::Whitted } else { Renderer::Eye });
     args.light.refuse_others(Some(renderer))?;
-    check_lights(renderer, &asked.scene)?;
+    check_lights(renderer, scene)?;
     let is_mapped = renderer == Renderer::Environment;
     let executor = args.executor.filter(|_| !is_mapped || args.caster.is_engine());
     let no_card = [
@@ -46,20 +53,21 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     given::refuse(no_engine, "the card of the Ray Engine", "add `--caster engine`, or leave it out")?;
     let mapping =
         is_mapped.then(|| device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))).transpose()?;
-    let camera = camera(args, &asked.scene)?;
+    let viewpoint = Viewpoint { size: args.size, view: args.light.view.as_deref(), eye: args.eye };
+    let camera = viewpoint.camera(scene)?;
     require_writable(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut open = caster.open(asked.scene.mesh(), Sides::Both)?;
+    let mut open = caster.open(scene.mesh(), Sides::Both)?;
     let view = (&camera, mapping.as_ref());
     let picture = match drawing {
-        None => trace(renderer, args, &asked.scene, view, rounding, &mut open)?,
+        None => trace(renderer, args, scene, view, rounding, &mut open)?,
         Some(profile) => {
-            let mut eyes = RasterizedEyes::new(profile, asked.scene.mesh(), camera, &mut open).into_diagnostic()?;
-            trace(renderer, args, &asked.scene, view, rounding, &mut eyes)?
+            let mut eyes = RasterizedEyes::new(profile, scene.mesh(), camera, &mut open).into_diagnostic()?;
+            trace(renderer, args, scene, view, rounding, &mut eyes)?
         }
     };
     let engine = open.record();
-    let numbers = layers(&picture, &asked.scene, &camera)?;
+    let numbers = layers(&picture, scene, &camera)?;
     let exposure = args.light.exposure.unwrap_or(1.0);
     let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
     let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
@@ -73,7 +81,6 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &CommandLine, out
     study::show(&findings, out)
 }
 
-/// Table of the rays that were cast, by kind.
 fn rays(picture: &RenderedPicture) -> Table {
     let mut table = Table::of("Rays", "kind rays");
     for (kind, count) in picture.counts.kinds().into_iter().filter(|kind| kind.1 > 0) {
@@ -168,4 +175,17 @@ fn report(args: &Args, picture: &RenderedPicture, engine: Option<&CastRecord>, f
         found.print(format!("{} samples were not finite and count as black", count(picture.not_finite)));
     }
     found.print(hits_line(hits, pixels, args));
+}
+
+pub(super) fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Picture, caption: &str) -> Findings {
+    let mut found = Findings::new(format!("A picture of {}", args.scene.display()));
+    found.taken_from(camera.world_to_camera());
+    found.pictures(vec![NamedPicture::new("picture", image, caption)]);
+    found.paragraph("layers.exr has the numbers: depth along the view (Z) and triangle of what each pixel shows.");
+    found.keep_layers("layers", layers);
+    found
+}
+
+pub(super) fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
+    format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
 }

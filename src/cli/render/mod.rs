@@ -2,8 +2,6 @@
 
 mod args;
 mod light;
-mod page;
-mod scene;
 
 use miette::IntoDiagnostic as _;
 use refsim::machine::ExecutorKind;
@@ -12,29 +10,32 @@ use serde_json::json;
 use super::executor::Decider;
 use super::{CommandLine, Out, Problem, model_file, scene_name, study, view};
 use crate::case::device_named;
-use crate::geom::Mesh;
 use crate::geom::exact::{ExactT, Sides, Tracer};
 use crate::io::{require_writable, write_files};
 use crate::options::Size;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::{Provenance, Verdict};
-use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
-use page::{hits_line, page};
+use light::{hits_line, page};
 
 pub(super) use args::Args;
 
 pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> miette::Result<Verdict> {
-    if let Some(asked) = scene::lit(args)? {
-        return light::run(args, &asked, command_line, out);
+    if let Some(scene) = scene_name::by_name(&args.scene)? {
+        return light::run(args, &scene, true, command_line, out);
+    }
+    // A model file is shown by its eye rays, unless it is to be lit.
+    let is_scene_file = args.scene.extension().is_some_and(|ending| ending == "toml");
+    if is_scene_file || args.light.asked() || args.caster.is_named() {
+        return light::run(args, &model_file::scene(&args.scene)?, is_scene_file, command_line, out);
     }
     args.light.refuse_others(None)?;
     args.caster.choose(ExecutorKind::Batch.into())?;
     let profile = device_named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let executor = Decider::choose(args.executor, args.device.as_deref())?;
     let mesh = model_file::mesh(&args.scene)?;
-    let camera = camera(args, &mesh)?;
+    let camera = args.eye.framing(&mesh, args.size)?;
     let Size { width, height } = args.size;
     require_writable(&args.out).map_err(Problem::from)?;
     let mut provenance = study::with_inputs(Provenance::new(&command_line.text), &scene_name::named_file(&args.scene));
@@ -63,9 +64,4 @@ pub(super) fn run(args: &Args, command_line: &CommandLine, out: &mut Out) -> mie
     findings.print(hits_line(found, hits.len(), args));
     write_files(&args.out, &findings.take_files(&provenance)?).map_err(Problem::from)?;
     study::show(&findings, out)
-}
-
-/// The requested camera; without an eye, one that looks down a little from the front and sees the whole mesh.
-fn camera(args: &Args, mesh: &Mesh) -> miette::Result<Camera> {
-    args.eye.framing(mesh, args.size)
 }

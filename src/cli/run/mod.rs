@@ -92,7 +92,7 @@ fn default_folder(case: &Path) -> PathBuf {
 
 fn counts(outcome: &CaseOutcome) -> Table {
     let mut table = Table::new("Counts", &["count", "number"]);
-    for (name, number) in outcome.counts() {
+    for &(name, number) in &outcome.counts {
         table.push([Cell::from(name), number.into()]);
     }
     table

@@ -9,11 +9,9 @@ use crate::{
     report::{Cell, Table},
 };
 
-/// A trace as tables.
 pub(super) struct ShownTrace<'a>(pub(super) Traced<'a>);
 
 impl ShownTrace<'_> {
-    /// Reports, with advice, that nothing covers the pixel.
     fn nothing(&self) -> String {
         let [x, y] = self.0.trace.pixel;
         let text = format!("no triangle of the draw covers pixel {x}, {y}");
@@ -98,7 +96,6 @@ impl ShownTrace<'_> {
         table
     }
 
-    /// One line with the result of the fragment.
     fn result(&self, fragment: &FragmentTrace) -> String {
         let own = fragment.shading.output.depth.map(|depth| {
             let number = Number { format: depth.format, bits: depth.bits };

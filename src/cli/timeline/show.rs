@@ -7,21 +7,20 @@ use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
-use super::args::Args;
-use super::run::{Input, TimedLog};
+use super::run::{Args, CardRun, TimedLog};
 use crate::report::{Cell, Findings, FoundTable, Table};
 
 /// Maximum number of draws in the table; the document has all draws.
 const MAX_DRAWS: usize = 16;
 
 /// The tables of both models, as text and as a document.
-pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[TimedLog]) -> Findings {
-    let profile = input.profile();
-    let mut found = Findings::new(input.title());
+pub(super) fn findings(args: &Args, run: &CardRun, timed: &[TimedLog]) -> Findings {
+    let CardRun { profile, title, rays, log } = run;
+    let mut found = Findings::new(title);
     found.fields(json!({
         "case": args.case.as_ref().map(|path| path.display().to_string()),
-        "title": input.title(),
-        "rays": input.rays(),
+        "title": title,
+        "rays": rays,
         "version": env!("CARGO_PKG_VERSION"),
         "device": profile.name,
         "readback": args.readback.map(|mode| if mode == ReadBackMode::Synchronous { "sync" } else { "async" }),
@@ -31,7 +30,7 @@ pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[Timed
         "models": timed.iter().map(|one| model(log, one)).collect::<Vec<_>>(),
         "trace": args.perfetto.as_ref().map(|path| path.display().to_string()),
     }));
-    found.introduce(input.title());
+    found.introduce(title.clone());
     found.introduce(format!("{} ({}), times in microseconds", profile.title, profile.name));
     if args.cache {
         found.table(FoundTable::from(cache(log)).field("texture_cache"));
@@ -48,35 +47,30 @@ pub(super) fn findings(args: &Args, input: &Input, log: &[Event], timed: &[Timed
                 .print(format!("{name}: {operations} operations of the host cost nothing: no run has calibrated them"));
         }
     }
-    found.table(FoundTable::from(totals(input, log, timed)).field("totals"));
+    found.table(FoundTable::from(totals(run, timed)).field("totals"));
     if let Some(path) = &args.perfetto {
         found.print(format!("wrote {}", path.display()));
     }
     found
 }
 
-/// Microseconds.
 fn us(time: Picoseconds) -> Cell {
     Cell::measured(time.0 as f64 / 1e6)
 }
 
-/// Cell with a part in percent.
 fn percent(part: i128, whole: Picoseconds) -> Cell {
     Cell::percent(100.0 * part as f64 / whole.0.max(1) as f64)
 }
 
-/// Cell with a part's share of a total, in percent.
 fn share(part: Picoseconds, whole: Picoseconds) -> Cell {
     percent(part.0.into(), whole)
 }
 
-/// Cell with the change of a total, in percent.
 fn change(from: Picoseconds, to: Picoseconds) -> Cell {
     percent(i128::from(to.0) - i128::from(from.0), from)
 }
 
 impl TimedLog {
-    /// A table about this model.
     fn table(&self, title: &str, headings: &[&str]) -> Table {
         Table::new(format!("Model {}: {title}", self.name()), headings)
     }
@@ -125,7 +119,6 @@ fn draws(log: &[Event], timed: &TimedLog, most: usize) -> Table {
     table
 }
 
-/// The mip levels that the card generated.
 fn mipmaps(log: &[Event], timed: &TimedLog, most: usize) -> Table {
     let headings = ["levels", "texels read", "texels written", "total", "clocks", "bound by"];
     let mut table = timed.table("generated mip levels", &headings);
@@ -146,7 +139,6 @@ fn mipmaps(log: &[Event], timed: &TimedLog, most: usize) -> Table {
     table
 }
 
-/// Texture cache hits and misses per sampler, over all draws.
 fn cache(log: &[Event]) -> Table {
     let headings = ["sampler", "texels", "misses, half", "misses", "misses, double", "distinct lines"];
     let mut table = Table::new("Texture cache, also of half and of double the size", &headings);
@@ -219,7 +211,6 @@ fn guesses(timed: &TimedLog) -> Table {
     table
 }
 
-/// Rate per second, rounded down.
 fn a_second(count: u64, time: Picoseconds) -> u64 {
     let rate = u128::from(count) * 1_000_000_000_000 / u128::from(time.0.max(1));
     u64::try_from(rate).unwrap_or(u64::MAX)
@@ -229,12 +220,12 @@ fn fragments(log: &[Event], timed: &TimedLog) -> u64 {
     costs(log, timed).map(|(record, _)| record.counts.fragments.generated).sum()
 }
 
-fn totals(input: &Input, log: &[Event], timed: &[TimedLog]) -> Table {
+fn totals(run: &CardRun, timed: &[TimedLog]) -> Table {
     let mut table = Table::new("Totals", &["model", "total", "fragments/s", "rays/s"]);
     for one in timed {
         let whole = one.replay.timeline.makespan();
-        let rays = input.rays().map(|rays| a_second(rays, whole));
-        table.push([one.name().into(), us(whole), a_second(fragments(log, one), whole).into(), rays.into()]);
+        let rays = run.rays.map(|rays| a_second(rays, whole));
+        table.push([one.name().into(), us(whole), a_second(fragments(&run.log, one), whole).into(), rays.into()]);
     }
     table
 }

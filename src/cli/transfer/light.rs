@@ -17,23 +17,10 @@ use crate::tracer::HostTracer;
 use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
 
-/// Forms of light that every command takes.
-macro_rules! forms {
-    ($($more:literal)?) => {
-        concat!(
-            "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun), \
-             red-and-blue, scene:SCENE@X,Y,Z (as seen from a place in a scene), a lat-long, angular-probe, cube-cross or \
-             cube-strip picture (EXR, HDR, PNG)",
-            $($more)?
-        )
-    };
-}
-
-/// Help texts: forms of light in harmonics, and of light on the texels of a cube.
-pub(in crate::cli) const HARMONIC_LIGHT: &str = forms!();
-pub(in crate::cli) const CUBE_LIGHT: &str =
-    forms!(", a table of a cube's texels (.csv) or of small sources (.sources.csv)");
-/// The default light.
+pub(in crate::cli) const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular \
+     radius), sky:X,Y,Z (towards the sun), red-and-blue, scene:SCENE@X,Y,Z (as seen from a place in a \
+     scene), a lat-long, angular-probe, cube-cross or cube-strip picture (EXR, HDR, PNG); for all-frequency and \
+     bi-scale also a table of a cube's texels (.csv) or of small sources (.sources.csv)";
 pub(in crate::cli) const DEFAULT_LIGHT: &str = "sky:1,-1,1";
 
 /// Samples per texel of light in a scene.
@@ -59,7 +46,7 @@ impl FromStr for DistantLightArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("expected {HARMONIC_LIGHT}; found `{text}`");
+        let wrong = || format!("expected {LIGHT}; found `{text}`");
         let three = |part: &str| number::three(part, "X,Y,Z or R,G,B").map(|part| part.map(f64::from));
         let color = |part: &str| three(part).ok().filter(|c| c.iter().all(|&value| value >= 0.0)).ok_or_else(wrong);
         let towards = |part: &str| three(part).map(DVec3::from).ok().filter(|&v| v != DVec3::ZERO).ok_or_else(wrong);
@@ -83,13 +70,11 @@ impl FromStr for DistantLightArg {
 impl DistantLightArg {
     fn disk(towards: DVec3, degrees: &str, radiance: [f64; 3]) -> Result<Self, String> {
         let degrees = number::positive(degrees)?;
-        if degrees > 180.0 {
-            return Err(format!(
-                "expected an angular radius of at most 180 degrees, found `{}`",
-                shown(degrees, Quantity::Exact)
-            ));
+        let found = shown(degrees, Quantity::Exact);
+        match degrees <= 180.0 {
+            true => Ok(Self::Disk { towards, degrees, radiance }),
+            false => Err(format!("expected an angular radius of at most 180 degrees, found `{found}`")),
         }
-        Ok(Self::Disk { towards, degrees, radiance })
     }
 
     /// The file from which the light is read, if any.
@@ -101,7 +86,6 @@ impl DistantLightArg {
         }
     }
 
-    /// A short name of the light.
     pub(in crate::cli) fn name(&self) -> String {
         match self {
             Self::Constant(_) => "a constant light".to_owned(),
@@ -120,11 +104,9 @@ impl DistantLightArg {
     pub(in crate::cli) fn distant(&self) -> miette::Result<DistantLight> {
         Ok(match self {
             Self::Constant(radiance) => DistantLight::Constant(*radiance),
-            Self::Disk { towards, degrees, radiance } => DistantLight::Disks(vec![DiskSource {
-                towards: *towards,
-                radius: degrees.to_radians(),
-                radiance: *radiance,
-            }]),
+            &Self::Disk { towards, degrees, radiance } => {
+                DistantLight::Disks(vec![DiskSource { towards, radius: degrees.to_radians(), radiance }])
+            }
             Self::Sky { sun } => DistantLight::Sky(clear_sky(*sun)),
             Self::RedAndBlue => DistantLight::RedAndBlue,
             Self::Picture(path) if has_ending(path, ".sources.csv") => {
@@ -174,9 +156,8 @@ fn seen_from(path: &Path, at: DVec3) -> miette::Result<CubeLight> {
     };
     // Beyond this bound, single precision does not separate the place from the faces of a cube around it.
     if at.abs().max_element() >= f64::from(1 << 24) {
-        return Err(
-            no_place(format!("expected a place of light within 2^24 of the origin, found {}", at.as_vec3())).into()
-        );
+        let what = format!("expected a place of light within 2^24 of the origin, found {}", at.as_vec3());
+        return Err(no_place(what).into());
     }
     let (mut tracer, bar) = (HostTracer::new(scene.mesh(), Sides::Both), ProgressBar::new("light in the scene", 6));
     let settings = Settings { samples: SAMPLES, ..Settings::default() };

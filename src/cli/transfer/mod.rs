@@ -3,6 +3,5 @@
 
 pub(super) mod light;
 pub(super) mod model;
-pub(super) mod on_card;
 pub(super) mod picture;
 pub(super) mod values;

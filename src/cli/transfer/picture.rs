@@ -1,17 +1,24 @@
-//! Options of a model's picture: model, camera, size, exposure.
+//! Options of a model's picture: light, model, camera, size, exposure; and the card that draws it.
 
 use std::path::{Path, PathBuf};
 
+use refsim::texture::TexelFormat;
+
+use super::light::{DEFAULT_LIGHT, DistantLightArg, LIGHT};
+use crate::cli::card::CardArgs;
 use crate::cli::model_name;
 use crate::cli::scene_name::EyeArgs;
 use crate::geom::Mesh;
 use crate::options::Size;
 use crate::options::number;
-use crate::study::prt::LitView;
+use crate::study::prt::{CardSetting, LitView};
 
 /// A picture of a model.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct PictureArgs {
+    #[arg(long, value_name = "LIGHT", default_value = DEFAULT_LIGHT, allow_hyphen_values = true, help = LIGHT)]
+    pub(in crate::cli) light: DistantLightArg,
+
     /// The model that the file was made from, as it was given to `precompute`
     #[arg(long, value_name = "MODEL")]
     pub(in crate::cli) model: PathBuf,
@@ -30,14 +37,38 @@ pub(in crate::cli) struct PictureArgs {
 }
 
 impl PictureArgs {
-    /// The model's file, unless the program builds it.
-    pub(in crate::cli) fn inputs(&self) -> Vec<&Path> {
-        model_name::named_file(&self.model)
+    /// The input files of a picture: these, and the files of light and model.
+    pub(in crate::cli) fn inputs<'a, P: AsRef<Path> + ?Sized + 'a>(
+        &'a self,
+        files: impl IntoIterator<Item = &'a P>,
+    ) -> Vec<&'a Path> {
+        let files = files.into_iter().map(P::as_ref);
+        files.chain(self.light.file()).chain(model_name::named_file(&self.model)).collect()
     }
 
-    /// The view of the model under a light of this name.
-    pub(in crate::cli) fn view(&self, mesh: &Mesh, light: String) -> miette::Result<LitView> {
-        let camera = self.eye.framing(mesh, self.size)?;
-        Ok(LitView { model: self.model.display().to_string(), light, camera, exposure: self.exposure })
+    pub(in crate::cli) fn view(&self, mesh: &Mesh) -> miette::Result<LitView> {
+        let (model, light) = (self.model.display().to_string(), self.light.name());
+        Ok(LitView { model, light, camera: self.eye.framing(mesh, self.size)?, exposure: self.exposure })
+    }
+}
+
+/// The card, and the option to vary its settings.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct OnCardArgs {
+    /// Vary number formats, maps and targets, one at a time, and show the error of each
+    #[arg(long)]
+    sweep: bool,
+
+    #[command(flatten)]
+    card: CardArgs,
+}
+
+impl OnCardArgs {
+    /// The card that draws: the requested one, otherwise `device`.
+    pub(in crate::cli) fn setting(&self, device: &str) -> miette::Result<CardSetting> {
+        let Self { sweep, card } = self;
+        let (profile, executor) = (card.profile(device)?, card.executor()?);
+        let format = TexelFormat::Bgra8;
+        Ok(CardSetting { profile, switches: card.switches(), executor, format, sweep: *sweep })
     }
 }

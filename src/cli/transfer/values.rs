@@ -1,7 +1,5 @@
 //! Values of options: reflectance, tangents.
 
-use std::str::FromStr;
-
 use glam::DVec3;
 
 use crate::options::number;
@@ -12,53 +10,37 @@ const BRDF: &str = "lambert:ALBEDO, phong:ALBEDO,SPECULAR,EXPONENT, cook-torranc
                     schlick:ALBEDO,SPECULAR,ROUGHNESS,ISOTROPY,F0, ward:ALBEDO,SPECULAR,ROUGHNESS_X,ROUGHNESS_Y or ashikhmin-shirley:ALBEDO,SPECULAR,EXPONENT_U,EXPONENT_V";
 
 /// A BRDF with its parameters, the same in all channels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::cli) struct BrdfArg(pub(in crate::cli) Brdf);
-
-impl FromStr for BrdfArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || format!("expected {BRDF}; found `{text}`");
-        let (name, figures) = text.split_once(':').ok_or_else(wrong)?;
-        let figures: Vec<f64> = figures.split(',').map(number::finite).collect::<Result<_, _>>()?;
-        let brdf = match (name, &figures[..]) {
-            ("lambert", &[albedo]) => Brdf::Lambert { albedo },
-            ("phong", &[albedo, specular, exponent]) => Brdf::Phong { albedo, specular, exponent },
-            ("cook-torrance", &[albedo, specular, roughness, normal_incidence]) => {
-                Brdf::CookTorrance { albedo, specular, roughness, normal_incidence }
-            }
-            ("schlick", &[albedo, specular, roughness, isotropy, normal_incidence]) => {
-                Brdf::Schlick { albedo, specular, roughness, isotropy, normal_incidence }
-            }
-            ("ward", &[albedo, specular, x, y]) => Brdf::Ward { albedo, specular, roughness: [x, y] },
-            ("ashikhmin-shirley", &[albedo, specular, u, v]) => {
-                Brdf::AshikhminShirley { albedo, specular, exponents: [u, v] }
-            }
-            _ => return Err(wrong()),
-        };
-        brdf.check().map(|()| Self(brdf)).map_err(|error| error.to_string())
-    }
+pub(in crate::cli) fn brdf(text: &str) -> Result<Brdf, String> {
+    let wrong = || format!("expected {BRDF}; found `{text}`");
+    let (name, figures) = text.split_once(':').ok_or_else(wrong)?;
+    let figures: Vec<f64> = figures.split(',').map(number::finite).collect::<Result<_, _>>()?;
+    let brdf = match (name, &figures[..]) {
+        ("lambert", &[albedo]) => Brdf::Lambert { albedo },
+        ("phong", &[albedo, specular, exponent]) => Brdf::Phong { albedo, specular, exponent },
+        ("cook-torrance", &[albedo, specular, roughness, normal_incidence]) => {
+            Brdf::CookTorrance { albedo, specular, roughness, normal_incidence }
+        }
+        ("schlick", &[albedo, specular, roughness, isotropy, normal_incidence]) => {
+            Brdf::Schlick { albedo, specular, roughness, isotropy, normal_incidence }
+        }
+        ("ward", &[albedo, specular, x, y]) => Brdf::Ward { albedo, specular, roughness: [x, y] },
+        ("ashikhmin-shirley", &[albedo, specular, u, v]) => {
+            Brdf::AshikhminShirley { albedo, specular, exponents: [u, v] }
+        }
+        _ => return Err(wrong()),
+    };
+    brdf.check().map(|()| brdf).map_err(|error| error.to_string())
 }
 
-/// Source of tangents.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::cli) struct TangentsArg(pub(in crate::cli) Tangents);
-
-impl FromStr for TangentsArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "any" => Ok(Self(Tangents::Any)),
-            "texture" => Ok(Self(Tangents::Texture)),
-            _ => {
-                let axis = DVec3::from(number::three(text, "X,Y,Z, or `any` or `texture`")?.map(f64::from));
-                if axis == DVec3::ZERO {
-                    return Err(format!("expected an axis with a length above 0, found `{text}`"));
-                }
-                Ok(Self(Tangents::Along(axis)))
-            }
+/// Source of tangents: `any`, `texture`, or an axis X,Y,Z.
+pub(in crate::cli) fn tangents(text: &str) -> Result<Tangents, String> {
+    match text {
+        "any" => Ok(Tangents::Any),
+        "texture" => Ok(Tangents::Texture),
+        _ => {
+            let axis = DVec3::from(number::three(text, "X,Y,Z, or `any` or `texture`")?.map(f64::from));
+            let wrong = || format!("expected an axis with a length above 0, found `{text}`");
+            (axis != DVec3::ZERO).then_some(Tangents::Along(axis)).ok_or_else(wrong)
         }
     }
 }

@@ -37,7 +37,6 @@ fn coarser(finer: &[Cluster], width: u32) -> Vec<Cluster> {
     (0..half * half).into_par_iter().map(of_four).collect()
 }
 
-/// Computes the radius of each cluster of a level.
 fn find_radii(
     surface: &AtlasSurface,
     places: &[FacePlace],

@@ -11,10 +11,11 @@ pub(super) type SplitLimits = RangeInclusive<usize>;
 
 #[derive(Debug)]
 pub(super) struct FaceMeasures {
-    centers: Vec<DVec3>,
+    pub(super) centers: Vec<DVec3>,
     /// Normal of each face, with twice the face's area as length.
-    normals: Vec<DVec3>,
-    demands: Vec<f64>,
+    pub(super) normals: Vec<DVec3>,
+    /// Target number of texels of each face: its area divided by the mean texel area, but at least [`LEAST_DEMAND`].
+    pub(super) demands: Vec<f64>,
 }
 
 impl FaceMeasures {
@@ -27,20 +28,6 @@ impl FaceMeasures {
             normals: (0..surface.len() as u32).map(|face| surface.area_vector(face)).collect(),
             demands: surface.areas().iter().map(demand).collect(),
         }
-    }
-
-    pub(super) fn center(&self, face: u32) -> DVec3 {
-        self.centers[face as usize]
-    }
-
-    /// Normal of a face, with twice its area as length.
-    pub(super) fn normal(&self, face: u32) -> DVec3 {
-        self.normals[face as usize]
-    }
-
-    /// Target number of texels of a face: its area divided by the mean texel area, but at least [`LEAST_DEMAND`].
-    pub(super) fn demand(&self, face: u32) -> f64 {
-        self.demands[face as usize]
     }
 }
 

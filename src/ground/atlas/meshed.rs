@@ -237,7 +237,6 @@ fn check(faces: usize, side: u32) -> Result<(), InputError> {
     Ok(())
 }
 
-/// Returns the rectangle of each face: its leaf's rectangle.
 fn places(surface: &AtlasSurface, tree: &ClusterTree) -> Vec<FacePlace> {
     let mut rectangles = vec![[0; 4]; surface.len()];
     for leaf in tree.nodes().iter().filter(|node| node.faces == 1) {
@@ -246,7 +245,6 @@ fn places(surface: &AtlasSurface, tree: &ClusterTree) -> Vec<FacePlace> {
     (0..).zip(rectangles).map(|(face, rectangle)| FacePlace::squarest(rectangle, surface.corners(face))).collect()
 }
 
-/// Computes all texels, row by row.
 fn texels(surface: &AtlasSurface, places: &[FacePlace], side: u32) -> Vec<Texel> {
     let mut face_of = vec![0_u32; side as usize * side as usize];
     for (face, place) in (0..).zip(places) {

@@ -31,17 +31,11 @@ impl FacePlace {
     /// Chooses the placement of a face in a rectangle: the one of the six with the squarest texels. Ties are broken by
     /// corner, then in favour of the untransposed placement.
     pub(super) fn squarest([x, y, width, height]: [u32; 4], corners: [DVec3; 3]) -> Self {
-        let mut best: Option<(f64, Self)> = None;
-        for first in 0..3_u8 {
-            for transposed in [false, true] {
-                let place = Self { x, y, width, height, first, transposed };
-                let stretch = place.stretch(corners);
-                if best.is_none_or(|(least, _)| stretch < least) {
-                    best = Some((stretch, place));
-                }
-            }
-        }
-        best.map_or(Self { x, y, width, height, first: 0, transposed: false }, |(_, place)| place)
+        let place = |first, transposed| Self { x, y, width, height, first, transposed };
+        let places = (0..3).flat_map(|first| [false, true].map(|transposed| place(first, transposed)));
+        let stretched = places.map(|place| (place.stretch(corners), place));
+        let best = stretched.min_by(|one, other| one.0.total_cmp(&other.0));
+        best.map_or(place(0, false), |(_, place)| place)
     }
 
     /// Sum of the squared sides of a texel's image, in both halves. All placements have the same area, so the smallest
@@ -120,7 +114,6 @@ impl FacePlace {
         self.weights_of(u, v, least)
     }
 
-    /// Local coordinates (u, v), each from 0 to 1, at texel coordinates.
     fn local(&self, x: f64, y: f64) -> [f64; 2] {
         let part = |at: f64, from: u32, texels: u32| {
             let part = (at - f64::from(from)) / f64::from(texels);

@@ -50,7 +50,6 @@ pub struct LevelQuality {
     pub simply_connected: usize,
 }
 
-/// Topology of a set of faces connected by edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Topology {
     connected: bool,

@@ -43,7 +43,6 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
-/// Number of connected parts of a set of faces.
 fn parts(linked: &[u32], set: u32) -> u32 {
     let (mut left, mut count) = (set, 0);
     while left != 0 {
@@ -65,7 +64,7 @@ fn parts(linked: &[u32], set: u32) -> u32 {
 /// Demand of a set of faces, and the sum of squared distances of the faces' centres from their mean.
 fn moments(graph: &FaceGraph, measures: &FaceMeasures, set: u32) -> (f64, f64) {
     let faces = || (0..graph.len()).filter(|face| set >> face & 1 == 1).map(|face| graph.faces()[face]);
-    let demand = faces().map(|face| measures.demand(face)).sum();
-    let mean = faces().map(|face| measures.center(face)).sum::<glam::DVec3>() / f64::from(set.count_ones());
-    (demand, faces().map(|face| (measures.center(face) - mean).length_squared()).sum())
+    let demand = faces().map(|face| measures.demands[face as usize]).sum();
+    let mean = faces().map(|face| measures.centers[face as usize]).sum::<glam::DVec3>() / f64::from(set.count_ones());
+    (demand, faces().map(|face| (measures.centers[face as usize] - mean).length_squared()).sum())
 }

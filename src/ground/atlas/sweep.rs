@@ -23,7 +23,6 @@ const MENDED: f64 = 1.0 / 16.0;
 /// Number of flat cuts that are tried.
 const DIRECTIONS: u32 = 6;
 
-/// Two halves: `true` marks the second.
 struct Halves {
     second: Vec<bool>,
     /// Difference of the halves' demands, as a fraction of their sum.
@@ -60,14 +59,14 @@ pub(super) fn cut_connected(graph: &FaceGraph, measures: &FaceMeasures, limits: 
 /// Finds the shortest of several flat cuts, in directions spread over the plane of the cluster's mean normal, that
 /// leave both halves connected.
 fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) -> Option<Vec<bool>> {
-    let mean: DVec3 = graph.faces().iter().map(|&face| measures.normal(face)).sum();
+    let mean: DVec3 = graph.faces().iter().map(|&face| measures.normals[face as usize]).sum();
     let [right, up] = plane(unit(mean).unwrap_or(DVec3::Z));
     let mut best: Option<(u64, Vec<bool>)> = None;
     for direction in 0..DIRECTIONS {
         // Half a turn: the opposite direction gives the same cuts with the halves exchanged.
         let [cos, sin] = on_circle(f64::from(direction) / f64::from(2 * DIRECTIONS));
         let along = right * cos + up * sin;
-        let key = |face: u32| measures.center(graph.faces()[face as usize]).dot(along);
+        let key = |face: u32| measures.centers[graph.faces()[face as usize] as usize].dot(along);
         let mut order: Vec<(f64, u32)> = (0..graph.len() as u32).map(|face| (key(face), face)).collect();
         order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let order: Vec<u32> = order.into_iter().map(|(_, face)| face).collect();
@@ -80,7 +79,6 @@ fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) ->
     best.map(|(_, second)| second)
 }
 
-/// Two directions orthogonal to each other and to a normal.
 fn plane(normal: DVec3) -> [DVec3; 2] {
     let right = unit(least_axis(normal).cross(normal)).unwrap_or(DVec3::X);
     [right, normal.cross(right)]
@@ -124,7 +122,7 @@ fn part_places(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, part: &[
     let mut sums = vec![(0.0, 0.0); parts as usize];
     for (&of, &face) in part.iter().zip(graph.faces()) {
         let sum = &mut sums[of as usize];
-        *sum = (sum.0 + measures.center(face)[axis], sum.1 + 1.0);
+        *sum = (sum.0 + measures.centers[face as usize][axis], sum.1 + 1.0);
     }
     let mut by_place: Vec<u32> = (0..parts).collect();
     let mean = |of: u32| sums[of as usize].0 / sums[of as usize].1;
@@ -138,8 +136,8 @@ fn part_places(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, part: &[
 fn axes(graph: &FaceGraph, measures: &FaceMeasures) -> [usize; 3] {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for &face in graph.faces() {
-        low = low.min(measures.center(face));
-        high = high.max(measures.center(face));
+        low = low.min(measures.centers[face as usize]);
+        high = high.max(measures.centers[face as usize]);
     }
     let extent = high - low;
     let mut axes = [0, 1, 2];
@@ -150,7 +148,7 @@ fn axes(graph: &FaceGraph, measures: &FaceMeasures) -> [usize; 3] {
 /// Orders the faces of a connected part by a sweep: from its lowest face along an axis to the face farthest from it.
 fn order(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, of: impl Fn(u32) -> bool) -> Vec<u32> {
     let mut order: Vec<u32> = (0..graph.len() as u32).filter(|&face| of(face)).collect();
-    let along = |face: u32| measures.center(graph.faces()[face as usize])[axis];
+    let along = |face: u32| measures.centers[graph.faces()[face as usize] as usize][axis];
     let Some(low) = order.iter().copied().reduce(|a, b| if along(b) < along(a) { b } else { a }) else {
         return order;
     };
@@ -167,7 +165,7 @@ fn order(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, of: impl Fn(u3
 }
 
 fn demand(graph: &FaceGraph, measures: &FaceMeasures, faces: &[u32]) -> f64 {
-    faces.iter().map(|&face| measures.demand(graph.faces()[face as usize])).sum()
+    faces.iter().map(|&face| measures.demands[graph.faces()[face as usize] as usize]).sum()
 }
 
 /// Finds the best split of an order: the number of faces of the first half, within the limits, that makes the halves'
@@ -177,7 +175,7 @@ fn best_cut(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits, or
     let mut best = (f64::INFINITY, *limits.start());
     let mut sum = 0.0;
     for (k, &face) in (1..).zip(order) {
-        sum += measures.demand(graph.faces()[face as usize]);
+        sum += measures.demands[graph.faces()[face as usize] as usize];
         if limits.contains(&k) && (sum - half).abs() < best.0 {
             best = ((sum - half).abs(), k);
         }
@@ -209,7 +207,7 @@ fn mend(
     parts: u32,
 ) -> Option<Halves> {
     let mut demands = vec![0.0; parts as usize];
-    part.iter().zip(graph.faces()).for_each(|(&of, &face)| demands[of as usize] += measures.demand(face));
+    part.iter().zip(graph.faces()).for_each(|(&of, &face)| demands[of as usize] += measures.demands[face as usize]);
     let mut largest: [Option<u32>; 2] = [None; 2];
     for (&of, &side) in part.iter().zip(second) {
         let best = &mut largest[usize::from(side)];
@@ -226,7 +224,7 @@ fn mend(
     }
     let of_side = |own: bool| {
         let faces = graph.faces().iter().zip(&mended).filter(|(_, side)| **side == own);
-        faces.map(|(&face, _)| measures.demand(face)).sum::<f64>()
+        faces.map(|(&face, _)| measures.demands[face as usize]).sum::<f64>()
     };
     let [first, last] = [of_side(false), of_side(true)];
     Some(Halves { second: mended, uneven: (first - last).abs() / (first + last) })

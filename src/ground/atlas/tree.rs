@@ -65,7 +65,6 @@ impl ClusterTree {
     }
 }
 
-/// Fills the nodes and the order of a subtree.
 fn grow(graph: FaceGraph, measures: &FaceMeasures, node: ClusterNode, nodes: &mut [ClusterNode], order: &mut [u32]) {
     nodes[0] = node;
     if graph.len() == 1 {

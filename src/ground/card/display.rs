@@ -31,7 +31,6 @@ pub struct MeshView {
 }
 
 impl From<Camera> for MeshView {
-    /// A picture of unscaled radiances in single precision.
     fn from(camera: Camera) -> Self {
         Self { camera, exposure: 1.0, format: TexelFormat::Rgba32f }
     }
@@ -82,8 +81,7 @@ pub struct DepthPrograms {
 }
 
 impl DepthPrograms {
-    /// The programs, checked for a device. Fails with [`KernelError`] if the device has neither vertex nor pixel
-    /// programs.
+    /// The programs, checked for a device.
     pub fn new(profile: &Profile) -> Result<Self, KernelError> {
         Ok(Self { vertex: DEPTH.checked(profile)?, pixel: SHADE_COLOR.checked(profile)? })
     }
@@ -134,8 +132,7 @@ impl MeshDisplay {
     }
 
     /// Returns the target after `draw`, and if `is_logged` the log of the draws without the read-back. The target is 0
-    /// where nothing is drawn. Fails with [`CardError::Input`] for an exposure out of range, [`CardError::Draw`] if the
-    /// card has no such target, and the errors of `draw`.
+    /// where nothing is drawn.
     pub fn show(
         &mut self,
         view: &MeshView,

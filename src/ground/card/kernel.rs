@@ -49,14 +49,12 @@ macro_rules! kernels {
 pub use crate::kernels;
 
 impl KernelText {
-    /// The program, checked for a device. Fails with [`KernelError`] if the text does not assemble, or breaks a rule of
-    /// the device.
+    /// The program, checked for a device.
     pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
         checked(profile, format!("`{}`", self.name), self.text)
     }
 
-    /// The text with its repeated part written out `texels` times, and the checked program. Fails as [`Self::checked`]
-    /// does.
+    /// The text with its repeated part written out `texels` times, and the checked program.
     pub fn unrolled_and_checked(
         &self,
         profile: &Profile,
@@ -103,8 +101,7 @@ impl KernelText {
     }
 }
 
-/// Rejects a device that does not support all `versions`; `what` names the programs that need them. Fails with
-/// [`KernelError`], which lists the cards that support them.
+/// Rejects a device that does not support all `versions`; `what` names the programs that need them.
 pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> Result<(), KernelError> {
     let runs = |profile: &Profile| versions.iter().all(|version| profile.limits.versions.contains(version));
     if runs(profile) {
@@ -117,8 +114,7 @@ pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> 
     Err(KernelError { kernel: what.to_owned(), device: profile.name.clone(), problem })
 }
 
-/// The version of vertex programs: vs_2_0 where the device has it, else vs_1_1. Fails with [`KernelError`] if the
-/// device has neither.
+/// The version of vertex programs: vs_2_0 where the device has it, else vs_1_1.
 pub fn vertex_version(profile: &Profile) -> Result<Version, KernelError> {
     let has_vs_2_0 = profile.limits.versions.contains(&Version::Vs2_0);
     let version = if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 };
@@ -181,8 +177,7 @@ pub trait WrittenKernel {
     }
 }
 
-/// A program text, checked for a device. `kernel` is its name in messages. Fails with [`KernelError`] if the text does
-/// not assemble, or breaks a rule of the device.
+/// A program text, checked for a device. `kernel` is its name in messages.
 pub fn checked(profile: &Profile, kernel: String, text: &str) -> Result<CheckedProgram, KernelError> {
     let refused = |problem| KernelError { kernel, device: profile.name.clone(), problem };
     let program = match assemble(text) {

@@ -30,8 +30,7 @@ impl Levels {
     }
 
     /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the
-    /// fragment's center in texels of that level: the common corner of the four texels that the fragment covers. Fails
-    /// with [`MachineError`] if the card rejects a draw.
+    /// fragment's center in texels of that level: the common corner of the four texels that the fragment covers.
     pub fn fill(
         &self,
         machine: &mut Machine,

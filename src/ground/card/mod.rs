@@ -1,16 +1,5 @@
 //! General-purpose computing on an emulated card, as seen from the host: the common base of all systems.
 //!
-//! - [`KernelText`]: a program with the name of its file, assembled and checked against a device;
-//! - [`Texels`]: rectangles of floats, to textures and back; [`new_target`]: an empty one to draw into;
-//! - [`FullScreenPass`]: one quad over a target; [`PingPong`]: two targets that passes write in turn;
-//! - [`Levels`]: a pyramid of targets, each filled from the one before;
-//! - [`NearestTarget`]: a color target that keeps the nearest fragment;
-//! - [`Attribute`], [`by_register`], [`vertex_streams`]: data per vertex;
-//! - [`MeshDisplay`]: a card that draws a mesh from a camera; [`seen_pixels`]: the triangle at each pixel of a device's
-//!   raster, which [`RasterizedEyes`] uses in place of eye rays;
-//! - [`frame_time`](mod@frame_time): modelled time of a frame, host work included;
-//! - [`CardError`]: the reason why a card cannot compute or draw.
-//!
 //! Textures are rectangles, which is how the cards of 2003 had float textures: coordinates count texels, and the
 //! center of texel i is at i + 0.5.
 

@@ -15,8 +15,7 @@ pub struct NearestTarget {
 }
 
 impl NearestTarget {
-    /// A target and a depth buffer of its size. Fails with [`MachineError`] if the card has no such target or depth
-    /// buffer.
+    /// A target and a depth buffer of its size.
     pub fn new(
         machine: &mut Machine,
         color: TexelFormat,
@@ -27,8 +26,7 @@ impl NearestTarget {
         Ok(Self { color, depth: machine.create_depth(depth, width, height)? })
     }
 
-    /// Clears the colors to 0 and the depths to the largest depth. Fails with [`MachineError`] for another machine than
-    /// the target's.
+    /// Clears the colors to 0 and the depths to the largest depth.
     pub fn clear(&self, machine: &mut Machine) -> Result<(), MachineError> {
         machine.clear_target(self.color, [0; 4])?;
         machine.clear_depth(self.depth, 1.0_f32.to_bits())
@@ -48,7 +46,6 @@ pub(super) struct ViewTarget(Option<(NearestTarget, TexelFormat, [u32; 2])>);
 
 impl ViewTarget {
     /// The target for a picture, with a depth buffer of 24 bits: the previous target, if it has this format and size.
-    /// Fails as [`NearestTarget::new`] does.
     pub(super) fn of(
         &mut self,
         machine: &mut Machine,

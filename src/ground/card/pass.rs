@@ -49,8 +49,7 @@ pub struct FullScreenPass<'a> {
 }
 
 impl FullScreenPass<'_> {
-    /// Draws the quad with the texture coordinates of [`full_screen_quad`]. Fails with [`MachineError`] if the card
-    /// rejects the draw.
+    /// Draws the quad with the texture coordinates of [`full_screen_quad`].
     pub fn draw<const SETS: usize>(
         &self,
         machine: &mut Machine,

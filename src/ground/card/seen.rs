@@ -24,8 +24,7 @@ pub struct SeenPixel {
 }
 
 /// The front face and barycentric weights at each pixel of a camera, row by row: from a draw in single precision with
-/// the device's positions of vertices. `None` where the background shows. Fails with [`CardError::Draw`] for pictures
-/// that are too large. Panics if a triangle names a vertex that does not exist.
+/// the device's positions of vertices. `None` where the background shows.
 pub fn seen_pixels(
     profile: &Profile,
     geometry: (&[[f32; 3]], &[[u32; 3]]),
@@ -80,9 +79,6 @@ pub struct RasterizedEyes<'a> {
 
 impl<'a> RasterizedEyes<'a> {
     /// Draws the mesh.
-    ///
-    /// # Errors
-    /// As [`seen_pixels`].
     pub fn new(profile: &Profile, mesh: &Mesh, camera: Camera, behind: &'a mut dyn Caster) -> Result<Self, CardError> {
         let hit = |seen: SeenPixel| {
             let corners = seen.corners.map(|corner| wide(mesh.positions()[corner as usize]));
@@ -94,7 +90,6 @@ impl<'a> RasterizedEyes<'a> {
         Ok(Self { camera, seen: seen.into_iter().map(|seen| seen.map(hit)).collect(), behind, drawn: 0 })
     }
 
-    /// Pixel through whose center the ray passes.
     fn pixel(&self, ray: &Ray) -> Option<usize> {
         let (camera, direction) = (&self.camera, wide(ray.direction()));
         let across = |axis: DVec3| direction.dot(axis) / axis.dot(axis);

@@ -37,8 +37,6 @@ impl Texels {
         self.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect()
     }
 
-    /// A rectangle texture, each value rounded once into the format. Fails if the extents are 0 or too large, or the
-    /// texels do not fill them.
     fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
         let extents = extents([self.width, self.height]);
         if format == TexelFormat::Rgba32f {
@@ -63,27 +61,24 @@ impl Texels {
                 let texel = |bytes: &[u8]| [value(bytes), 1.0, 1.0, 1.0];
                 Self { width, height, texels: image.bytes().chunks_exact(4).map(texel).collect() }
             }
-            _ => Self::from_fn([width, height], |x, y| {
-                let texel = image.texel(0, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
-                texel.to_format(Format::FP32).map(f32::from_bits)
-            }),
+            _ => Self::level_of(image, 0, [width, height]),
         }
+    }
+
+    fn level_of(image: &Image, level: u32, size: [usize; 2]) -> Self {
+        Self::from_fn(size, |x, y| {
+            let texel = image.texel(level, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
+            texel.to_format(Format::FP32).map(f32::from_bits)
+        })
     }
 
     /// The texels of all levels of an image, finest first.
     pub fn levels_of(image: &Image) -> Vec<Self> {
         let levels = (0..).zip(image.levels());
-        let of = |(level, size): (u32, &refsim::texture::Level)| {
-            Self::from_fn([size.width as usize, size.height as usize], |x, y| {
-                let texel = image.texel(level, 0, y as u32, x as u32, SignedTexelMinimum::Clamp);
-                texel.to_format(Format::FP32).map(f32::from_bits)
-            })
-        };
-        levels.map(of).collect()
+        levels.map(|(level, size)| Self::level_of(image, level, [size.width as usize, size.height as usize])).collect()
     }
 
-    /// A new texture on a card with these texels. Fails with [`MachineError`] if the texture is impossible, or the card
-    /// does not support the format.
+    /// A new texture on a card with these texels.
     pub fn upload(&self, machine: &mut Machine, format: TexelFormat) -> Result<TextureId, MachineError> {
         machine.create_texture(self.to_image(format)?)
     }
@@ -93,21 +88,18 @@ impl Texels {
         machine.update_texture(texture, &self.to_image(format)?)
     }
 
-    /// Reads back the contents of a target, for which the host waits. Fails with [`MachineError`] if the card has no
-    /// such target.
+    /// Reads back the contents of a target, for which the host waits.
     pub fn read_back(machine: &Machine, target: TextureId) -> Result<Self, MachineError> {
         Ok(Self::from_image(machine.read_back(target)?))
     }
 }
 
-/// A target filled with zeros that can be read as a texture. Fails with [`MachineError`] if the extents are 0 or too
-/// large, or the card cannot draw into the format.
+/// A target filled with zeros that can be read as a texture.
 pub fn new_target(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) -> Result<TextureId, MachineError> {
     machine.create_target_from(Image::new(format, TextureKind::Rectangle, extents(size), 1)?)
 }
 
-/// A texture from texels in order, each number rounded once into the format. Fails with [`MachineError`] if the texels
-/// do not fill the extents, or the card does not support the format.
+/// A texture from texels in order, each number rounded once into the format.
 pub fn new_texture(
     machine: &mut Machine,
     format: TexelFormat,

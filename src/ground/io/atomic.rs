@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 
+use tempfile::TempDir;
 use thiserror::Error;
 
 /// Errors of writing files.
@@ -29,49 +30,59 @@ pub enum WriteError {
 /// A link is followed and kept. An existing path that is not a regular file, such as `/dev/stdout`, a pipe or a
 /// terminal, is written to and never replaced; if `fill` fails, nothing is written to it.
 pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
-    let fail = |source| WriteError::File { path: path.into(), source };
-    match fs::metadata(path) {
-        Ok(place) if place.is_dir() => Err(fail(io::ErrorKind::IsADirectory.into())),
-        Ok(place) if !place.is_file() => fill_device(path, fill).map_err(fail),
-        Ok(_) => write_beside(&fs::canonicalize(path).map_err(fail)?, path, fill),
-        // There is no file yet, or a dangling link, which a file replaces.
-        Err(_) => write_beside(path, path, fill),
+    Written::new(path, fill)?.put(path)
+}
+
+/// Output before it is in its place.
+enum Written {
+    /// A file of the same name in a folder beside the place.
+    File(TempDir, PathBuf),
+    /// The bytes for a device or pipe, which are written at once.
+    Device(Vec<u8>),
+}
+
+impl Written {
+    fn new(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Self, WriteError> {
+        let fail = |source| WriteError::File { path: path.into(), source };
+        let place = match fs::metadata(path) {
+            Ok(place) if place.is_dir() => return Err(fail(io::ErrorKind::IsADirectory.into())),
+            Ok(place) if !place.is_file() => {
+                let mut bytes = Vec::new();
+                fill(&mut bytes).map_err(fail)?;
+                return Ok(Self::Device(bytes));
+            }
+            Ok(_) => fs::canonicalize(path).map_err(fail)?,
+            // There is no file yet, or a dangling link, which a file replaces.
+            Err(_) => path.into(),
+        };
+        let (Some(folder), Some(name)) = (place.parent(), place.file_name()) else {
+            return Err(WriteError::Name { name: path.into() });
+        };
+        let folder = if folder == Path::new("") { Path::new(".") } else { folder };
+        let beside = || {
+            fs::create_dir_all(folder).map_err(|error| match error.kind() {
+                io::ErrorKind::AlreadyExists => io::ErrorKind::NotADirectory.into(),
+                _ => error,
+            })?;
+            tempfile::Builder::new().prefix(".crossbar-").tempdir_in(folder)
+        };
+        let beside = beside().map_err(|source| WriteError::Folder { path: folder.into(), source })?;
+        let write = || {
+            let mut out = BufWriter::new(File::create(beside.path().join(name))?);
+            fill(&mut out)?;
+            out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+        };
+        write().map_err(fail)?;
+        Ok(Self::File(beside, place))
     }
-}
 
-/// Writes the output of `fill` to a device or pipe at once.
-fn fill_device(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut bytes = Vec::new();
-    fill(&mut bytes)?;
-    File::options().append(true).open(path)?.write_all(&bytes)
-}
-
-/// Writes beside `file`, and renames; errors name `path`.
-fn write_beside(
-    file: &Path,
-    path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), WriteError> {
-    let (Some(folder), Some(name)) = (file.parent(), file.file_name()) else {
-        return Err(WriteError::Name { name: path.into() });
-    };
-    let folder = if folder == Path::new("") { Path::new(".") } else { folder };
-    let beside = || {
-        fs::create_dir_all(folder).map_err(|error| match error.kind() {
-            io::ErrorKind::AlreadyExists => io::ErrorKind::NotADirectory.into(),
-            _ => error,
-        })?;
-        tempfile::Builder::new().prefix(".crossbar-").tempdir_in(folder)
-    };
-    let beside = beside().map_err(|source| WriteError::Folder { path: folder.into(), source })?;
-    let write = || {
-        let staged = beside.path().join(name);
-        let mut out = BufWriter::new(File::create(&staged)?);
-        fill(&mut out)?;
-        out.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
-        fs::rename(staged, file)
-    };
-    write().map_err(|source| WriteError::File { path: path.into(), source })
+    fn put(self, path: &Path) -> Result<(), WriteError> {
+        let put = match &self {
+            Self::File(beside, place) => fs::rename(beside.path().join(place.file_name().unwrap_or_default()), place),
+            Self::Device(bytes) => File::options().append(true).open(path).and_then(|mut to| to.write_all(bytes)),
+        };
+        put.map_err(|source| WriteError::File { path: path.into(), source })
+    }
 }
 
 /// Checks before long work that files can be written into a folder, or into the folder in which it is to be created.
@@ -81,17 +92,18 @@ pub fn require_writable(folder: &Path) -> Result<(), WriteError> {
     tempfile::tempfile_in(there).map(drop).map_err(|source| WriteError::Folder { path: folder.into(), source })
 }
 
-/// Writes files into a folder, one after the other, and returns their places. Fails before the first one for a name
-/// that leaves the folder.
+/// Writes files into a folder, and returns their places. All are written beside their places before the first is put
+/// there, so that a failed write leaves the folder as it was. Fails before anything else for a name that leaves the
+/// folder.
 pub fn write_files(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, WriteError> {
     let is_plain =
         |name: &Path| name.file_name().is_some() && name.components().all(|part| matches!(part, Component::Normal(_)));
     if let Some((name, _)) = files.iter().find(|(name, _)| !is_plain(Path::new(name))) {
         return Err(WriteError::Name { name: name.into() });
     }
-    let write = |(name, bytes): &(String, Vec<u8>)| {
-        let place = folder.join(name);
-        write_file(&place, |out| out.write_all(bytes)).map(|()| place)
-    };
-    files.iter().map(write).collect()
+    let places: Vec<PathBuf> = files.iter().map(|(name, _)| folder.join(name)).collect();
+    let write = |(place, (_, bytes)): (&PathBuf, &(String, Vec<u8>))| Written::new(place, |out| out.write_all(bytes));
+    let written: Vec<Written> = places.iter().zip(files).map(write).collect::<Result<_, _>>()?;
+    written.into_iter().zip(&places).try_for_each(|(written, place)| written.put(place))?;
+    Ok(places)
 }

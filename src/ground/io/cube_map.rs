@@ -1,36 +1,36 @@
 //! Cube maps as a comma-separated table: the header `face,row,column,r,g,b`, then a line per texel, in any order.
 //!
-//! Faces are Direct3D's, 0 to 5 or +x, -x, +y, -y, +z, -z, as seen from inside the cube; rows count from the top,
+//! Faces are Direct3D's, 0 to 5 for +x, -x, +y, -y, +z, -z, as seen from inside the cube; rows count from the top,
 //! columns from the left, from 0. Radiances are finite; a truncated expansion of light may give values below 0.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
 use super::error::read_file;
-use super::headed_table::{for_each_row, whole};
-use super::quoted;
+use super::headed_table::{finite, for_each_row, whole};
 use crate::error::{InputError, ensure, input_error};
 
 /// Longest file that is read, in bytes (64 MiB).
 pub const MAX_BYTES: u64 = 1 << 26;
 const HEADER: [&str; 6] = ["face", "row", "column", "r", "g", "b"];
-const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 
-/// Reads the texels of a cube map from a file, by face, row and column. Fails with an [`InputError`] that names the
-/// path and, where known, the line.
+/// Reads the texels of a cube map from a file, by face, row and column.
 pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     parse_cube_table(&read_file(path, "table of light", MAX_BYTES)?, path, side)
 }
 
-/// Reads the texels of a cube map from bytes; `name` is the file's name in messages. Fails with an [`InputError`] that
-/// names the line where known. Panics if the side is 0.
+/// Reads the texels of a cube map from bytes; `name` is the file's name in messages.
 pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, InputError> {
     assert!(side > 0, "a texel along an edge");
     let place_of = |at: usize| [at / (side * side), at / side % side, at % side];
     // Each texel with its line in the file; line 0 until it is read.
     let mut texels = vec![([0.0; 3], 0); 6 * side * side];
     for_each_row(bytes, name, &HEADER, "texel", &mut |line, record| {
-        let (at, radiance) = parse_texel(record, side)?;
+        let (at, radiance) = parse_texel(record, side).ok_or_else(|| {
+            input_error!("crossbar::cube_map::fields" =>
+                "expected a face from 0 to 5, a row and a column from 0 to {}, and three finite numbers; found {}",
+                side - 1, whole(record); help "the map has six faces of {side} x {side} texels")
+        })?;
         let [face, row, column] = place_of(at);
         let (_, first) = texels[at];
         ensure!(first == 0, "crossbar::cube_map::twice" =>
@@ -62,32 +62,8 @@ pub fn write_cube_table(texels: &[[f64; 3]], side: usize) -> String {
     text
 }
 
-/// The index of a row's texel, and its radiance.
-fn parse_texel(record: &csv::ByteRecord, side: usize) -> Result<(usize, [f64; 3]), InputError> {
-    let fields: Vec<&[u8]> = record.iter().collect();
-    let [face, row, column, r, g, b] = fields[..] else {
-        return Err(input_error!("crossbar::cube_map::fields" =>
-            "expected six fields (face,row,column,r,g,b), found {}", whole(record)));
-    };
-    let text = |field| std::str::from_utf8(field).unwrap_or_default();
-    let named = FACES.iter().position(|name| name.as_bytes() == face);
-    let face = named.or_else(|| text(face).parse().ok().filter(|face| *face < 6)).ok_or_else(|| {
-        input_error!("crossbar::cube_map::face" =>
-            "expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found {}", quoted(face))
-    })?;
-    let number = |what, field| {
-        text(field).parse().ok().filter(|at| *at < side).ok_or_else(|| {
-            input_error!("crossbar::cube_map::place" =>
-                "expected a {what} from 0 to {}, found {}", side - 1, quoted(field);
-                help "the map has six faces of {side} x {side} texels")
-        })
-    };
-    let (row, column): (usize, usize) = (number("row", row)?, number("column", column)?);
-    let radiance = |channel, field| {
-        text(field).parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
-            input_error!("crossbar::cube_map::radiance" =>
-                "expected a finite number for `{channel}`, found {}", quoted(field))
-        })
-    };
-    Ok(((face * side + row) * side + column, [radiance("r", r)?, radiance("g", g)?, radiance("b", b)?]))
+fn parse_texel(record: &csv::ByteRecord, side: usize) -> Option<(usize, [f64; 3])> {
+    let [face, row, column, r, g, b] = finite(record)?;
+    let place = |at: f64, count: usize| (0..count).find(|&place| place as f64 == at);
+    Some(((place(face, 6)? * side + place(row, side)?) * side + place(column, side)?, [r, g, b]))
 }

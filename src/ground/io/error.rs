@@ -1,34 +1,27 @@
 //! Errors of reading files.
 
 use std::fmt::Display;
-use std::io;
 use std::path::Path;
 
 use super::read_limited;
 use crate::error::{FilePlace, InputError, input_error};
 
-/// The contents of a file of at most `limit` bytes; `what` is the kind of file in messages. Fails with [`InputError`]
-/// for a file that cannot be opened or read, or is longer.
+/// The contents of a file of at most `limit` bytes; `what` is the kind of file in messages.
 pub fn read_file(path: &Path, what: &str, limit: u64) -> Result<Vec<u8>, InputError> {
-    let read = read_limited(path, limit).map_err(|source| unreadable_error(what, path, source))?;
+    let read = read_limited(path, limit).map_err(|source| {
+        input_error!("crossbar::file::unreadable" =>
+            "cannot read the {what} {}", path.display(); help "check the path, and that you may read the file")
+        .with_source(source)
+    })?;
     read.ok_or_else(|| too_long_error(what, path, limit))
 }
 
-/// Error: the file cannot be opened or read.
-pub(super) fn unreadable_error(what: &str, path: &Path, source: io::Error) -> InputError {
-    input_error!("crossbar::file::unreadable" =>
-        "cannot read the {what} {}", path.display(); help "check the path, and that you may read the file")
-    .with_source(source)
-}
-
-/// Error: the file exceeds the size limit.
 pub(super) fn too_long_error(what: &str, path: &Path, limit: u64) -> InputError {
     input_error!("crossbar::file::too_long" =>
         "expected a {what} of at most {limit} bytes, found more"; help "name a smaller file")
     .at(path)
 }
 
-/// Error: a line of a model, or the whole file, has an invalid form.
 pub(super) fn syntax_error(place: impl Into<FilePlace>, expected: impl Display, found: impl Display) -> InputError {
     input_error!("crossbar::model::syntax" =>
         "expected {expected}, found {found}";
@@ -36,7 +29,6 @@ pub(super) fn syntax_error(place: impl Into<FilePlace>, expected: impl Display, 
     .at(place)
 }
 
-/// Error: an element of a model's binary data differs from its description in the header.
 pub(super) fn element_error(
     place: impl Into<FilePlace>,
     element: &str,
@@ -50,14 +42,12 @@ pub(super) fn element_error(
     .at(place)
 }
 
-/// Error: a part of a glTF file is invalid. Parts are counted from 0, as in the format.
 pub(super) fn part_error(name: &Path, part: impl Display, expected: impl Display, found: impl Display) -> InputError {
     input_error!("crossbar::model::part" =>
         "{part}: expected {expected}, found {found}"; help "docs/scenes.md says what of glTF is read")
     .at(name)
 }
 
-/// Error: parameters of a material contradict each other. In an MTL file, `place` is the material's `newmtl` line.
 pub(super) fn material_error(
     place: impl Into<FilePlace>,
     name: impl Display,
@@ -70,12 +60,10 @@ pub(super) fn material_error(
     .at(place)
 }
 
-/// Error: the data do not form a valid mesh.
 pub(super) fn mesh_error(name: &Path, reason: InputError) -> InputError {
     reason.coded("crossbar::model::mesh").with_help("correct the model in the program that wrote it").at(name)
 }
 
-/// Error: the data do not form a valid scene.
 pub(super) fn scene_error(name: &Path, reason: InputError) -> InputError {
     reason.coded("crossbar::model::scene").with_help("correct the model in the program that wrote it").at(name)
 }

@@ -5,9 +5,7 @@ use std::path::Path;
 use super::quoted;
 use crate::error::{FilePlace, InputError, input_error};
 
-/// Calls `each` with the line and the fields of every row; `per` names the subject of a row in messages. Fails with
-/// [`InputError`] if the text is not a table or has another header, and with the errors of `each`, to which the row's
-/// line is added.
+/// Calls `each` with the line and the fields of every row; `per` names the subject of a row in messages.
 pub(super) fn for_each_row(
     bytes: &[u8],
     name: &Path,

@@ -27,8 +27,7 @@ pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, InputError
     parse_light_sources(&read_file(path, "table of light sources", MAX_BYTES)?, path)
 }
 
-/// Reads sources from bytes; `name` is the file's name in messages. Fails with an [`InputError`] that names the line
-/// where known.
+/// Reads sources from bytes; `name` is the file's name in messages.
 pub fn parse_light_sources(bytes: &[u8], name: &Path) -> Result<Vec<LightSourceRow>, InputError> {
     let mut found = Vec::new();
     for_each_row(bytes, name, &HEADER, "source", &mut |_, record| {

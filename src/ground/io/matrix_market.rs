@@ -1,9 +1,8 @@
 //! Sparse matrices as Matrix Market files: `%%MatrixMarket matrix coordinate real general`, comments, a line with the
 //! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
 //!
-//! The reader also accepts the fields `integer` and `pattern` (all entries are 1), and the symmetries `symmetric` and
-//! `skew-symmetric`. Real numbers are rounded to the nearest f64. It rejects dense arrays, complex and Hermitian
-//! matrices, integers that f64 cannot represent exactly, and real numbers that round to 0 or infinity.
+//! The reader also accepts the field `integer`. Numbers are rounded to the nearest f64; it rejects those that round to 0
+//! or infinity, and other fields, dense arrays and symmetries.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -18,8 +17,8 @@ pub const MAX_BYTES: u64 = 1 << 32;
 /// Number of rows and of columns that every file may have (2^24). A file of more bytes may have as many rows or columns
 /// as bytes, so the size of a file bounds the size of its matrix.
 pub const ANY_SIZE: usize = 1 << 24;
-/// Length of the shortest line of an entry: `1 1` and a line feed.
-const SHORTEST: usize = 4;
+/// Length of the shortest line of an entry: `1 1 1` and a line feed.
+const SHORTEST: usize = 6;
 
 /// A sparse matrix by its entries.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,12 +41,14 @@ pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, InputError> {
 pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix, InputError> {
     let mut lines = lines(unmarked(bytes));
     let banner = lines.next().map_or(&[][..], |(_, banner)| banner);
-    let banner = Banner::parse(banner).ok_or_else(|| {
-        input_error!("crossbar::matrix_market::banner" =>
-            "{}:1: expected `%%MatrixMarket matrix coordinate` with `real`, `integer` or `pattern`, then `general`, \
-             `symmetric` or `skew-symmetric`, which no `pattern` is; found {}", name.display(),
-            quoted(banner.trim_ascii()); help "write the matrix by its entries, in real numbers")
-    })?;
+    let fields = String::from_utf8_lossy(banner).to_lowercase();
+    let fields: Vec<&str> = fields.split_ascii_whitespace().collect();
+    if !matches!(fields[..], ["%%matrixmarket", "matrix", "coordinate", "real" | "double" | "integer", "general"]) {
+        return Err(input_error!("crossbar::matrix_market::banner" =>
+            "expected `%%MatrixMarket matrix coordinate` with `real` or `integer`, then `general`; found {}",
+            quoted(banner.trim_ascii()); help "write the matrix by all of its entries, in real numbers")
+        .at(FilePlace::line(name, 1)));
+    }
     // Comments may follow the banner, and empty lines may be anywhere.
     let mut lines = lines.filter(|(_, text)| !text.trim_ascii().is_empty());
     let (size_line, size) = lines.by_ref().find(|(_, text)| !text.starts_with(b"%")).unwrap_or((2, &b""[..]));
@@ -64,24 +65,14 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
             help "leave out empty rows and columns: beyond {ANY_SIZE} there may be one per byte of the file")
         .at(FilePlace::line(name, size_line)));
     }
-    if banner.symmetry != Symmetry::General && rows != columns {
-        let symmetry = if banner.symmetry == Symmetry::Skew { "skew-symmetric" } else { "symmetric" };
-        return Err(input_error!("crossbar::matrix_market::square" =>
-            "expected as many rows as columns of a {symmetry} matrix, found {rows} x {columns}";
-            help "write the matrix as `general`")
-        .at(FilePlace::line(name, size_line)));
-    }
-    let reader = EntryReader { name, banner, size: [rows, columns] };
     // Memory is allocated in proportion to the file's bytes only.
-    let mut entries = Vec::with_capacity(count.min(bytes.len() / SHORTEST) * banner.copies());
-    let mut found = 0;
+    let mut entries = Vec::with_capacity(count.min(bytes.len() / SHORTEST));
     for (line, text) in lines {
-        reader.read(line, text, &mut entries)?;
-        found += 1;
+        entries.push(entry(text, [rows, columns]).map_err(|error| error.at(FilePlace::line(name, line)))?);
     }
-    if found != count {
+    if entries.len() != count {
         return Err(input_error!("crossbar::matrix_market::count" =>
-            "expected {count} entries as line {size_line} says, found {found}"; help "is the file cut?")
+            "expected {count} entries as line {size_line} says, found {}", entries.len(); help "is the file cut?")
         .at(name));
     }
     entries.sort_unstable_by_key(|&(row, column, _)| (row, column));
@@ -116,54 +107,6 @@ pub fn write_matrix_market(
     Ok(())
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Symmetry {
-    General,
-    Symmetric,
-    Skew,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Field {
-    Real,
-    Integer,
-    Pattern,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Banner {
-    field: Field,
-    symmetry: Symmetry,
-}
-
-impl Banner {
-    fn parse(line: &[u8]) -> Option<Self> {
-        let line = String::from_utf8_lossy(line).to_lowercase();
-        let words: Vec<&str> = line.split_ascii_whitespace().collect();
-        let ["%%matrixmarket", "matrix", "coordinate", field, symmetry] = words[..] else { return None };
-        let field = match field {
-            "real" | "double" => Field::Real,
-            "integer" => Field::Integer,
-            "pattern" => Field::Pattern,
-            _ => return None,
-        };
-        let symmetry = match symmetry {
-            "general" => Symmetry::General,
-            "symmetric" => Symmetry::Symmetric,
-            // A `pattern` matrix, whose entries are all 1, cannot be skew-symmetric.
-            "skew-symmetric" if field != Field::Pattern => Symmetry::Skew,
-            _ => return None,
-        };
-        Some(Self { field, symmetry })
-    }
-
-    /// Largest number of matrix entries that one line describes.
-    fn copies(self) -> usize {
-        if self.symmetry == Symmetry::General { 1 } else { 2 }
-    }
-}
-
-/// Numbers of rows, columns and entries; rows and columns are within 32 bits.
 fn sizes(line: &[u8]) -> Option<[usize; 3]> {
     let [rows, columns, count] = words(line)[..] else { return None };
     let [rows, columns, count] = [whole(rows)?, whole(columns)?, whole(count)?];
@@ -175,67 +118,24 @@ fn whole(word: &[u8]) -> Option<usize> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-fn integer(word: &[u8]) -> Option<f64> {
-    let exact: i128 = std::str::from_utf8(word).ok()?.parse().ok()?;
-    let number = exact as f64;
-    (number as i128 == exact).then_some(number)
-}
-
-struct EntryReader<'a> {
-    name: &'a Path,
-    banner: Banner,
-    size: [usize; 2],
-}
-
-impl EntryReader<'_> {
-    fn read(&self, line: usize, text: &[u8], into: &mut Vec<(u32, u32, f64)>) -> Result<(), InputError> {
-        let entry = |expected: &'static str, found: &[u8]| {
-            input_error!("crossbar::matrix_market::entry" =>
-                "expected {expected}, found {}", quoted(found);
-                help "a line `row column value` per entry, counted from 1")
-            .at(FilePlace::line(self.name, line))
-        };
-        let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        let (row, column) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
-        let is_pattern = self.banner.field == Field::Pattern;
-        let value = if is_pattern { Some(&b"1"[..]) } else { words.next() };
-        let (Some(value), None) = (value, words.next()) else {
-            let expected = if is_pattern { "a row and a column" } else { "a row, a column and a value" };
-            return Err(entry(expected, text.trim_ascii()));
-        };
-        let row = self.place(line, "row", row, self.size[0])?;
-        let column = self.place(line, "column", column, self.size[1])?;
-        let number = match self.banner.field {
-            Field::Integer => {
-                integer(value).ok_or_else(|| entry("an integer that a 64-bit float holds exactly", value))?
-            }
-            _ => {
-                let number = double(value).map_err(|fault| entry(fault.expected(), value))?;
-                let digits = value.split(|byte| byte.eq_ignore_ascii_case(&b'e')).next().unwrap_or_default();
-                if number == 0.0 && digits.iter().any(|digit| (b'1'..=b'9').contains(digit)) {
-                    return Err(entry("a number that a 64-bit float does not round to 0", value));
-                }
-                number
-            }
-        };
-        if self.banner.symmetry == Symmetry::Skew && row == column {
-            return Err(entry("a place off the diagonal, where a skew-symmetric matrix is 0", text.trim_ascii()));
-        }
-        into.push((row, column, number));
-        if self.banner.symmetry != Symmetry::General && row != column {
-            into.push((column, row, if self.banner.symmetry == Symmetry::Skew { -number } else { number }));
-        }
-        Ok(())
-    }
-
-    /// Parses a row or column index and counts it from 0.
-    fn place(&self, line: usize, what: &'static str, found: &[u8], most: usize) -> Result<u32, InputError> {
+fn entry(text: &[u8], [rows, columns]: [usize; 2]) -> Result<(u32, u32, f64), InputError> {
+    let wrong = |expected: &str, found: &[u8]| {
+        input_error!("crossbar::matrix_market::entry" =>
+            "expected {expected}, found {}", quoted(found);
+            help "a line `row column value` per entry, rows and columns counted from 1")
+    };
+    let place = |what: &str, found: &[u8], most: usize| {
         let place = whole(found).filter(|place| (1..=most).contains(place));
-        let wrong = || {
-            input_error!("crossbar::matrix_market::place" =>
-                "expected a {what} from 1 to {most}, found {}", quoted(found); help "rows and columns count from 1")
-            .at(FilePlace::line(self.name, line))
-        };
-        place.map(|place| (place - 1) as u32).ok_or_else(wrong)
+        place.map(|place| (place - 1) as u32).ok_or_else(|| wrong(&format!("a {what} from 1 to {most}"), found))
+    };
+    let [row, column, value] = words(text)[..] else {
+        return Err(wrong("a row, a column and a value", text.trim_ascii()));
+    };
+    let (row, column) = (place("row", row, rows)?, place("column", column, columns)?);
+    let number = double(value).map_err(|fault| wrong(fault.expected(), value))?;
+    let mut digits = value.split(|byte| byte.eq_ignore_ascii_case(&b'e')).next().unwrap_or_default().iter();
+    if number == 0.0 && digits.any(|digit| (b'1'..=b'9').contains(digit)) {
+        return Err(wrong("a number that a 64-bit float does not round to 0", value));
     }
+    Ok((row, column, number))
 }

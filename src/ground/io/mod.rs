@@ -42,7 +42,7 @@ pub use npz::{NpzReader, NpzWriter};
 pub use number::{NumberError, parse_f32, parse_f64, to_f32};
 pub use number_table::{NumberTable, TableNumber, parse_number_table};
 pub use obj::{parse_obj, write_obj};
-pub use picture::PictureFile;
+pub use picture::load_picture;
 pub use ply::parse_ply;
 pub use rays::{load_rays, parse_rays, write_hits};
 pub use scene_file::{scene_files, write_scene_file};
@@ -57,34 +57,6 @@ use std::path::Path;
 /// format.
 const MAX_DEVICE_BYTES: u64 = 1 << 20;
 
-/// Opens a file to read up to `limit` + 1 bytes; the last byte tells the reader that the file is too long. A device
-/// with more than [`MAX_DEVICE_BYTES`] is an error.
-pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
-    let file = File::open(path)?;
-    let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
-    let left = if is_device { MAX_DEVICE_BYTES } else { u64::MAX };
-    Ok(Bounded { file, left }.take(limit.saturating_add(1)))
-}
-
-/// A file with a limit of `left` more bytes.
-#[derive(Debug)]
-pub(crate) struct Bounded {
-    file: File,
-    left: u64,
-}
-
-impl Read for Bounded {
-    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
-        let read = self.file.read(into)?;
-        self.left = self.left.checked_sub(read as u64).ok_or_else(|| {
-            let what =
-                format!("expected a file, or at most {MAX_DEVICE_BYTES} bytes of a device, found more: is it endless?");
-            io::Error::new(io::ErrorKind::FileTooLarge, what)
-        })?;
-        Ok(read)
-    }
-}
-
 #[cfg(unix)]
 fn is_device(kind: &std::fs::FileType) -> bool {
     use std::os::unix::fs::FileTypeExt as _;
@@ -96,12 +68,20 @@ fn is_device(_: &std::fs::FileType) -> bool {
     false
 }
 
-/// The contents of a file of at most `limit` bytes, or `None` if it is longer.
+/// The contents of a file of at most `limit` bytes, or `None` if it is longer. A device with more is an error.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
-    let mut opened = open_limited(path, limit)?;
+    let file = File::open(path)?;
+    let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
+    let most = if is_device { limit.min(MAX_DEVICE_BYTES) } else { limit };
     let mut bytes = Vec::new();
-    opened.read_to_end(&mut bytes)?;
-    Ok((bytes.len() as u64 <= limit).then_some(bytes))
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    let length = bytes.len() as u64;
+    if is_device && length > MAX_DEVICE_BYTES {
+        let what =
+            format!("expected a file, or at most {MAX_DEVICE_BYTES} bytes of a device, found more: is it endless?");
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, what));
+    }
+    Ok((length <= limit).then_some(bytes))
 }
 
 /// Invalid input as quoted in messages: escaped, and cut to 40 characters.

@@ -59,16 +59,14 @@ pub struct ModelOptions {
     pub strict: bool,
 }
 
-/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs. Fails with an [`InputError`] that names the path
-/// and, where known, the line, element or part.
+/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs.
 pub fn load_mesh(path: &Path) -> Result<Mesh, InputError> {
     let bytes = load_model(path)?;
     mesh_of(&bytes, ModelFormat::of(&bytes, path), path, true).map(|(mesh, _)| mesh)
 }
 
 /// Reads a scene without repairs: from an OBJ file and its material libraries, from a glTF file and its buffers, or
-/// from a PLY or STL file, which gets one grey material. It has no views and no point lights. Fails with an
-/// [`InputError`] that names the path and, where known, the line, element or part.
+/// from a PLY or STL file, which gets one grey material. It has no views and no point lights.
 pub fn load_scene(path: &Path) -> Result<Scene, InputError> {
     load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }
@@ -145,7 +143,6 @@ fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
     (wrong, notes.into_iter().filter(|(count, _)| *count > 0).map(|(_, note)| note).collect())
 }
 
-/// A function that reads files from the folder of a model.
 fn beside(model: &Path) -> impl FnMut(&Path) -> io::Result<Vec<u8>> + '_ {
     let folder = model.parent().unwrap_or(Path::new(""));
     move |file| {

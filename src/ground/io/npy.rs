@@ -4,9 +4,12 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use serde::Deserialize;
+use toml::de::ValueDeserializer;
+
 use super::error::read_file;
 use super::number_table::{NumberTable, TableNumber, parse_number_table};
-use super::{NumberError, quoted};
+use super::quoted;
 use crate::error::{InputError, input_error};
 
 /// The first bytes of such a file.
@@ -75,7 +78,10 @@ impl<'a> NpyView<'a> {
 /// Reads the header of an array.
 pub(super) fn view<'a>(bytes: &'a [u8], name: &Path) -> Result<NpyView<'a>, InputError> {
     let (text, data) = split(bytes, name)?;
-    let header = Header::parse(text).map_err(|(what, expected)| header_error(name, what, expected, quoted(text)));
+    let header = Header::parse(text).ok_or_else(|| {
+        let expected = "a Python dictionary of `descr`, `fortran_order` and `shape`";
+        header_error(name, "the header", expected, quoted(text))
+    });
     let Header { descr, fortran_order, shape } = header?;
     if fortran_order {
         return Err(input_error!("crossbar::npy::order" =>
@@ -102,31 +108,28 @@ pub fn parse_npy_array<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<Numb
     if data.is_empty() {
         return Err(size_error(name, "a shape", format!("{shape:?}")));
     }
-    let is_big = descr.starts_with('>');
     let values = match descr.as_str() {
-        "<f4" | ">f4" => data
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&b| T::of_single(if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) }))
-            .collect(),
-        "<f8" | ">f8" => doubles(data, is_big, T::of_double).map_err(|(index, bits)| {
-            input_error!("crossbar::npy::range" =>
-                "number {index} (counted from 0) is too large for a 32-bit float: {:e}", f64::from_bits(bits))
-            .at(name)
-        })?,
+        "<f4" | ">f4" => {
+            let of = if descr == "<f4" { f32::from_le_bytes } else { f32::from_be_bytes };
+            data.as_chunks().0.iter().map(|&bytes| T::of_single(of(bytes))).collect()
+        }
+        "<f8" | ">f8" => {
+            let of = if descr == "<f8" { f64::from_le_bytes } else { f64::from_be_bytes };
+            let numbers = data.as_chunks().0.iter().map(|&bytes| of(bytes)).enumerate();
+            let narrowed = numbers.map(|(index, number)| {
+                T::of_double(number).map_err(|_| {
+                    input_error!("crossbar::npy::range" =>
+                        "number {index} (counted from 0) is too large for a 32-bit float: {number:e}")
+                    .at(name)
+                })
+            });
+            narrowed.collect::<Result<_, _>>()?
+        }
         _ => return Err(type_error(name, &descr)),
     };
     Ok(NumberArray { shape, values })
 }
 
-fn doubles<T>(data: &[u8], is_big: bool, read: fn(f64) -> Result<T, NumberError>) -> Result<Vec<T>, (usize, u64)> {
-    let bytes = data.as_chunks().0.iter().enumerate();
-    let numbers = bytes.map(|(i, &b)| (i, if is_big { f64::from_be_bytes(b) } else { f64::from_le_bytes(b) }));
-    numbers.map(|(i, number)| read(number).map_err(|_| (i, number.to_bits()))).collect()
-}
-
-/// The text of the header, and the bytes that follow it.
 fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), InputError> {
     let Some(rest) = bytes.strip_prefix(MAGIC) else {
         let found = quoted(&bytes[..bytes.len().min(MAGIC.len())]);
@@ -150,8 +153,8 @@ fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), Input
     rest.split_at_checked(length).ok_or_else(|| cut("the header", length, rest.len()))
 }
 
-/// The dictionary of the header.
-#[derive(Debug, Default)]
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Header {
     descr: String,
     fortran_order: bool,
@@ -159,67 +162,15 @@ struct Header {
 }
 
 impl Header {
-    /// Parses the header; on failure returns the faulty part and what was expected.
-    fn parse(text: &[u8]) -> Result<Self, (&'static str, &'static str)> {
-        let text = std::str::from_utf8(text).map_err(|_| ("the header", "a Python dictionary in ASCII"))?;
-        let inside = text.trim().strip_prefix('{').and_then(|text| text.strip_suffix('}'));
-        let mut rest = inside.ok_or(("the header", "a Python dictionary"))?.trim();
-        let (mut descr, mut order, mut shape) = (None, None, None);
-        while !rest.is_empty() {
-            let (key, after) = string(rest).ok_or(("a key of the header", "a string"))?;
-            let value = after.trim_start().strip_prefix(':').ok_or(("a key of the header", "`:` behind it"))?.trim();
-            rest = match key {
-                "descr" => keep(&mut descr, string(value), "`descr`", "one string, such as '<f4'")?,
-                "fortran_order" => keep(&mut order, boolean(value), "`fortran_order`", "True or False, once")?,
-                "shape" => keep(&mut shape, tuple(value), "`shape`", "a tuple of whole numbers, once")?,
-                _ => return Err(("the header", "no keys but `descr`, `fortran_order` and `shape`")),
-            };
-            rest = match rest.trim_start() {
-                "" => "",
-                more => more.strip_prefix(',').ok_or(("the header", "`,` between its entries"))?.trim_start(),
-            };
+    /// Reads a Python dictionary as an inline table of TOML, which differs from it in a few characters.
+    fn parse(text: &[u8]) -> Option<Self> {
+        let inside = std::str::from_utf8(text).ok()?.trim().strip_prefix('{')?.strip_suffix('}')?.trim_end();
+        let mut table = format!("{{{}}}", inside.strip_suffix(',').unwrap_or(inside));
+        for (python, toml) in [("(", "["), (")", "]"), (":", "="), ("False", "false"), ("True", "true")] {
+            table = table.replace(python, toml);
         }
-        Ok(Self {
-            descr: descr.ok_or(("the header", "a key `descr`"))?.to_owned(),
-            fortran_order: order.ok_or(("the header", "a key `fortran_order`"))?,
-            shape: shape.ok_or(("the header", "a key `shape`"))?,
-        })
+        Self::deserialize(ValueDeserializer::parse(&table).ok()?).ok()
     }
-}
-
-/// Stores a value, unless one is stored already; returns the text after it.
-fn keep<'a, T>(
-    slot: &mut Option<T>,
-    found: Option<(T, &'a str)>,
-    what: &'static str,
-    expected: &'static str,
-) -> Result<&'a str, (&'static str, &'static str)> {
-    match found {
-        Some((value, rest)) if slot.is_none() => {
-            *slot = Some(value);
-            Ok(rest)
-        }
-        _ => Err((what, expected)),
-    }
-}
-
-fn string(text: &str) -> Option<(&str, &str)> {
-    let quote = text.chars().next().filter(|quote| matches!(quote, '\'' | '"'))?;
-    text[1..].split_once(quote)
-}
-
-fn boolean(text: &str) -> Option<(bool, &str)> {
-    let is_true = text.strip_prefix("True").map(|rest| (true, rest));
-    is_true.or_else(|| text.strip_prefix("False").map(|rest| (false, rest)))
-}
-
-fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
-    let (inside, rest) = text.strip_prefix('(')?.split_once(')')?;
-    let inside = inside.trim();
-    let inside = inside.strip_suffix(',').unwrap_or(inside);
-    let numbers = inside.split(',').map(str::trim).filter(|_| !inside.is_empty());
-    // Python 2 writes long integers with the suffix L.
-    Some((numbers.map(|n| n.strip_suffix('L').unwrap_or(n).parse().ok()).collect::<Option<_>>()?, rest))
 }
 
 /// The numbers of a NumPy array or of comma-separated values; `name` is the file's name in messages.
@@ -270,7 +221,6 @@ pub fn load_numbers_or_codes(path: &Path, what: &'static str, limit: u64) -> Res
     })
 }
 
-/// Converts a half-precision bit pattern.
 fn half(word: u64) -> f64 {
     let (sign, field, fraction) = ((word >> 15) << 63, word >> 10 & 31, word & 1023);
     let size = match field {
@@ -282,16 +232,14 @@ fn half(word: u64) -> f64 {
     f64::from_bits(size.to_bits() | sign)
 }
 
-/// Writes a table as an array of little-endian f4, in version 1. Panics if the number of values is not a multiple of
-/// the columns.
+/// Writes a table as an array of little-endian f4, in version 1.
 pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
     let NumberTable { columns, values } = table;
     assert!(*columns > 0 && values.len().is_multiple_of(*columns), "whole rows");
     write_npy_array(&[values.len() / columns, *columns], values, out)
 }
 
-/// Writes numbers of any shape as an array of little-endian f4, in version 1. Panics if the number of values differs
-/// from the shape's product, or the axes do not fit into a header.
+/// Writes numbers of any shape as an array of little-endian f4, in version 1.
 pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> io::Result<()> {
     assert_eq!(values.len(), shape.iter().product::<usize>(), "as many as the shape says");
     out.write_all(&beginning("<f4", shape))?;

@@ -86,8 +86,7 @@ impl<'a> NpzReader<'a> {
         Ok(self.take(field, &[length], &["|u1"])?.data)
     }
 
-    /// Takes out an array of integers of this shape, stored in any integer type of up to 32 bits, or in `<i8`. Fails
-    /// with [`InputError`]; also if a value is out of the range of `T`.
+    /// Takes out an array of integers of this shape, stored in any integer type of up to 32 bits, or in `<i8`.
     pub fn integers<T: TryFrom<i64>>(&mut self, field: &str, shape: &[usize]) -> Result<Vec<T>, InputError> {
         let array = self.take(field, shape, &["|u1", "|i1", "<u2", "<i2", "<u4", "<i4", "<i8"])?;
         // Shifting up to 64 bits and down again extends the sign.
@@ -152,7 +151,6 @@ pub struct NpzWriter<'a> {
     zip: ZipWriter<StreamWriter<&'a mut dyn Write>>,
 }
 
-/// Number of bytes per write.
 const BUFFERED: usize = 1 << 16;
 
 impl<'a> NpzWriter<'a> {
@@ -215,7 +213,6 @@ impl<'a> NpzWriter<'a> {
         Ok(())
     }
 
-    /// Writes the lowest `size` bytes of each value.
     fn put(
         &mut self,
         name: &str,

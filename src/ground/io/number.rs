@@ -1,6 +1,5 @@
 //! Parsing of decimal numbers in files and options, in single and double precision.
 
-use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
 /// Reasons why a text is not a number in single or double precision. Callers quote the text with its position.
@@ -51,15 +50,4 @@ fn not_finite(text: &str, too_large: NumberError) -> NumberError {
 pub fn to_f32(number: f64) -> Result<f32, NumberError> {
     let rounded = number as f32;
     if number.is_finite() && rounded.is_infinite() { Err(NumberError::TooLarge) } else { Ok(rounded) }
-}
-
-/// A number in a TOML file, in single precision.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Single(pub(crate) f32);
-
-impl<'de> Deserialize<'de> for Single {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let number = f64::deserialize(deserializer)?;
-        to_f32(number).map(Self).map_err(|error| de::Error::custom(format_args!("{error}, found {number:e}")))
-    }
 }

@@ -60,8 +60,7 @@ impl TableNumber for f64 {
     }
 }
 
-/// Reads a comma-separated table from bytes; `name` is the file's name in messages. Fails with an [`InputError`] that
-/// names the line where known.
+/// Reads a comma-separated table from bytes; `name` is the file's name in messages.
 pub fn parse_number_table<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTable<T>, InputError> {
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);

@@ -37,8 +37,7 @@ pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), InputError> 
     if fits { Ok(()) } else { Err(too_long_error("model", name, MAX_BYTES)) }
 }
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics. Fails with an [`InputError`] that
-/// names the line where known.
+/// Reads a mesh from bytes; `name` is the file's name in messages.
 pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_obj(bytes, name, true).map(|(mesh, _)| mesh)
 }
@@ -75,7 +74,6 @@ pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Text of a corner with the requested indices.
 fn corner<T: fmt::Display>([v, vt, vn]: [T; 3], texcoords: bool, normals: bool) -> String {
     match (texcoords, normals) {
         (false, false) => format!("{v}"),
@@ -276,7 +274,6 @@ impl ObjReader {
 /// The elements that a corner's indices refer to, in their order in the file.
 const TARGETS: [&str; 3] = ["a face uses vertex", "a corner uses texture coordinate", "a corner uses normal"];
 
-/// The indices of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`.
 fn corner_indices(corner: &[u8]) -> Option<[Option<i64>; 3]> {
     let mut parts = std::str::from_utf8(corner).ok()?.split('/');
     let mut indices = [Some(parts.next()?.parse().ok()?), None, None];

@@ -23,14 +23,11 @@ use crate::error::{FilePlace, InputError};
 use crate::geom::Mesh;
 use crate::io::error::{element_error, mesh_error, syntax_error};
 
-/// Names of the used numbers of a vertex.
 const NUMBERS: [&[&str]; 8] =
     [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["s", "u", "texture_u"], &["t", "v", "texture_v"]];
-/// Names of the used list of a face.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics. Fails with an [`InputError`] that
-/// names the line or element where known.
+/// Reads a mesh from bytes; `name` is the file's name in messages.
 pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_ply(bytes, name, true).map(|(mesh, _)| mesh)
 }
@@ -97,12 +94,10 @@ pub(super) fn read_ply(bytes: &[u8], name: &Path, strict: bool) -> Result<(Mesh,
     Ok((mesh.finish(triangles, attributes, name)?, notes))
 }
 
-/// The error for a file without a required part.
 fn missing(name: &Path, expected: &'static str) -> InputError {
     syntax_error(name, expected, "none")
 }
 
-/// The header, its number of lines, and the data after it.
 fn header<'a>(bytes: &'a [u8], line_end: u8, name: &Path) -> Result<(Header, usize, &'a [u8]), InputError> {
     let syntax =
         |line: usize, expected: &str, found: String| syntax_error(FilePlace::line(name, line), expected, found);
@@ -142,7 +137,6 @@ fn header<'a>(bytes: &'a [u8], line_end: u8, name: &Path) -> Result<(Header, usi
     Ok((header, lines, data))
 }
 
-/// Reads the elements of a file in order.
 struct Data<'a> {
     name: &'a Path,
     encoding: Encoding,
@@ -238,12 +232,10 @@ fn expected(element: &ElementDef) -> String {
     format!("a `{}` of `{}{more}`", visible(&element.name), visible(&names.join(" ")))
 }
 
-/// A name of the header as shown in messages.
 fn visible(name: &str) -> String {
     name.chars().take(80).collect::<String>().escape_debug().to_string()
 }
 
-/// The used properties of an element.
 #[derive(Default)]
 struct Record {
     numbers: [f32; NUMBERS.len()],
@@ -269,7 +261,6 @@ impl PropertyAccess for Record {
     }
 }
 
-/// The vertices and faces read so far.
 #[derive(Default)]
 struct MeshReader {
     vertices: Vec<[f32; NUMBERS.len()]>,

@@ -25,7 +25,6 @@ use serde::Deserialize;
 
 use super::model::{ModelOptions, load_scene_with};
 use super::model_note::ModelNote;
-use super::number::Single;
 use super::read_limited;
 use super::scene_obj::{write_mtl, write_scene};
 use crate::error::{FilePlace, InputError, input_error};
@@ -40,30 +39,9 @@ const LONGEST: u64 = 1 << 20;
 struct File {
     mesh: PathBuf,
     #[serde(default)]
-    view: Vec<ViewEntry>,
+    view: Vec<View>,
     #[serde(default)]
-    point_light: Vec<LightEntry>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ViewEntry {
-    name: String,
-    eye: [Single; 3],
-    target: [Single; 3],
-    up: [Single; 3],
-    tan_half_height: Single,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LightEntry {
-    position: [Single; 3],
-    intensity: [Single; 3],
-}
-
-fn plain(numbers: [Single; 3]) -> [f32; 3] {
-    numbers.map(|number| number.0)
+    point_light: Vec<PointLight>,
 }
 
 /// File name extensions of models.
@@ -103,8 +81,7 @@ pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<Model
     Ok((scene, notes))
 }
 
-/// Reads the mesh's path, the views and the lights from a scene file's text. Fails with [`InputError`]; the mesh is not
-/// read.
+/// Reads the mesh's path, the views and the lights from a scene file's text.
 pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLight>), InputError> {
     let file: File = toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
@@ -114,42 +91,32 @@ pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLi
             help "{}docs/scenes.md describes what a scene file may say", did_you_mean_field(error.message()))
         .at(FilePlace::line(name, line))
     })?;
-    let mut views: Vec<View> = Vec::with_capacity(file.view.len());
-    for ViewEntry { name: view, eye, target, up, tan_half_height } in file.view {
-        if views.iter().any(|known| known.name == view) {
+    for (at, view) in file.view.iter().enumerate() {
+        if file.view[..at].iter().any(|known| known.name == view.name) {
             return Err(input_error!("crossbar::scene::same_name" =>
-                "expected views of different names, found {view:?} twice"; help "rename one of the two")
+                "expected views of different names, found {:?} twice", view.name; help "rename one of the two")
             .at(name));
         }
-        let [eye, target, up] = [eye, target, up].map(plain);
-        let view = View { name: view, eye, target, up, tan_half_height: tan_half_height.0 };
         if let Err(reason) = view.camera(1, 1) {
             return Err(input_error!("crossbar::scene::view" =>
                 "view {:?}: {reason}", view.name; help "a view needs an eye apart from its target, and another way up")
             .at(name));
         }
-        views.push(view);
     }
-    let lights = file
-        .point_light
-        .iter()
-        .map(|light| PointLight { position: plain(light.position), intensity: plain(light.intensity) });
-    let lights: Vec<PointLight> = lights.collect();
     let sound = |light: &PointLight| {
         light.position.iter().all(|value| value.is_finite())
             && light.intensity.iter().all(|value| value.is_finite() && *value >= 0.0)
     };
-    if let Some(place) = lights.iter().position(|light| !sound(light)) {
+    if let Some(place) = file.point_light.iter().position(|light| !sound(light)) {
         return Err(input_error!("crossbar::scene::light" =>
             "point light {} (counted from 1): expected a finite position, and an intensity of at least 0", place + 1;
             help "docs/scenes.md describes point lights")
         .at(name));
     }
-    Ok((file.mesh, views, lights))
+    Ok((file.mesh, file.view, file.point_light))
 }
 
-/// The three files of a scene, `stem.toml`, `stem.obj` and `stem.mtl`, with their names. Fails with
-/// [`io::ErrorKind::InvalidInput`] if a material's name cannot be written (see [`super::write_scene`]).
+/// The three files of a scene, `stem.toml`, `stem.obj` and `stem.mtl`, with their names.
 pub fn scene_files(scene: &Scene, stem: &str) -> io::Result<Vec<(String, Vec<u8>)>> {
     let (mesh, library) = (format!("{stem}.obj"), format!("{stem}.mtl"));
     let [mut file, mut obj, mut mtl] = [Vec::new(), Vec::new(), Vec::new()];

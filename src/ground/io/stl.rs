@@ -21,8 +21,7 @@ const TRIANGLE: usize = 50;
 
 type Corners = [[f32; 3]; 3];
 
-/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics, and allocates memory in proportion to
-/// the file's length only. Fails with an [`InputError`] that names the line or triangle where known.
+/// Reads a mesh from bytes; `name` is the file's name in messages.
 pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, InputError> {
     read_stl(bytes, name, true).map(|(mesh, _)| mesh)
 }
@@ -69,7 +68,6 @@ pub(super) fn is_stl(bytes: &[u8]) -> bool {
     claimed_length(bytes) == Some(bytes.len() as u64) || is_text(bytes)
 }
 
-/// The length of binary data that their header states.
 fn claimed_length(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(HEAD - 4..HEAD)?.try_into().ok()?;
     Some(HEAD as u64 + TRIANGLE as u64 * u64::from(u32::from_le_bytes(count)))
@@ -156,7 +154,6 @@ fn without_names<'a>(mut words: &[&'a [u8]]) -> Vec<&'a [u8]> {
     kept
 }
 
-/// Reads a text word by word.
 struct Text<'a> {
     name: &'a Path,
     /// The line of the last word.

@@ -96,7 +96,6 @@ impl Trailing {
         &self.values[row * self.columns..(row + 1) * self.columns]
     }
 
-    /// Column from its diagonal element down.
     fn column(&self, column: usize) -> Vec<f64> {
         (column..self.rows).map(|row| self.row(row)[column]).collect()
     }

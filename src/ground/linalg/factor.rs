@@ -33,8 +33,7 @@ pub struct SymmetricEigen {
 }
 
 impl SymmetricEigen {
-    /// Decomposes a symmetric matrix; only the lower triangle is read. Fails with [`InputError`] if an element is not
-    /// finite, or the iteration does not converge. Panics if the matrix is not square.
+    /// Decomposes a symmetric matrix; only the lower triangle is read.
     pub fn new(matrix: &Matrix) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");
         let (size, most) = (matrix.row_count(), iterations(matrix));

@@ -26,8 +26,7 @@ pub struct LeadingEigen {
 impl LeadingEigen {
     /// Decomposes a symmetric matrix (only the lower triangle is read): computes the eigenvectors of its `count`
     /// largest eigenvalues, or of all if it has fewer. The function is inlined, so that the caller can compile it for
-    /// wider vector instructions, which change no bit. Fails with [`InputError`] if an element is not finite, the
-    /// iteration does not converge, or a pair does not satisfy A v = lambda v. Panics if the matrix is not square.
+    /// wider vector instructions, which change no bit.
     #[inline(always)]
     pub fn new(matrix: &Matrix, count: usize) -> Result<Self, InputError> {
         assert!(matrix.is_square(), "a square matrix");
@@ -103,7 +102,6 @@ impl Lower {
         Ok(Self { rows: lower().map(|row| row.iter().map(|value| value * scale).collect()).collect(), scale })
     }
 
-    /// Infinity norm of the whole matrix: its maximum absolute row sum.
     fn infinity_norm(&self) -> f64 {
         let mut sums = vec![0.0; self.rows.len()];
         for (i, row) in self.rows.iter().enumerate() {
@@ -128,7 +126,6 @@ impl Lower {
         product
     }
 
-    /// Infinity norm of A v - lambda v.
     fn residual(&self, vector: &[f64], value: f64) -> f64 {
         let product = self.times(vector);
         largest(product.iter().zip(vector).map(|(product, v)| (product - value * v).abs()))

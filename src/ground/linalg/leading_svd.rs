@@ -33,8 +33,7 @@ pub struct LeadingSvd {
 
 impl LeadingSvd {
     /// Decomposes a matrix: computes the vectors of its `count` largest singular values, or of all within
-    /// [`Self::rank`] if these are fewer. The bits do not depend on the number of threads. Fails with [`InputError`] if
-    /// an element is not finite, the iteration does not converge, or a pair of vectors does not satisfy A v = sigma u.
+    /// [`Self::rank`] if these are fewer. The bits do not depend on the number of threads.
     pub fn new(matrix: &Matrix, count: usize) -> Result<Self, InputError> {
         if matrix.row_count() < matrix.column_count() {
             let Self { values, rank, left, right } = Self::of_tall(&matrix.transposed(), count)?;
@@ -127,7 +126,6 @@ impl LeadingSvd {
     }
 }
 
-/// Matrix without rows, with this number of columns.
 fn none(elements: usize) -> Matrix {
     Matrix::zeros([0, elements]).expect("no elements")
 }

@@ -12,7 +12,6 @@ use crate::error::{InputError, input_error};
 const PANEL: usize = 64;
 /// Number of columns that are updated at once, so that a panel's rows stay in a core's cache.
 const TILE: usize = 256;
-/// Number of rows per parallel task.
 const ROWS: usize = 16;
 
 /// LU factorisation of a square matrix with row exchanges.

@@ -27,8 +27,7 @@ pub(super) fn count_error(rows: usize, columns: usize, values: usize) -> InputEr
 }
 
 impl Matrix {
-    /// Creates a matrix from rows, columns and values. Fails with [`InputError`] if it is too large, or the number of
-    /// values is wrong.
+    /// Creates a matrix from rows, columns and values.
     pub fn new([rows, columns]: [usize; 2], values: Vec<f64>) -> Result<Self, InputError> {
         if elements([rows, columns])? != values.len() {
             return Err(count_error(rows, columns, values.len()));
@@ -95,8 +94,7 @@ impl Matrix {
         self.values.par_chunks_exact(self.columns.max(1)).map(|row| dot(row, vector)).collect()
     }
 
-    /// Product with a matrix, one [`dot`] per element. Panics unless `other` has as many rows as this matrix has
-    /// columns.
+    /// Product with a matrix, one [`dot`] per element.
     pub fn product(&self, other: &Self) -> Result<Self, InputError> {
         assert_eq!(self.columns, other.rows, "as many rows as columns");
         let (mut product, columns) = (Self::zeros([self.rows, other.columns])?, other.transposed());

@@ -116,8 +116,7 @@ impl Picture {
         })
     }
 
-    /// Returns linear red, green and blue per pixel; a picture with only the channel `Y` gives `Y` three times. Fails
-    /// with [`InputError`] if it has no such channels.
+    /// Returns linear red, green and blue per pixel; a picture with only the channel `Y` gives `Y` three times.
     pub fn linear(&self) -> Result<Vec<[f32; 3]>, InputError> {
         let found = || self.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>().join(", ");
         let color = |names: [&str; 3]| Some([self.floats(names[0])?, self.floats(names[1])?, self.floats(names[2])?]);
@@ -131,8 +130,7 @@ impl Picture {
         Ok((0..pixels).map(|pixel| channels.map(|channel| linear(channel, pixel))).collect())
     }
 
-    /// Tone-maps to 8 bits: linear light times `exposure` through the sRGB curve, clipped at 1. Fails as
-    /// [`Picture::linear`] does.
+    /// Tone-maps to 8 bits: linear light times `exposure` through the sRGB curve, clipped at 1.
     pub fn display(&self, exposure: f64) -> Result<RgbImage, InputError> {
         let pixels = self.linear()?;
         let shown = pixels.iter().map(|pixel| pixel.map(|channel| display::encode(f64::from(channel) * exposure)));

@@ -11,11 +11,9 @@ use exr::prelude::{
 };
 
 use super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
-use super::error::PictureFormat;
-use super::limits::{PictureSize, require_length, require_size};
+use super::error::{PictureFormat, decode_error, encode_error, require_length, require_size};
 use super::notes::PictureNotes;
 use crate::error::InputError;
-use crate::picture::error::{decode_error, encode_error};
 
 /// Encodes a picture as an EXR file with its named channels, losslessly compressed. The same picture gives the same
 /// bytes. Fails with [`InputError`] if it has no channels, or a name cannot be represented.
@@ -67,29 +65,21 @@ fn broken(error: exr::error::Error) -> InputError {
     decode_error(PictureFormat::Exr, error.to_string())
 }
 
-/// Returns the size of the data or display window that takes the most memory, from the headers.
-pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, InputError> {
+/// Rejects a file whose headers state a data or display window that would take too much memory.
+pub(super) fn check_size(bytes: &[u8]) -> Result<(), InputError> {
     /// Bytes of a chunk besides its data: entry in the offset table, coordinate and length.
     const PER_CHUNK: u64 = 16;
-    let meta = MetaData::read_from_buffered(bytes, true).map_err(broken)?;
-    let mut largest = PictureSize { width: 0, height: 0, channels: 0 };
-    for header in &meta.headers {
-        let channels = header.channels.list.len();
+    for header in &MetaData::read_from_buffered(bytes, true).map_err(broken)?.headers {
         for window in [header.layer_size, header.shared_attributes.display_window.size] {
             let [width, height] = [window.width(), window.height()].map(|side| side as u64);
-            require_size(width, height, channels, 4)?;
+            require_size(width, height, header.channels.list.len(), 4)?;
             require_length(PictureFormat::Exr, [width, height], header.chunk_count as u64 * PER_CHUNK, bytes.len())?;
-            // Sizes are within the limit, which is below 2^32.
-            let found = PictureSize { width: width as u32, height: height as u32, channels };
-            if found.samples() > largest.samples() {
-                largest = found;
-            }
         }
     }
-    Ok(largest)
+    Ok(())
 }
 
-/// Decodes the first layer of an EXR file, in its largest resolution. Callers check [`size`] first, because the reader
+/// Decodes the first layer of an EXR file, in its largest resolution. Callers run [`check_size`] first, because the reader
 /// allocates by the header. Halves become singles. The picture is the display window: samples outside the data window
 /// are 0, and pixels outside the display window are dropped.
 pub(super) fn decode(bytes: &[u8]) -> Result<Picture, InputError> {
@@ -137,7 +127,6 @@ struct Windows {
 }
 
 impl Windows {
-    /// Coordinates on an axis that both windows contain.
     fn shared(&self, axis: usize) -> Range<i64> {
         let [[from, to], [first, last]] = [self.data, self.display].map(|window| {
             let (start, size) = if axis == 0 {

@@ -8,8 +8,7 @@ use super::error::PictureFormat;
 use crate::error::InputError;
 use crate::picture::error::encode_error;
 
-/// Encodes the color of a picture as a Radiance HDR file. Values below 0 become 0. Fails with [`InputError`] if the
-/// encoder fails.
+/// Encodes the color of a picture as a Radiance HDR file. Values below 0 become 0.
 pub fn hdr(picture: &Picture) -> Result<Vec<u8>, InputError> {
     let pixels = picture.linear()?;
     let bytes: Vec<u8> = pixels.as_flattened().iter().flat_map(|sample| sample.max(0.0).to_ne_bytes()).collect();

@@ -9,17 +9,15 @@ pub mod display;
 mod error;
 mod exr;
 mod hdr;
-mod limits;
 pub mod metrics;
 mod notes;
 mod png;
 mod read;
 
 pub use self::channels::{ChannelUnit, Picture, PictureChannel, Samples};
-pub use self::error::{MAX_DECODED_BYTES, MAX_SIDE, NO_COLOR, PictureFormat};
+pub use self::error::NO_COLOR;
 pub use self::exr::{exr, exr_with_notes};
 pub use self::hdr::hdr;
-pub use self::limits::PictureSize;
 pub use self::notes::PictureNotes;
 pub use self::png::{buffer, png, png_with_notes, rgb8};
 pub use self::read::png_codes;

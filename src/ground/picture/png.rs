@@ -10,8 +10,7 @@ use super::notes::PictureNotes;
 use crate::error::InputError;
 use crate::picture::error::{encode_error, samples_error};
 
-/// Creates an image from its samples, pixel by pixel, rows from the top. Fails with [`InputError`] if their number does
-/// not match the size, or there are none.
+/// Creates an image from its samples, pixel by pixel, rows from the top.
 pub fn buffer<P: Pixel>(
     width: u32,
     height: u32,

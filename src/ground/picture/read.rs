@@ -4,70 +4,58 @@ use std::borrow::Cow;
 use std::io::Cursor;
 
 use image::codecs::hdr::HdrDecoder;
-use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageError, ImageFormat, ImageReader, Rgba};
+use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageError, ImageFormat, ImageReader, Limits, Rgba};
 
 use super::channels::{ChannelUnit, Picture, Samples};
-use super::error::PictureFormat;
+use super::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureFormat, decode_error, require_length, require_size, too_large};
 use super::exr;
-use super::limits::{PictureSize, limits, require_length, require_size, too_large};
 use crate::elementary::pow;
 use crate::error::{InputError, input_error};
-use crate::picture::error::decode_error;
 
 /// First bytes of Radiance HDR files, and of a variant that other programs write.
 const RADIANCE: &[u8] = b"#?RADIANCE";
 const RGBE: &[u8] = b"#?RGBE";
 const SAMPLE_BYTES: u64 = 4;
 
-/// Detects the format of a file by its first bytes.
-fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
+fn format_of(bytes: &[u8]) -> Result<PictureFormat, InputError> {
     const SIGNATURES: [(&[u8], PictureFormat); 4] = [
         (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
         (RADIANCE, PictureFormat::Hdr),
         (RGBE, PictureFormat::Hdr),
         (b"\x76\x2f\x31\x01", PictureFormat::Exr),
     ];
-    SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)).map(|(_, format)| *format)
-}
-
-impl PictureSize {
-    /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. The size of an EXR
-    /// file is its largest layer's. Fails with [`InputError`] for a broken header, for a size beyond the limits, and
-    /// for more pixels than the file's bytes can encode.
-    pub fn of(bytes: &[u8]) -> Result<Self, InputError> {
-        match format_of(bytes) {
-            Some(PictureFormat::Exr) => exr::size(bytes),
-            Some(PictureFormat::Png) => size_of(bytes, PictureFormat::Png),
-            Some(PictureFormat::Hdr) => size_of(&with_known_header(bytes), PictureFormat::Hdr),
-            None => {
-                let hex: Vec<String> = bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
-                let found = if hex.is_empty() { "nothing".to_owned() } else { hex.join(" ") };
-                Err(input_error!("crossbar::picture::format" =>
-                    "expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with {found}"))
-            }
-        }
-    }
+    let known = SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature));
+    known.map(|(_, format)| *format).ok_or_else(|| {
+        let hex: Vec<String> = bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+        let found = if hex.is_empty() { "nothing".to_owned() } else { hex.join(" ") };
+        input_error!("crossbar::picture::format" =>
+            "expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with {found}")
+    })
 }
 
 impl Picture {
     /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives `R`, `G`, `B` (and `A`, which is
     /// linear): sRGB values, or linear values if a gAMA or cICP chunk specifies the decoding. Radiance HDR gives linear
     /// values, divided by the factors of its EXPOSURE and COLORCORR lines. Of an EXR file, the first layer is read; the
-    /// picture has the size of the display window, with 0 outside the layer's pixels. Fails with [`InputError`]; the
-    /// errors of [`PictureSize::of`] come before any pixel is decoded.
+    /// picture has the size of the display window, with 0 outside the layer's pixels. A size beyond the limits, and
+    /// more pixels than the file's bytes can encode, are refused before any pixel is decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, InputError> {
-        PictureSize::of(bytes)?;
-        match format_of(bytes) {
-            Some(PictureFormat::Exr) => exr::decode(bytes),
-            Some(PictureFormat::Hdr) => {
+        match format_of(bytes)? {
+            PictureFormat::Exr => {
+                exr::check_size(bytes)?;
+                exr::decode(bytes)
+            }
+            PictureFormat::Hdr => {
                 let bytes = &with_known_header(bytes);
+                check_size(bytes, PictureFormat::Hdr)?;
                 let image = decoded(bytes, PictureFormat::Hdr)?.into_rgb32f();
                 let scale = hdr_scale(bytes)?;
                 let radiance = |pixel: [f32; 3]| [0, 1, 2].map(|channel| pixel[channel] / scale[channel]);
                 let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| radiance(pixel.0)).collect();
                 Ok(Self::rgb(image.width(), image.height(), &pixels))
             }
-            Some(PictureFormat::Png) | None => {
+            PictureFormat::Png => {
+                check_size(bytes, PictureFormat::Png)?;
                 let exponent = png_exponent(bytes)?;
                 from_png(&decoded(bytes, PictureFormat::Png)?, exponent)
             }
@@ -75,10 +63,9 @@ impl Picture {
     }
 }
 
-/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, not converted to linear light. Fails
-/// with [`InputError`]; the errors of [`PictureSize::of`] come before any pixel is decoded.
+/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel, not converted to linear light.
 pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, InputError> {
-    size_of(bytes, PictureFormat::Png)?;
+    check_size(bytes, PictureFormat::Png)?;
     Ok(decoded(bytes, PictureFormat::Png)?.into_rgba16())
 }
 
@@ -132,27 +119,27 @@ fn reader(bytes: &[u8], format: PictureFormat) -> ImageReader<Cursor<&[u8]>> {
     ImageReader::with_format(Cursor::new(bytes), decoder)
 }
 
-/// Reads and checks the size of a PNG or HDR file: a decoder may work long before it fails, and does not report the
-/// size.
-fn size_of(bytes: &[u8], format: PictureFormat) -> Result<PictureSize, InputError> {
+/// Checks the size of a PNG or HDR file: a decoder may work long before it fails, and does not report the size.
+fn check_size(bytes: &[u8], format: PictureFormat) -> Result<(), InputError> {
     /// Maximum expansion of Deflate, in bytes per byte.
     const DEFLATE: u64 = 1032;
     /// Bytes of the shortest row of a Radiance HDR file: one repeated pixel.
     const HDR_ROW: u64 = 4;
     let header = reader(bytes, format).into_decoder().map_err(refused(format))?;
-    let ((width, height), channels) = (header.dimensions(), usize::from(header.color_type().channel_count()));
-    let [columns, rows] = [width, height].map(u64::from);
-    require_size(columns, rows, channels, SAMPLE_BYTES)?;
+    let (columns, rows) = header.dimensions();
+    let [columns, rows] = [columns, rows].map(u64::from);
+    require_size(columns, rows, usize::from(header.color_type().channel_count()), SAMPLE_BYTES)?;
     let row_bits = columns * u64::from(header.original_color_type().bits_per_pixel());
     let least = if format == PictureFormat::Hdr { HDR_ROW * rows } else { rows * row_bits.div_ceil(8) / DEFLATE };
-    require_length(format, [columns, rows], least, bytes.len())?;
-    Ok(PictureSize { width, height, channels })
+    require_length(format, [columns, rows], least, bytes.len())
 }
 
-/// Decodes a file whose size has been checked.
 fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, InputError> {
-    let mut reader = reader(bytes, format);
-    reader.limits(limits());
+    let (mut reader, mut limits) = (reader(bytes, format), Limits::default());
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    limits.max_alloc = Some(MAX_DECODED_BYTES);
+    reader.limits(limits);
     reader.decode().map_err(refused(format))
 }
 

@@ -41,8 +41,7 @@ fn flat_error() -> InputError {
 
 impl Camera {
     /// Creates a camera at `eye` that looks at `target`, with `up` upwards in the picture. `tan_half_height` is the
-    /// tangent of half the vertical field of view; pixels are square. Fails with [`InputError`] for parameters out of
-    /// range.
+    /// tangent of half the vertical field of view; pixels are square.
     pub fn new(
         eye: [f32; 3],
         target: [f32; 3],
@@ -78,14 +77,12 @@ impl Camera {
     }
 
     /// Creates the camera of the studies: a three-quarter view of the teapot from the front, a little from above, spout
-    /// to the right. The teapot fills a square picture. Fails with [`InputError`] for a picture without pixels or
-    /// beyond 2^30.
+    /// to the right. The teapot fills a square picture.
     pub fn teapot(width: u32, height: u32) -> Result<Self, InputError> {
         Self::new([2.125, -5.625, 3.875], [0.625, 0.0, 1.3125], [0.0, 0.0, 1.0], 0.5625, width, height)
     }
 
     /// Returns the camera rotated around a point.
-    #[must_use]
     pub fn carried(&self, about: DVec3, turn: &DMat3) -> Self {
         let eye = narrow(about + *turn * (wide(self.eye) - about));
         let [forward, right, up] = [self.forward, self.right, self.up].map(|axis| *turn * axis);
@@ -118,8 +115,7 @@ impl Camera {
         narrow(self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5))
     }
 
-    /// Returns the ray through the centre of a pixel, unnormalised. Never panics for pixels of the picture, whose
-    /// direction is finite and not zero.
+    /// Returns the ray through the centre of a pixel, unnormalised.
     pub fn ray(&self, x: u32, y: u32) -> Ray {
         Ray::new(self.eye, self.direction(x, y)).expect("a pixel's direction is finite and not zero")
     }

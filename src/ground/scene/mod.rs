@@ -1,9 +1,4 @@
 //! Scenes and cameras.
-//!
-//! - [`built`]: models built by the project, by name;
-//! - [`camera`]: pinhole cameras, whose rays have the same bits everywhere;
-//! - [`material`]: scattering and emission of surfaces;
-//! - [`model`]: triangles with materials, lights and views.
 
 pub mod built;
 pub mod camera;

@@ -1,12 +1,15 @@
 //! Scenes: triangles with materials and normals, lights, and named views.
 
+use serde::Deserialize;
+
 use super::{Camera, Color, Material};
 use crate::error::{InputError, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::{area_vector, narrow, unit, wide};
 
 /// Point light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PointLight {
     /// Position.
     pub position: [f32; 3],
@@ -16,7 +19,8 @@ pub struct PointLight {
 }
 
 /// Named view of a scene. [`View::camera`] creates its camera for a picture size.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct View {
     /// Name on the command line.
     pub name: String,
@@ -36,8 +40,7 @@ impl View {
         Self { name: name.into(), eye, target, up: [0.0, 0.0, 1.0], tan_half_height }
     }
 
-    /// Creates the camera of this view for a picture of `width` x `height` pixels. Fails with [`InputError`] for
-    /// parameters out of range.
+    /// Creates the camera of this view for a picture of `width` x `height` pixels.
     pub fn camera(&self, width: u32, height: u32) -> Result<Camera, InputError> {
         Camera::new(self.eye, self.target, self.up, self.tan_half_height, width, height)
     }
@@ -63,8 +66,7 @@ pub struct Scene {
 
 impl Scene {
     /// Creates a scene from triangles with one material each. `normals` are unit normals at each triangle's corners, or
-    /// zero for a flat triangle; an empty list makes all triangles flat. Fails with [`InputError`] if the lists are
-    /// inconsistent.
+    /// zero for a flat triangle; an empty list makes all triangles flat.
     pub fn new(
         mesh: Mesh,
         materials: Vec<Material>,
@@ -133,7 +135,6 @@ impl Scene {
     }
 
     /// Rotates mesh and normals; views and lights do not change.
-    #[must_use]
     pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         self.normals.iter_mut().flatten().for_each(|normal| *normal = rotation(*normal));
         self.mesh = self.mesh.rotated(rotation);
@@ -141,7 +142,6 @@ impl Scene {
     }
 
     /// Flips triangles: exchanges their second and third corners, with the normals.
-    #[must_use]
     pub fn turned_round(mut self, triangles: &[u32]) -> Self {
         for &triangle in triangles {
             if let Some([_, b, c]) = self.normals.get_mut(triangle as usize) {

@@ -12,8 +12,7 @@ use crate::quadrature::{GaussPoint, gauss_legendre};
 
 impl HarmonicLight {
     /// Projects a picture of the whole sphere, with constant radiance over each pixel. Its shape determines its layout.
-    /// Pixels that show no direction are not read. Fails with [`InputError`] if no layout has this shape, the picture
-    /// has no color, or a pixel is NaN or infinite. Panics if the order is not 1 to 10.
+    /// Pixels that show no direction are not read.
     pub fn from_picture(order: usize, picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self::projected(project(&grid, order, &pixels)))
@@ -28,8 +27,7 @@ pub struct EnvironmentPicture {
 }
 
 impl EnvironmentPicture {
-    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read. Fails with
-    /// [`InputError`] if no layout has this shape, the picture has no color, or a pixel is NaN or infinite.
+    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read.
     pub fn new(picture: &Picture) -> Result<Self, InputError> {
         let (grid, pixels) = read(picture)?;
         Ok(Self { grid, pixels })
@@ -41,7 +39,6 @@ impl EnvironmentPicture {
     }
 }
 
-/// Reads the pixels of a picture of the whole sphere, and its layout.
 fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), InputError> {
     let [width, height] = [picture.width(), picture.height()];
     let layout = EnvironmentLayout::of(width, height).ok_or_else(|| {
@@ -97,7 +94,6 @@ fn project(grid: &LayoutGrid, order: usize, pixels: &[[f32; 3]]) -> [Vec<f64>; 3
     std::array::from_fn(|channel| (0..count).map(|i| by_row.iter().map(|row| row[channel][i]).sum()).collect())
 }
 
-/// Computes the means of all harmonics over a texel.
 fn texel(
     grid: &LayoutGrid,
     texel: [usize; 2],
@@ -126,7 +122,6 @@ fn texel(
     }
 }
 
-/// Gauss rule for a texel of a picture with `side`^2 texels.
 fn rule_for(side: usize) -> Vec<GaussPoint> {
     gauss_legendre(match side {
         0..24 => 8,

@@ -9,7 +9,6 @@ use super::rule::DirectionRule;
 
 /// Number of samples from which the search starts.
 const STARTS: usize = 16;
-/// Maximum number of steps of the search.
 const MAX_STEPS: usize = 100;
 /// Minimum step, in radians; over such a step the value at a smooth peak does not change.
 const SHORTEST_STEP: f64 = 1e-10;
@@ -31,8 +30,7 @@ pub struct Extremes {
 
 impl Extremes {
     /// Finds the extremes of the function with these coefficients, by local search from the best samples of a grid with
-    /// a spacing of a sixth of the shortest wavelength. Panics if the number of coefficients is not a square of 1 to
-    /// 10.
+    /// a spacing of a sixth of the shortest wavelength.
     pub fn of(coefficients: &[f64]) -> Self {
         let order = order_of(coefficients);
         let grid = DirectionRule::sphere(6 * order);

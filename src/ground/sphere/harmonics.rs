@@ -8,7 +8,6 @@ use glam::DVec3;
 /// Maximum order: order n has n bands, l = 0 to n - 1, and n^2 functions.
 pub const MAX_ORDER: usize = 10;
 
-/// Factors of the recurrences, by l and m.
 struct Recurrence {
     /// y_mm without the factor (x + iy)^m, by m.
     diagonal: [f64; MAX_ORDER],
@@ -64,8 +63,7 @@ pub fn function_band(index: usize) -> (usize, isize) {
 }
 
 /// Evaluates the n^2 functions of an order at a unit direction, by index l (l + 1) + m. For m > 0, y_lm has the factor
-/// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m. Panics if the order is not 1 to [`MAX_ORDER`], or `into` does not
-/// have n^2 values.
+/// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m.
 pub fn harmonics(order: usize, direction: DVec3, into: &mut [f64]) {
     assert_eq!(into.len(), function_count(order), "values of order {order}");
     let table = &*RECURRENCE;
@@ -85,8 +83,7 @@ pub fn harmonics(order: usize, direction: DVec3, into: &mut [f64]) {
     }
 }
 
-/// Evaluates the function with these coefficients at a direction. Panics if the number of coefficients is not a square
-/// of 1 to [`MAX_ORDER`].
+/// Evaluates the function with these coefficients at a direction.
 pub fn evaluate(coefficients: &[f64], direction: DVec3) -> f64 {
     let mut values = [0.0; MAX_ORDER * MAX_ORDER];
     let values = &mut values[..coefficients.len()];

@@ -33,8 +33,7 @@ impl Hemisphere {
     }
 
     /// Builds the matrix of the functions of an order except those with the indices `dropped`; section 6.1 drops l = 1,
-    /// m = 0 (index 2) of order 5. Fails with [`InputError`] if a dropped function is unknown or named twice, or
-    /// nothing is left. Panics if the order is not 1 to 10.
+    /// m = 0 (index 2) of order 5.
     pub fn without(order: usize, dropped: &[usize]) -> Result<Self, InputError> {
         let count = function_count(order);
         let mut kept = vec![true; count];
@@ -127,8 +126,7 @@ impl Hemisphere {
         self.inverse.diagonal().into_iter().map(f64::recip).collect()
     }
 
-    /// Squared norm over the hemisphere of the function with these coefficients, c^T A c. Panics if there is not one
-    /// coefficient per function.
+    /// Squared norm over the hemisphere of the function with these coefficients, c^T A c.
     pub fn energy(&self, coefficients: &[f64]) -> f64 {
         assert_eq!(coefficients.len(), self.functions.len(), "a coefficient per function");
         coefficients.iter().zip(self.gram.times(coefficients)).map(|(c, b)| c * b).sum()

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::cube::{CUBE_FACES, CubeMap, FaceAxes, face_solid_angle};
+use super::cube::{CUBE_FACES, FaceAxes, face_solid_angle};
 use crate::elementary::{atan2, hypot, on_circle, sin_cos};
 use crate::quadrature::{GaussPoint, gauss_legendre};
 
@@ -86,21 +86,17 @@ impl LayoutGrid {
                 let (width, side) = (width as f64 / 2.0, width);
                 [within((1.0 + x) * width, side), within((1.0 - y) * width, side)]
             }
-            EnvironmentLayout::CubeCross => return self.cross_pixel(direction),
-            EnvironmentLayout::CubeStrip => {
-                let [face, column, row] = CubeMap::new(width).texel_of(direction);
-                [column, face * width + row]
-            }
+            EnvironmentLayout::CubeCross | EnvironmentLayout::CubeStrip => return self.cube_pixel(direction),
         };
         row * width + column
     }
 
-    /// Pixel of a cross, on the face of the direction's largest component (on ties, the first).
-    fn cross_pixel(&self, direction: DVec3) -> usize {
-        let side = self.cross_side();
+    /// Pixel of a cube, on the face of the direction's largest component (on ties, the first).
+    fn cube_pixel(&self, direction: DVec3) -> usize {
+        let side = self.cube_side();
         let tiles = (0..self.height / side).flat_map(|row| (0..self.width / side).map(move |column| [column, row]));
         let faces = tiles.filter_map(|[column, row]| {
-            let (axes, ..) = self.cross_texel(column * side, row * side)?;
+            let (axes, ..) = self.cube_texel(column * side, row * side)?;
             Some((axes.center.dot(direction), axes, [column, row]))
         });
         let most = faces.reduce(|best, face| if face.0 > best.0 { face } else { best });
@@ -118,13 +114,13 @@ impl LayoutGrid {
         [edge(column), -edge(row + 1), edge(column + 1), -edge(row)]
     }
 
-    /// Face of a cross that contains a pixel, and the pixel's column and row on the face.
-    fn cross_texel(&self, column: usize, row: usize) -> Option<(FaceAxes, usize, usize)> {
-        let wide = self.width > self.height;
-        let side = self.width / if wide { 4 } else { 3 };
+    /// Face of a cube that contains a pixel, and the pixel's column and row on the face.
+    fn cube_texel(&self, column: usize, row: usize) -> Option<(FaceAxes, usize, usize)> {
+        let (side, wide) = (self.cube_side(), self.width > self.height);
         let [right, up] = [DVec3::X, DVec3::Z];
         let face = |center, right, down| Some(FaceAxes { center, right, down });
         let axes = match (column / side, row / side) {
+            (_, face) if self.layout == EnvironmentLayout::CubeStrip => Some(CUBE_FACES[face]),
             (1, 0) => face(up, right, DVec3::Y),
             (0, 1) => face(-right, DVec3::Y, -up),
             (1, 1) => face(DVec3::Y, right, -up),
@@ -137,8 +133,8 @@ impl LayoutGrid {
         axes.map(|axes| (axes, column % side, row % side))
     }
 
-    fn cross_side(&self) -> usize {
-        self.width.max(self.height) / 4
+    fn cube_side(&self) -> usize {
+        if self.layout == EnvironmentLayout::CubeStrip { self.width } else { self.width.max(self.height) / 4 }
     }
 
     /// Number of columns and rows.
@@ -155,10 +151,9 @@ impl LayoutGrid {
                 TAU / self.width as f64 * 2.0 * half_turns(row as f64 + 0.5) * half_turns(0.5)
             }
             EnvironmentLayout::AngularProbe => probe_solid_angle(self.probe_pixel([column, row]), &self.edge_rule),
-            EnvironmentLayout::CubeCross => self
-                .cross_texel(column, row)
-                .map_or(0.0, |(_, column, row)| face_solid_angle(self.cross_side(), column, row)),
-            EnvironmentLayout::CubeStrip => face_solid_angle(self.width, column, row % self.width),
+            EnvironmentLayout::CubeCross | EnvironmentLayout::CubeStrip => self
+                .cube_texel(column, row)
+                .map_or(0.0, |(_, column, row)| face_solid_angle(self.cube_side(), column, row)),
         }
     }
 
@@ -177,16 +172,12 @@ impl LayoutGrid {
                 let [left, bottom, right, top] = self.probe_pixel(texel);
                 probe_direction(left + u * (right - left), top + v * (bottom - top))
             }
-            EnvironmentLayout::CubeCross => {
-                let side = self.cross_side() as f64;
-                match self.cross_texel(texel[0], texel[1]) {
+            EnvironmentLayout::CubeCross | EnvironmentLayout::CubeStrip => {
+                let side = self.cube_side() as f64;
+                match self.cube_texel(texel[0], texel[1]) {
                     Some((axes, column, row)) => axes.at([(column as f64 + u) / side, (row as f64 + v) / side]),
                     None => (DVec3::Y, 0.0),
                 }
-            }
-            EnvironmentLayout::CubeStrip => {
-                let [face, row] = [texel[1] / self.width, texel[1] % self.width];
-                CUBE_FACES[face].at([column + u, row as f64 + v].map(|at| at / self.width as f64))
             }
         }
     }

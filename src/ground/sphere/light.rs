@@ -26,8 +26,7 @@ impl HarmonicLight {
     /// Radiance around these disks.
     pub const RED_AND_BLUE_SURROUNDING: [f64; 3] = [0.15; 3];
 
-    /// Creates a light from coefficients by channel. Fails with [`InputError`] unless all channels have the n^2
-    /// coefficients of one order.
+    /// Creates a light from coefficients by channel.
     pub fn new(channels: [Vec<f64>; 3]) -> Result<Self, InputError> {
         let found = channels.each_ref().map(Vec::len);
         let fits = (1..=MAX_ORDER).any(|order| found == [order * order; 3]);
@@ -49,8 +48,7 @@ impl HarmonicLight {
         Ok(Self { channels: color.map(|channel| function.iter().map(|value| channel * value).collect()) })
     }
 
-    /// Creates a light with constant radiance. Fails with [`InputError`] if a channel is not finite. Panics if the
-    /// order is not 1 to 10.
+    /// Creates a light with constant radiance.
     pub fn constant(order: usize, radiance: [f64; 3]) -> Result<Self, InputError> {
         let mut function = vec![0.0; function_count(order)];
         function[0] = (4.0 * PI).sqrt();
@@ -58,9 +56,7 @@ impl HarmonicLight {
     }
 
     /// Creates a light with constant radiance from a disk around a direction of any length, with an angular radius of
-    /// `radius` radians; black elsewhere. The coefficients are computed in closed form. Fails with [`InputError`] if
-    /// the direction is zero, the radius is not in (0, pi], or a channel is not finite. Panics if the order is not 1 to
-    /// 10.
+    /// `radius` radians; black elsewhere. The coefficients are computed in closed form.
     pub fn disk(order: usize, direction: DVec3, radius: f64, radiance: [f64; 3]) -> Result<Self, InputError> {
         if !(radius > 0.0 && radius <= PI) {
             return Err(input_error!("expected an angular radius above 0 and up to pi radians, found {radius}"));
@@ -74,8 +70,7 @@ impl HarmonicLight {
     }
 
     /// Creates a light of a red disk from +x and a blue one from -x, both from somewhat behind an object seen along +y,
-    /// in a dim white surrounding: similar to the light of Figure 7, which was not published. Panics if the order is
-    /// not 1 to 10.
+    /// in a dim white surrounding: similar to the light of Figure 7, which was not published.
     pub fn red_and_blue(order: usize) -> Self {
         let [red, blue] = Self::RED_AND_BLUE_DISKS
             .map(|(towards, color)| Self::disk(order, towards, Self::RED_AND_BLUE_RADIUS, color));
@@ -102,7 +97,6 @@ impl HarmonicLight {
     }
 
     /// Sum of two lights, truncated to the lower order.
-    #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         let sum = |channel: usize| {
             let both = self.channels[channel].iter().zip(&other.channels[channel]);
@@ -112,7 +106,6 @@ impl HarmonicLight {
     }
 
     /// Rotates the light around the scene. Panics if the rotation is of another order.
-    #[must_use]
     pub fn rotated(&self, rotation: &HarmonicRotation) -> Self {
         let turned = |channel: &Vec<f64>| {
             let mut into = vec![0.0; channel.len()];

@@ -1,13 +1,5 @@
 //! Functions on the sphere, in f64.
 //!
-//! - [`harmonics`], [`evaluate`]: real spherical harmonics, orthonormal over the sphere; [`HarmonicRotation`];
-//!   [`Extremes`] to detect ringing;
-//! - [`Hemisphere`], [`HemisphereProjection`]: harmonics over z >= 0, where they are not orthogonal;
-//! - [`DirectionRule`]: directions and weights, exact for polynomials of a degree;
-//! - [`CubeMap`], [`ParabolicMap`], [`EnvironmentLayout`]: texels of maps of the sphere, and their solid angles;
-//! - [`HarmonicLight`], [`ClearSky`]: distant light, from pictures and from models;
-//! - [`EnvironmentPicture`]: the radiance that a picture shows in a direction.
-//!
 //! Function y_lm has index l (l + 1) + m. There is no Condon-Shortley sign: for l = 1 the functions are y, z and x
 //! times sqrt(3 / (4 pi)). *Order* n means n bands, l = 0 to n - 1, n^2 functions.
 

@@ -37,11 +37,6 @@ impl ParabolicMap {
     }
 
     /// Texture coordinates of a unit direction: within [0, 1] above the horizon; infinite or NaN at -z.
-    pub fn coordinates(self, direction: DVec3) -> [f64; 2] {
-        Self::coordinates_of(direction)
-    }
-
-    /// [`Self::coordinates`] without a map: they do not depend on its size.
     pub fn coordinates_of(direction: DVec3) -> [f64; 2] {
         [direction.x, direction.y].map(|along| 0.5 + 0.5 * along / (1.0 + direction.z))
     }
@@ -55,7 +50,7 @@ impl ParabolicMap {
     /// which are non-negative and sum to 1. Beyond the outermost centers the map is clamped; -z, which has no
     /// coordinates, maps to the first texel.
     pub fn taps(self, direction: DVec3) -> [(usize, f64); 4] {
-        let [x, y] = self.coordinates(direction).map(|at| {
+        let [x, y] = Self::coordinates_of(direction).map(|at| {
             let last = (self.side - 1) as f64;
             let at = at * self.side as f64 - 0.5;
             // NaN is clamped to 0.

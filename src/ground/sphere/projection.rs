@@ -66,8 +66,7 @@ impl HemisphereProjection {
 
     /// Computes the errors of projections to `order` of the functions spanned by the harmonics of `signal_order`.
     ///
-    /// With P the matrix of the projection, E_1 and E_2 of the paper are c^T Q c with Q = (P - I)^T A (P - I). Fails
-    /// with [`InputError`] if the eigenvalues do not converge. Panics if an order is not 1 to 10.
+    /// With P the matrix of the projection, E_1 and E_2 of the paper are c^T Q c with Q = (P - I)^T A (P - I).
     pub fn error(self, signal_order: usize, order: usize) -> Result<ProjectionErrors, InputError> {
         let rule = DirectionRule::hemisphere(signal_order + order - 1);
         let larger = signal_order.max(order);

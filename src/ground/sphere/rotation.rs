@@ -34,8 +34,7 @@ pub struct HarmonicRotation {
 }
 
 impl HarmonicRotation {
-    /// Creates the rotation of an order from a matrix R: (R f)(R v) = f(v). Fails with [`InputError`] if the columns
-    /// are not orthonormal, or the matrix is a reflection. Panics if the order is not 1 to [`MAX_ORDER`].
+    /// Creates the rotation of an order from a matrix R: (R f)(R v) = f(v).
     pub fn new(order: usize, rotation: &DMat3) -> Result<Self, InputError> {
         check_rotation(rotation)?;
         let count = function_count(order);
@@ -81,7 +80,6 @@ impl HarmonicRotation {
     }
 
     /// Inverse rotation.
-    #[must_use]
     pub fn inverse(&self) -> Self {
         let mut bands = Vec::with_capacity(self.bands.len());
         for l in 0..self.order {
@@ -92,7 +90,6 @@ impl HarmonicRotation {
     }
 }
 
-/// Number of elements of all bands below l.
 fn first_of_band(l: usize) -> usize {
     (0..l).map(|l| (2 * l + 1) * (2 * l + 1)).sum()
 }
@@ -112,8 +109,7 @@ fn rotation_rule(order: usize) -> RotationRule {
     rule
 }
 
-/// Checks that a matrix is a rotation. Fails with [`InputError`] if the columns are not orthonormal to [`MAX_SKEW`], or
-/// the matrix is a reflection.
+/// Checks that a matrix is a rotation.
 pub fn check_rotation(rotation: &DMat3) -> Result<(), InputError> {
     for columns in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
         let found = rotation.col(columns[0]).dot(rotation.col(columns[1]));

@@ -27,8 +27,7 @@ pub struct DirectionRule {
 }
 
 impl DirectionRule {
-    /// Creates a rule over the sphere. Degree 2n - 2 integrates products of two functions of order n. Panics if the
-    /// degree exceeds [`MAX_DEGREE`].
+    /// Creates a rule over the sphere. Degree 2n - 2 integrates products of two functions of order n.
     pub fn sphere(degree: usize) -> Self {
         Self::between(-1.0, degree)
     }
@@ -46,41 +45,33 @@ impl DirectionRule {
     ///
     /// Each column integrates polynomials in z exactly. The part of azimuthal frequency m of a polynomial in x, y and z
     /// is a polynomial in z if m is even, so that its sum over columns vanishes; if m is odd, opposite columns cancel.
-    /// Panics if the size exceeds [`MAX_DEGREE`].
     pub fn spread(size: usize, degree: usize) -> Self {
         assert!(size <= MAX_DEGREE, "a size of at most {MAX_DEGREE}, not {size}");
         let (rings, pairs) = (size / 2 + 1, size / 2 + 1);
         let phase = |pair: usize| ((pair * step(pairs) % pairs) as f64 + 0.5) / pairs as f64;
         let columns: Option<Vec<_>> = (0..pairs).map(|pair| column(rings, phase(pair), degree)).collect();
         let Some(columns) = columns.filter(|_| 2 * pairs > degree) else { return Self::hemisphere(size) };
-        let azimuths = 2 * pairs;
-        let mut rule = Self { directions: Vec::new(), weights: Vec::new(), degree, azimuths };
-        let node = |ring: usize, azimuth: usize| columns[azimuth % pairs][ring];
-        for ring in 0..rings {
-            for azimuth in 0..azimuths {
-                let (z, weight) = node(ring, azimuth);
-                let [x, y] = elementary::on_circle((azimuth as f64 + 0.25) / azimuths as f64);
-                let radius = ((1.0 - z) * (1.0 + z)).sqrt();
-                rule.directions.push(DVec3::new(radius * x, radius * y, z));
-                rule.weights.push(weight * TAU / azimuths as f64);
-            }
-        }
-        rule
+        Self::built(degree, [rings, 2 * pairs], |ring, azimuth| (columns[azimuth % pairs][ring], 0.25))
     }
 
     fn between(least_z: f64, degree: usize) -> Self {
         assert!(degree <= MAX_DEGREE, "a degree of at most {MAX_DEGREE}, not {degree}");
-        let (rings, azimuths) = (quadrature::gauss_legendre(degree / 2 + 1), degree + 1);
+        let rings = quadrature::gauss_legendre(degree / 2 + 1);
+        Self::built(degree, [rings.len(), degree + 1], |ring, _| {
+            let ((at, weight), height) = (rings[ring], 1.0 - least_z);
+            ((least_z + height * at, height * weight), if ring % 2 == 0 { 0.25 } else { 0.75 })
+        })
+    }
+
+    /// A rule from the height and weight of each direction, and the fraction of a step by which it is turned.
+    fn built(degree: usize, [rings, azimuths]: [usize; 2], node: impl Fn(usize, usize) -> ((f64, f64), f64)) -> Self {
         let mut rule = Self { directions: Vec::new(), weights: Vec::new(), degree, azimuths };
-        for (ring, (at, weight)) in rings.into_iter().enumerate() {
-            let z = least_z + (1.0 - least_z) * at;
+        for (ring, azimuth) in (0..rings).flat_map(|ring| (0..azimuths).map(move |azimuth| (ring, azimuth))) {
+            let ((z, weight), turn) = node(ring, azimuth);
+            let [x, y] = elementary::on_circle((azimuth as f64 + turn) / azimuths as f64);
             let radius = ((1.0 - z) * (1.0 + z)).sqrt();
-            let turn = if ring % 2 == 0 { 0.25 } else { 0.75 };
-            for azimuth in 0..azimuths {
-                let [x, y] = elementary::on_circle((azimuth as f64 + turn) / azimuths as f64);
-                rule.directions.push(DVec3::new(radius * x, radius * y, z));
-                rule.weights.push((1.0 - least_z) * weight * TAU / azimuths as f64);
-            }
+            rule.directions.push(DVec3::new(radius * x, radius * y, z));
+            rule.weights.push(weight * TAU / azimuths as f64);
         }
         rule
     }
@@ -110,7 +101,6 @@ impl DirectionRule {
         self.directions.is_empty()
     }
 
-    /// Iterates over the rings: their directions and weights.
     fn rings(&self) -> impl Iterator<Item = impl Iterator<Item = (DVec3, f64)>> {
         let rings = self.directions.chunks(self.azimuths).zip(self.weights.chunks(self.azimuths));
         rings.map(|(directions, weights)| directions.iter().copied().zip(weights.iter().copied()))

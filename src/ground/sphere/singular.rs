@@ -38,7 +38,6 @@ pub(super) fn singular_values(mut columns: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)
     columns.iter().map(|column| dot(column, column).sqrt()).zip(vectors).collect()
 }
 
-/// Rotates columns p < q in their plane.
 fn rotate(columns: &mut [Vec<f64>], [p, q]: [usize; 2], tangent: f64) {
     let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
     let sine = cosine * tangent;

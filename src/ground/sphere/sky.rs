@@ -32,15 +32,12 @@ pub struct ClearSky {
 }
 
 impl ClearSky {
-    /// Radiance of the sky relative to the zenith, without the sun's disk, in a unit direction above the horizon. Fails
-    /// with [`InputError`] if the sun's direction is zero, or is not above the horizon.
+    /// Radiance of the sky relative to the zenith, without the sun's disk, in a unit direction above the horizon.
     pub fn relative(&self, direction: DVec3) -> Result<f64, InputError> {
         Ok(relative(self.sun_direction()?, direction))
     }
 
-    /// Computes the coefficients of sky, sun and ground. Sun and ground are computed in closed form. Fails with
-    /// [`InputError`] if the sun's direction is zero or is not above the horizon, or a color is not finite. Panics if
-    /// the order is not 1 to 10.
+    /// Computes the coefficients of sky, sun and ground. Sun and ground are computed in closed form.
     pub fn light(&self, order: usize) -> Result<HarmonicLight, InputError> {
         assert!((1..=MAX_ORDER).contains(&order), "an order from 1 to {MAX_ORDER}, not {order}");
         let sun = self.sun_direction()?;

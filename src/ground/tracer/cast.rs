@@ -22,15 +22,13 @@ pub trait Caster {
     fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError>;
 
     /// Returns for each ray whether it hits anything before t = 1: for shadow rays, whose direction vector ends at the
-    /// light. Faster than [`Self::cast`] in casters that can stop at any hit. Fails with [`CastError`] if the caster
-    /// fails.
+    /// light. Faster than [`Self::cast`] in casters that can stop at any hit.
     fn occluded(&mut self, rays: &[Ray]) -> Result<Vec<bool>, CastError> {
         Ok(self.cast(rays)?.into_iter().map(is_occluder).collect())
     }
 }
 
 /// Returns `true` if a first hit lies before t = 1.
-#[must_use]
 pub fn is_occluder(hit: Option<Hit>) -> bool {
     hit.is_some_and(|hit| hit.t < 1.0)
 }

@@ -19,7 +19,6 @@ pub const SINGLE: f64 = 1.0 / 16_777_216.0;
 
 /// Unit roundoff of a format: half a step of its numbers near 1, a whole step if it does not round to nearest. At least
 /// that of single precision, since rays are single precision.
-#[must_use]
 pub fn unit_roundoff(format: Format) -> f64 {
     let step = match format.kind {
         FormatKind::Fixed { frac_bits: bits, .. } | FormatKind::Float { man_bits: bits, .. } => {
@@ -38,7 +37,6 @@ const SCENE: f64 = 1.0 / 65_536.0;
 
 /// Clearance of points near the surfaces of a scene with this diagonal: above the error of f32 corners and of the
 /// test's rounding, below the size of modelled detail.
-#[must_use]
 pub fn scene_clearance(diagonal: f64) -> f64 {
     SCENE * diagonal
 }
@@ -61,13 +59,11 @@ pub struct SurfacePoint {
 impl SurfacePoint {
     /// Returns the point of a triangle with these barycentric coordinates; `None` if the triangle has no area or does
     /// not exist. `rounding` is the unit roundoff of the caster's arithmetic, for example [`SINGLE`].
-    #[must_use]
     pub fn new(mesh: &Mesh, triangle: u32, weights: DVec3, rounding: f64) -> Option<Self> {
         Self::of(mesh.corners(triangle)?.map(wide), weights, rounding)
     }
 
     /// Like [`Self::new`], for a triangle given by its corners.
-    #[must_use]
     pub fn of([a, b, c]: [DVec3; 3], weights: DVec3, rounding: f64) -> Option<Self> {
         let across = area_vector([a, b, c]);
         let normal = unit(across)?;
@@ -85,14 +81,12 @@ impl SurfacePoint {
     /// ao, ab and ac, three of the cross product and four of the dot product make at most (1 + 2 + 2 + 4) u of the sum
     /// of magnitudes |n|.|ao| <= sqrt(3) |ab| |ac| |ao|: as a length, 16 u |ao| |ab| |ac| / |ab x ac|. Here |ao| is at
     /// most the triangle's size plus `reach`.
-    #[must_use]
     pub fn clearance(&self, reach: f64) -> f64 {
         self.rounding * (2.0 * self.at.abs().element_sum() + 16.0 * self.thinness * (self.size + reach))
     }
 
     /// Returns the point offset from the triangle to the side of `towards`, clear of the test of rays that start there
     /// or, with a `reach`, that end there.
-    #[must_use]
     pub fn lifted(&self, towards: DVec3, reach: f64) -> [f32; 3] {
         let side = if self.normal.dot(towards) < 0.0 { -1.0 } else { 1.0 };
         narrow(self.at + side * self.clearance(reach) * self.normal)
@@ -100,7 +94,6 @@ impl SurfacePoint {
 
     /// Returns the ray to a point of another triangle, clear of both triangles: it hits something before t = 1 if and
     /// only if something lies between the points. `None` if f32 cannot represent its direction.
-    #[must_use]
     pub fn ray_to(&self, other: &Self) -> Option<Ray> {
         let way = other.at - self.at;
         let start = self.lifted(way, 0.0);

@@ -6,7 +6,6 @@ use glam::Vec3;
 use super::best::Best;
 use crate::geom::Mesh;
 
-/// Triangles per packet.
 const LANES: usize = 8;
 
 type Lanes = [f32; LANES];

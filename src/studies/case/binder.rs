@@ -7,26 +7,22 @@ use toml::Spanned;
 
 use super::{CaseError, error::CaseText, value::Number};
 
-/// Replacements for a case's device settings: to run one case on two cards, in two formats, or with two settings of an
-/// open question.
+/// Replacements for a case's device settings, to run one case in several ways.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     /// Replaces `device`, or `shader_model` and `format`. Switches of the case that this device lacks are ignored.
     pub device: Option<Profile>,
-    /// Replaces the format of the pixel registers; other settings of device file and case stay
-    /// ([`Profile::replace_format`]).
+    /// Replaces the format of the pixel registers ([`Profile::replace_format`]).
     pub format: Option<String>,
     /// Switches that are set after the case's.
     pub switches: Vec<(String, String)>,
-    /// Maximum number of instructions that a program may execute per pixel or vertex; replaces the settings of the case
-    /// and of the device.
+    /// Maximum number of instructions of a program per pixel or vertex, in place of the case's and the device's.
     pub step_budget: Option<u32>,
     /// Values of uniforms of the pixel program, as IEEE singles, in place of the case's: one per component of the type.
     pub uniforms: Vec<(String, Vec<u32>)>,
 }
 
 impl Overrides {
-    /// Applies format and switches to a profile.
     pub(super) fn apply(&self, profile: &mut Profile) -> Result<(), CaseError> {
         if let Some(format) = &self.format {
             profile.replace_format(format).map_err(CaseError::from)?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::{Comparison, First, Setup, Side, fate, letters};
+use super::{Comparison, First, Setup, Side, fate, letters, run::switches_json};
 use crate::compare::{FragmentPass, TraceDifference, TraceStage};
 
 /// A comparison with its sides.
@@ -29,7 +29,8 @@ fn pass_json(pass: &FragmentPass) -> Value {
 }
 
 impl ComparedSides<'_> {
-    fn setup(&self) -> &Setup {
+    /// The case on the left side.
+    pub fn setup(&self) -> &Setup {
         self.sides[0].setup
     }
 
@@ -43,13 +44,14 @@ impl ComparedSides<'_> {
     /// The stage as text, and the index of its instruction, if it has one.
     pub fn stage(&self, difference: &TraceDifference) -> (String, Option<usize>) {
         let name = difference.values.first().map_or("nothing", |v| v.name.as_str());
+        let sides = |left: &str, right: &str| format!("{left} on the left, {right} on the right");
         match &difference.stage {
             TraceStage::Vertex { corner } => {
                 (format!("stage: vertices: {name} of corner {corner} of the triangle, before set-up"), None)
             }
             TraceStage::Coverage { left, right } => {
                 let side = |pass: &Option<FragmentPass>| pass.as_ref().map_or("none".to_owned(), pass_text);
-                let sides = format!("{} on the left, {} on the right", side(left), side(right));
+                let sides = sides(&side(left), &side(right));
                 (format!("stage: coverage, from the set-up of triangles: {sides}"), None)
             }
             TraceStage::Input => (format!("stage: interpolation of {name}, before the program"), None),
@@ -60,18 +62,16 @@ impl ComparedSides<'_> {
                 (format!("instruction {index} writes different values of {name}"), Some(*index))
             }
             TraceStage::Mask { index, left, right } => {
-                let sides = format!("`{}` on the left, `{}` on the right", letters(*left), letters(*right));
+                let [left, right] = [left, right].map(|mask| format!("`{}`", letters(*mask)));
+                let sides = sides(&left, &right);
                 (format!("instruction {index} writes other components, by its predicate: {sides}"), Some(*index))
             }
             TraceStage::Flow { left, right } => {
                 let side = |next: &Option<usize>| next.map_or("the end".to_owned(), |i| format!("instruction {i}"));
-                let sides = format!("{} on the left, {} on the right", side(left), side(right));
+                let sides = sides(&side(left), &side(right));
                 (format!("stage: flow control: the next instruction is {sides}"), left.or(*right))
             }
-            TraceStage::Output { instruction } => {
-                let text = format!("stage: results of the program: {name}");
-                (text, *instruction)
-            }
+            TraceStage::Output { instruction } => (format!("stage: results of the program: {name}"), *instruction),
             TraceStage::Test { left, right } => {
                 let sides = format!("the fragment {} on the left and {} on the right", fate(*left), fate(*right));
                 (format!("stage: output tests, after equal results of the program: {sides}"), None)
@@ -104,7 +104,7 @@ impl ComparedSides<'_> {
 
     fn first_json(&self, first: &First) -> Value {
         json!({
-            "draw": { "index": first.draw, "name": self.draw_name() },
+            "draw": { "index": 0, "name": self.draw_name() },
             "pixel": first.pixel,
             "difference": first.difference.as_ref().map(|difference| self.difference_json(difference)),
         })
@@ -154,7 +154,6 @@ impl ComparedSides<'_> {
     }
 }
 
-/// The stage as one word.
 const fn stage_name(stage: &TraceStage) -> &'static str {
     match stage {
         TraceStage::Vertex { .. } => "vertices",
@@ -172,13 +171,11 @@ const fn stage_name(stage: &TraceStage) -> &'static str {
 
 fn side_json(side: &Side<'_>) -> Value {
     let profile = &side.setup.profile;
-    let switches: serde_json::Map<String, Value> =
-        profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
     json!({
         "executor": side.executor.kind().name(),
         "device": profile.name,
         "format": profile.rules.format.to_string(),
-        "switches": switches,
+        "switches": switches_json(profile),
         "left_out": side.setup.left_out,
     })
 }

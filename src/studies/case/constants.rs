@@ -18,7 +18,6 @@ use super::{
 use crate::names::did_you_mean;
 use crate::report::words::counted;
 
-/// Destination of a constant.
 enum ConstantTarget {
     Float(usize),
     Int(usize),

@@ -46,7 +46,6 @@ impl Binder<'_> {
         Ok((profile, model, left_out))
     }
 
-    /// Returns the device named by the case, without switches.
     fn named_by(&self, case: &Case) -> Result<(Profile, Option<Version>), CaseError> {
         match (&case.device, &case.shader_model) {
             (Some(device), None) => Ok((self.named(device)?, None)),
@@ -96,11 +95,9 @@ impl Binder<'_> {
     }
 }
 
-/// Maximum length of a device file, in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Returns the device with this name: one of [`Profile::named`], or, for a name that ends in `.toml`, a device file
-/// ([`Profile::from_device_file`]). Fails if there is no such device; [`DeviceError::File`] if the file cannot be read.
+/// Returns a device of [`Profile::named`], or of a device file if the name ends in `.toml`; fails if there is none.
 pub fn device_named(name: &str) -> Result<Profile, DeviceError> {
     if is_file(name) { read(Path::new(name), name) } else { Profile::named(name) }
 }

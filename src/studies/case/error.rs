@@ -32,7 +32,6 @@ pub enum CaseError {
         #[label("here")]
         span: Option<SourceSpan>,
     },
-    /// A file cannot be read.
     #[error("`{}` cannot be read", path.display())]
     #[diagnostic(code(crossbar::case::unreadable), help("paths in a case are taken from the folder of the case"))]
     Unreadable {
@@ -44,11 +43,9 @@ pub enum CaseError {
         #[label("named here")]
         span: Option<SourceSpan>,
     },
-    /// The device cannot execute the case.
     #[error("the case cannot be drawn: {0}")]
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
     Draw(Box<MachineError>),
-    /// A program did not end within its step budget.
     #[error("the case cannot be drawn: {error}")]
     #[diagnostic(code(crossbar::case::steps), help("{help}"))]
     StepBudget {
@@ -67,7 +64,6 @@ pub enum CaseError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Input(#[from] InputError),
-    /// A shader does not assemble or breaks a rule.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Shader(#[from] ShaderError),
@@ -78,7 +74,6 @@ pub enum CaseError {
 #[derive(Clone, Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages explain the fields")]
 pub enum CaseWarning {
-    /// A warning on the case.
     #[error("{message}")]
     #[diagnostic(code(crossbar::case), severity(Warning), help("{help}"))]
     Case {
@@ -93,7 +88,6 @@ pub enum CaseWarning {
     #[error("`{device}` has {formats}, which {reason}")]
     #[diagnostic(code(crossbar::device), severity(Warning), help("{help}"))]
     Formats { device: String, formats: String, reason: &'static str, help: String },
-    /// A warning on a program.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Shader(ShaderWarning),
@@ -107,55 +101,45 @@ impl From<MachineError> for CaseError {
 
 /// Creates errors with positions in the text of a case.
 #[derive(Clone, Debug)]
-pub(super) struct CaseText {
-    source: Source,
-}
+pub(super) struct CaseText(pub(super) Source);
 
 impl CaseText {
     pub(super) fn new(name: &str, text: &str) -> Self {
-        Self { source: Arc::new(SourceText::new(name, text)) }
+        Self(Arc::new(SourceText::new(name, text)))
     }
 
-    /// Creates errors for another text, to which a case refers.
-    pub(super) fn of(source: Source) -> Self {
-        Self { source }
-    }
-
-    /// Converts an error of the TOML reader, with its message and span.
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
         let message = error.message().trim_end().replace('\n', ", ");
         let message = message.replace("expected u32", &format!("expected a whole number from 0 to {}", u32::MAX));
         CaseError::Schema {
             help: format!("{}docs/cases.md describes the case format", did_you_mean_field(&message)),
             message,
-            source_code: self.source.clone(),
+            source_code: self.0.clone(),
             span: error.span().map(|span| self.clamp(span)),
         }
     }
 
-    /// Creates an error at `span`.
     pub(super) fn wrong(&self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> CaseError {
         CaseError::Schema {
             message: message.into(),
             help: help.into(),
-            source_code: self.source.clone(),
+            source_code: self.0.clone(),
             span: Some(self.clamp(span)),
         }
     }
 
-    /// Creates a warning at `span`.
     pub(super) fn warning(&self, span: Range<usize>, message: String, help: String) -> CaseWarning {
-        CaseWarning::Case { message, help, source_code: self.source.clone(), span: self.clamp(span) }
+        CaseWarning::Case { message, help, source_code: self.0.clone(), span: self.clamp(span) }
     }
 
     /// Creates the error for the unreadable file named by the text at `span`.
     pub(super) fn unreadable(&self, span: Range<usize>, path: PathBuf, source: std::io::Error) -> CaseError {
-        CaseError::Unreadable { path, source, source_code: Some(self.source.clone()), span: Some(self.clamp(span)) }
+        CaseError::Unreadable { path, source, source_code: Some(self.0.clone()), span: Some(self.clamp(span)) }
     }
 
     /// Clamps a span to the text, so that it can be rendered.
     fn clamp(&self, span: Range<usize>) -> SourceSpan {
-        let length = self.source.text().len();
+        let length = self.0.text().len();
         let start = span.start.min(length);
         (start, span.end.clamp(start, length) - start).into()
     }

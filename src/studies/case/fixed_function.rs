@@ -1,50 +1,45 @@
-//! `[state]`: OpenGL's state, which `!!ARBfp1.0` reads as `state.*`.
+//! `[state]`: OpenGL's state, which `!!ARBfp1.0` reads as `state.*`. docs/cases.md describes every field.
 
-use std::{collections::BTreeMap, ops::Range};
+use std::collections::BTreeMap;
 
 use serde::Deserialize;
 use toml::Spanned;
 
 use refsim::{
-    exec::{CheckedProgram, FixedFunctionState, FogState, LightState, MaterialState, MatrixRows},
+    exec::{CheckedProgram, FixedFunctionState, LightState},
     isa::ParameterSource,
 };
 
 use super::{
     CaseError,
     binder::{Binder, register},
-    value::{Exactly, Number},
+    value::{Exactly, Number, Singles},
 };
 
 type FourNumbers = Exactly<Number, 4>;
 type FourRows = Exactly<FourNumbers, 4>;
+/// Values by the numbers of lights, texture units or program matrices.
+type ByNumber<T> = BTreeMap<Spanned<String>, T>;
 
 /// OpenGL's state; everything else has its default.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StateTable {
-    /// Front material.
+pub(super) struct StateTable {
     material: Option<MaterialTable>,
     back_material: Option<MaterialTable>,
-    /// Lights, by number.
     #[serde(default)]
-    light: BTreeMap<Spanned<String>, LightTable>,
-    /// Ambient light of the scene.
+    light: ByNumber<LightTable>,
     ambient: Option<FourNumbers>,
-    /// Environment colors of texture units, by number.
     #[serde(default)]
-    texture_environment: BTreeMap<Spanned<String>, FourNumbers>,
+    texture_environment: ByNumber<FourNumbers>,
     fog: Option<FogTable>,
-    /// Window depth of the near and the far plane.
     depth_range: Option<Exactly<Number, 2>>,
     modelview: Option<FourRows>,
     projection: Option<FourRows>,
-    /// Matrices of texture units, by number.
     #[serde(default)]
-    texture_matrix: BTreeMap<Spanned<String>, FourRows>,
-    /// Program matrices of the application, by number.
+    texture_matrix: ByNumber<FourRows>,
     #[serde(default)]
-    program_matrix: BTreeMap<Spanned<String>, FourRows>,
+    program_matrix: ByNumber<FourRows>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -96,35 +91,35 @@ impl Binder<'_> {
         let mut state = FixedFunctionState::default();
         for (slot, written) in state.materials.iter_mut().zip([&table.material, &table.back_material]) {
             if let Some(written) = written {
-                material(slot, written);
+                colors(&mut slot.colors, [written.ambient, written.diffuse, written.specular]);
+                set(&mut slot.emission, written.emission);
+                set(&mut slot.shininess, written.shininess);
             }
         }
         for (number, written) in &table.light {
             let number = self.number(number, state.lights.len())?;
             self.light(&mut state.lights[number], written)?;
         }
-        self.by_number(&mut state.texture_environment, &table.texture_environment, vector)?;
-        self.by_number(&mut state.texture, &table.texture_matrix, matrix)?;
-        self.by_number(&mut state.program, &table.program_matrix, matrix)?;
-        set(&mut state.ambient, table.ambient.as_ref(), vector);
-        set(&mut state.modelview, table.modelview.as_ref(), matrix);
-        set(&mut state.projection, table.projection.as_ref(), matrix);
-        set(&mut state.depth_range, table.depth_range.as_ref(), |written| written.0.map(Number::single));
-        if let Some(written) = &table.fog {
-            fog(&mut state.fog, written);
+        self.by_number(&mut state.texture_environment, &table.texture_environment)?;
+        self.by_number(&mut state.texture, &table.texture_matrix)?;
+        self.by_number(&mut state.program, &table.program_matrix)?;
+        set(&mut state.ambient, table.ambient);
+        set(&mut state.modelview, table.modelview);
+        set(&mut state.projection, table.projection);
+        set(&mut state.depth_range, table.depth_range);
+        if let Some(fog) = &table.fog {
+            set(&mut state.fog.color, fog.color);
+            set(&mut state.fog.density, fog.density);
+            set(&mut state.fog.start, fog.start);
+            set(&mut state.fog.end, fog.end);
         }
         Ok(Some(Box::new(state)))
     }
 
-    fn by_number<S, T>(
-        &self,
-        slots: &mut [S],
-        written: &BTreeMap<Spanned<String>, T>,
-        value: fn(&T) -> S,
-    ) -> Result<(), CaseError> {
+    fn by_number<T: Singles>(&self, slots: &mut [T::Bits], written: &ByNumber<T>) -> Result<(), CaseError> {
         for (number, written) in written {
             let number = self.number(number, slots.len())?;
-            slots[number] = value(written);
+            slots[number] = written.singles();
         }
         Ok(())
     }
@@ -138,56 +133,29 @@ impl Binder<'_> {
     }
 
     fn light(&self, light: &mut LightState, written: &LightTable) -> Result<(), CaseError> {
-        colors(&mut light.colors, [&written.ambient, &written.diffuse, &written.specular]);
-        set(&mut light.position, written.position.as_ref(), vector);
-        set(&mut light.attenuation, written.attenuation.as_ref(), |three| three.0.map(Number::single));
-        set(&mut light.spot_direction, written.spot_direction.as_ref(), |three| three.0.map(Number::single));
-        set(&mut light.spot_exponent, written.spot_exponent.as_ref(), |n| n.single());
+        colors(&mut light.colors, [written.ambient, written.diffuse, written.specular]);
+        set(&mut light.position, written.position);
+        set(&mut light.attenuation, written.attenuation);
+        set(&mut light.spot_direction, written.spot_direction);
+        set(&mut light.spot_exponent, written.spot_exponent);
         if let Some(cutoff) = &written.spot_cutoff {
-            light.spot_cutoff = self.cutoff(*cutoff.get_ref(), cutoff.span())?;
+            let degrees = cutoff.get_ref().double();
+            if !(0.0..=90.0).contains(&degrees) && degrees != 180.0 {
+                let message = format!("expected a spot cutoff from 0 to 90 degrees, or 180, found {degrees}");
+                return Err(self.place.wrong(cutoff.span(), message, "180 is a light without a spot"));
+            }
+            light.spot_cutoff = cutoff.get_ref().single();
         }
         Ok(())
     }
-
-    fn cutoff(&self, cutoff: Number, span: Range<usize>) -> Result<u32, CaseError> {
-        let degrees = cutoff.double();
-        if (0.0..=90.0).contains(&degrees) || degrees == 180.0 {
-            return Ok(cutoff.single());
-        }
-        let message = format!("expected a spot cutoff from 0 to 90 degrees, or 180, found {degrees}");
-        Err(self.place.wrong(span, message, "180 is a light without a spot"))
-    }
 }
 
-fn material(material: &mut MaterialState, written: &MaterialTable) {
-    colors(&mut material.colors, [&written.ambient, &written.diffuse, &written.specular]);
-    set(&mut material.emission, written.emission.as_ref(), vector);
-    set(&mut material.shininess, written.shininess.as_ref(), |n| n.single());
+fn colors(slots: &mut [[u32; 4]; 3], written: [Option<FourNumbers>; 3]) {
+    slots.iter_mut().zip(written).for_each(|(slot, written)| set(slot, written));
 }
 
-fn fog(fog: &mut FogState, written: &FogTable) {
-    set(&mut fog.color, written.color.as_ref(), vector);
-    set(&mut fog.density, written.density.as_ref(), |n| n.single());
-    set(&mut fog.start, written.start.as_ref(), |n| n.single());
-    set(&mut fog.end, written.end.as_ref(), |n| n.single());
-}
-
-fn colors(slots: &mut [[u32; 4]; 3], written: [&Option<FourNumbers>; 3]) {
-    for (slot, written) in slots.iter_mut().zip(written) {
-        set(slot, written.as_ref(), vector);
-    }
-}
-
-fn set<S, T>(slot: &mut S, written: Option<&T>, value: impl Fn(&T) -> S) {
+fn set<T: Singles>(slot: &mut T::Bits, written: Option<T>) {
     if let Some(written) = written {
-        *slot = value(written);
+        *slot = written.singles();
     }
-}
-
-fn vector(written: &FourNumbers) -> [u32; 4] {
-    written.0.map(Number::single)
-}
-
-fn matrix(written: &FourRows) -> MatrixRows {
-    written.0.map(|row| vector(&row))
 }

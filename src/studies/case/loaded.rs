@@ -5,8 +5,8 @@ use refsim::{
     event::{DrawEvents, Event, TexelObserver},
     exec::ResolvedConstants,
     machine::{
-        AttributeStream, DepthId, DrawCall, Executor, FragmentTrace, Machine, MachineError, ProgramPlace, StepRate,
-        TextureId, TraceBuffers, VertexSource, VertexStreams,
+        AttributeStream, DepthId, DrawCall, Executor, ExecutorKind, FragmentTrace, Machine, MachineError, ProgramPlace,
+        StepRate, TextureId, TraceBuffers, VertexSource, VertexStreams,
     },
     output::{DepthSurface, MAX_TARGETS, WriteMask},
     raster::{ClipSpace, PixelCenter, Vertex},
@@ -23,7 +23,6 @@ pub struct Loaded<'s> {
     targets: Vec<TextureId>,
     depth: Option<DepthId>,
     samplers: Vec<(usize, TextureId, SamplerState)>,
-    /// Values of each attribute register, vertex by vertex.
     streams: Vec<Vec<[u32; 4]>>,
 }
 
@@ -31,19 +30,6 @@ impl<'s> Loaded<'s> {
     /// Uploads textures, creates and clears targets. Fails if the device cannot execute the case.
     pub fn new(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
         Self::on(executor.into().machine(setup.profile.clone())?, setup)
-    }
-
-    /// Like [`Loaded::new`], on a machine that records its log and reports texel reads to the observer. Fails as
-    /// [`Loaded::new`] does.
-    pub fn recording(
-        setup: &'s Setup,
-        executor: impl Into<Executor>,
-        observer: Option<Box<dyn TexelObserver>>,
-    ) -> Result<Self, CaseError> {
-        let mut machine = executor.into().machine(setup.profile.clone())?;
-        machine.record(true);
-        machine.observe_textures(observer);
-        Self::on(machine, setup)
     }
 
     fn on(mut machine: Machine, setup: &'s Setup) -> Result<Self, CaseError> {
@@ -54,14 +40,12 @@ impl<'s> Loaded<'s> {
             machine.clear_target(target, setup.clear)?;
             targets.push(target);
         }
-        let depth = match setup.depth {
-            Some((format, clear, _)) => {
-                let buffer = machine.create_depth(format, width, height)?;
-                machine.clear_depth(buffer, clear)?;
-                Some(buffer)
-            }
-            None => None,
-        };
+        let mut depth = None;
+        if let Some((format, clear, _)) = setup.depth {
+            let buffer = machine.create_depth(format, width, height)?;
+            machine.clear_depth(buffer, clear)?;
+            depth = Some(buffer);
+        }
         let mut samplers = Vec::new();
         for (&slot, bound) in &setup.textures {
             let texture = machine.create_texture(bound.image.clone())?;
@@ -84,20 +68,17 @@ impl<'s> Loaded<'s> {
         draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers)
     }
 
-    /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`]. Fails as [`Loaded::draw`] does,
-    /// and if a pixel lies outside the targets.
+    /// Traces some pixels without drawing ([`Machine::trace_pixels`]); fails for pixels outside the targets.
     pub fn trace(&self, pixels: &[(u32, u32)]) -> Result<Vec<Vec<FragmentTrace>>, CaseError> {
         self.machine.trace_pixels(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// Encodes a trace of some pixels for a GPU in a browser: see [`Machine::trace_buffers`]. Fails as
-    /// [`Loaded::trace`] does.
+    /// Encodes a trace of some pixels for a GPU in a browser: see [`Machine::trace_buffers`].
     pub fn trace_buffers(&self, pixels: &[(u32, u32)]) -> Result<TraceBuffers, CaseError> {
         self.machine.trace_buffers(&self.call(), pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`]. Fails as [`Loaded::draw`]
-    /// does.
+    /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`].
     pub fn corners(&self, instance: usize, triangle: usize) -> Result<Option<[Vertex; 3]>, CaseError> {
         self.machine.corners(&self.call(), instance, triangle).map_err(|error| placed(self.setup, error))
     }
@@ -108,15 +89,36 @@ impl<'s> Loaded<'s> {
         Ok(surfaces?)
     }
 
-    /// Takes the log of the machine; empty if it does not record.
-    pub fn take_log(&mut self) -> Vec<Event> {
-        self.machine.take_log()
-    }
-
     /// Returns the depth buffer, if there is one. Errors: never for a loaded case.
     pub fn depth(&self) -> Result<Option<&DepthSurface>, CaseError> {
         Ok(self.depth.map(|id| self.machine.read_depth(id)).transpose()?)
     }
+}
+
+/// The machine's log of a draw, the input of the timing model: texture uploads, clears, the draw, read-back of targets
+/// and depth buffer. The log is the same for every executor. Fails if the device cannot execute the case.
+pub fn log(setup: &Setup, executor: impl Into<Executor>) -> Result<Vec<Event>, CaseError> {
+    log_of(setup, executor.into(), None)
+}
+
+/// Like [`log`], with an observer of every texel read, on the scalar executor, which is slow.
+pub fn log_observed(setup: &Setup, observer: Box<dyn TexelObserver>) -> Result<Vec<Event>, CaseError> {
+    log_of(setup, ExecutorKind::Scalar.into(), Some(observer))
+}
+
+fn log_of(
+    setup: &Setup,
+    executor: Executor,
+    observer: Option<Box<dyn TexelObserver>>,
+) -> Result<Vec<Event>, CaseError> {
+    let mut machine = executor.machine(setup.profile.clone())?;
+    machine.record(true);
+    machine.observe_textures(observer);
+    let mut loaded = Loaded::on(machine, setup)?;
+    loaded.draw()?;
+    loaded.targets()?;
+    loaded.depth()?;
+    Ok(loaded.machine.take_log())
 }
 
 /// Constants of the pixel program, as instructions read them.
@@ -140,7 +142,6 @@ fn placed(setup: &Setup, error: MachineError) -> CaseError {
     CaseError::StepBudget { error: Box::new(error), help, source_code: text.named_source(), span }
 }
 
-/// Values of each attribute register, vertex by vertex.
 fn streams(setup: &Setup) -> Vec<Vec<[u32; 4]>> {
     match &setup.geometry.vertices {
         Vertices::Transformed(_) => Vec::new(),

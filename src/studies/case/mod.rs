@@ -1,6 +1,6 @@
 //! Cases: one shader, its inputs, its geometry, and the expected results, in one TOML file.
 //!
-//! A case passes through three stages. [`schema`] defines the file format. [`Setup`] binds it to a device: reads files,
+//! A case passes through three stages. `schema` defines the file format. [`Setup`] binds it to a device: reads files,
 //! assembles and checks programs, decodes images, checks names and lengths. [`run`] draws once and evaluates the
 //! probes; [`Loaded`] is the loaded card, and [`compare`] runs a case on two sides. Every error names the file and the
 //! position in it. docs/cases.md describes the format.
@@ -12,16 +12,13 @@ mod device;
 mod error;
 mod fixed_function;
 mod loaded;
-mod log;
-mod probe;
 mod run;
-pub mod schema;
+mod schema;
 mod setup;
 mod sides;
 mod stages;
 mod state;
 mod texels;
-mod trace;
 mod traced;
 mod translated;
 mod value;
@@ -31,16 +28,10 @@ pub use binder::Overrides;
 pub use compared::{ComparedSides, pass_text};
 pub use device::{device_named, meant};
 pub use error::{CaseError, CaseWarning};
-pub use fixed_function::StateTable;
-pub use loaded::Loaded;
-pub use log::{log, log_observed};
-pub use probe::ProbeResult;
-pub use run::{CaseOutcome, ShaderSlots, run};
+pub use loaded::{Loaded, log, log_observed};
+pub use run::{CaseOutcome, run};
 pub use setup::Setup;
 pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
-pub use state::ProbeValue;
+pub use state::{ProbeResult, ProbeValue};
 pub use texels::CaseTexture;
-pub use trace::{PixelTrace, trace};
-pub use traced::{TraceRow, Traced, fate, flag_names, letters};
-pub use value::{Constant, Exactly, Mipmaps, Number, OneOrMany};
-pub use vertices::Vertices;
+pub use traced::{PixelTrace, TraceRow, Traced, fate, flag_names, letters, trace};

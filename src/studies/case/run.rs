@@ -1,17 +1,15 @@
 //! Execution of a case.
 
 use refsim::{
-    check::SlotCount,
-    device::Rates,
+    device::{Profile, Rates},
     event::DrawEvents,
     machine::Executor,
     num::Format,
     texture::{ChannelClass, ChannelValue, Image, SignedTexelMinimum},
 };
-use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::{CaseError, Loaded, ProbeResult, Setup, probe};
+use super::{CaseError, Loaded, ProbeResult, Setup, state};
 use crate::error::InputError;
 use crate::{
     picture::{ChannelUnit, Picture, Rgba, Samples, buffer, exr, png},
@@ -26,23 +24,8 @@ pub struct CaseOutcome {
     pub pictures: Vec<NamedFile>,
     /// Results of the probes, in their order.
     pub probes: Vec<ProbeResult>,
-    /// Event counts of the draw.
-    pub events: DrawEvents,
-    /// Instruction slots of the pixel program.
-    pub slots: ShaderSlots,
-}
-
-/// Instruction slots of the pixel program: the amount of work, not its duration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct ShaderSlots {
-    /// Texture instruction slots per fragment.
-    pub texture: u64,
-    /// Arithmetic instruction slots per fragment.
-    pub arithmetic: u64,
-    /// Sum of both over all shaded fragments.
-    pub total: u64,
-    /// Minimum number of clocks of the pixel pipelines; `None` if the profile has no issue rates.
-    pub cycles: Option<u64>,
+    /// Counts of the draw, by name: its events, then the instruction slots of its pixel program.
+    pub counts: Vec<(&'static str, u64)>,
 }
 
 impl CaseOutcome {
@@ -51,32 +34,17 @@ impl CaseOutcome {
         self.probes.iter().all(|result| result.passed)
     }
 
-    /// Counts of the draw, by name: its events, then the slots of its pixel program.
-    pub fn counts(&self) -> Vec<(&'static str, u64)> {
-        let slots = &self.slots;
-        let mut list = event_counts(&self.events).to_vec();
-        list.extend([
-            ("texture slots a fragment", slots.texture),
-            ("arithmetic slots a fragment", slots.arithmetic),
-            ("shader slots", slots.total),
-        ]);
-        list.extend(slots.cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
-        list
-    }
-
     /// JSON document: the device with its switches, counts, probes.
     pub fn document(&self, setup: &Setup) -> Value {
         let counts: Map<String, Value> =
-            self.counts().into_iter().map(|(name, number)| (name.replace(' ', "_"), number.into())).collect();
+            self.counts.iter().map(|(name, number)| (name.replace(' ', "_"), (*number).into())).collect();
         let profile = &setup.profile;
-        let switches: Map<String, Value> =
-            profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
         json!({
             "title": setup.title,
             "version": env!("CARGO_PKG_VERSION"),
             "device": profile.name,
             "format": profile.rules.format.to_string(),
-            "switches": switches,
+            "switches": switches_json(profile),
             "counts": counts,
             "probes": self.probes.iter().map(ProbeResult::document).collect::<Vec<_>>(),
             "passed": self.passed(),
@@ -84,7 +52,6 @@ impl CaseOutcome {
     }
 }
 
-/// Counts of a draw's events, by name.
 pub(super) fn event_counts(events: &DrawEvents) -> [(&'static str, u64); 15] {
     [
         ("vertices", events.vertices),
@@ -105,6 +72,10 @@ pub(super) fn event_counts(events: &DrawEvents) -> [(&'static str, u64); 15] {
     ]
 }
 
+pub(super) fn switches_json(profile: &Profile) -> Map<String, Value> {
+    profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect()
+}
+
 /// Draws the case. Fails if the device cannot execute the case, or a picture cannot be encoded.
 pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, CaseError> {
     let mut loaded = Loaded::new(setup, executor)?;
@@ -117,27 +88,21 @@ pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, 
         pictures.push(picture_of(&format!("target{index}"), surface, minimum)?);
     }
     if let Some(surface) = depth {
-        let values: Vec<f32> = surface
-            .data()
-            .iter()
-            .map(|&stored| f32::from_bits(surface.format().to_format(stored, Format::FP32)))
-            .collect();
+        let single = |&stored: &u32| f32::from_bits(surface.format().to_format(stored, Format::FP32));
+        let values: Vec<f32> = surface.data().iter().map(single).collect();
         let picture = Picture::new(width, height).with("depth", ChannelUnit::Unknown, Samples::Float(values))?;
         pictures.push(("depth.exr".to_owned(), exr(&picture)?));
     }
-    let answer = |question| probe::answer(question, surfaces[question.target], depth, minimum);
-    Ok(CaseOutcome {
-        pictures,
-        probes: setup.probes.iter().map(answer).collect(),
-        events,
-        slots: slots(shader::slots(&setup.pixel), events.fragments.shaded, &setup.profile.rates),
-    })
-}
-
-fn slots(cost: SlotCount, fragments: u64, rates: &Rates) -> ShaderSlots {
+    let answer = |question| state::answer(question, surfaces[question.target], depth, minimum);
+    let (cost, shaded) = (shader::slots(&setup.pixel), events.fragments.shaded);
     let (texture, arithmetic) = (u64::from(cost.texture), u64::from(cost.arithmetic));
-    let cycles = pipe_cycles(texture, arithmetic, fragments, rates);
-    ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }
+    let mut counts = event_counts(&events).to_vec();
+    counts.push(("texture slots a fragment", texture));
+    counts.push(("arithmetic slots a fragment", arithmetic));
+    counts.push(("shader slots", (texture + arithmetic).saturating_mul(shaded)));
+    let cycles = pipe_cycles(texture, arithmetic, shaded, &setup.profile.rates);
+    counts.extend(cycles.map(|cycles| ("pixel pipe cycles, at least", cycles)));
+    Ok(CaseOutcome { pictures, probes: setup.probes.iter().map(answer).collect(), counts })
 }
 
 /// Minimum number of clocks at the profile's issue rates, if texture and arithmetic slots issue in parallel, every
@@ -166,13 +131,11 @@ fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result
         return Ok((format!("{stem}.png"), bytes));
     }
     let values: Vec<[f32; 4]> = texels.map(|texel| texel.to_format(Format::FP32).map(f32::from_bits)).collect();
-    let plane = |channel: usize| Samples::Float(values.iter().map(|value| value[channel]).collect());
-    let picture = ["R", "G", "B", "A"]
-        .into_iter()
-        .enumerate()
-        .try_fold(Picture::new(width, height), |picture, (channel, name)| {
-            picture.with(name, ChannelUnit::Unknown, plane(channel))
-        })?;
+    let mut picture = Picture::new(width, height);
+    for (channel, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+        let plane = Samples::Float(values.iter().map(|value| value[channel]).collect());
+        picture = picture.with(name, ChannelUnit::Unknown, plane)?;
+    }
     Ok((format!("{stem}.exr"), exr(&picture)?))
 }
 

@@ -32,7 +32,6 @@ use crate::{
     shader::{ShaderError, ShaderText, is_wgsl},
 };
 
-/// Maximum length of a case file, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
 
 /// Case that is ready to be drawn.
@@ -50,36 +49,29 @@ pub struct Setup {
     pub pixel_text: ShaderText,
     /// Vertex program.
     pub vertex: Option<Checked<Program>>,
-    /// Text of the vertex program.
-    pub vertex_text: Option<ShaderText>,
+    pub(crate) vertex_text: Option<ShaderText>,
     /// Constants of the pixel program.
     pub pixel_constants: Constants,
     /// Constants of the vertex program.
     pub vertex_constants: Constants,
     /// Textures by sampler.
     pub textures: BTreeMap<usize, CaseTexture>,
-    /// Bump state of the texture stages.
-    pub bump: [BumpStage; BUMP_STAGES],
-    /// Projected textures of the texture stages.
-    pub projections: [Projection; BUMP_STAGES],
-    /// Geometry to draw.
-    pub geometry: Geometry,
+    pub(crate) bump: [BumpStage; BUMP_STAGES],
+    pub(crate) projections: [Projection; BUMP_STAGES],
+    pub(crate) geometry: Geometry,
     /// Width and height of all targets, in pixels.
     pub size: [u32; 2],
     /// Color targets.
     pub targets: Vec<TexelFormat>,
     /// Clear color of the targets, as IEEE singles.
-    pub clear: [u32; 4],
+    pub(crate) clear: [u32; 4],
     /// Mask of the written channels: red is bit 0.
-    pub write_mask: u8,
+    pub(crate) write_mask: u8,
     /// Depth buffer: format, clear depth (IEEE single), state.
     pub depth: Option<(DepthFormat, u32, DepthState)>,
-    /// Alpha test.
-    pub alpha: Option<AlphaTest>,
-    /// Blending.
-    pub blend: Option<BlendState>,
-    /// Expected results.
-    pub probes: Vec<Probe>,
+    pub(crate) alpha: Option<AlphaTest>,
+    pub(crate) blend: Option<BlendState>,
+    pub(crate) probes: Vec<Probe>,
     /// Warnings about the case.
     pub warnings: Vec<CaseWarning>,
 }
@@ -101,14 +93,11 @@ impl Setup {
             return Self::from_bytes_with(&path.display().to_string(), case.as_bytes(), folder, overrides);
         }
         // Reads no more than the limit: the path may name an endless device file.
-        let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
-            return Err(too_long().into());
-        };
+        let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?.ok_or_else(too_long)?;
         Self::from_bytes_with(&path.display().to_string(), &bytes, folder, overrides)
     }
 
-    /// This case on another device, for which its programs are checked again. Fails if a program violates rules of the
-    /// device.
+    /// This case on another device; fails if a program violates rules of that device.
     pub fn on_device(&self, profile: Profile) -> Result<Self, CaseError> {
         let pixel = self.pixel_text.check((*self.pixel).clone(), &profile)?;
         let vertex = match (&self.vertex, &self.vertex_text) {
@@ -118,8 +107,7 @@ impl Setup {
         Ok(Self { profile, pixel, vertex, ..self.clone() })
     }
 
-    /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`. Fails as
-    /// [`Setup::read`] does.
+    /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`.
     pub fn from_bytes(name: &str, bytes: &[u8], folder: &Path) -> Result<Self, CaseError> {
         Self::from_bytes_with(name, bytes, folder, &Overrides::default())
     }
@@ -188,12 +176,8 @@ impl Binder<'_> {
         // A trial card, whose errors are reported at the positions in the case.
         let mut card = Machine::new(profile.clone(), ExecutorKind::default());
         let (pixel, pixel_text) = self.program(&case.pixel, "pixel", Stage::Pixel, &profile, model)?;
-        let vertex = case
-            .vertex
-            .as_ref()
-            .map(|shader| self.program(shader, "vertex", Stage::Vertex, &profile, None))
-            .transpose()?;
-        let (vertex, vertex_text) = vertex.unzip();
+        let vertex = case.vertex.as_ref().map(|shader| self.program(shader, "vertex", Stage::Vertex, &profile, None));
+        let (vertex, vertex_text) = vertex.transpose()?.unzip();
         let stages = stages::bump(self, &case.bump)?;
         let mut warnings: Vec<CaseWarning> = pixel_text.warnings(&pixel).map(CaseWarning::Shader).collect();
         if let (Some(text), Some(program)) = (&vertex_text, &vertex) {
@@ -273,7 +257,6 @@ impl Binder<'_> {
         answer.map_err(|error| self.place.wrong(span, error.to_string(), help))
     }
 
-    /// Reads, assembles and checks a program.
     fn program(
         &self,
         shader: &Spanned<schema::ShaderSource>,

@@ -68,8 +68,6 @@ pub struct CountDifference {
 /// First difference.
 #[derive(Clone, Debug)]
 pub struct First {
-    /// Index of the draw, from 0. A case has one.
-    pub draw: usize,
     /// Column and row of the first pixel that differs, row by row from the top left.
     pub pixel: [u32; 2],
     /// First difference of its fragments' traces. `None` if the traces are equal although the results of the draws
@@ -88,7 +86,7 @@ impl Comparison {
 /// the targets.
 pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Comparison, CaseError> {
     let mut sides = [DrawnSide::new(left)?, DrawnSide::new(right)?];
-    let events = [sides[0].draw()?, sides[1].draw()?];
+    let events = [sides[0].drawn.draw()?, sides[1].drawn.draw()?];
     let surfaces = surfaces(&sides[0].drawn, &sides[1].drawn)?;
     let [width, height] = left.setup.size;
     let differs = |i: usize| surfaces.iter().any(|surface| surface.map.get(i) == Some(&true));
@@ -121,7 +119,7 @@ pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Compar
         && !matches!(scope, Scope::Pixel(_))
     {
         let (x, y) = place(first);
-        comparison.first = Some(First { draw: 0, pixel: [x, y], difference: None });
+        comparison.first = Some(First { pixel: [x, y], difference: None });
     }
     Ok(comparison)
 }
@@ -140,10 +138,6 @@ impl<'s> DrawnSide<'s> {
         Ok(Self { drawn: load()?, before: load()?, setup: side.setup, constants: constants(side.setup) })
     }
 
-    fn draw(&mut self) -> Result<DrawEvents, CaseError> {
-        self.drawn.draw()
-    }
-
     fn trace<'t>(&'t self, fragments: &'t [FragmentTrace]) -> TraceSide<'t> {
         let program: &Program = &self.setup.pixel;
         TraceSide { program, format: self.setup.profile.rules.format, constants: &self.constants, fragments }
@@ -160,12 +154,10 @@ fn follow(sides: &[DrawnSide<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Co
         let found = first_difference(&sides[0].trace(left), &sides[1].trace(right), &shape);
         if let Some(difference) = found {
             comparison.followed[1] += 1;
-            if comparison.first.is_some() {
-                continue;
+            if comparison.first.is_none() {
+                let difference = Some(from_vertices(sides, difference)?);
+                comparison.first = Some(First { pixel: [x, y], difference });
             }
-            let difference = from_vertices(sides, difference)?;
-            let first = || First { draw: 0, pixel: [x, y], difference: Some(difference) };
-            comparison.first.get_or_insert_with(first);
         }
     }
     Ok(())

@@ -1,18 +1,22 @@
-//! Binding of targets, tests, blending and probes to the emulator's state.
+//! Binding of targets, tests, blending and probes to the emulator's state, and the evaluation of probes.
 
 use std::fmt;
 
 use refsim::{
-    output::{AlphaTest, BlendEquation, BlendState, DepthFormat, DepthState},
-    texture::TexelFormat,
+    num::{Format, to_f64},
+    output::{AlphaTest, BlendEquation, BlendState, DepthFormat, DepthState, DepthSurface},
+    texture::{Image, SignedTexelMinimum, TexelFormat},
 };
+use serde_json::{Value, json};
 use toml::Spanned;
 
-use super::{CaseError, binder::Binder, schema, value::Number};
+use super::{
+    CaseError,
+    binder::Binder,
+    schema,
+    value::{Number, ONE},
+};
 use crate::names::did_you_mean;
-
-/// 1.0 as an IEEE single.
-const ONE: u32 = 0x3f80_0000;
 
 /// Expected value at a pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +52,6 @@ impl fmt::Display for ProbeValue {
     }
 }
 
-/// Binds the formats of the color targets.
 pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Result<Vec<TexelFormat>, CaseError> {
     let names = &target.format.get_ref().0;
     if names.is_empty() || names.len() > refsim::output::MAX_TARGETS {
@@ -70,7 +73,6 @@ pub(super) fn texel_format(
     })
 }
 
-/// Binds the written channels as a mask, red in bit 0.
 pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -> Result<u8, CaseError> {
     let Some(write) = write else { return Ok(0b1111) };
     let mut mask = 0;
@@ -84,7 +86,6 @@ pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -
     Ok(mask)
 }
 
-/// Binds the depth buffer: format, contents, state.
 pub(super) fn depth(binder: &Binder<'_>, depth: &schema::Depth) -> Result<(DepthFormat, u32, DepthState), CaseError> {
     let format = depth.format.as_ref().map_or(Ok(DepthFormat::Unorm24), |format| {
         format.get_ref().parse().map_err(|error: refsim::output::OutputError| {
@@ -111,7 +112,6 @@ fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result
     Err(binder.place.wrong(number.span(), message, "the card accepts no other value"))
 }
 
-/// Binds the alpha test.
 pub(super) fn alpha(binder: &Binder<'_>, alpha: &schema::Alpha) -> Result<AlphaTest, CaseError> {
     let reference = fraction(binder, &alpha.reference, "a reference")?;
     Ok(AlphaTest { function: alpha.test, reference })
@@ -189,4 +189,74 @@ fn expected(binder: &Binder<'_>, probe: &Spanned<schema::Probe>, has_depth: bool
         (None, None, None) => wrong("the probe expects nothing", "write `expected`, `raw` or `depth`"),
         _ => wrong("the probe expects several things at once", "write one probe for each"),
     }
+}
+
+/// Result of a probe.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbeResult {
+    /// The probe.
+    pub probe: Probe,
+    /// Value found.
+    pub found: ProbeValue,
+    /// `true` if the value found is the expected one.
+    pub passed: bool,
+}
+
+impl ProbeResult {
+    /// Converts the result to JSON.
+    pub fn document(&self) -> Value {
+        let found = match &self.found {
+            ProbeValue::Color(channels) => channels.iter().map(|channel| number_json(*channel)).collect(),
+            ProbeValue::Raw(channels) => json!(channels),
+            ProbeValue::Depth(depth) => number_json(*depth),
+        };
+        json!({
+            "pixel": self.probe.pixel,
+            "target": self.probe.target,
+            "expected": self.probe.expected.to_string(),
+            "tolerance": self.probe.tolerance,
+            "found": found,
+            "passed": self.passed,
+        })
+    }
+}
+
+/// Converts a number to JSON; infinity and NaN, which JSON lacks, become strings.
+fn number_json(number: f64) -> Value {
+    if number.is_finite() { number.into() } else { number.to_string().into() }
+}
+
+/// Evaluates a probe on its target, or on the depth buffer.
+pub(super) fn answer(
+    probe: &Probe,
+    target: &Image,
+    depth: Option<&DepthSurface>,
+    minimum: SignedTexelMinimum,
+) -> ProbeResult {
+    let [x, y] = probe.pixel;
+    let close = |expected: f64, found: f64| {
+        expected == found || (expected.is_nan() && found.is_nan()) || (expected - found).abs() <= probe.tolerance
+    };
+    let (found, passed) = match &probe.expected {
+        ProbeValue::Color(expected) => {
+            let found = target.texel(0, 0, y, x, minimum).to_f64();
+            let passed = expected.iter().zip(found).all(|(&expected, found)| close(expected, found));
+            (ProbeValue::Color(found.to_vec()), passed)
+        }
+        ProbeValue::Raw(expected) => {
+            let raw = target.raw(0, 0, y, x);
+            let found: Vec<u32> = target.format().record().stored().iter().map(|channel| channel.code(raw)).collect();
+            let passed = expected.len() <= found.len() && found.starts_with(expected);
+            (ProbeValue::Raw(found), passed)
+        }
+        ProbeValue::Depth(expected) => {
+            // The set-up rejects depth probes without a depth buffer.
+            let found = depth.and_then(|surface| {
+                let stored = surface.get(x, y)?;
+                Some(to_f64(&Format::FP32, surface.format().to_format(stored, Format::FP32)))
+            });
+            (ProbeValue::Depth(found.unwrap_or(f64::NAN)), found.is_some_and(|found| close(*expected, found)))
+        }
+    };
+    ProbeResult { probe: probe.clone(), found, passed }
 }

@@ -140,7 +140,6 @@ fn stored(format: TexelFormat, codes: &[Number]) -> Result<u128, String> {
     Ok(raw)
 }
 
-/// Writes the texels of one level.
 fn fill(
     binder: &Binder<'_>,
     image: &mut Image,

@@ -92,6 +92,6 @@ impl Binder<'_> {
              slots count the textures of the text from 0"
         );
         let message = format!("this reads the texture of slot {slot}, which the case does not have");
-        Err(CaseText::of(text.named_source()).wrong(span.start as usize..span.end as usize, message, help))
+        Err(CaseText(text.named_source()).wrong(span.start as usize..span.end as usize, message, help))
     }
 }

@@ -4,22 +4,41 @@ use std::fmt;
 
 use serde::{
     Deserialize, Deserializer,
-    de::{self, SeqAccess, Visitor},
+    de::{self, SeqAccess, Visitor, value::SeqAccessDeserializer},
 };
 use toml::Spanned;
 
+pub(super) const ONE: u32 = 0x3f80_0000;
+
 /// Number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Number {
-    /// Written as a number; rounded to nearest even if a single is expected.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Number {
     Value(f64),
-    /// Written as a bit pattern.
     Bits(u32),
+}
+
+pub(super) trait Singles: Copy {
+    type Bits;
+    fn singles(self) -> Self::Bits;
+}
+
+impl Singles for Number {
+    type Bits = u32;
+    fn singles(self) -> u32 {
+        self.single()
+    }
+}
+
+impl<T: Singles, const N: usize> Singles for Exactly<T, N> {
+    type Bits = [T::Bits; N];
+    fn singles(self) -> Self::Bits {
+        self.0.map(T::singles)
+    }
 }
 
 impl Number {
     /// Converts to an IEEE single. NaN is the positive quiet one.
-    pub fn single(self) -> u32 {
+    pub(super) fn single(self) -> u32 {
         match self {
             Self::Bits(bits) => bits,
             Self::Value(value) if value.is_nan() => 0x7fc0_0000,
@@ -28,8 +47,7 @@ impl Number {
         }
     }
 
-    /// Converts to a double: exact for a bit pattern.
-    pub fn double(self) -> f64 {
+    pub(super) fn double(self) -> f64 {
         match self {
             Self::Bits(bits) => f64::from(f32::from_bits(bits)),
             Self::Value(value) => value,
@@ -76,8 +94,8 @@ impl<'de> Deserialize<'de> for Number {
 }
 
 /// List of exactly N elements. (serde's arrays accept longer lists and ignore the rest.)
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Exactly<T, const N: usize>(pub [T; N]);
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Exactly<T, const N: usize>(pub(super) [T; N]);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -88,10 +106,9 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
     }
 }
 
-/// One string, or a list of strings.
-#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(from = "OneOrSeveral")]
-pub struct OneOrMany(pub Vec<String>);
+pub(super) struct OneOrMany(pub(super) Vec<String>);
 
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "expected a text or a list of texts")]
@@ -111,7 +128,7 @@ impl From<OneOrSeveral> for OneOrMany {
 
 /// Source of levels 1 and up of a texture.
 #[derive(Clone, Debug)]
-pub enum Mipmaps {
+pub(super) enum Mipmaps {
     /// `"automatic"`: the card generates all of them from level 0.
     Automatic,
     /// Texels of each level.
@@ -134,12 +151,8 @@ impl<'de> Visitor<'de> for MipmapsVisitor {
         Err(E::invalid_value(de::Unexpected::Str(text), &self))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Mipmaps, A::Error> {
-        let mut levels = Vec::new();
-        while let Some(level) = list.next_element()? {
-            levels.push(level);
-        }
-        Ok(Mipmaps::Texels(levels))
+    fn visit_seq<A: SeqAccess<'de>>(self, levels: A) -> Result<Mipmaps, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(levels)).map(Mipmaps::Texels)
     }
 }
 
@@ -149,9 +162,8 @@ impl<'de> Deserialize<'de> for Mipmaps {
     }
 }
 
-/// Value of a constant register.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Constant {
+#[derive(Clone, Debug)]
+pub(super) enum Constant {
     /// `b#`
     Bool(bool),
     /// `c#`, `i#`: four numbers; a named constant has up to four.
@@ -171,12 +183,8 @@ impl<'de> Visitor<'de> for ConstantVisitor {
         Ok(Constant::Bool(value))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Constant, A::Error> {
-        let mut numbers = Vec::new();
-        while let Some(number) = list.next_element()? {
-            numbers.push(number);
-        }
-        Ok(Constant::Vector(numbers))
+    fn visit_seq<A: SeqAccess<'de>>(self, numbers: A) -> Result<Constant, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(numbers)).map(Constant::Vector)
     }
 }
 
@@ -200,7 +208,7 @@ pub(super) fn vector(numbers: &[Number]) -> Option<[u32; 4]> {
     if numbers.is_empty() || numbers.len() > 4 {
         return None;
     }
-    let mut bits = [0, 0, 0, 1.0_f32.to_bits()];
+    let mut bits = [0, 0, 0, ONE];
     for (place, number) in bits.iter_mut().zip(numbers) {
         *place = number.single();
     }

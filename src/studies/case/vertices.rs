@@ -12,33 +12,24 @@ use super::{
     CaseError,
     binder::{Binder, register},
     schema::{self, Convention, Shading},
-    value::{Number, vector},
+    value::{Number, ONE, vector},
 };
 
-/// 1.0 and -1.0 as IEEE singles.
-const ONE: u32 = 0x3f80_0000;
 const MINUS_ONE: u32 = 0xbf80_0000;
-/// Maximum number of vertices of a case.
 const MAX_VERTICES: usize = 1 << 20;
 
-/// Geometry with its state.
 #[derive(Clone, Debug)]
-pub struct Geometry {
-    /// Primitive topology.
-    pub primitive: Primitive,
-    /// Vertices.
-    pub vertices: Vertices,
-    /// Culled side.
-    pub cull: Cull,
+pub(crate) struct Geometry {
+    pub(super) primitive: Primitive,
+    pub(super) vertices: Vertices,
+    pub(super) cull: Cull,
     /// Flat shading: the vertex that provides the colors of a primitive, by convention; `None` for smooth shading.
-    pub flat: Option<Provoking>,
-    /// Convention of pixel centres and clip space.
-    pub convention: Convention,
+    pub(super) flat: Option<Provoking>,
+    pub(super) convention: Convention,
 }
 
-/// Vertices before or after the vertex program.
 #[derive(Clone, Debug)]
-pub enum Vertices {
+pub(super) enum Vertices {
     /// Attributes `v0` to `v15` of each vertex, for the vertex program.
     Attributes(Vec<[[u32; 4]; 16]>),
     /// Input of the rasteriser, if there is no vertex program.
@@ -65,79 +56,76 @@ pub(super) fn bind(
     if written.vertices.len() > MAX_VERTICES {
         return wrong("the geometry has more than 1048576 vertices", "split the case");
     }
-    let reader = Reader { binder, all: &written.attributes, program, pixel_reads_fog };
+    let corners = written.full_screen.then(|| corners(written.convention)).into_iter().flatten();
+    let places = written.vertices.iter().map(CaseVertex::Vertex).chain(corners.map(CaseVertex::Corner));
+    let reader = Reader { binder, geometry, program, pixel_reads_fog };
     let vertices = match program {
-        Some(_) if written.full_screen => {
-            let corners = corners(written.convention).map(|corner| reader.program_corner(corner, geometry));
-            Vertices::Attributes(corners.into_iter().collect::<Result<_, _>>()?)
-        }
-        Some(_) => {
-            Vertices::Attributes(written.vertices.iter().map(|v| reader.attributes(v)).collect::<Result<_, _>>()?)
-        }
-        None if written.full_screen => {
-            let corners = corners(written.convention).map(|corner| reader.plain_corner(corner));
-            Vertices::Transformed(corners.into_iter().collect::<Result<_, _>>()?)
-        }
-        None => Vertices::Transformed(written.vertices.iter().map(|v| reader.plain(v)).collect::<Result<_, _>>()?),
+        Some(_) => Vertices::Attributes(places.map(|place| reader.attributes(place)).collect::<Result<_, _>>()?),
+        None => Vertices::Transformed(places.map(|place| reader.plain(place)).collect::<Result<_, _>>()?),
     };
     if let (true, Some(primitive)) = (written.full_screen, &written.primitive) {
         let help = "leave `primitive` out: the screen is one quad";
         return Err(binder.place.wrong(primitive.span(), "both `primitive` and `full_screen`", help));
     }
-    let primitive = match (&written.primitive, written.full_screen) {
-        (_, true) => Primitive::QuadList,
-        (Some(primitive), false) => *primitive.get_ref(),
-        (None, false) => Primitive::TriangleList,
-    };
+    let usual = if written.full_screen { Primitive::QuadList } else { Primitive::TriangleList };
     let flat = (written.shading == Shading::Flat).then_some(match written.convention {
         Convention::Direct3d => Provoking::First,
         Convention::Opengl => Provoking::Last,
     });
-    Ok(Geometry { primitive, vertices, cull: written.cull, flat, convention: written.convention })
+    Ok(Geometry {
+        primitive: written.primitive.as_ref().map_or(usual, |primitive| *primitive.get_ref()),
+        vertices,
+        cull: written.cull,
+        flat,
+        convention: written.convention,
+    })
 }
 
-/// Position and `t0` of a corner of the screen.
-type Corner = ([u32; 4], [u32; 4]);
+/// A vertex of the case, or position and `t0` of a corner of the screen.
+enum CaseVertex<'a> {
+    Vertex(&'a Spanned<Attributes>),
+    Corner([[u32; 4]; 2]),
+}
 
 /// Corners of the screen in order; `t0` grows with columns and rows, and row 0 is at the top only in Direct3D.
-fn corners(convention: Convention) -> [Corner; 4] {
+fn corners(convention: Convention) -> [[[u32; 4]; 2]; 4] {
     [(0, 0), (ONE, 0), (ONE, ONE), (0, ONE)].map(|(s, t)| {
         let x = if s == 0 { MINUS_ONE } else { ONE };
         let y = if (t == 0) == (convention == Convention::Direct3d) { ONE } else { MINUS_ONE };
-        ([x, y, 0, ONE], [s, t, 0, ONE])
+        [[x, y, 0, ONE], [s, t, 0, ONE]]
     })
 }
 
 struct Reader<'a> {
     binder: &'a Binder<'a>,
-    /// Default attributes of all vertices.
-    all: &'a Attributes,
+    geometry: &'a Spanned<schema::Geometry>,
     program: Option<&'a Program>,
     pixel_reads_fog: bool,
 }
 
-impl Reader<'_> {
-    /// Binds a vertex without a vertex program.
-    fn plain(&self, written: &Spanned<Attributes>) -> Result<Vertex, CaseError> {
-        let mut vertex = Vertex::default();
-        for (name, value) in self.all.iter().chain(written.get_ref()) {
-            self.set(&mut vertex, name, value)?;
-        }
-        if !self.all.contains_key("position") && !written.get_ref().contains_key("position") {
-            let help = "write for example `position = [-1, 1]`: clip space, z 0 and w 1 if left out";
-            return Err(self.binder.place.wrong(written.span(), "the vertex has no `position`", help));
-        }
-        Ok(vertex)
+impl<'a> Reader<'a> {
+    /// Default attributes of all vertices, then the attributes of this one.
+    fn all(&self, place: &CaseVertex<'a>) -> impl Iterator<Item = (&'a String, &'a Spanned<Vec<Number>>)> {
+        let own = if let CaseVertex::Vertex(written) = place { Some(written.get_ref()) } else { None };
+        self.geometry.get_ref().attributes.iter().chain(own.into_iter().flatten())
     }
 
-    fn plain_corner(&self, (position, t0): Corner) -> Result<Vertex, CaseError> {
-        let mut vertex = Vertex { position, ..Vertex::default() };
-        vertex.texcoords[0] = t0;
-        for (name, value) in self.all {
-            if name == "position" {
+    fn plain(&self, place: CaseVertex<'a>) -> Result<Vertex, CaseError> {
+        let mut vertex = Vertex::default();
+        let position = self.all(&place).find(|(name, _)| *name == "position");
+        match (&place, position) {
+            (CaseVertex::Vertex(written), None) => {
+                let help = "write for example `position = [-1, 1]`: clip space, z 0 and w 1 if left out";
+                return Err(self.binder.place.wrong(written.span(), "the vertex has no `position`", help));
+            }
+            (CaseVertex::Corner(_), Some((_, value))) => {
                 let help = "the corners of a full-screen quad have fixed positions";
                 return Err(self.binder.place.wrong(value.span(), "both `position` and `full_screen`", help));
             }
+            (CaseVertex::Corner(corner), None) => [vertex.position, vertex.texcoords[0]] = *corner,
+            (CaseVertex::Vertex(_), Some(_)) => {}
+        }
+        for (name, value) in self.all(&place) {
             self.set(&mut vertex, name, value)?;
         }
         Ok(vertex)
@@ -145,59 +133,44 @@ impl Reader<'_> {
 
     fn set(&self, vertex: &mut Vertex, name: &str, value: &Spanned<Vec<Number>>) -> Result<(), CaseError> {
         let bits = self.bits(value)?;
-        match (name, name.bytes().next()) {
-            ("position", _) => vertex.position = bits,
-            ("fog", _) if !self.pixel_reads_fog => {
-                let message = "`fog`, but the pixel program reads no fog coordinate";
-                let help =
-                    "leave it out, or read it as `f[FOGC]` or `fragment.fogcoord`: fixed-function fog is not emulated";
-                return Err(self.binder.place.wrong(value.span(), message, help));
-            }
-            ("fog", _) => vertex.fog = bits[0],
-            (_, Some(b'v')) if register(name, 2).is_some() => {
-                vertex.colors[register(name, 2).unwrap_or_default()] = bits;
-            }
-            (_, Some(b't')) if register(name, 8).is_some() => {
-                vertex.texcoords[register(name, 8).unwrap_or_default()] = bits;
-            }
-            _ => {
-                let message = format!("expected position, v0, v1, t0 to t7 or fog, found `{name}`");
-                let help = "without [vertex], the pixel program gets the vertices";
-                return Err(self.binder.place.wrong(value.span(), message, help));
-            }
+        let numbered =
+            |letter: char, count| Some(name).filter(|name| name.starts_with(letter)).and_then(|n| register(n, count));
+        if name == "position" {
+            vertex.position = bits;
+        } else if let Some(color) = numbered('v', 2) {
+            vertex.colors[color] = bits;
+        } else if let Some(set) = numbered('t', 8) {
+            vertex.texcoords[set] = bits;
+        } else if name != "fog" {
+            let message = format!("expected position, v0, v1, t0 to t7 or fog, found `{name}`");
+            let help = "without [vertex], the pixel program gets the vertices";
+            return Err(self.binder.place.wrong(value.span(), message, help));
+        } else if !self.pixel_reads_fog {
+            let message = "`fog`, but the pixel program reads no fog coordinate";
+            let help =
+                "leave it out, or read it as `f[FOGC]` or `fragment.fogcoord`: fixed-function fog is not emulated";
+            return Err(self.binder.place.wrong(value.span(), message, help));
+        } else {
+            vertex.fog = bits[0];
         }
         Ok(())
     }
 
-    /// Binds a vertex for the vertex program.
-    fn attributes(&self, written: &Spanned<Attributes>) -> Result<[[u32; 4]; 16], CaseError> {
+    fn attributes(&self, place: CaseVertex<'a>) -> Result<[[u32; 4]; 16], CaseError> {
         let mut registers = [[0, 0, 0, ONE]; 16];
-        for (name, value) in self.all.iter().chain(written.get_ref()) {
-            let number = self.attribute(name, value.span())?;
-            registers[number] = self.bits(value)?;
+        for (name, value) in self.all(&place) {
+            registers[self.attribute(name, value.span())?] = self.bits(value)?;
+        }
+        if let CaseVertex::Corner([position, t0]) = place {
+            registers[self.attribute("position", self.geometry.span())?] = position;
+            // Only a program that declares texture coordinates receives them.
+            if let Some(number) = self.declared("t0") {
+                registers[number] = t0;
+            }
         }
         Ok(registers)
     }
 
-    fn program_corner(
-        &self,
-        (position, t0): Corner,
-        geometry: &Spanned<schema::Geometry>,
-    ) -> Result<[[u32; 4]; 16], CaseError> {
-        let mut registers = [[0, 0, 0, ONE]; 16];
-        for (name, value) in self.all {
-            let number = self.attribute(name, value.span())?;
-            registers[number] = self.bits(value)?;
-        }
-        registers[self.attribute("position", geometry.span())?] = position;
-        // Only a program that declares texture coordinates receives them.
-        if let Some(number) = self.declared("t0") {
-            registers[number] = t0;
-        }
-        Ok(registers)
-    }
-
-    /// Input register for an attribute's name.
     fn attribute(&self, name: &str, span: std::ops::Range<usize>) -> Result<usize, CaseError> {
         let direct = if name.starts_with('v') { register(name, 16) } else { None };
         direct.or_else(|| self.declared(name)).ok_or_else(|| {
@@ -207,7 +180,6 @@ impl Reader<'_> {
         })
     }
 
-    /// Register that the program declares for a usage.
     fn declared(&self, name: &str) -> Option<usize> {
         let usage = match name {
             "position" => Usage::Position(0),

@@ -4,10 +4,15 @@ pub mod number;
 pub mod one_of;
 mod size;
 
-pub use size::{BadSize, Size};
+pub use size::Size;
 
 use crate::geom::exact::Sides;
 use one_of::{OneOf, one_of};
+
+/// The values that were given, or the usual ones.
+pub fn or<T: Clone>(given: &[T], usual: &[T]) -> Vec<T> {
+    if given.is_empty() { usual.to_vec() } else { given.to_vec() }
+}
 
 /// Values of `--sides`: the sides of a face that can be hit.
 pub fn sides() -> OneOf<Sides> {

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use crate::io::{NumberError, parse_f32, parse_f64, to_f32};
+use crate::io::{NumberError, parse_f32, parse_f64};
 
 /// A whole number in a range.
 pub fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
@@ -25,26 +25,17 @@ pub fn finite(text: &str) -> Result<f64, String> {
 
 /// A finite number above 0.
 pub fn positive(text: &str) -> Result<f64, String> {
-    finite(text).and_then(|x| if x > 0.0 { Ok(x) } else { Err(format!("expected a number above 0, found `{text}`")) })
+    require(finite(text)?, |x| x > 0.0, "above 0", text)
 }
 
 /// A finite number of at least 0.
 pub fn not_negative(text: &str) -> Result<f64, String> {
-    finite(text)
-        .and_then(|x| if x >= 0.0 { Ok(x) } else { Err(format!("expected a number not below 0, found `{text}`")) })
+    require(finite(text)?, |x| x >= 0.0, "not below 0", text)
 }
 
 /// A number above 0 and below 1.
 pub fn share(text: &str) -> Result<f64, String> {
-    let number = finite(text)?;
-    let is_share = number > 0.0 && number < 1.0;
-    if is_share { Ok(number) } else { Err(format!("expected a number above 0 and below 1, found `{text}`")) }
-}
-
-/// A number of at least 0 that fits single precision.
-pub fn not_negative_single(text: &str) -> Result<f64, String> {
-    let number = not_negative(text)?;
-    to_f32(number).map(|_| number).map_err(|error| wrong(error, text))
+    require(finite(text)?, |x| x > 0.0 && x < 1.0, "above 0 and below 1", text)
 }
 
 /// A finite number in single precision.
@@ -71,9 +62,10 @@ pub fn three_finite(text: &str) -> Option<[f64; 3]> {
     numbers?.try_into().ok()
 }
 
-/// A point in space, in double precision.
-pub fn place(text: &str) -> Result<[f64; 3], String> {
-    three_finite(text).ok_or_else(|| format!("expected three numbers as X,Y,Z, found `{text}`"))
+fn require(number: f64, is_right: fn(f64) -> bool, expected: &str, text: &str) -> Result<f64, String> {
+    Some(number)
+        .filter(|number| is_right(*number))
+        .ok_or_else(|| format!("expected a number {expected}, found `{text}`"))
 }
 
 fn wrong(error: NumberError, text: &str) -> String {

@@ -11,8 +11,7 @@ use strum::{EnumMessage, IntoEnumIterator};
 #[derive(Clone)]
 pub struct OneOf<T>(Vec<(PossibleValue, T)>);
 
-/// The variants of an enum with the names that `strum` gives them. The help of a variant is the first paragraph of its
-/// documentation.
+/// The variants of an enum by their `strum` names; their help is the first paragraph of their documentation.
 pub fn variants<T: IntoEnumIterator + EnumMessage>() -> OneOf<T> {
     let named = |value: T| {
         let name = value.get_serializations().first()?;

@@ -14,22 +14,20 @@ pub struct Size {
     pub height: u32,
 }
 
-/// Error for text that is not a size.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected a size as `512x512`, each side 1 to {LONGEST}, found `{0}`")]
-pub struct BadSize(String);
-
 impl FromStr for Size {
-    type Err = BadSize;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, BadSize> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let side = |digits: &str| {
             let plain = digits.bytes().all(|byte| byte.is_ascii_digit());
             digits.parse().ok().filter(|side| plain && (1..=LONGEST).contains(side))
         };
         text.split_once(['x', 'X'])
             .and_then(|(width, height)| Some(Self { width: side(width)?, height: side(height)? }))
-            .ok_or_else(|| BadSize(text.chars().take(40).collect()))
+            .ok_or_else(|| {
+                let found: String = text.chars().take(40).collect();
+                format!("expected a size as `512x512`, each side 1 to {LONGEST}, found `{found}`")
+            })
     }
 }
 

@@ -3,7 +3,6 @@
 use serde_json::Value;
 
 use super::digits::{self, Quantity};
-use super::fold::Folded;
 
 /// Cell of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +32,35 @@ pub struct Figure {
     pub quantity: Quantity,
     /// Mark after the number, for example `*`; usually empty.
     pub mark: &'static str,
+}
+
+/// Cell that replaces folded rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Folded {
+    /// Noun for the rows, singular and plural: `switch`, `switches`.
+    pub rows: [&'static str; 2],
+    /// Common property of these rows and the row above, such as `the same bits`.
+    pub same: &'static str,
+    /// Name of the row above.
+    pub first: String,
+    /// Names of the folded rows.
+    pub names: Vec<String>,
+}
+
+impl Folded {
+    /// Number of folded rows and their common property: `17 switches: the same bits`.
+    pub fn text(&self) -> String {
+        let rows = self.rows[usize::from(self.names.len() != 1)];
+        format!("{} {rows}: {}", self.names.len(), self.same)
+    }
+
+    /// Sentence with the names of the folded rows, for the note below the table.
+    pub fn note(&self) -> String {
+        let mut same = self.same.chars();
+        let capital = same.next().map(|first| first.to_ascii_uppercase()).into_iter();
+        let same: String = capital.chain(same).collect();
+        format!("{same} as {}: {}", self.first, self.names.join(", "))
+    }
 }
 
 impl Cell {
@@ -112,7 +140,6 @@ impl Cell {
         }
     }
 
-    /// Returns the mark of a number, if it has one.
     pub(super) const fn mark(&self) -> Option<&'static str> {
         match self {
             Self::Real(figure) if !figure.mark.is_empty() => Some(figure.mark),

@@ -13,7 +13,6 @@ use super::visible::{is_hidden, visible_line};
 const WIDTH: usize = 80;
 /// Minimum number of characters before a label in a truncated line.
 const BEFORE: usize = 20;
-/// Mark of truncation.
 const CUT: &str = "...";
 /// Maximum number of lines shown of a label; a longer label shows only its first line.
 const LINES: usize = 8;
@@ -22,7 +21,6 @@ const LINES: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Excerpt {
     piece: SourceText,
-    /// Number of lines before the excerpt.
     first_line: usize,
     /// Per label: its position in the excerpt, and its column in the whole text, from 0, in characters.
     columns: Vec<(usize, usize)>,

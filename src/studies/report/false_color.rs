@@ -2,6 +2,8 @@
 
 use colorous::{Gradient, MAGMA, RED_BLUE};
 
+use super::NamedPicture;
+use super::digits::{Quantity, shown};
 use crate::picture::{RgbImage, rgb8};
 
 /// Colors of values that are not finite; the gradients contain neither.
@@ -24,6 +26,24 @@ pub fn signed(width: u32, values: &[f64], scale: f64) -> RgbImage {
 /// not finite. Below the picture, a color bar runs from 0 on the left to 1 on the right.
 pub fn magnitude(width: u32, values: &[f64]) -> RgbImage {
     with_bar(width, values, (MAGMA, NOT_FINITE_MAGNITUDE), |value| value)
+}
+
+/// Pictures `LABEL-error` of signed relative errors, as by [`signed`] and all on one scale; none if all errors are 0.
+/// `caption` writes a caption from a label and from the ends of the scale in percent.
+pub fn errors(
+    width: u32,
+    errors: &[(&str, impl AsRef<[f64]>)],
+    caption: impl Fn(&str, &str) -> String,
+) -> Vec<NamedPicture> {
+    let finite = errors.iter().flat_map(|(_, error)| error.as_ref()).filter(|error| error.is_finite());
+    let scale = finite.fold(0.0, |most: f64, error| most.max(error.abs()));
+    let ends = shown(100.0 * scale, Quantity::Percent);
+    let picture = |(label, error): &(&str, _)| {
+        let error: &[f64] = AsRef::as_ref(error);
+        let caption = caption(label, &ends) + not_finite(error);
+        NamedPicture::new(format!("{label}-error"), signed(width, error, scale), caption)
+    };
+    if scale == 0.0 { Vec::new() } else { errors.iter().map(picture).collect() }
 }
 
 fn with_bar(

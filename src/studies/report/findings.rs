@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 
 use super::palette::Color;
 use super::summary::{SummaryLine, TallyEntry, Tone};
-use super::{Chart, NamedPicture, Provenance, Table};
-use crate::picture::Picture;
+use super::{Chart, Provenance, Scale, Series, Table};
+use crate::picture::{Picture, RgbImage};
 
 /// File of an output folder: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
@@ -77,8 +77,7 @@ impl FoundTable {
         Self { field: Some(name), ..self }
     }
 
-    /// Folds rows with the results of an earlier row ([`Table::folded`]) on the page and in print; CSV and document
-    /// keep all rows.
+    /// Folds rows as [`Table::folded`] does on the page and in print; CSV and document keep all rows.
     #[must_use]
     pub fn folded(
         self,
@@ -102,6 +101,24 @@ impl FoundTable {
     }
 }
 
+/// Picture with its file name and caption.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPicture {
+    /// File name without folder and extension.
+    pub name: String,
+    /// Picture in display encoding.
+    pub image: RgbImage,
+    /// Caption; it is also the alternative text.
+    pub caption: String,
+}
+
+impl NamedPicture {
+    /// Creates a picture with its name and caption.
+    pub fn new(name: impl Into<String>, image: RgbImage, caption: impl Into<String>) -> Self {
+        Self { name: name.into(), image, caption: caption.into() }
+    }
+}
+
 /// Chart with its file name and caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedChart {
@@ -111,6 +128,15 @@ pub struct NamedChart {
     pub chart: Chart,
     /// Caption.
     pub caption: String,
+}
+
+impl NamedChart {
+    /// Creates a chart of lines over a logarithmic vertical axis, with its title and the labels of both axes.
+    pub fn logarithmic(name: &str, labels: [&str; 3], (x_scale, lines): (Scale, Vec<Series>), caption: &str) -> Self {
+        let [title, x, y] = labels.map(str::to_owned);
+        let chart = Chart { title, x, y, x_scale, y_scale: Scale::Logarithmic, lines, ..Chart::default() };
+        Self { name: name.to_owned(), chart, caption: caption.to_owned() }
+    }
 }
 
 /// Findings of a study. [`Findings::heading`] and similar methods append to the page, from top to bottom; `keep_*`
@@ -147,8 +173,7 @@ impl Findings {
         self.conclusion.push(sentence.into());
     }
 
-    /// Appends a count to the tally below the conclusion, with the name of the counted things in the singular and the
-    /// plural.
+    /// Appends a count to the tally below the conclusion, with its noun in the singular and the plural.
     pub fn tally(&mut self, count: u64, [one, many]: [&str; 2], tone: Tone) {
         let what = if count == 1 { one } else { many };
         self.tally.push(TallyEntry { count, what: what.to_owned(), tone });
@@ -268,11 +293,6 @@ impl Findings {
     /// Sentences of the conclusion.
     pub fn conclusions(&self) -> &[String] {
         &self.conclusion
-    }
-
-    /// Counts of the tally.
-    pub fn tallied(&self) -> &[TallyEntry] {
-        &self.tally
     }
 
     /// Tables that the command prints, except those without rows.

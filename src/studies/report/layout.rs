@@ -18,7 +18,6 @@ const LONG_WORD: usize = 24;
 /// Width between two columns: a rule and a blank on each side.
 const RULE: usize = 3;
 
-/// Column of a table, as text.
 pub(super) struct Column {
     heading: String,
     /// Cells, each with `true` if it is a number: numbers are right-aligned at their decimal points.

@@ -3,7 +3,6 @@
 /// Red, green, blue in sRGB.
 pub type Color = [u8; 3];
 
-/// Color scheme of a page; [`LIGHT`] and [`DARK`] follow the reader's setting.
 pub(super) struct Theme {
     pub(super) paper: Color,
     pub(super) ink: Color,

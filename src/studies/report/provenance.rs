@@ -8,7 +8,7 @@ use sha2::{Digest as _, Sha256};
 use crate::picture::PictureNotes;
 
 /// Everything required to reproduce a result. No time and no machine name: the same run writes the same bytes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Provenance {
     /// Version of the program.
     pub version: String,
@@ -27,14 +27,7 @@ pub struct Provenance {
 impl Provenance {
     /// Creates the provenance of a result of this version of the program.
     pub fn new(command: impl Into<String>) -> Self {
-        Self {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            command: command.into(),
-            profiles: Vec::new(),
-            switches: Vec::new(),
-            seed: None,
-            inputs: Vec::new(),
-        }
+        Self { version: env!("CARGO_PKG_VERSION").to_owned(), command: command.into(), ..Self::default() }
     }
 
     /// Converts to the notes of a picture file.

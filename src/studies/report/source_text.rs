@@ -9,7 +9,6 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 pub struct SourceText {
     name: String,
     text: String,
-    /// Start of each line, in bytes.
     starts: Vec<usize>,
     /// `true` if the text is ASCII: columns then equal bytes.
     ascii: bool,

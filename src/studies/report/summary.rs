@@ -3,7 +3,8 @@
 use std::fmt;
 
 /// Evaluation of an outcome in a tally.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum Tone {
     /// Desirable.
     Good,
@@ -21,15 +22,8 @@ pub enum Tone {
 
 impl Tone {
     /// CSS class.
-    pub(super) const fn class(self) -> &'static str {
-        match self {
-            Self::Good => "good",
-            Self::Fair => "fair",
-            Self::Neutral => "neutral",
-            Self::Excused => "excused",
-            Self::Odd => "odd",
-            Self::Bad => "bad",
-        }
+    pub(super) fn class(self) -> &'static str {
+        self.into()
     }
 }
 

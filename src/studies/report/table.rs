@@ -1,11 +1,10 @@
-//! Tables.
+//! Tables, and the folding of rows whose results equal an earlier row's.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value, json};
 
-use super::cell::Cell;
-use super::fold::{self, Folded};
+use super::cell::{Cell, Folded};
 use super::layout::{Column, within};
 use super::not_encoded;
 use super::visible::visible_line;
@@ -17,7 +16,6 @@ pub struct Table {
     title: String,
     headings: Vec<String>,
     rows: Vec<Vec<Cell>>,
-    /// Names of rows in links, by their indices.
     names: BTreeMap<usize, String>,
 }
 
@@ -33,6 +31,19 @@ impl Table {
         Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
 
+    /// Adds rows, each as [`Table::push`] does.
+    #[must_use]
+    pub fn with<R: IntoIterator<Item = Cell>>(mut self, rows: impl IntoIterator<Item = R>) -> Self {
+        rows.into_iter().for_each(|row| self.push(row));
+        self
+    }
+
+    /// Creates an empty table; after the columns, separated by blanks, every label adds `LABEL_r`, `_g` and `_b`.
+    pub fn with_colors<'a>(title: &str, columns: &str, labels: impl IntoIterator<Item = &'a str>) -> Self {
+        let colors = labels.into_iter().flat_map(|label| ["r", "g", "b"].map(|channel| format!("{label}_{channel}")));
+        Self::new(title, &columns.split(' ').map(str::to_owned).chain(colors).collect::<Vec<_>>())
+    }
+
     /// Adds a row; missing cells are empty, surplus ones are dropped.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();
@@ -40,14 +51,12 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// Adds a row with a name for links to it. The name must be unique among all tables of a page and contain no
-    /// blanks.
+    /// Adds a row with a name for links: unique among all tables of a page, and without blanks.
     pub fn push_named(&mut self, name: String, row: impl IntoIterator<Item = Cell>) {
         self.names.insert(self.rows.len(), name);
         self.push(row);
     }
 
-    /// Name of a row in links, if it has one.
     pub(super) fn name(&self, row: usize) -> Option<&str> {
         self.names.get(&row).map(String::as_str)
     }
@@ -72,8 +81,7 @@ impl Table {
         self.headings.iter().map(|heading| visible_line(&heading.replace('_', " ")).trim().to_owned()).collect()
     }
 
-    /// Column names for programs: the words of each heading in letters, digits and single underscores, with `%` as
-    /// `percent`.
+    /// Column names for programs: words of letters and digits joined by underscores, with `%` as `percent`.
     pub fn keys(&self) -> Vec<String> {
         let word = |word: &str| word.replace('%', "percent");
         let words = |heading: &String| {
@@ -123,7 +131,7 @@ impl Table {
             return self.clone();
         }
         let mut table = Self { rows: Vec::new(), names: BTreeMap::new(), ..self.clone() };
-        for (row, others) in fold::groups(first) {
+        for (row, others) in groups(first) {
             table.push(self.rows[row].iter().cloned());
             if !others.is_empty() {
                 let names = others.into_iter().map(&called).collect();
@@ -163,8 +171,7 @@ impl Table {
         String::from_utf8(bytes).map_err(|error| not_encoded("CSV", error))
     }
 
-    /// Converts the rows to a JSON array of objects with [`Table::keys`]; `marked` lists the columns whose numbers have
-    /// a mark, if there are any.
+    /// Converts the rows to JSON objects with [`Table::keys`]; `marked` lists columns whose numbers have a mark.
     pub fn json(&self) -> Value {
         let keys = self.keys();
         let row = |row: &Vec<Cell>| {
@@ -178,4 +185,17 @@ impl Table {
         };
         Value::Array(self.rows.iter().map(row).collect())
     }
+}
+
+const FEWEST: usize = 2;
+
+/// Returns the rows to show, in order, each with the rows folded into it: at least [`FEWEST`] later rows with equal
+/// results. `first[i]` is the first row with the result of row i.
+fn groups(first: &[usize]) -> Vec<(usize, Vec<usize>)> {
+    let same = |row: usize| -> Vec<usize> { (row + 1..first.len()).filter(|other| first[*other] == row).collect() };
+    let folds = |row: &usize| same(first[*row]).len() >= FEWEST;
+    (0..first.len())
+        .filter(|row| first[*row] == *row || !folds(row))
+        .map(|row| (row, if first[row] == row && folds(&row) { same(row) } else { Vec::new() }))
+        .collect()
 }

@@ -10,7 +10,6 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// Process id of the single process.
 const PROCESS: u32 = 1;
 
 /// Event with a duration.
@@ -54,7 +53,6 @@ pub struct Trace {
     pub about: Map<String, Value>,
 }
 
-/// Event of the format.
 #[derive(Serialize)]
 #[serde(tag = "ph")]
 enum Event<'a> {

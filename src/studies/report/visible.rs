@@ -22,42 +22,36 @@ pub const fn is_hidden(c: char) -> bool {
 
 /// Escapes text of several lines: line ends stay, all other [`is_hidden`] characters become escapes such as `\u{1b}`.
 pub fn visible(text: &str) -> Cow<'_, str> {
-    escaped(text, |c| c != '\n' && is_hidden(c))
+    escaped(text, |c| c != '\n' && is_hidden(c), |shown, c| shown.extend(c.escape_default()))
 }
 
 /// Escapes text for a single line: line ends are escaped too.
 pub fn visible_line(text: &str) -> Cow<'_, str> {
-    escaped(text, is_hidden)
+    escaped(text, is_hidden, |shown, c| shown.extend(c.escape_default()))
 }
 
 /// Escapes the hidden characters of a JSON document with JSON's own escapes, such as `\u001b`. Readers get the same
 /// text: in a finished document, hidden characters other than line ends occur only inside strings.
 pub fn visible_json(document: &str) -> Cow<'_, str> {
-    let hidden = |c: char| c != '\n' && is_hidden(c);
-    if !document.contains(hidden) {
-        return Cow::Borrowed(document);
-    }
-    let mut shown = String::with_capacity(document.len() + 16);
-    for c in document.chars() {
-        if hidden(c) {
+    escaped(
+        document,
+        |c| c != '\n' && is_hidden(c),
+        |shown, c| {
             for unit in c.encode_utf16(&mut [0; 2]) {
                 // Writing to a string cannot fail.
                 write!(shown, "\\u{unit:04x}").ok();
             }
-        } else {
-            shown.push(c);
-        }
-    }
-    Cow::Owned(shown)
+        },
+    )
 }
 
-fn escaped(text: &str, hidden: impl Fn(char) -> bool + Copy) -> Cow<'_, str> {
+fn escaped(text: &str, hidden: impl Fn(char) -> bool + Copy, escape: impl Fn(&mut String, char)) -> Cow<'_, str> {
     if !text.contains(hidden) {
         return Cow::Borrowed(text);
     }
     let mut shown = String::with_capacity(text.len() + 16);
     for c in text.chars() {
-        if hidden(c) { shown.extend(c.escape_default()) } else { shown.push(c) }
+        if hidden(c) { escape(&mut shown, c) } else { shown.push(c) }
     }
     Cow::Owned(shown)
 }

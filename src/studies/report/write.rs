@@ -1,13 +1,12 @@
 //! Encoding of findings as files: tables, pictures, charts, document and page.
 
-use super::findings::{Findings, NamedFile};
-use super::{NamedPicture, Provenance, page};
+use super::findings::{Findings, NamedFile, NamedPicture};
+use super::{Provenance, page};
 use crate::error::InputError;
 use crate::picture::{PictureNotes, exr_with_notes, png_with_notes};
 
 impl Findings {
-    /// Encodes all files of the output folder, ending with `study.json` and `index.html`, and takes the additional
-    /// files out of the findings. Fails if an encoder fails.
+    /// Encodes all files of the output folder, and takes the additional files out of the findings.
     pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, InputError> {
         let notes = PictureNotes { world_to_camera: self.world_to_camera, ..provenance.notes() };
         let encoded = |found: &NamedPicture| png_with_notes(&found.image, &notes);

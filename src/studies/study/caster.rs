@@ -1,7 +1,5 @@
 //! `--caster`: the ray caster of a command, the host's octree or the Ray Engine on a card.
 
-use std::str::FromStr;
-
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::Executor;
@@ -43,12 +41,12 @@ pub struct CasterOptions {
     caster_format: Vec<String>,
 
     /// Octree of the engine: cells of more triangles are divided, up to a depth of 20 [default: 8,10]
-    #[arg(long, value_name = "TRIANGLES,DEPTH")]
-    octree: Option<CountPair>,
+    #[arg(long, value_name = "TRIANGLES,DEPTH", value_parser = pair)]
+    octree: Option<[u32; 2]>,
 
     /// Minimum and maximum number of triangles of a cell that the card tests [default: 5,15]
-    #[arg(long, value_name = "LEAST,MOST")]
-    pass_triangles: Option<CountPair>,
+    #[arg(long, value_name = "LEAST,MOST", value_parser = pair)]
+    pass_triangles: Option<[u32; 2]>,
 
     /// Rays per pass on the card; the host tests the rays of cells that fewer rays meet [default: 64]
     #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=65536))]
@@ -77,18 +75,9 @@ fn readback(text: &str) -> Result<Readback, String> {
 }
 
 /// Two numbers, the first at least 1.
-#[derive(Clone, Copy, Debug)]
-struct CountPair([u32; 2]);
-
-impl FromStr for CountPair {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let pair = text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
-        pair.filter(|pair| pair[0] > 0)
-            .map(Self)
-            .ok_or_else(|| format!("expected two numbers as in 8,10; found `{text}`"))
-    }
+fn pair(text: &str) -> Result<[u32; 2], String> {
+    let pair = text.split_once(',').and_then(|(a, b)| Some([a.trim().parse().ok()?, b.trim().parse().ok()?]));
+    pair.filter(|pair| pair[0] > 0).ok_or_else(|| format!("expected two numbers as in 8,10; found `{text}`"))
 }
 
 impl CasterOptions {
@@ -138,10 +127,10 @@ impl CasterOptions {
             };
         }
         let mut parameters = EngineParameters::default();
-        if let &Some(CountPair([most_triangles, most_depth])) = octree {
+        if let &Some([most_triangles, most_depth]) = octree {
             parameters.octree = OctreeParameters { most_triangles: most_triangles as usize, most_depth };
         }
-        if let &Some(CountPair([least, most])) = pass_triangles {
+        if let &Some([least, most]) = pass_triangles {
             parameters.triangles = least as usize..=most as usize;
         }
         if parameters.octree.most_depth > 20 || parameters.triangles.is_empty() {
@@ -154,15 +143,11 @@ impl CasterOptions {
             let (executor, parameters) = (executor.clone(), parameters.clone());
             CasterChoice::Engine(Box::new(EngineChoice { card, executor, parameters }))
         };
-        let device = caster_device.as_deref();
-        if caster_format.is_empty() {
-            return Ok(vec![engine(Configuration::device(device.unwrap_or("ideal-fp32"))?)]);
-        }
-        let of_format = |format: &String| match device {
-            Some(device) => Ok(engine(Configuration::device_in_format(device, format)?)),
-            None => Ok(engine(Configuration::format(format)?)),
+        let cards = match (caster_device, &caster_format[..]) {
+            (None, []) => vec![Configuration::device("ideal-fp32")?],
+            (device, formats) => Configuration::each(device.as_slice(), formats)?,
         };
-        caster_format.iter().map(of_format).collect()
+        Ok(cards.into_iter().map(engine).collect())
     }
 }
 
@@ -298,11 +283,10 @@ impl OpenEngine<'_> {
         rays: &[Ray],
         differs: impl Fn(Option<Hit>, Option<NearestHit>) -> bool,
     ) -> Result<Vec<Option<Hit>>, CastError> {
-        let failed = |error: Box<dyn std::error::Error + Send + Sync>| CastError(error);
-        let hits = self.engine.trace(rays).map_err(|error| failed(error.into()))?;
+        let hits = self.engine.trace(rays).map_err(|error| CastError(error.into()))?;
         let log = self.engine.take_log();
         if let (Some(rates), Some(card)) = (&self.rates, &mut self.record.card) {
-            *card += makespan(&log, rates).map_err(|error| failed(error.into()))?;
+            *card += makespan(&log, rates).map_err(|error| CastError(error.into()))?;
         }
         if let (Some(exact), Some(differing)) = (&self.exact, &mut self.record.differing) {
             for (rays, hits) in rays.chunks(JUDGED_AT_ONCE).zip(hits.chunks(JUDGED_AT_ONCE)) {

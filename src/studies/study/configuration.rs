@@ -4,8 +4,8 @@ use refsim::device::{DeviceError, Profile};
 
 use crate::case::device_named;
 
-/// Switches that only affect generated mip levels. Studies whose cards generate none omit them.
-const MIPMAP_SWITCHES: [&str; 1] = ["mipmap-rounding"];
+/// Switch that only affects generated mip levels. Studies whose cards generate none omit it.
+const MIPMAP_SWITCH: &str = "mipmap-rounding";
 
 /// Device configuration of a study's row.
 #[derive(Clone, Debug)]
@@ -45,9 +45,20 @@ impl Configuration {
         Ok(configuration)
     }
 
-    /// Returns the configuration of a device, then one configuration for each other value of each of its open switches,
-    /// with one switch changed at a time. Switches of generated mip levels are left out. Fails if there is no such
-    /// device.
+    /// Creates the configurations of every device in every format: of the devices as they are if there are no formats,
+    /// and of devices without limits if there are no devices. Fails as [`Self::device_in_format`] does.
+    pub fn each(devices: &[String], formats: &[String]) -> Result<Vec<Self>, DeviceError> {
+        match (devices, formats) {
+            (_, []) => devices.iter().map(|device| Self::device(device)).collect(),
+            ([], _) => formats.iter().map(|format| Self::format(format)).collect(),
+            _ => {
+                let pairs = devices.iter().flat_map(|device| formats.iter().map(move |format| (device, format)));
+                pairs.map(|(device, format)| Self::device_in_format(device, format)).collect()
+            }
+        }
+    }
+
+    /// Returns the configuration of a device, then those of [`Self::under_each_switch`].
     pub fn device_under_each_switch(name: &str) -> Result<Vec<Self>, DeviceError> {
         Self::device(name)?.under_each_switch()
     }
@@ -61,7 +72,7 @@ impl Configuration {
     /// at a time; switches of generated mip levels are left out. Fails if a switch rejects one of its own values.
     pub fn under_each_switch(self) -> Result<Vec<Self>, DeviceError> {
         let mut all = vec![self.clone()];
-        for switch in self.profile.switches().iter().filter(|s| !MIPMAP_SWITCHES.contains(&s.name.as_str())) {
+        for switch in self.profile.switches().iter().filter(|s| s.name != MIPMAP_SWITCH) {
             for value in switch.values.iter().filter(|v| **v != switch.current) {
                 let mut turned = self.clone();
                 turned.profile.set_switch(&switch.name, value)?;

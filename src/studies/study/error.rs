@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
+use miette::{Diagnostic, LabeledSpan, SourceCode};
 use refsim::device::DeviceError;
 
 use crate::error::InputError;
@@ -13,6 +13,7 @@ use crate::shader::ShaderError;
 ///
 /// A library's error that is a diagnostic is shown unchanged. Others have a code that names the failed step of the
 /// study. [`Self::downcast_ref`] returns the library's error.
+#[derive(Debug)]
 pub struct StudyError(Box<ErrorParts>);
 
 #[derive(Debug, Default)]
@@ -88,12 +89,6 @@ impl StudyError {
     }
 }
 
-impl fmt::Debug for StudyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(&self.0, f)
-    }
-}
-
 impl fmt::Display for StudyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.0.sentence, &self.0.cause) {
@@ -121,14 +116,6 @@ impl Diagnostic for StudyError {
         self.0.help.as_ref().map(|help| Box::new(help) as _).or_else(|| self.shown()?.help())
     }
 
-    fn severity(&self) -> Option<Severity> {
-        self.shown()?.severity()
-    }
-
-    fn url<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.shown()?.url()
-    }
-
     fn source_code(&self) -> Option<&dyn SourceCode> {
         self.shown()?.source_code()
     }
@@ -139,10 +126,6 @@ impl Diagnostic for StudyError {
 
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
         self.shown()?.related()
-    }
-
-    fn diagnostic_source(&self) -> Option<&dyn Diagnostic> {
-        self.shown()?.diagnostic_source()
     }
 }
 

@@ -87,40 +87,18 @@ pub(super) struct GlossyModel {
 }
 
 impl GlossyModel {
-    fn card<'a>(
-        &'a self,
-        profile: &Profile,
-        executor: &Executor,
-        options: &PrtCardOptions,
-    ) -> Result<PrtCard<'a>, StudyError> {
-        let Self { vertices, clustering, basis, vectors } = self;
-        let (channels, vectors) = (1, *vectors);
-        let transfer = CompressedTransfer { vertices, clustering, basis, channels, vectors };
-        PrtCard::new(profile.clone(), executor.clone(), transfer, options).map_err(no_cpca_card)
-    }
-
-    /// Draws the model, and returns the colors of pixels.
+    /// Draws the model.
     pub(super) fn draw(
         &self,
         light: &HarmonicLight,
         (profile, executor): (&Profile, &Executor),
         view: &MeshView,
         options: &PrtCardOptions,
-    ) -> Result<Vec<[f64; 3]>, StudyError> {
-        let mut card = self.card(profile, executor, options)?;
-        Ok(card.view_texels(light, view).map_err(no_cpca_card)?.colors())
-    }
-
-    /// Like `draw`, but also models the time of the frame.
-    pub(super) fn timed(
-        &self,
-        light: &HarmonicLight,
-        (profile, executor): (&Profile, &Executor),
-        view: &MeshView,
-        options: &PrtCardOptions,
     ) -> Result<Drawn, StudyError> {
-        let mut card = self.card(profile, executor, options)?;
-        let (texels, log) = card.logged_view(light, view).map_err(no_cpca_card)?;
+        let Self { vertices, clustering, basis, vectors } = self;
+        let transfer = CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: *vectors };
+        let card = PrtCard::new(profile.clone(), executor.clone(), transfer, options);
+        let (texels, log) = card.and_then(|mut card| card.logged_view(light, view)).map_err(no_cpca_card)?;
         let host = host_of_section_7().map_err(FrameTimeError::from)?;
         Ok((texels.colors(), frame_time(profile, &log, &host).ok().map(|time| time.frame)))
     }

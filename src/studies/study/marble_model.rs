@@ -1,7 +1,5 @@
 //! A marble model with subsurface scattering, drawn by a card: a small input for studies.
 
-use std::fmt;
-
 use refsim::device::Profile;
 use refsim::machine::Executor;
 
@@ -26,12 +24,6 @@ pub(super) struct MarbleModel {
     textures: LinkTextures,
     /// Index of refraction.
     pub(super) eta: f64,
-}
-
-impl fmt::Debug for MarbleModel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("MarbleModel").field("model", &self.model).finish_non_exhaustive()
-    }
 }
 
 impl MarbleModel {

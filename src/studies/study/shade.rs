@@ -43,18 +43,15 @@ impl<'a> TeapotShader<'a> {
         // u belongs to b, v to c, w to a. If a ray misses its reported triangle, its weights are clamped to the
         // triangle's border.
         let sign = if crossing.n_dot_d < 0.0 { 1.0 } else { -1.0 };
-        let barycentric = area_weights(weights.map(|x| (x * sign).max(0.0)));
+        let weights = weights.map(|x| (x * sign).max(0.0));
+        let sum = weights.element_sum();
+        let barycentric = if sum > 0.0 { weights / sum } else { DVec3::splat(1.0 / 3.0) };
         let indices = self.mesh.triangles()[triangle as usize];
         let corners = barycentric.to_array().into_iter().zip(indices);
         let normal = unit_or_zero(corners.map(|(weight, index)| weight * self.normals[index as usize]).sum());
         let view = unit_or_zero(-direction);
         light(if normal.dot(view) < 0.0 { -normal } else { normal }, view)
     }
-}
-
-fn area_weights(w: DVec3) -> DVec3 {
-    let sum = w.element_sum();
-    if sum > 0.0 { w / sum } else { DVec3::splat(1.0 / 3.0) }
 }
 
 /// Radiance from a key light from above, a fill light from the eye, and a highlight.

@@ -114,9 +114,8 @@ impl FactoredTransfer<'_> {
         (0..Segmentation::Quarters.count()).filter_map(|segment| self.segment(segment).transpose())
     }
 
-    /// Computes a segment; `None` if no vertex sees part of it. The bits do not depend on the number of threads. Fails
-    /// with [`InputError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere. Panics if
-    /// there is no such segment.
+    /// Computes a segment; `None` if no vertex sees part of it. The bits do not depend on the number of threads. Panics
+    /// if there is no such segment.
     pub fn segment(&self, segment: usize) -> Result<Option<TransferSegment>, InputError> {
         require(self.rows > 0, "the number of rows", "at least 1", 0.0)?;
         check(self.vertices, self.maps.vertices())?;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bi_scale::bicluster::{Bicluster, Biclustering};
 use crate::bi_scale::directions::LocalDirections;
-use crate::bi_scale::matrix::{EntryValues, MatrixEntry, SparseMatrix};
+use crate::bi_scale::matrix::{MOST_FRACTION_BITS, MatrixEntry, SparseMatrix};
 use crate::error::InputError;
 use crate::io::{NpzReader, NpzWriter, WriteError, write_file};
 use crate::transfer::file::kind::{begin_reading, begin_writing, bytes_of, contradiction};
@@ -67,11 +67,7 @@ pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputErr
     for (field, found, expected) in [
         ("rows", shape.rows, 1..=u32::MAX as usize),
         ("columns", shape.columns, 1..=u32::MAX as usize),
-        (
-            "bits behind the point",
-            shape.fraction_bits.unwrap_or(0) as usize,
-            0..=EntryValues::MOST_FRACTION_BITS as usize,
-        ),
+        ("bits behind the point", shape.fraction_bits as usize, 0..=MOST_FRACTION_BITS as usize),
     ] {
         if !expected.contains(&found) {
             let expected = format!("{} to {}", expected.start(), expected.end());
@@ -92,25 +88,24 @@ pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, InputErr
 struct Shape {
     rows: usize,
     columns: usize,
-    fraction_bits: Option<u32>,
+    fraction_bits: u32,
 }
 
 impl BiScaleFile {
-    /// The numbers that entries of the matrix, or else of its biclusters, represent.
-    pub fn values(&self) -> Option<&EntryValues> {
-        let of_biclusters = || self.biclusters.as_ref().map(Biclustering::values);
-        self.matrix.as_ref().map(SparseMatrix::values).or_else(of_biclusters)
+    /// Values are multiples of 2 to the power of minus this; `None` for a file without matrix and biclusters.
+    pub fn fraction_bits(&self) -> Option<u32> {
+        self.shapes().next().map(|shape| shape.fraction_bits)
     }
 
     fn shapes(&self) -> impl Iterator<Item = Shape> {
         let of_matrix = self.matrix.as_ref().map(|matrix| Shape {
             rows: matrix.rows(),
             columns: matrix.columns(),
-            fraction_bits: matrix.values().fraction_bits(),
+            fraction_bits: matrix.fraction_bits(),
         });
         let of_biclusters = self.biclusters.as_ref().map(|biclusters| {
             let [rows, columns] = biclusters.matrix_size();
-            Shape { rows, columns, fraction_bits: biclusters.values().fraction_bits() }
+            Shape { rows, columns, fraction_bits: biclusters.fraction_bits() }
         });
         [of_matrix, of_biclusters].into_iter().flatten()
     }
@@ -118,8 +113,7 @@ impl BiScaleFile {
     /// The first inconsistency between the parts: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, String, String)> {
         let mut shapes = self.shapes();
-        let unit = |shape: Shape| shape.fraction_bits.map_or("no unit".to_owned(), |bits| format!("2^-{bits}"));
-        let say = |shape: Shape| format!("{} x {} in {}", shape.rows, shape.columns, unit(shape));
+        let say = |shape: Shape| format!("{} x {} in 2^-{}", shape.rows, shape.columns, shape.fraction_bits);
         let Some(shape) = shapes.next() else {
             return Some(("contents", "a matrix or biclusters".to_owned(), "neither".to_owned()));
         };
@@ -138,38 +132,25 @@ impl BiScaleFile {
     }
 }
 
-/// Reads `indices` and `data` of a number of entries; values are integers in units of the matrix, or floats.
 fn entries(
     arrays: &mut NpzReader<'_>,
     [indices, data]: [&str; 2],
     count: usize,
-    fraction_bits: Option<u32>,
-) -> Result<(EntryValues, Vec<MatrixEntry>), InputError> {
+) -> Result<Vec<MatrixEntry>, InputError> {
     let indices: Vec<u32> = arrays.integers(indices, &[count])?;
-    let (values, numbers) = match fraction_bits {
-        Some(bits) if !arrays.has_floats(data) => (EntryValues::units(bits), arrays.integers(data, &[count])?),
-        _ => {
-            let numbers = arrays.doubles(data, &[count])?;
-            let values = EntryValues::table(fraction_bits, numbers.iter().copied());
-            let entries = numbers.iter().map(|&number| values.entry(number).unwrap_or(0)).collect();
-            (values, entries)
-        }
-    };
-    let entry = |(index, value)| MatrixEntry { index, value };
-    Ok((values, indices.into_iter().zip(numbers).map(entry).collect()))
+    let values: Vec<i32> = arrays.integers(data, &[count])?;
+    Ok(indices.into_iter().zip(values).map(|(index, value)| MatrixEntry { index, value }).collect())
 }
 
 fn matrix(arrays: &mut NpzReader<'_>, shape: Shape, count: usize) -> Result<SparseMatrix, InputError> {
     let begins: Vec<u32> = arrays.integers("indptr", &[shape.rows + 1])?;
-    let (values, entries) = entries(arrays, ["indices", "data"], count, shape.fraction_bits)?;
-    if values.table_len().is_some() && shape.fraction_bits.is_some() {
-        return Err(arrays.refuse("data", "integers of the matrix's unit", "floats"));
-    }
+    let entries = entries(arrays, ["indices", "data"], count)?;
     let refused = |reason: String| arrays.refuse("matrix", "rows in order", reason);
     if begins[0] != 0 || begins[shape.rows] as usize != count {
         return Err(refused(format!("rows from {} to {} of {count}", begins[0], begins[shape.rows])));
     }
-    let mut matrix = SparseMatrix::of_values(shape.columns, values).map_err(|reason| refused(reason.to_string()))?;
+    let mut matrix =
+        SparseMatrix::new(shape.columns, shape.fraction_bits).map_err(|reason| refused(reason.to_string()))?;
     for row in begins.windows(2) {
         let row = entries.get(row[0] as usize..row[1] as usize).ok_or_else(|| refused(format!("{row:?}")))?;
         matrix.push_row(row).map_err(|reason| refused(reason.to_string()))?;
@@ -185,7 +166,7 @@ fn read_biclusters(
     let row_counts: Vec<u32> = arrays.integers("r", &[sizes.count])?;
     let column_counts: Vec<u32> = arrays.integers("l", &[sizes.count])?;
     let rows: Vec<u32> = arrays.integers("j", &[sizes.rows])?;
-    let (values, columns) = entries(arrays, ["k", "t"], sizes.columns, shape.fraction_bits)?;
+    let columns = entries(arrays, ["k", "t"], sizes.columns)?;
     let sum = |counts: &[u32]| counts.iter().fold(0_u64, |sum, &count| sum + u64::from(count));
     let sums = [sum(&row_counts), sum(&column_counts)];
     if sums != [rows.len() as u64, columns.len() as u64] {
@@ -193,10 +174,10 @@ fn read_biclusters(
         return Err(arrays.refuse("r and l", expected, format!("{} and {}", sums[0], sums[1])));
     }
     let (mut rows, mut columns) = (&rows[..], &columns[..]);
-    let mut biclusters = Biclustering::empty(shape.rows, shape.columns, values);
+    let mut biclusters = Biclustering::empty(shape.rows, shape.columns, shape.fraction_bits);
     for (r, l) in row_counts.into_iter().zip(column_counts) {
         let bicluster = Bicluster { rows: front(&mut rows, r as usize), columns: front(&mut columns, l as usize) };
-        if !bicluster.fits([shape.rows, shape.columns], biclusters.values()) {
+        if !bicluster.fits([shape.rows, shape.columns]) {
             let expected = "rows and columns of the matrix in increasing order, values other than 0";
             return Err(arrays.refuse("bicluster", expected, format!("others in bicluster {}", biclusters.len())));
         }
@@ -233,7 +214,7 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
             Some(*end)
         });
         arrays.integers("indptr", &[matrix.rows() + 1], std::iter::once(0).chain(ends))?;
-        write_entries(&mut arrays, ["indices", "data"], matrix.values(), matrix.nonzeros(), rows().flatten())?;
+        write_entries(&mut arrays, ["indices", "data"], matrix.nonzeros(), rows().flatten())?;
     }
     if let (Some(found), Some(sizes)) = (&file.biclusters, biclusters) {
         let rows = || (0..found.len()).map(|number| found.rows_of(number));
@@ -241,7 +222,7 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
         arrays.integers("r", &[sizes.count], rows().map(|rows| rows.len() as u32))?;
         arrays.integers("l", &[sizes.count], columns().map(|columns| columns.len() as u32))?;
         arrays.integers("j", &[sizes.rows], rows().flatten().copied())?;
-        write_entries(&mut arrays, ["k", "t"], found.values(), sizes.columns, columns().flatten())?;
+        write_entries(&mut arrays, ["k", "t"], sizes.columns, columns().flatten())?;
     }
     arrays.finish()
 }
@@ -249,13 +230,9 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
 fn write_entries<'a>(
     arrays: &mut NpzWriter<'_>,
     [indices, data]: [&str; 2],
-    values: &EntryValues,
     count: usize,
     entries: impl Iterator<Item = &'a MatrixEntry> + Clone,
 ) -> io::Result<()> {
     arrays.integers(indices, &[count], entries.clone().map(|entry| entry.index))?;
-    match values.table_len() {
-        None => arrays.integers(data, &[count], entries.map(|entry| entry.value)),
-        Some(_) => arrays.doubles(data, &[count], entries.map(|entry| values.value(entry.value))),
-    }
+    arrays.integers(data, &[count], entries.map(|entry| entry.value))
 }

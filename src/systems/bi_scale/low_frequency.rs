@@ -8,7 +8,7 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::error::{InputError, ensure};
 use crate::sphere::{MAX_ORDER, function_count, harmonics};
 use crate::transfer::LocalFrame;
-use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
+use crate::transfer::grid::{LIGHT_TEXELS, texel_center, texel_solid_angle};
 
 /// Number of cells along an edge of one local direction's part of the square, for integrals over its part of the
 /// hemisphere.
@@ -120,21 +120,14 @@ struct TexelHarmonics {
 
 impl TexelHarmonics {
     fn new(order: usize) -> Result<Self, InputError> {
-        ensure!(
-            (1..=MAX_ORDER).contains(&order),
-            "expected an order of harmonics of 1 to {}, found {order}",
-            MAX_ORDER
-        );
+        let fits = (1..=MAX_ORDER).contains(&order);
+        ensure!(fits, "expected an order of harmonics of 1 to {MAX_ORDER}, found {order}");
         let count = function_count(order);
         let mut functions = vec![0.0; LIGHT_TEXELS * count];
         for (texel, y) in functions.chunks_exact_mut(count).enumerate() {
             harmonics(order, texel_center(texel), y);
         }
-        let solid_angle = |texel| {
-            let [_, row, column] = face_row_column(texel, LIGHT_SIDE);
-            LIGHT_MAP.solid_angle(column, row)
-        };
-        Ok(Self { count, functions, solid_angles: (0..LIGHT_TEXELS).map(solid_angle).collect() })
+        Ok(Self { count, functions, solid_angles: (0..LIGHT_TEXELS).map(texel_solid_angle).collect() })
     }
 
     fn of(&self, texel: usize) -> &[f64] {

@@ -2,8 +2,8 @@
 
 use super::bicluster::{Bicluster, Biclustering, start};
 use super::matrix::{MatrixEntry, SparseMatrix};
-use super::shade::{ShadedPixel, TexelSamples};
-use super::texture::{BidirectionalTexture, ViewSamples};
+use super::shade::ShadedPixel;
+use super::texture::{BidirectionalTexture, GridSamples};
 
 /// A submatrix T_b: its rows, and its columns with the values t of the bicluster.
 #[derive(Clone, Debug)]
@@ -58,15 +58,12 @@ impl Submatrix {
         values().max_by(|&a, &b| count(a).cmp(&count(b)).then(b.total_cmp(&a)))
     }
 
-    /// Converts to a bicluster; values are appended to `numbers` and encoded as their indices.
-    fn bicluster(mut self, numbers: &mut Vec<f64>) -> Bicluster {
+    /// Converts to a bicluster, with values in units of 2^-`fraction_bits`.
+    fn bicluster(mut self, fraction_bits: u32) -> Bicluster {
         self.rows.sort_unstable();
         self.columns.sort_unstable_by_key(|&(column, _)| column);
-        let entry = |(column, t): (usize, f64)| {
-            let value = i32::try_from(numbers.len()).expect("fewer numbers than 2^31");
-            numbers.push(t);
-            MatrixEntry { index: column as u32, value }
-        };
+        let units = |t: f64| (t * f64::from(1_u32 << fraction_bits)) as i32;
+        let entry = |(column, t): (usize, f64)| MatrixEntry { index: column as u32, value: units(t) };
         Bicluster {
             rows: self.rows.iter().map(|&row| row as u32).collect(),
             columns: self.columns.into_iter().map(entry).collect(),
@@ -77,8 +74,8 @@ impl Submatrix {
 /// Algorithm 1 with every operation tried, each by equation 9. Each operation scans the whole matrix, so the function
 /// is for small matrices.
 pub fn biclusters(matrix: &SparseMatrix, seed: u64) -> Biclustering {
-    let (mut left, mut numbers) = (dense(matrix), Vec::new());
-    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
+    let mut left = dense(matrix);
+    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
     // Line 2: until no element is left.
     while let Some((row, column)) = choose(&left, seed, found.len()) {
         // Lines 5 and 6.
@@ -93,9 +90,9 @@ pub fn biclusters(matrix: &SparseMatrix, seed: u64) -> Biclustering {
                 left[row][*column] -= t;
             }
         }
-        found.push(&submatrix.bicluster(&mut numbers));
+        found.push(&submatrix.bicluster(matrix.fraction_bits()));
     }
-    found.with_numbers(matrix.values().fraction_bits(), |index| numbers[index as usize])
+    found
 }
 
 fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
@@ -161,8 +158,8 @@ pub fn multiply(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
 /// each, and over the triangle's three corners.
 pub fn radiance(texture: &BidirectionalTexture, local: &[[f64; 3]], pixel: &ShadedPixel) -> [f64; 3] {
     let lights = texture.light().directions().len();
-    let views = ViewSamples::around(texture.view(), pixel.view);
-    let texels = TexelSamples::around(texture.size(), pixel.place);
+    let views = GridSamples::of_view(texture.view(), pixel.view);
+    let texels = GridSamples::of_texels(texture.size(), pixel.place);
     let mut radiance = [0.0; 3];
     for light in 0..lights {
         for (channel, radiance) in radiance.iter_mut().enumerate() {

@@ -46,8 +46,7 @@ pub struct Gather {
 }
 
 impl Gather {
-    /// Creates the lists of biclusters. Values beyond the range of f32 become infinite, and products with them infinite
-    /// or NaN.
+    /// Creates the lists of biclusters.
     pub fn new(biclusters: &Biclustering) -> Self {
         let [rows, columns] = biclusters.matrix_size();
         // Sums with equal numbers of terms are adjacent, so that loops have equal lengths.

@@ -13,7 +13,7 @@ use super::directions::LocalDirections;
 use super::matrix::{MatrixEntry, SparseMatrix};
 use crate::bi_scale::matrix::size_error;
 use crate::error::InputError;
-use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
+use crate::transfer::grid::{LIGHT_TEXELS, texel_center, texel_solid_angle};
 use crate::transfer::light::CubeLight;
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{LocalFrame, Vertices};
@@ -82,9 +82,5 @@ pub fn side_by_side([red, green, blue]: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
 /// one number per texel.
 pub fn light_vector(radiance: &[f64]) -> Vec<f64> {
     assert_eq!(radiance.len(), LIGHT_TEXELS, "radiance of each texel");
-    let solid_angle = |texel: usize| {
-        let [_, row, column] = face_row_column(texel, LIGHT_SIDE);
-        LIGHT_MAP.solid_angle(column, row)
-    };
-    radiance.iter().enumerate().map(|(texel, radiance)| radiance * solid_angle(texel)).collect()
+    radiance.iter().enumerate().map(|(texel, radiance)| radiance * texel_solid_angle(texel)).collect()
 }

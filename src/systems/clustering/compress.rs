@@ -43,8 +43,7 @@ pub struct Compression {
     pub steps: Vec<CpcaStep>,
 }
 
-/// Compresses a signal. `observe` is called after each step. Fails with [`CpcaError`] if the options do not fit the
-/// signal, or principal components cannot be computed.
+/// Compresses a signal. `observe` is called after each step.
 pub fn compress(
     signal: &Signal,
     options: &CpcaOptions,

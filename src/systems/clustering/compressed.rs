@@ -21,7 +21,6 @@ pub struct AffineSubspace {
 }
 
 impl AffineSubspace {
-    /// A mean without vectors.
     pub(super) fn at(mean: Vec<f64>) -> Self {
         Self { mean, vectors: Vec::new(), eigenvalues: Vec::new() }
     }

@@ -23,7 +23,6 @@ pub(super) struct Fitted {
 }
 
 impl Fitted {
-    /// A subspace of only a mean, for points without error.
     pub(super) fn at(mean: Vec<f64>) -> Self {
         Self { subspace: AffineSubspace::at(mean), left: Vec::new() }
     }
@@ -108,14 +107,12 @@ struct Principal {
 }
 
 impl Principal {
-    /// Decomposes C^T C.
     fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, InputError> {
         let (eigen, kept) = leading(products, count, level)?;
         let vectors = eigen.vectors.rows().take(kept).flatten().copied().collect();
         Ok(Self { values: eigen.values, vectors })
     }
 
-    /// Decomposes C C^T.
     fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, InputError> {
         let (eigen, kept) = leading(products, count, residuals.level)?;
         let length = residuals.mean.len();

@@ -18,9 +18,7 @@ use crate::linalg::Matrix;
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardSystem {
     packing: Packing,
-    /// Number of patches.
     size: usize,
-    /// Texels per block.
     block: usize,
     matrix: Texels,
     emittance: Texels,
@@ -54,10 +52,7 @@ impl CardSystem {
 
     /// Creates a system of zeros, for measuring time, which does not depend on values.
     pub fn zeros(packing: Packing, size: usize, block: usize, limit: usize) -> Result<Self, InputError> {
-        let [width, rows] = match packing {
-            Packing::Rgb => [size; 2],
-            Packing::Luminance => [size.div_ceil(4), 4 * size.div_ceil(4)],
-        };
+        let [width, rows] = packing.matrix_texels(size);
         let matrix = packing::filled("a matrix", [width, rows], limit, |_, _| [0.0; 4])?;
         let emittance = packing::filled("a vector", [width, 1], limit, |_, _| [0.0; 4])?;
         Ok(Self { packing, size, block: block.max(1), matrix, emittance })

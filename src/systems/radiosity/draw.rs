@@ -44,7 +44,6 @@ pub(super) struct Projection {
 }
 
 impl Projection {
-    /// Creates the projection of a camera, for a scene within `extent` of the point `within`.
     pub(super) fn of(camera: &Camera, within: DVec3, extent: f64) -> Self {
         let eye = wide(camera.eye());
         let per_square = |v: DVec3| 1.0 / v.dot(v) * v;

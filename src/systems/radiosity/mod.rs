@@ -6,7 +6,7 @@
 //! - 3: [`bias`], the average effect of half precision; [`model`], passes and operation counts;
 //! - 3.1: [`Patches`], the patches of a scene; [`FormFactors`] between them, visibility by a [`crate::tracer::Caster`];
 //!   [`display`], images drawn by the card, and radiosities at corners; [`rate`], iterations per second;
-//! - [`gather`]: irradiance at points; [`rooms`]: closed boxes as test scenes.
+//! - [`rooms`]: closed boxes as test scenes.
 //!
 //! docs/papers/radiosity.md says which file has which section.
 //!
@@ -30,7 +30,6 @@ pub mod card_system;
 pub mod display;
 mod draw;
 pub mod form_factor;
-pub mod gather;
 pub mod kernels;
 pub mod model;
 pub mod on_card;

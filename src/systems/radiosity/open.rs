@@ -136,7 +136,6 @@ fn sees_a_back(ray: &Ray, mesh: &Mesh, tracer: &Tracer<'_>) -> bool {
     })
 }
 
-/// Mean of a cell's corners.
 fn middle(cell: &[DVec3]) -> DVec3 {
     1.0 / cell.len() as f64 * cell.iter().sum::<DVec3>()
 }
@@ -148,7 +147,6 @@ fn test_points(cell: &[DVec3]) -> Vec<DVec3> {
     std::iter::once(middle).chain(cell.iter().map(towards)).collect()
 }
 
-/// Splits a cell into patches of three or four corners.
 fn pieces(cell: &[DVec3], patch: &Patch) -> Vec<Patch> {
     let rest = &cell[1..];
     (0..rest.len().saturating_sub(1))

@@ -48,7 +48,6 @@ pub(super) fn too_large(what: &str, limit: usize, [width, height]: [usize; 2]) -
     )
 }
 
-/// Creates a texture from a function of column and row.
 pub(super) fn filled(
     what: &str,
     size: [usize; 2],
@@ -61,7 +60,6 @@ pub(super) fn filled(
     Ok(Texels::from_fn(size, texel))
 }
 
-/// Returns an element; 0 outside of the matrix.
 fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
     if row < matrix.row_count() && column < matrix.column_count() { matrix.row(row)[column] as f32 } else { 0.0 }
 }

@@ -149,7 +149,6 @@ impl System {
     }
 }
 
-/// Returns the first value for which `wrong` holds, with its patch.
 fn first(values: &PerPatch, wrong: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
     let mut all = values.iter().enumerate().flat_map(|(patch, color)| color.map(|value| (patch, value)));
     all.find(|&(_, value)| wrong(value))

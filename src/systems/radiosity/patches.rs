@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::open::open_parts;
 use super::patch::{Patch, PatchPoint};
 use super::subdivide::{Face, faces_of, steps_for_at_most, too_thin_error};
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 use crate::linalg::MAX_SQUARE;
@@ -52,11 +52,6 @@ impl Patches {
         let (materials, extent) = (materials?, (high - low).length());
         let open = open_parts(&list, mesh, &face_of, extent);
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
-    }
-
-    /// Number of patches of a scene, without computing their open parts.
-    pub fn count(scene: &Scene, subdivision: Subdivision) -> Result<usize, InputError> {
-        Ok(steps(&faces_of(scene)?.0, subdivision)?.1)
     }
 
     /// All patches, in the order of the matrix's rows.
@@ -139,20 +134,16 @@ impl Patches {
 
 /// Numbers of parts per side of each face, and the number of all patches.
 fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usize), InputError> {
+    ensure!(subdivision != Subdivision::PerSide(0), "radiosity::patches" =>
+        "expected sides cut into 1 part or more, found 0");
     let steps = match subdivision {
-        Subdivision::PerSide(0) => {
-            return Err(input_error!("radiosity::patches" => "expected sides cut into 1 part or more, found 0"));
-        }
         Subdivision::PerSide(n) => vec![[n, n]; faces.len()],
         Subdivision::AtMost(most) => steps_for_at_most(faces, most),
     };
     let found = steps.iter().map(|&[u, v]| u as usize * v as usize).sum();
-    if found > MAX_PATCHES {
-        Err(input_error!("radiosity::patches" =>
-            "expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer"))
-    } else {
-        Ok((steps, found))
-    }
+    ensure!(found <= MAX_PATCHES, "radiosity::patches" =>
+        "expected at most {MAX_PATCHES} patches, found {found}; cut the faces into fewer");
+    Ok((steps, found))
 }
 
 /// Reflectance and radiance of a material.

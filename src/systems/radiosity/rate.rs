@@ -71,8 +71,7 @@ pub struct TimedIteration {
     pub mflops: f64,
 }
 
-/// Times an iteration of a system of `timing.patches` patches. Fails with [`RateError`] if the card has no such
-/// programs or textures, or its rates are unknown.
+/// Times an iteration of a system of `timing.patches` patches.
 pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIteration, RateError> {
     let model = Model::new(Level::Pipeline, profile)?;
     let log = iteration_log(profile, timing)?;
@@ -111,7 +110,6 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIterat
     })
 }
 
-/// Records the log of an iteration that is not the first.
 fn iteration_log(profile: &Profile, timing: &Timing) -> Result<Vec<Event>, RateError> {
     let fit = Fit::of(profile, timing.packing)?;
     let zeros = CardSystem::zeros(timing.packing, timing.patches, fit.block, fit.limit)

@@ -11,7 +11,6 @@ use refsim::output::{AlphaTest, CompareFunction, DepthFormat, DepthSurface};
 use refsim::raster::Primitive;
 use refsim::texture::{Image, Region, SamplerState, TexelFormat};
 
-use super::id_color::{color_of_id, id_of_color};
 use super::sorted::SortedTriangle;
 use super::units::{Units, ray_textures};
 use super::{EdgeRule, EngineError, Form, Kernel, RayBatch};
@@ -43,7 +42,6 @@ pub(super) fn rounded(hits: Vec<Option<CardHit>>) -> Vec<Option<Hit>> {
 }
 
 impl RayTextures {
-    /// Uploads rays and creates targets of their size.
     pub(super) fn new(
         machine: &mut Machine,
         kernel: &Kernel,
@@ -231,4 +229,18 @@ pub(super) fn bind<'a>(corners: &'a [[u32; 4]], triangles: &'a [Vec<[u32; 4]>]) 
         instance_count: triangles.first().map_or(0, Vec::len),
         streams: std::iter::once(corner).chain(each).collect(),
     }
+}
+
+/// Encodes an id as a color: the lowest byte in red, alpha 1.
+pub(super) fn color_of_id(id: u32) -> [u32; 4] {
+    let part = |shift: u32| ((id >> shift & 0xff) as f32 / 255.0).to_bits();
+    [part(0), part(8), part(16), 1.0_f32.to_bits()]
+}
+
+/// Decodes the id of an `A8R8G8B8` pixel; `None` for a miss.
+const fn id_of_color(raw: u32) -> Option<u32> {
+    if raw >> 24 == 0 {
+        return None;
+    }
+    Some((raw >> 16 & 0xff) | (raw & 0xff00) | (raw & 0xff) << 16)
 }

@@ -13,7 +13,6 @@ use super::bits_left::BitsLeft;
 use super::bundle::{Bundle, regions};
 use super::card::{RayTextures, Streams, rounded};
 use super::pass::PassCard;
-use super::resident::ResidentCrossbar;
 use super::units::Units;
 use super::{EdgeRule, Kernel, RayBatch};
 use crate::geom::exact::Sides;
@@ -102,8 +101,7 @@ impl Crossbar {
         Ok(RayBatch::new(rays.width(), rays.height(), held)?)
     }
 
-    /// Intersects all rays with all triangles: section 3.3 of the paper. Fails with [`EngineError`] if the card has no
-    /// suitable program, or rejects the work.
+    /// Intersects all rays with all triangles: section 3.3 of the paper.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
@@ -144,7 +142,6 @@ impl Crossbar {
         Ok(Answer { hits: rounded(hits), events: drawn.events, kernel: card.kernel.name, log: Vec::new() })
     }
 
-    /// Creates a card for passes of rays of any origin against subsets of a mesh's triangles.
     pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, cull: bool) -> Result<PassCard, EngineError> {
         let kernel = Kernel::for_passes(&self.profile, sides, cull)?;
         check_count(mesh)?;
@@ -269,6 +266,28 @@ impl Crossbar {
             (region, near)
         };
         regions(rays, side).into_par_iter().map(bucket).collect()
+    }
+}
+
+/// A card with rays in its textures and triangles in its vertex memory. [`Crossbar::make_resident`] creates it.
+#[derive(Debug)]
+pub struct ResidentCrossbar {
+    /// `None` if there are no rays or no triangles.
+    work: Option<(Machine, RayTextures, Units, Streams)>,
+    rays: RayBatch,
+    kernel: Arc<Kernel>,
+}
+
+impl ResidentCrossbar {
+    /// Clears the targets, draws every triangle over every ray, and reads back: the result of
+    /// [`Crossbar::intersect`] with all pairs. Fails with [`EngineError::Machine`] if the card rejects the work.
+    pub fn intersect(&mut self) -> Result<Answer, EngineError> {
+        let answer = Answer::without_hits(self.rays.rays().len(), self.kernel.name);
+        let Some((machine, sheet, units, streams)) = &mut self.work else { return Ok(answer) };
+        sheet.clear(machine)?;
+        let events = sheet.draw(machine, &self.kernel, units, &[], streams)?;
+        let (hits, _) = sheet.read_back(machine, &self.rays, units, true)?;
+        Ok(Answer { hits: rounded(hits), events, log: machine.take_log(), ..answer })
     }
 }
 

@@ -30,7 +30,6 @@ use crate::tracer::scale::normalize_range;
 /// Number of constants of a bucket: c3 to c10.
 const COUNT: usize = 8;
 
-/// Error bounds of a format's arithmetic.
 #[derive(Clone, Copy, Debug)]
 struct Errors {
     /// Error relative to the magnitudes of the operands, large enough for all operations of a program.

@@ -5,9 +5,8 @@
 //! it to all pixels. The depth buffer keeps the nearest t, and the color buffer the triangle's id.
 //!
 //! - [`paper`]: equations (1) to (8) in plain f64; read it first;
-//! - 3.3, 4.2, 5.3: [`Crossbar`], every ray against every triangle, in buckets (`crossbar`, `bundle`, `card`,
-//!   `id_color`); [`ResidentCrossbar`] draws again without uploads; 3.4: [`VertexCrossbar`], intersection in the vertex
-//!   units;
+//! - 3.3, 4.2, 5.3: [`Crossbar`], every ray against every triangle, in buckets (`crossbar`, `bundle`, `card`);
+//!   [`ResidentCrossbar`] draws again without uploads; 3.4: [`VertexCrossbar`], intersection in the vertex units;
 //! - 4.1, 4.3: [`kernels`] and their choice ([`Kernel`]), also kernels without leaks at edges ([`EdgeRule`], `sorted`);
 //!   [`RayBatch`], rays as texels; scaling of scenes to a format's range (`range`, `reach`, `units`), and lost triangle
 //!   normals ([`BitsLeft`]);
@@ -24,7 +23,6 @@ mod card;
 mod crossbar;
 mod cull;
 pub mod engine;
-mod id_color;
 mod kernel;
 pub mod kernels;
 pub mod model;
@@ -34,15 +32,13 @@ mod range;
 pub mod ray_tree;
 mod rays;
 mod reach;
-mod resident;
 mod sorted;
 mod units;
 mod vertex_crossbar;
 
 pub use answer::{Answer, EngineError};
 pub use bits_left::BitsLeft;
-pub use crossbar::{Crossbar, MakeObserver};
+pub use crossbar::{Crossbar, MakeObserver, ResidentCrossbar};
 pub use kernel::{EdgeRule, Form, Kernel, RayTexels};
 pub use rays::RayBatch;
-pub use resident::ResidentCrossbar;
 pub use vertex_crossbar::VertexCrossbar;

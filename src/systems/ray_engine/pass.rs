@@ -33,7 +33,6 @@ pub(super) struct DrawnPass {
 }
 
 impl PassCard {
-    /// Creates a card for passes over triangles of one mesh.
     pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides) -> Self {
         let bounds = mesh.bounds().unwrap_or_default();
         Self { machine, kernel, sides, bounds, sheets: BTreeMap::new() }

@@ -60,7 +60,6 @@ impl Range {
         }
     }
 
-    /// Range of a format.
     pub(super) fn of(format: &Format) -> Self {
         let (end, step, kind) = match format.kind {
             FormatKind::Fixed { int_bits, frac_bits } => {

@@ -14,7 +14,6 @@ const ROOM: f64 = 1.0 + 1.0 / 32.0;
 pub(super) struct VectorRange([DVec3; 2]);
 
 impl VectorRange {
-    /// Scales the box by a positive factor.
     pub(super) fn times(self, factor: f64) -> Self {
         Self(self.0.map(|v| v * factor))
     }
@@ -55,7 +54,6 @@ impl VectorRange {
     }
 }
 
-/// Scales an interval.
 fn scaled(by: f64, [low, high]: [f64; 2]) -> [f64; 2] {
     if by < 0.0 { [by * high, by * low] } else { [by * low, by * high] }
 }
@@ -86,7 +84,6 @@ pub(super) fn mixed(a: DVec3, d: DVec3) -> DVec3 {
     DVec3::new(a.y * d.z + a.z * d.y, a.z * d.x + a.x * d.z, a.x * d.y + a.y * d.x)
 }
 
-/// Largest magnitude of a component.
 pub(super) fn largest(v: DVec3) -> f64 {
     v.abs().max_element()
 }
@@ -114,7 +111,6 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// Computes the bounds for rays and a mesh with these lowest and highest coordinates.
     pub(super) fn of(bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
         let [low, high] = bounds.map(wide);
         let mut all = rays.rays().iter().map(|r| (wide(r.origin()), normalize_range(r.direction()).0)).peekable();

@@ -11,7 +11,6 @@ pub(super) struct SortedTriangle {
 }
 
 impl SortedTriangle {
-    /// Sorts the corners of a triangle.
     pub(super) fn new(mut corners: [[f32; 3]; 3]) -> Self {
         let mut turn = 1.0;
         for [first, second] in [[0, 1], [1, 2], [0, 1]] {

@@ -21,13 +21,9 @@ pub(super) struct Units {
     range: Range,
     /// Card units per scene unit; a power of two.
     scale: f64,
-    /// The t of depth 1, in card units and for directions brought into range; a power of two.
     t_max: f64,
-    /// Box of the origins, in card units.
     origins: VectorRange,
-    /// Box of the directions, brought into range.
     directions: VectorRange,
-    /// Common origin, in card units.
     origin: [f32; 3],
 }
 
@@ -195,7 +191,6 @@ impl Units {
         }
     }
 
-    /// The ray as textures of bytes represent it, with its direction scaled into range.
     pub(super) fn in_bytes(&self, ray: &Ray) -> Result<Ray, InputError> {
         let held = |v: DVec3, scale: f64| narrow((v * scale).map(byte_code) / BYTE_CODES / scale);
         Ray::new(held(wide(ray.origin()), self.scale), held(normalize_range(ray.direction()).0, 1.0))

@@ -9,8 +9,7 @@ use refsim::raster::Primitive;
 use refsim::texture::TexelFormat;
 
 use super::answer::{Answer, EngineError};
-use super::card::{bind, hits, rounded};
-use super::id_color::color_of_id;
+use super::card::{bind, color_of_id, hits, rounded};
 use super::range::Range;
 use super::units::Units;
 use super::{Form, RayBatch, kernels};
@@ -38,8 +37,7 @@ impl VertexCrossbar {
         Self { profile, executor: executor.into() }
     }
 
-    /// Intersects every ray with the front of every triangle. Fails with [`EngineError`] if the card rejects a program
-    /// or the work.
+    /// Intersects every ray with the front of every triangle.
     pub fn intersect(&self, mesh: &Mesh, rays: &RayBatch) -> Result<Answer, EngineError> {
         let mut machine = self.executor.machine(self.profile.clone())?;
         self.intersect_on(&mut machine, mesh, rays)

@@ -72,7 +72,6 @@ pub struct RenderProgress {
 /// Called with the progress after every bundle.
 pub type WatchProgress<'a> = dyn FnMut(RenderProgress) + 'a;
 
-/// A [`Caster`] that counts rays and reports progress.
 pub(super) struct CountingCaster<'a> {
     caster: &'a mut dyn Caster,
     watch: &'a mut WatchProgress<'a>,
@@ -91,7 +90,6 @@ impl<'a> CountingCaster<'a> {
         self.progress = RenderProgress { what, done: 0, total, rays: self.counts.rays() };
     }
 
-    /// Advances the current stage.
     pub(super) fn advance(&mut self, done: u64) {
         self.progress.done += done;
         (self.watch)(self.progress);

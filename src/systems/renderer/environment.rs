@@ -79,7 +79,6 @@ pub fn render<'a>(
     Ok(picture)
 }
 
-/// Reflectance of a triangle that is a mirror.
 fn reflectance(scene: &Scene, triangle: u32) -> Option<[f32; 3]> {
     match scene.material(triangle).surface {
         Surface::Mirror { reflectance } => Some(reflectance),

@@ -141,7 +141,6 @@ fn middle(camera: &Camera, pixel: u64) -> Ray {
     camera.ray((pixel % width) as u32, (pixel / width) as u32)
 }
 
-/// Generates the eye ray of a sample.
 fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, rng: SampleRng) -> Ray {
     let centre = middle(camera, pixel);
     if settings.samples == 1 && settings.lens.is_none() {

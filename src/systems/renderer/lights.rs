@@ -16,7 +16,6 @@ use glam::DVec3;
 pub(super) struct LightSample {
     /// Ray to the light, which it reaches at t = 1.
     pub(super) ray: Ray,
-    /// Unit vector to the light.
     pub(super) towards: DVec3,
     /// Radiance divided by the probability density (area lights), or irradiance perpendicular to the direction (point
     /// lights).
@@ -25,9 +24,7 @@ pub(super) struct LightSample {
     pub(super) density: f64,
 }
 
-/// Emitted light sample.
 pub(super) struct EmissionSample {
-    /// Ray from the light.
     pub(super) ray: Ray,
     /// Flux divided by the probability density; its mean over all samples is the flux of all lights.
     pub(super) power: DVec3,

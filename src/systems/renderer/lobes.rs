@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use super::counting::RayKind;
-use super::fresnel::{reflectance, reflected, refracted};
 use super::sampling::{cosine, lobe};
 use super::surfel::Surfel;
 use super::vector::mean;
 use crate::elementary::pow;
-use crate::geom::vector::wide;
+use crate::fresnel::reflectance;
+use crate::geom::vector::{unit, wide};
 use crate::scene::Surface;
 use glam::DVec3;
 
@@ -21,7 +21,6 @@ pub(super) struct Lobes {
     pub(super) exponent: f64,
 }
 
-/// Direction sampled at a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LobeSample {
     pub(super) towards: DVec3,
@@ -44,17 +43,14 @@ impl Lobes {
         }
     }
 
-    /// Returns the diffuse part alone.
     pub(super) fn diffuse(self) -> Self {
         Self { specular: DVec3::ZERO, ..self }
     }
 
-    /// Returns the glossy lobe alone.
     pub(super) fn gloss(self) -> Self {
         Self { albedo: DVec3::ZERO, ..self }
     }
 
-    /// Probability of sampling the glossy lobe.
     fn chance_of_gloss(&self) -> f64 {
         let (matt, gloss) = (mean(self.albedo), mean(self.specular));
         if gloss > 0.0 { gloss / (matt + gloss) } else { 0.0 }
@@ -146,6 +142,22 @@ pub(super) fn choose_specular(surfel: &Surfel<'_>, u: f64) -> Option<SpecularRay
         _ => first,
     };
     Some(SpecularRay { weight: 1.0 / specular.probability * specular.weight, ..specular })
+}
+
+/// Mirrors a direction that points away from the surface.
+fn reflected(away: DVec3, normal: DVec3) -> DVec3 {
+    2.0 * away.dot(normal) * normal - away
+}
+
+/// Refracts a ray at a boundary (Snell's law): `away` points from the surface back along the ray, `normal` to the same
+/// side. `None` under total internal reflection.
+fn refracted(away: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+    let cosine = away.dot(normal);
+    let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if square <= 0.0 {
+        return None;
+    }
+    unit(-ratio * away + (ratio * cosine - square.sqrt()) * normal)
 }
 
 /// Mirror direction about the shading normal, or about the triangle's normal if that direction leads through the

@@ -18,7 +18,6 @@ pub mod distributed;
 pub mod environment;
 pub mod eye;
 mod film;
-pub mod fresnel;
 mod layers;
 mod lights;
 mod lobes;

@@ -129,7 +129,6 @@ impl Paths<'_> {
         scatter.next.extend(self.continue_path(flight, surfel, specular.towards, specular.kind, weight));
     }
 
-    /// Returns the next ray of the path, if it survives Russian roulette.
     fn continue_path(
         &self,
         flight: &PathRay,

@@ -41,7 +41,6 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Fails with [`InputError`], which names the first setting out of range.
     pub(super) fn checked(&self) -> Result<(), InputError> {
         let refuse = |what, found: String, expected| Err(settings_error(what, expected, found));
         if self.samples == 0 {

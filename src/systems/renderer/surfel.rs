@@ -24,9 +24,7 @@ pub(super) struct Surfel<'a> {
     pub(super) shading: DVec3,
     /// Unit vector back along the ray.
     pub(super) view: DVec3,
-    /// `true` if the front face was hit.
     pub(super) front: bool,
-    /// Material of the triangle.
     pub(super) material: &'a Material,
 }
 
@@ -49,7 +47,6 @@ impl<'a> Surfel<'a> {
         Some(Self { triangle, place, normal, shading, view, front, material })
     }
 
-    /// Returns a ray from the surface, if the direction is not zero.
     pub(super) fn ray(&self, towards: DVec3) -> Option<Ray> {
         Ray::new(self.place.lifted(towards, 0.0), narrow(towards)).ok()
     }

@@ -59,7 +59,6 @@ impl SampleRng {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathRay {
     pub(super) ray: Ray,
-    /// Purpose of the ray.
     pub(super) kind: RayKind,
     /// Index, within the chunk, of the sample to which the ray's radiance is added.
     pub(super) slot: u32,
@@ -69,12 +68,10 @@ pub(super) struct PathRay {
     pub(super) depth: u32,
     /// Probability density of the ray's direction over solid angle; `None` if the direction was not sampled.
     pub(super) density: Option<f64>,
-    /// Random numbers of the ray.
     pub(super) rng: SampleRng,
 }
 
 impl PathRay {
-    /// Creates the eye ray of a sample.
     pub(super) fn eye(ray: Ray, slot: u32, rng: SampleRng) -> Self {
         Self { ray, kind: RayKind::Eye, slot, weight: DVec3::ONE, depth: 0, density: None, rng }
     }
@@ -85,14 +82,12 @@ impl PathRay {
     }
 }
 
-/// Result of shading a hit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scatter {
     /// Weighted light that needs no further ray.
     pub(super) light: DVec3,
     /// Shadow rays, each with the light that it adds if nothing is hit before t = 1.
     pub(super) shadows: Vec<(Ray, DVec3)>,
-    /// Rays that continue.
     pub(super) next: Vec<PathRay>,
 }
 
@@ -102,7 +97,6 @@ impl Scatter {
     }
 }
 
-/// Shader of a renderer: computes the light and the next rays at a surface that a ray hits.
 pub(super) trait Shade: Sync {
     fn shade(&self, flight: &PathRay, surfel: &Surfel<'_>) -> Scatter;
 }

@@ -17,9 +17,8 @@ use crate::tracer::Caster;
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
 /// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray;
-/// mirrors and glass send further rays, at most `settings.depth` in sequence. Emitters are
-/// visible, directly and in mirrors, but do not illuminate. Fails with [`InputError`] if a setting is out of range or
-/// the caster fails.
+/// mirrors and glass send further rays, at most `settings.depth` in sequence. Emitters are visible, directly and in
+/// mirrors, but do not illuminate.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

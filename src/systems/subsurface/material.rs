@@ -10,8 +10,9 @@ pub const MAX_COEFFICIENT: f64 = 1e30;
 /// error of 0.0003 at 1.3 and 0.016 at 3, and exceeds 1 from 3.85.
 pub const MAX_ETA: f64 = 3.0;
 
-fn not_finite_error(what: &'static str, found: f64) -> InputError {
-    input_error!("subsurface::material" => "expected a finite number for the {what}, found {found}")
+fn check_finite(what: &str, found: f64) -> Result<(), InputError> {
+    ensure!(found.is_finite(), "subsurface::material" => "expected a finite number for the {what}, found {found}");
+    Ok(())
 }
 
 fn out_of_range_error(what: &'static str, found: f64) -> InputError {
@@ -29,14 +30,11 @@ pub struct Coefficients {
 }
 
 impl Coefficients {
-    /// Checks that the coefficients are valid: both finite, absorption at least 0, scattering above 0. Fails with
-    /// [`InputError`], which names the invalid coefficient.
+    /// Checks that the coefficients are valid: both finite, absorption at least 0, scattering above 0.
     pub fn check(self) -> Result<(), InputError> {
         let scattering = ("reduced scattering coefficient", self.sigma_s_prime);
         for (what, found) in [scattering, ("absorption coefficient", self.sigma_a)] {
-            if !found.is_finite() {
-                return Err(not_finite_error(what, found));
-            }
+            check_finite(what, found)?;
             ensure!(found >= 0.0, "subsurface::material" => "expected at least 0 for the {what}, found {found}");
             if found > MAX_COEFFICIENT {
                 return Err(out_of_range_error(what, found));
@@ -62,12 +60,9 @@ impl Coefficients {
     }
 }
 
-/// Checks that `eta` is a valid index of refraction for the dipole. Fails with [`InputError`] if it is not in [1,
-/// [`MAX_ETA`]].
+/// Checks that `eta` is a valid index of refraction for the dipole.
 pub(crate) fn check_eta(eta: f64) -> Result<(), InputError> {
-    if !eta.is_finite() {
-        return Err(not_finite_error("index of refraction", eta));
-    }
+    check_finite("index of refraction", eta)?;
     ensure!((1.0..=MAX_ETA).contains(&eta), "subsurface::material" =>
         "expected an index of refraction from 1 to {MAX_ETA}, found {eta:?}");
     Ok(())
@@ -88,8 +83,7 @@ impl Material {
     /// Names of the channels, in their order.
     pub const CHANNELS: [&'static str; 3] = ["red", "green", "blue"];
 
-    /// Creates a material and checks its numbers. Fails with [`InputError`], which names the invalid number and its
-    /// channel.
+    /// Creates a material and checks its numbers.
     pub fn new(name: impl Into<String>, channels: [Coefficients; 3], eta: f64) -> Result<Self, InputError> {
         check_eta(eta)?;
         for (channel, coefficients) in Self::CHANNELS.into_iter().zip(channels) {

@@ -4,7 +4,8 @@
 use super::material::{Coefficients, Material};
 
 /// Confidence in a published number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum FigureConfidence {
     /// Printed in the paper that is reproduced.
     Printed,
@@ -21,13 +22,7 @@ pub enum FigureConfidence {
 impl FigureConfidence {
     /// One word for tables.
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Printed => "printed",
-            Self::Confirmed => "confirmed",
-            Self::Disputed => "disputed",
-            Self::Unconfirmed => "unconfirmed",
-            Self::Assumed => "assumed",
-        }
+        self.into()
     }
 }
 
@@ -106,7 +101,6 @@ const fn row(
     }
 }
 
-/// The medium of Figure 7 with an index of refraction.
 const fn figure_7(name: &'static str, eta: f64, source: &'static str) -> PublishedMaterial {
     PublishedMaterial {
         name,

@@ -57,9 +57,7 @@ struct PartColumns {
 type WeightedPoint = (DVec3, f64);
 
 impl<'a> Reference<'a> {
-    /// Creates the reference for an atlas of a model with a scale. Fails with [`InputError`] if the scale is not from
-    /// [`MIN_MM_PER_UNIT`](super::multipole::MIN_MM_PER_UNIT) to
-    /// [`MAX_MM_PER_UNIT`](super::multipole::MAX_MM_PER_UNIT).
+    /// Creates the reference for an atlas of a model with a scale.
     pub fn new(atlas: &'a Atlas, mm_per_unit: f64, dipole: &Dipole) -> Result<Self, InputError> {
         check_scale(mm_per_unit)?;
         let mut texels = PartColumns::default();
@@ -74,8 +72,7 @@ impl<'a> Reference<'a> {
     }
 
     /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9, B_i = sum over j of F_ij
-    /// E_j. `done` is called repeatedly with the number of finished rows and of all rows. Fails with [`InputError`] if
-    /// there is not one irradiance per texel.
+    /// E_j. `done` is called repeatedly with the number of finished rows and of all rows.
     pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, InputError> {
         self.radiosity_of_rows(irradiance, 0..self.atlas.side() as usize, done)
     }
@@ -222,7 +219,6 @@ impl<'a> Reference<'a> {
         triangles
     }
 
-    /// The mean of R_d over pairs of points.
     fn mean_r_d(&self, from: &[WeightedPoint], to: &[WeightedPoint]) -> f64 {
         let mut sum = 0.0;
         let (mut squared, mut weights) = ([0.0; CHUNK], [0.0; CHUNK]);

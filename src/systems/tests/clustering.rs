@@ -1,7 +1,7 @@
 //! Compression of signals: fixed bits, independence of threads and vector instructions, and errors.
 
 use crossbar_systems::clustering::{
-    AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, Signal, compress, compress_at, paper,
+    AffineSubspace, Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, compress, compress_at, paper,
 };
 use crossbar_systems::transfer::synthetic::torus_signal;
 use refsim::exec::batch::SimdLevel;
@@ -31,23 +31,6 @@ fn bits_do_not_depend_on_threads_or_vector_instructions() {
             }
         }
     }
-}
-
-#[test]
-fn every_step_is_observed() {
-    let (signal, mut seen) = (torus_signal(90, 4, 0), Vec::new());
-    let options = CpcaOptions {
-        clusters: 3,
-        vectors: 2,
-        vq_iterations: 3,
-        iterations: 3,
-        method: CpcaMethod::Static,
-        form: CpcaForm::Affine,
-        seed: 0,
-    };
-    let compression = compress(&signal, &options, |step| seen.push(*step)).expect("compressed");
-    assert_eq!(compression.steps, seen);
-    assert_eq!((seen[0].kind, seen[0].moved), (CpcaStepKind::Classified, 90));
 }
 
 /// Random signals, some with repeated points, of low rank, or 0.

@@ -11,7 +11,6 @@ use crossbar_ground::scene::{Camera, Material, PointLight, Scene};
 use crossbar_ground::sphere::CubeMap;
 use crossbar_ground::tracer::{CastError, Caster, HostTracer};
 use crossbar_systems::renderer::environment::seen_around;
-use crossbar_systems::renderer::fresnel::{reflected, refracted};
 use crossbar_systems::renderer::photon_map::{Photon, PhotonMap};
 use crossbar_systems::renderer::sampling::{DiscreteDistribution, cosine, disk, lobe, triangle};
 use crossbar_systems::renderer::{Settings, eye, whitted};
@@ -110,18 +109,6 @@ fn a_cube_map_shows_its_directions() {
         let expected = map.direction(at / 64, at % 8, at / 8 % 8);
         assert!(DVec3::from(texel).distance(expected) < 1e-6, "texel {at}: {texel:?}, not {expected}");
     }
-}
-
-#[test]
-fn snell() {
-    let normal = DVec3::Z;
-    let away = unit(DVec3::new(0.6, 0.0, 0.8)).expect("a direction");
-    let inside = refracted(away, normal, 1.0 / 1.5).expect("it enters");
-    assert!(abs_diff_eq!(inside[0], -0.4, epsilon = 1e-15) && inside[2] < 0.0, "{inside:?}");
-    let back = refracted(inside, DVec3::NEG_Z, 1.5).expect("it leaves as it came");
-    assert!((back - away).length() < 1e-15);
-    assert_eq!(refracted(DVec3::new(0.8, 0.0, 0.6), normal, 1.5), None);
-    assert_eq!(reflected(DVec3::new(0.6, 0.0, 0.8), normal), DVec3::new(-0.6, 0.0, 0.8));
 }
 
 fn scattered(count: u64) -> Vec<Photon> {

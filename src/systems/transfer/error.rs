@@ -3,13 +3,11 @@
 use crate::error::{InputError, ensure};
 use crate::tracer::CastError;
 
-/// Returns an error unless `fits`.
 pub(crate) fn require(fits: bool, what: &str, expected: &str, found: f64) -> Result<(), InputError> {
     ensure!(fits, "crossbar::prt::precompute" => "expected {expected} for {what}, found {found}");
     Ok(())
 }
 
-/// Error: the ray caster failed.
 pub(crate) fn cast_error(error: CastError) -> InputError {
     InputError::of("crossbar::prt::precompute", error)
 }

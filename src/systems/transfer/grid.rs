@@ -94,6 +94,12 @@ pub fn texel_center(texel: usize) -> DVec3 {
     LIGHT_MAP.direction(face, column, row)
 }
 
+/// The solid angle of a light texel, in steradians.
+pub fn texel_solid_angle(texel: usize) -> f64 {
+    let [_, row, column] = face_row_column(texel, LIGHT_SIDE);
+    LIGHT_MAP.solid_angle(column, row)
+}
+
 /// The light texel that contains a fine direction.
 pub const fn light_texel(fine: usize) -> usize {
     let [face, row, column] = face_row_column(fine, FINE_SIDE);

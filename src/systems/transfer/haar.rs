@@ -32,11 +32,6 @@ impl Haar {
         Self { side, scratch: vec![0.0; side * side] }
     }
 
-    /// Numbers along an edge.
-    pub const fn side(&self) -> usize {
-        self.side
-    }
-
     /// Transforms a square, row by row, to its coefficients. Panics if it has another size.
     pub fn forward(&mut self, square: &mut [f64]) {
         assert_eq!(square.len(), self.side * self.side, "a square of side {}", self.side);

@@ -41,7 +41,6 @@ impl From<Tangents> for String {
     }
 }
 
-/// Length of the text that [`Display`](fmt::Display) writes.
 impl TryFrom<String> for Tangents {
     type Error = String;
 

@@ -5,11 +5,12 @@ use std::ffi::OsString;
 use rayon::prelude::*;
 
 use super::{Files, assert_refused};
+use crate::environment::is_full;
 
 /// Tries every kind of unsuitable file for every option that takes an input file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 17] = [
+    let commands: [&[&str]; 16] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -19,7 +20,6 @@ fn hostile_files() {
         &["radiosity", "IN"],
         &["bi-scale", "bicluster", "IN"],
         &["cpca", "compress", "IN", "--out", "y.npz"],
-        &["cpca", "error", "IN", "IN"],
         &["all-frequency", "factor", "--table", "IN"],
         &["cpca", "precompute", "IN", "--out", "x.npz"],
         &["cpca", "show", "IN"],
@@ -45,10 +45,11 @@ fn hostile_files() {
     let mut runs: Vec<(Vec<OsString>, Files<'_>)> = Vec::new();
     for command in commands {
         let with = |input: &str| command.iter().map(|a| OsString::from(a.replace("IN", input))).collect::<Vec<_>>();
-        for bytes in contents {
-            for name in ["in.obj", "in.toml", "in.csv"] {
-                runs.push((with(name), [&good[..], &[(name, bytes)]].concat()));
-            }
+        // By default each content has one of the names.
+        let names = ["in.obj", "in.toml", "in.csv"];
+        for (at, bytes) in contents.into_iter().enumerate() {
+            let some = if is_full() { &names[..] } else { &names[(at + runs.len()) % 3..][..1] };
+            runs.extend(some.iter().map(|name| (with(name), [&good[..], &[(*name, bytes)]].concat())));
         }
         runs.push((with("."), good.to_vec()));
         runs.push((with("m.obj/x"), good.to_vec()));

@@ -1,7 +1,7 @@
 //! All-frequency transfer on a card: the triangles that pixels show, the error of each precision against f64, and the
 //! time of a frame.
 
-use crate::support::profile;
+use crate::support::{over_hills, profile, vertex_clocks};
 use approx::assert_relative_eq;
 use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
@@ -12,22 +12,15 @@ use crossbar::all_frequency::on_card::{FactoredCard, ProductOptions, ProductPlac
 use crossbar::all_frequency::shade::{Multiplies, TransferredRadiance};
 use crossbar::card::frame_time::frame_time;
 use crossbar::card::{MeshView, seen_pixels};
-use crossbar::scene::Camera;
 use crossbar::study::prt::{factored_precision, variants_table};
 use crossbar::transfer::synthetic::{hills, signal_at};
 use crossbar::transfer::{Tangents, Vertices};
-use refsim::event::Event;
 use refsim::machine::{Executor, ExecutorKind};
 use refsim::texture::TexelFormat;
 use refsim::timing::host::HostOperation;
 use refsim::timing::{Level, Model};
 
 const SIZE: [u32; 2] = [48, 40];
-
-/// A camera above the hills, so that no hill hides another.
-fn camera() -> Camera {
-    Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
-}
 
 struct Hills {
     vertices: Vertices,
@@ -58,10 +51,10 @@ impl Hills {
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
-    let ways = factored_precision(&[hills.mesh()], &executor, camera(), 2.5, &mut |_| ()).expect("pictures");
-    let seen = seen_pixels(&profile("r350"), hills.vertices.geometry(), &camera()).expect("pixels");
+    let ways = factored_precision(&[hills.mesh()], &executor, over_hills(SIZE), 2.5, &mut |_| ()).expect("pictures");
+    let seen = seen_pixels(&profile("r350"), hills.vertices.geometry(), &over_hills(SIZE)).expect("pixels");
     let brightest = seen.iter().flatten().flat_map(|seen| {
-        let (view, eye) = (ViewNumbers::Coordinates, camera().eye());
+        let (view, eye) = (ViewNumbers::Coordinates, over_hills(SIZE).eye());
         pixel_of_products(&hills.mesh(), view, eye, seen.corners, seen.weights).map(|value| 2.5 * value)
     });
     let brightest = brightest.fold(0.0, f64::max);
@@ -111,7 +104,7 @@ fn a_frame_is_counted_and_timed() {
     ] {
         assert_eq!(streamed_bytes(&place, 10), bytes);
         let mut card = FactoredCard::new(r350.clone(), ExecutorKind::Batch, &[hills.mesh()], place).expect("a card");
-        let view = MeshView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
+        let view = MeshView { camera: over_hills(SIZE), exposure: 0.5, format: TexelFormat::Bgra8 };
         let (texels, _, log) = card.logged_view(&view, steps).expect("a frame");
         assert!(texels.texels == card.view_texels(&view).expect("a frame").texels);
         let time = frame_time(&r350, &log, &host).expect("a time");
@@ -130,10 +123,7 @@ fn a_frame_is_counted_and_timed() {
             (estimate.products, estimate.uploads, estimate.vertices_run),
             (time.products, time.uploads, time.vertices_run)
         );
-        let clocks = |log: &[Event]| -> u64 {
-            let of = |event: &Event| if let Event::Draw(draw) = event { model.clocks(draw).vertices.0 } else { 0 };
-            log.iter().map(of).sum()
-        };
-        assert_relative_eq!(clocks(&frame.log(&place)) as f64, clocks(&log) as f64, max_relative = 0.02);
+        let [estimated, drawn] = [&frame.log(&place), &log].map(|log| vertex_clocks(&r350, log));
+        assert_relative_eq!(estimated, drawn, max_relative = 0.02);
     }
 }

@@ -48,16 +48,3 @@ fn with_hats_that_reach_over_fewer_are() {
     assert_eq!((least, most), (3, 7));
     close(mean, 6.44, 0.02, "the mean");
 }
-
-/// For a normal along an axis: the four segments of the opposite face, and the side faces' segments that touch the
-/// horizon from below.
-#[test]
-fn along_an_axis_twelve_are_below_without_reach() {
-    let [one, two] = [BasisWidth::OneTexel, BasisWidth::TwoTexels].map(LinearBasis::new);
-    for axis in DVec3::AXES {
-        for normal in [axis, -axis] {
-            assert_eq!(segments_below_horizon(normal, &one).count_ones(), 12);
-            assert_eq!(segments_below_horizon(normal, &two).count_ones(), 4);
-        }
-    }
-}

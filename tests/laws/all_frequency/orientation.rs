@@ -28,7 +28,7 @@ fn one_texel(face: &str, row: usize, column: usize) -> CubeLight {
     let number = UPPER_LEFT.iter().position(|(name, ..)| *name == face).expect("a face");
     let black = format!("{number},{row},{column},0,0,0\n");
     assert!(text.contains(&black));
-    text = text.replacen(&black, &format!("{face},{row},{column},1,2,4\n"), 1);
+    text = text.replacen(&black, &format!("{number},{row},{column},1,2,4\n"), 1);
     CubeLight::new(parse_cube_table(text.as_bytes(), Path::new("light.csv"), LIGHT_SIDE).expect("a map"))
         .expect("a light")
 }

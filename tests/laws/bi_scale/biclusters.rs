@@ -1,13 +1,12 @@
 //! Biclusters: the fast search against a literal Algorithm 1, and properties for any matrix.
 
-use crossbar::bi_scale::bicluster::{Biclustering, SEED, bicluster};
+use crossbar::bi_scale::bicluster::{SEED, bicluster};
 use crossbar::bi_scale::matrix::MatrixEntry;
 use crossbar::bi_scale::paper;
 use crossbar::bi_scale::product::{Gather, by_rows};
 use proptest::prelude::*;
-use refsim::num::power_of_two;
 
-use super::{bits, blocks, matrix, numbers_of, quietly, real_blocks, real_matrix};
+use super::{blocks, matrix, quietly};
 
 /// Values of any size and sign, with few zeros.
 fn anything() -> impl Strategy<Value = Vec<Vec<i32>>> {
@@ -92,35 +91,6 @@ proptest! {
     }
 }
 
-/// Bound on the rounding error of the sum of biclusters, per entry. An entry v that is split into n terms t_k has
-/// residuals r_0 = v, r_k = r_(k-1) - t_k and r_n = 0, each rounded by at most u |r_k| with u = EPSILON / 2, so the
-/// exact sum of the t_k differs from v by at most the sum of these roundings. Adding the t_k rounds n more times. To
-/// first order no partial sum exceeds S = |v| + sum |t_k|, so the bound is 2 n u S; n + 2 instead of n covers the terms
-/// of second order.
-fn rounding(found: &Biclustering, rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut sizes: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(|value| value.abs()).collect()).collect();
-    let mut counts: Vec<Vec<f64>> = rows.iter().map(|row| vec![2.0; row.len()]).collect();
-    for index in 0..found.len() {
-        for (row, entry) in
-            found.rows_of(index).iter().flat_map(|row| found.columns_of(index).iter().map(move |e| (row, e)))
-        {
-            sizes[*row as usize][entry.index as usize] += found.value(entry.value).abs();
-            counts[*row as usize][entry.index as usize] += 1.0;
-        }
-    }
-    let bound = |(size, count): (&f64, &f64)| if *count > 3.0 { size * count * f64::EPSILON } else { 0.0 };
-    sizes.iter().zip(&counts).map(|(sizes, counts)| sizes.iter().zip(counts).map(bound).collect()).collect()
-}
-
-#[test]
-fn residuals_beyond_doubles_are_refused() {
-    let mut rows = vec![vec![f64::MAX, 0.1, 0.1, 0.1, 0.1]; 6];
-    rows[0][0] = f64::MIN;
-    let error = bicluster(&real_matrix(&rows), SEED, &mut |_| ()).expect_err("refused");
-    let expected = "expected at most 2147483647 distinct residuals, all of them finite, found others";
-    assert_eq!(error.to_string(), expected);
-}
-
 /// The example of section IV-C, whose second row differs by 2 in one column.
 #[test]
 fn a_residual_is_left_for_later() {
@@ -147,94 +117,10 @@ fn a_matrix_of_nothing_has_no_biclusters() {
     assert_eq!(found.sum(), Ok(matrix));
 }
 
-/// A residual of 2^31 units does not fit into 32 bits: the search continues with a table, and the matrix is recovered
-/// in its own unit.
 #[test]
-fn residuals_leave_32_bits() {
+fn residuals_beyond_32_bits_are_refused() {
     let mut rows = vec![vec![i32::MIN, 1, 1, 1, 1, 1]; 7];
     rows[0][0] = 0;
-    let matrix = matrix(&rows, 2);
-    let found = quietly(&matrix, SEED);
-    assert_eq!((found.values().fraction_bits(), found.values().table_len()), (Some(2), Some(3)));
-    assert_eq!(paper::biclusters(&matrix, SEED), found);
-    assert_eq!(found.sum(), Ok(matrix));
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
-
-    #[test]
-    fn any_numbers_are_decided_as_by_algorithm_1(
-        rows in real_blocks(), seed: u64,
-    ) {
-        let matrix = real_matrix(&rows);
-        prop_assert_eq!(paper::biclusters(&matrix, seed), quietly(&matrix, seed));
-    }
-
-    /// Subnormal numbers, 1e-300 together with 1e300, and 53-bit numbers are recovered up to rounding.
-    #[test]
-    fn any_numbers_come_back(rows in real_blocks(), seed: u64) {
-        let matrix = real_matrix(&rows);
-        prop_assert_eq!(bits(&numbers_of(&matrix)), bits(&rows));
-        let found = quietly(&matrix, seed);
-        let sum = numbers_of(&found.sum().expect("sums of a matrix"));
-        let bounds = rounding(&found, &rows);
-        for (row, column) in (0..rows.len()).flat_map(|row| (0..rows[0].len()).map(move |column| (row, column))) {
-            let off = (sum[row][column] - rows[row][column]).abs();
-            prop_assert!(off <= bounds[row][column], "{off} in row {row}, column {column}");
-        }
-        prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
-    }
-
-    /// Multiples of a power of two, below 2^40 times that power, are subtracted without rounding.
-    #[test]
-    fn numbers_of_few_bits_come_back_exactly(
-        rows in anything(), factor in 1..1_000_000_i32, power in -1000..900_i32, seed: u64,
-    ) {
-        let number = |&value: &i32| f64::from(value) * f64::from(factor) * power_of_two(power);
-        let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(number).collect()).collect();
-        let found = quietly(&real_matrix(&rows), seed);
-        prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
-    }
-
-    /// Rows that are multiples of one row yield one bicluster per factor; the only row of a factor is split into
-    /// columns at the same cost.
-    #[test]
-    fn matrices_of_rank_1_are_few_biclusters(
-        row in prop::collection::vec(0.5..1.0_f64, 6..12),
-        powers in prop::collection::vec(-500..500_i32, 12),
-        factors in prop::sample::subsequence(vec![0.1, -1.3, 1e-150, 3.0, 7e150], 1..5),
-        choice in prop::collection::vec(any::<prop::sample::Index>(), 10..30),
-        seed: u64,
-    ) {
-        let column = |(at, value): (usize, &f64)| value * power_of_two(powers[at]);
-        let row: Vec<f64> = row.iter().enumerate().map(column).collect();
-        let of_row: Vec<usize> = choice.iter().map(|choice| choice.index(factors.len())).collect();
-        let rows: Vec<Vec<f64>> =
-            of_row.iter().map(|&factor| row.iter().map(|value| factors[factor] * value).collect()).collect();
-        let found = quietly(&real_matrix(&rows), seed);
-        let rows_of = |factor: usize| of_row.iter().filter(|&&other| other == factor).count();
-        let biclusters = (0..factors.len()).map(|factor| match rows_of(factor) {
-            0 => 0,
-            1 => row.len(),
-            _ => 1,
-        });
-        prop_assert_eq!(found.len(), biclusters.sum::<usize>());
-        prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
-    }
-
-    /// The search finds the same biclusters for numbers in a table and in units; multiples of 2^-42 have no unit.
-    #[test]
-    fn the_scale_of_numbers_decides_nothing(rows in blocks(), seed: u64) {
-        let small = |value: &i32| f64::from(*value) * power_of_two(-42);
-        let tabled: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(small).collect()).collect();
-        let (in_units, in_table) = (quietly(&matrix(&rows, 2), seed), quietly(&real_matrix(&tabled), seed));
-        prop_assert_eq!(in_units.len(), in_table.len());
-        for number in 0..in_units.len() {
-            prop_assert_eq!(in_units.rows_of(number), in_table.rows_of(number));
-            let columns = in_units.columns_of(number).iter().map(|at| (at.index, in_units.value(at.value)));
-            let tabled = in_table.columns_of(number).iter().map(|at| (at.index, in_table.value(at.value)));
-            prop_assert!(columns.eq(tabled.map(|(index, value)| (index, value * power_of_two(40)))));
-        }
-    }
+    let error = bicluster(&matrix(&rows, 2), SEED, &mut |_| ()).expect_err("2^31 units").to_string();
+    assert_eq!(error, "expected residuals that 32 bits of units hold, found others");
 }

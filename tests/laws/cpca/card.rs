@@ -1,6 +1,6 @@
 //! Compressed transfer drawn on a card, compared with a picture that the host interpolates in f64.
 
-use crate::support::{cluster_options, profile};
+use crate::support::{cluster_options, over_hills, profile, vertex_clocks};
 use approx::assert_relative_eq;
 use crossbar::card::MeshView;
 use crossbar::card::frame_time::frame_time;
@@ -8,7 +8,6 @@ use crossbar::clustering::{Clustering, compress};
 use crossbar::cpca::on_card::model::TransferSize;
 use crossbar::cpca::on_card::time::{FrameCounts, host_of_section_7};
 use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
-use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;
 use crossbar::transfer::synthetic::{hills, signal_at};
@@ -17,7 +16,6 @@ use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 use refsim::timing::host::HostOperation;
-use refsim::timing::{Level, Model};
 
 const SIZE: [u32; 2] = [44, 36];
 
@@ -45,11 +43,6 @@ impl Hills {
     }
 }
 
-/// A camera above the hills, so that no hill hides another.
-fn camera() -> Camera {
-    Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
-}
-
 /// The work of a frame follows from its sizes, and its time from that work.
 #[test]
 fn a_frame_is_counted_and_timed() {
@@ -64,7 +57,7 @@ fn a_frame_is_counted_and_timed() {
         let options = PrtCardOptions::default();
         let transfer = hills.transfer(vectors);
         let mut card = PrtCard::new(r300.clone(), ExecutorKind::Batch, transfer, &options).expect("a card");
-        let view = MeshView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
+        let view = MeshView { camera: over_hills(SIZE), exposure: 0.5, format: TexelFormat::Bgra8 };
         let (texels, log) = card.logged_view(&hills.light, &view).expect("a frame");
         assert!(texels.texels == card.view_texels(&hills.light, &view).expect("a frame").texels);
         let time = frame_time(&r300, &log, &host).expect("a time");
@@ -93,12 +86,8 @@ fn a_frame_is_counted_and_timed() {
         let estimate = frame_time(&r300, &counts.log(), &host).expect("a time");
         assert_eq!((estimate.products, estimate.triangles), (time.products, time.triangles));
         assert!(estimate.draws <= time.draws, "{estimate:?} {time:?}");
-        let model = Model::new(Level::Pipeline, &r300).expect("a model");
-        let vertices = |log: &[Event]| -> u64 {
-            let clocks = |event: &Event| if let Event::Draw(draw) = event { model.clocks(draw).vertices.0 } else { 0 };
-            log.iter().map(clocks).sum()
-        };
-        assert_relative_eq!(vertices(&counts.log()) as f64, vertices(&log) as f64, max_relative = 0.02);
+        let [estimated, drawn] = [&counts.log(), &log].map(|log| vertex_clocks(&r300, log));
+        assert_relative_eq!(estimated, drawn, max_relative = 0.02);
         time
     };
     let [few, many] = [2, 8].map(frame);

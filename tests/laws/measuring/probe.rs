@@ -22,8 +22,8 @@ pub(super) fn codes(text: &str, switch: (&str, &str), kind: ExecutorKind) -> Opt
     Some(codes)
 }
 
-/// Values of the switch in groups that draw the same codes; `None` if a value cannot draw the case.
-pub(super) fn groups(text: &str, switch: &Switch) -> Option<Vec<Vec<String>>> {
+/// Values of the switch in groups that draw the same codes, with these; `None` if a value cannot draw the case.
+pub(super) fn groups(text: &str, switch: &Switch) -> Option<Vec<(Vec<u64>, Vec<String>)>> {
     let mut groups: Vec<(Vec<u64>, Vec<String>)> = Vec::new();
     for value in &switch.values {
         let codes = codes(text, (&switch.name, value), ExecutorKind::Scalar)?;
@@ -32,7 +32,7 @@ pub(super) fn groups(text: &str, switch: &Switch) -> Option<Vec<Vec<String>>> {
             None => groups.push((codes, vec![value.clone()])),
         }
     }
-    Some(groups.into_iter().map(|(_, values)| values).collect())
+    Some(groups)
 }
 
 /// The open switches of a device: no document states the default, and no measurement of the chip or a sibling shows it.

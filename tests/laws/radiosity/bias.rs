@@ -55,12 +55,9 @@ fn the_room_is_darker_the_more_patches_and_darkest_where_sums_are_truncated() {
         let per_patch = truncated[0] / patches as f64;
         assert!((1.0 / 4096.0..1.0 / 1024.0).contains(&per_patch), "{per_patch} a patch");
     }
-}
-
-#[test]
-fn four_partial_sums_lose_less_than_one() {
-    for rounding in ["rne", "rtz"] {
-        let [one, four] = [Packing::Rgb, Packing::Luminance].map(|packing| darkness(120, packing, rounding)[0]);
+    // Four partial sums lose less than one.
+    for (rounding, one) in [("rne", nearest[1][0]), ("rtz", truncated[1][0])] {
+        let [four, _] = darkness(SIZES[1], Packing::Luminance, rounding);
         assert!(four.abs() < 0.6 * one, "{rounding}: {four} against {one}");
     }
 }

@@ -56,16 +56,6 @@ fn what_is_emitted_is_absorbed_or_leaves() {
     assert!(open.energy_balance_error(&wrong).iter().all(|left| left.abs() > 1e-3), "a wrong solution shows");
 }
 
-/// Radiosities are linear in the emitted light.
-#[test]
-fn brighter_lamps_make_a_room_brighter_in_proportion() {
-    let mut system = cornell(250);
-    let before = system.solve(Solver::GaussSeidel, &EXACT).expect("a solution").radiosity();
-    system.set_emittance(system.emittance().iter().map(|e| e.map(|x| 1.5 * x)).collect()).expect("emittances");
-    let after = system.solve(Solver::GaussSeidel, &EXACT).expect("a solution").radiosity();
-    assert!(before.iter().zip(&after).all(|(b, a)| (0..3).all(|c| abs_diff_eq!(1.5 * b[c], a[c], epsilon = 1e-9))));
-}
-
 #[test]
 fn corners_share_what_meets_there() {
     let patches = Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(4)).expect("patches");

@@ -5,12 +5,8 @@ use crate::environment::by_form;
 use crate::support::{bits, profile, soup};
 use crossbar::geom::exact::Sides;
 use crossbar::geom::random::CounterRng;
-use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Ray};
-use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
 use crossbar::ray_engine::{Answer, Crossbar, RayBatch};
-use crossbar::scene::Camera;
-use crossbar::tracer::octree::OctreeParameters;
 use proptest::prelude::*;
 use refsim::machine::ExecutorKind;
 
@@ -132,25 +128,5 @@ fn much_of_what_can_be_culled_is() {
             }
             assert!(gone * share >= least, "{device} {sides:?}: {gone} of 720");
         }
-    }
-}
-
-#[test]
-fn the_engine_finds_the_same_and_draws_less() {
-    let mesh = teapot(4).expect("a teapot");
-    let rays = Camera::teapot(64, 64).expect("a camera").rays();
-    let run = |cull, sides| {
-        let octree = OctreeParameters { most_triangles: 4, most_depth: 6 };
-        let parameters = EngineParameters { octree, cull, sides, ..EngineParameters::default() };
-        let mut engine =
-            RayEngine::new(&mesh, profile("ideal-fp32"), ExecutorKind::Batch, parameters).expect("an engine");
-        (engine.trace(&rays).expect("the card works"), engine.counts())
-    };
-    for sides in [Sides::Front, Sides::Both] {
-        let ((plain, drawn), (culled, less)) = (run(false, sides), run(true, sides));
-        assert_eq!(plain, culled);
-        assert_eq!((drawn.culled, drawn.passes), (0, less.passes));
-        let share = less.culled as f64 / less.pass_triangles as f64;
-        assert!(share > 0.1, "{sides:?}: {share}");
     }
 }

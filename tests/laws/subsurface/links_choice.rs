@@ -14,62 +14,43 @@ fn links(surface: &SurfaceMoments, dipoles: &[Dipole], choice: LinkChoice) -> Li
     Links::new(surface, dipoles, choice, 0.01).expect("links")
 }
 
-fn choices() -> Vec<LinkChoice> {
-    let fixed = (0..5).map(|level| LinkChoice::Fixed { level });
-    let adaptive = [1, 2, 4, 15, 16, 32, 64, 255, 256, 300].map(|count| LinkChoice::Adaptive { count });
-    fixed.chain(adaptive).collect()
-}
-
 fn dented() -> SurfaceMoments {
     surface(&atlas(&sphere(3, 0.2), SIDE), 4.0)
 }
 
+/// The used links of a texel cover every texel once, in the largest number of the form 1 + 3 k if they are adaptive.
+/// Uniform light gathers the sum of their factors, which is the factor of the whole surface.
 #[test]
-fn the_links_of_a_texel_cover_every_texel_once() {
-    let surface = dented();
-    for choice in choices() {
-        let links = links(&surface, &[figure_7()], choice);
-        for texel in texels(SIDE) {
-            let mut covered = vec![0; (SIDE * SIDE) as usize];
-            for (ClusterId { level, y, x }, factor) in links.of(texel) {
-                // Padding has the factor 0, which no link has.
-                if factor[0] > 0.0 {
-                    let size = 1 << level;
-                    for (v, u) in (0..size).flat_map(|v| (0..size).map(move |u| (v, u))) {
-                        covered[((y * size + v) * SIDE + x * size + u) as usize] += 1;
-                    }
-                }
-            }
-            assert!(covered.iter().all(|count| *count == 1), "{choice:?} at {texel:?}: {covered:?}");
-        }
-    }
-}
-
-#[test]
-fn adaptive_links_are_the_largest_number_of_the_form_1_plus_3_k() {
-    let surface = dented();
-    for count in [1, 3, 4, 15, 16, 17, 31, 32, 64] {
-        let links = links(&surface, &[figure_7()], LinkChoice::Adaptive { count });
-        assert_eq!(links.per_texel(), count);
-        for texel in texels(SIDE) {
-            let used = links.of(texel).filter(|(_, factor)| factor[0] > 0.0).count();
-            assert_eq!(used, 1 + (count - 1) / 3 * 3);
-        }
-    }
-}
-
-#[test]
-fn uniform_light_gathers_the_row_sum_whatever_the_links() {
+fn links_tile_the_atlas_and_gather_the_row_sum() {
     let surface = dented();
     let factors = Factors::new(&surface, [figure_7()], 0.01).expect("a tolerance");
+    let wholes: Vec<[f64; 1]> = texels(SIDE).map(|texel| factors.factor(texel, root(&surface))).collect();
     let ones = vec![[1.0; 3]; (SIDE * SIDE) as usize];
     let means = IrradianceMeans::new(&surface, &ones, MeanWeighting::Area).expect("one per texel");
-    for choice in choices() {
+    let fixed = (0..5).map(|level| LinkChoice::Fixed { level });
+    let adaptive = [1, 2, 3, 4, 15, 16, 17, 31, 32, 64, 255, 256, 300].map(|count| LinkChoice::Adaptive { count });
+    for choice in fixed.chain(adaptive) {
         let links = links(&surface, &[figure_7()], choice);
-        for (texel, found) in texels(SIDE).zip(links.gather(&means)) {
-            let sum: f64 = links.of(texel).map(|(_, factor)| f64::from(factor[0])).sum();
+        for ((texel, found), [whole]) in texels(SIDE).zip(links.gather(&means)).zip(&wholes) {
+            let mut covered = vec![0; (SIDE * SIDE) as usize];
+            let (mut used, mut sum) = (0, 0.0);
+            // Padding has the factor 0, which no link has.
+            for (ClusterId { level, y, x }, factor) in links.of(texel).filter(|(_, factor)| factor[0] > 0.0) {
+                let size = 1 << level;
+                for (v, u) in (0..size).flat_map(|v| (0..size).map(move |u| (v, u))) {
+                    covered[((y * size + v) * SIDE + x * size + u) as usize] += 1;
+                }
+                used += 1;
+                sum += f64::from(factor[0]);
+            }
+            assert!(covered.iter().all(|count| *count == 1), "{choice:?} at {texel:?}: {covered:?}");
             assert_relative_eq!(found[0], sum, max_relative = 1e-13);
-            assert_relative_eq!(found[1], factors.factor(texel, root(&surface))[0], max_relative = 0.01);
+            assert_relative_eq!(found[1], *whole, max_relative = 0.01);
+            if let LinkChoice::Adaptive { count } = choice
+                && count <= 64
+            {
+                assert_eq!((links.per_texel(), used), (count, 1 + (count - 1) / 3 * 3));
+            }
         }
     }
 }
@@ -95,11 +76,11 @@ fn stored_factors_make_plain_means_weigh_by_area() {
     let by_area = IrradianceMeans::new(&surface, &light, MeanWeighting::Area).expect("one per texel");
     let links = links(&surface, &[figure_7()], LinkChoice::Fixed { level: 2 });
     let encoded = EncodedLinks::new(&links, &surface, MeanWeighting::Area);
-    assert_eq!((encoded.texture_count(), links.fixed_clusters().len()), (4, 16));
+    assert_eq!((encoded.texture_count(), links.per_texel()), (4, 16));
     let textures: Vec<_> = (0..4).map(|k| encoded.texture(k)).collect();
     for (k, exact) in links.gather(&by_area).iter().enumerate() {
         let mut sum = 0.0;
-        for (link, cluster) in links.fixed_clusters().into_iter().enumerate() {
+        for (link, (cluster, _)) in links.of([0, 0]).enumerate() {
             sum += f64::from(textures[link / 4].texels[k][link % 4]) * plain.of(cluster)[0];
         }
         assert_relative_eq!(sum, exact[0], max_relative = 1e-6);
@@ -155,6 +136,7 @@ fn lost_factors_are_counted() {
     let lost = encoded.lost(Format::FP16);
     let used = || links.factors().iter().filter(|factor| **factor > 0.0);
     assert_eq!(lost.factors, used().count());
+    let exp2 = |exponent: i32| refsim::num::power_of_two(exponent) as f32;
     assert_eq!(lost.flushed, used().filter(|factor| **factor <= exp2(-25)).count());
     assert!(lost.flushed > 0 && lost.denormal > 0, "{lost:?}");
     let below = used().filter(|factor| **factor < exp2(-14)).count();
@@ -162,21 +144,17 @@ fn lost_factors_are_counted() {
     assert_eq!(encoded.lost(Format::FP32).flushed, 0);
 }
 
-fn exp2(exponent: i32) -> f32 {
-    refsim::num::power_of_two(exponent) as f32
-}
-
 #[test]
 fn bad_choices_are_refused() {
     let surface = dented();
-    let error =
-        |dipoles: &[Dipole], choice| Links::new(&surface, dipoles, choice, 0.01).expect_err("no links").to_string();
-    let one = [figure_7()];
-    assert_eq!(error(&one, LinkChoice::Fixed { level: 5 }), "expected a level below 5, found 5");
-    assert_eq!(error(&one, LinkChoice::Adaptive { count: 0 }), "expected at least one link per texel");
-    assert_eq!(error(&[figure_7(); 2], LinkChoice::Fixed { level: 2 }), "expected one dipole, or three, found 2");
-    let most = usize::MAX / 16;
-    assert!(error(&one, LinkChoice::Adaptive { count: most }).contains("expected at most 268435456"));
-    let means = IrradianceMeans::new(&surface, &[[1.0; 3]; 7], MeanWeighting::Area);
-    assert_eq!(means.expect_err("too few").to_string(), "expected a value for each of 256 texels, found 7");
+    let one = &[figure_7()][..];
+    for (dipoles, choice) in [
+        (one, LinkChoice::Fixed { level: 5 }),
+        (one, LinkChoice::Adaptive { count: 0 }),
+        (one, LinkChoice::Adaptive { count: usize::MAX / 16 }),
+        (&[figure_7(); 2], LinkChoice::Fixed { level: 2 }),
+    ] {
+        assert!(Links::new(&surface, dipoles, choice, 0.01).is_err(), "{choice:?}");
+    }
+    assert!(IrradianceMeans::new(&surface, &[[1.0; 3]; 7], MeanWeighting::Area).is_err());
 }

@@ -3,26 +3,17 @@
 
 use crate::environment::by_form;
 use crate::support::{cuboid, plate};
-use crossbar::atlas::Atlas;
 use crossbar::geom::Mesh;
 use crossbar::subsurface::links::{IrradianceMeans, LinkChoice, Links, MeanWeighting};
 use crossbar::subsurface::multipole::{ClusterId, Factors};
-use crossbar::subsurface::{Coefficients, Dipole, Reference};
+use crossbar::subsurface::{Dipole, Reference};
 use glam::DVec3;
 
-use super::all_pairs::parallelograms;
+use super::all_pairs::{apart, media, parallelogram, parallelograms};
 use super::links_factors::mean_of_contours;
-use super::links_models::{atlas, medium, root, surface};
+use super::links_models::{atlas, marble, root, surface};
 
 const TOLERANCE: f64 = 0.01;
-
-fn marble() -> Dipole {
-    Dipole::new(Coefficients { sigma_s_prime: 2.62, sigma_a: 0.0041 }, 1.5).expect("a medium")
-}
-
-fn media() -> [Dipole; 3] {
-    [marble(), medium(1.0, 0.0), medium(0.68, 0.9)]
-}
 
 /// Two rectangles of the same length, with widths `width` and `other`, that meet along an edge at an angle; at 180
 /// degrees they are coplanar.
@@ -32,12 +23,6 @@ fn folded([length, width, other]: [f32; 3], degrees: f32) -> Mesh {
     let corners = [[0.0, -width, 0.0], [0.0, 0.0, 0.0], [0.0, y, z]];
     let positions = corners.iter().flat_map(|&[_, y, z]| [[0.0, y, z], [length, y, z]]).collect();
     Mesh::new(positions, vec![[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]]).expect("a mesh")
-}
-
-/// The corners of a texel, in mm.
-fn corners(atlas: &Atlas, mm_per_unit: f64, texel: u32) -> Vec<Vec<DVec3>> {
-    let in_mm = |ring: &[DVec3]| ring.iter().map(|corner| mm_per_unit * *corner).collect();
-    atlas.part(texel).polygons().map(in_mm).collect()
 }
 
 /// The allowed error of a factor.
@@ -53,18 +38,8 @@ fn long_texels_of_a_face_have_equation_10() {
     let mut worst: f64 = 0.0;
     for aspect in [1.0, 2.0, 4.0, 9.0, 30.0] {
         let atlas = atlas(&plate(aspect, 1.0), SIDE);
-        let face = |texel: u32| atlas.texels()[texel as usize].face;
-        let whole = |texel: u32| {
-            let rings = corners(&atlas, 1.0, texel);
-            rings.len() == 1 && rings[0].len() == 4
-        };
-        let alike = |i: u32, j: u32| whole(j) && face(j) == face(i);
-        let i = (0..SIDE * SIDE - SIDE - 1).find(|&i| [0, 1, SIDE, SIDE + 1].iter().all(|step| alike(i, i + step)));
-        let i = i.expect("four parallelograms");
-        let ring = &corners(&atlas, 1.0, i)[0];
-        let sides = [ring[1] - ring[0], ring[2] - ring[1]];
-        let [e, f] = sides;
-        let longer = e.length().max(f.length());
+        let (i, sides) = parallelogram(&atlas, &[0, 1, SIDE, SIDE + 1]);
+        let longer = sides[0].length().max(sides[1].length());
         for dipole in media().into_iter().take(by_form(1, 3)) {
             for length in [3.0, 10.0, 30.0, 100.0, 1000.0] {
                 let mm_per_unit = length * dipole.mean_free_path() / longer;
@@ -72,9 +47,7 @@ fn long_texels_of_a_face_have_equation_10() {
                 let factors = Factors::new(&surface, [dipole], TOLERANCE).expect("a tolerance");
                 let mut receiver = factors.receiver();
                 for j in [i, i + 1, i + SIDE, i + SIDE + 1] {
-                    let offset = atlas.texels()[j as usize].point - atlas.texels()[i as usize].point;
-                    let over = e.cross(f).z;
-                    let apart = [offset.cross(f).z / over, e.cross(offset).z / over];
+                    let apart = apart(&atlas, sides, [i, j]);
                     let exact = parallelograms(&dipole, sides.map(|side| mm_per_unit * side), apart);
                     let [found] =
                         receiver.factor([i % SIDE, i / SIDE], ClusterId { level: 0, y: j / SIDE, x: j % SIDE });

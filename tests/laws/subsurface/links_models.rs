@@ -35,6 +35,10 @@ pub(crate) fn sphere(n: u32, dents: f64) -> Mesh {
     Mesh::new(positions, triangles).expect("a mesh").welded()
 }
 
+pub(crate) fn marble() -> Dipole {
+    Dipole::new(Coefficients { sigma_s_prime: 2.62, sigma_a: 0.0041 }, 1.5).expect("a medium")
+}
+
 /// The medium of Figure 7.
 pub(crate) fn figure_7() -> Dipole {
     medium(2.21, 0.0012)

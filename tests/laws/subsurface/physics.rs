@@ -3,8 +3,7 @@
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use crossbar::elementary::{exp, ln};
-use crossbar::error::InputError;
-use crossbar::quadrature::{graded_integral, integral};
+use crossbar::quadrature::graded_integral;
 use crossbar::subsurface::fresnel::{internal_reflectance, internal_reflectance_polynomial, mean_transmittance};
 use crossbar::subsurface::{Coefficients, Dipole, MAX_ETA, Material, fresnel_transmittance};
 use std::f64::consts::PI;
@@ -45,17 +44,13 @@ fn transmittance_is_that_of_fresnels_formulas() {
 }
 
 #[test]
-fn transmittance_is_the_same_both_ways_and_nothing_else_passes() {
-    for (eta, cosine) in [(1.3_f64, 0.01_f64), (1.3, 0.4), (1.5, 0.9), (2.7, 1.0)] {
-        let inside = (1.0 - (1.0 - cosine * cosine) / (eta * eta)).sqrt();
-        let out = fresnel_transmittance(1.0 / eta, inside);
-        assert_relative_eq!(out, fresnel_transmittance(eta, cosine), max_relative = 1e-12);
+fn nothing_passes_beyond_the_critical_angle_or_from_behind() {
+    for eta in [1.3_f64, 1.5, 2.7] {
         assert_eq!(fresnel_transmittance(1.0 / eta, 0.99 * (1.0 - 1.0 / (eta * eta)).sqrt()), 0.0, "total reflection");
     }
     for cosine in [0.0, -0.0, -0.5, f64::NAN, f64::NEG_INFINITY] {
         assert_eq!(fresnel_transmittance(1.3, cosine), 0.0);
     }
-    assert_relative_eq!(fresnel_transmittance(1.0, 0.3), 1.0, max_relative = 1e-15);
     assert_eq!(fresnel_transmittance(1.3, 1.0 + 1e-15), fresnel_transmittance(1.3, 1.0));
 }
 
@@ -160,37 +155,11 @@ fn totals_and_radii_of_figure_7() {
 
 #[test]
 fn figures_that_make_no_medium_are_refused() {
-    let new = |s, a, eta| Dipole::new(Coefficients { sigma_s_prime: s, sigma_a: a }, eta).map(|_| ()).unwrap_err();
-    let told = |error: &InputError| error.to_string();
-    for (error, message) in [
-        (new(f64::NAN, 0.0, 1.3), "expected a finite number for the reduced scattering coefficient, found NaN"),
-        (new(1.0, f64::INFINITY, 1.3), "expected a finite number for the absorption coefficient, found inf"),
-        (new(1.0, -0.5, 1.3), "expected at least 0 for the absorption coefficient, found -0.5"),
-        (new(-1.0, 0.5, 1.3), "expected at least 0 for the reduced scattering coefficient, found -1"),
-        (
-            new(0.0, 0.5, 1.3),
-            "expected a reduced scattering coefficient above 0: without scattering no light comes back",
-        ),
-        (new(1e-31, 0.5, 1.3), "expected 1e-30 to 1e30 per mm for the reduced scattering coefficient, found 1e-31"),
-        (new(1.0, 0.5, 0.9), "expected an index of refraction from 1 to 3, found 0.9"),
-        (new(1.0, 0.5, f64::NAN), "expected a finite number for the index of refraction, found NaN"),
-    ] {
-        assert_eq!(told(&error), message);
-    }
+    let is_refused = |s, a, eta| Dipole::new(Coefficients { sigma_s_prime: s, sigma_a: a }, eta).is_err();
+    assert!([f64::NAN, -1.0, 0.0, 1e-31].into_iter().all(|s| is_refused(s, 0.5, 1.3)));
+    assert!([f64::INFINITY, -0.5].into_iter().all(|a| is_refused(1.0, a, 1.3)));
+    assert!([0.9, f64::NAN].into_iter().all(|eta| is_refused(1.0, 0.5, eta)));
     let bad = [FIGURE_7, FIGURE_7, Coefficients { sigma_s_prime: 0.0, sigma_a: 0.0 }];
-    let message = told(&Material::new("mine", bad, 1.3).unwrap_err());
+    let message = Material::new("mine", bad, 1.3).unwrap_err().to_string();
     assert!(message.starts_with("blue channel: expected a reduced"), "{message}");
-}
-
-#[test]
-fn many_paths_thick_light_leaves_where_it_entered() {
-    let far = |scale: f64| {
-        let c = Coefficients { sigma_s_prime: 2.21 * scale, sigma_a: 0.0012 * scale };
-        Dipole::new(c, 1.3).unwrap()
-    };
-    assert_relative_eq!(far(1e6).disc(0.01), far(1.0).total(), max_relative = 1e-12);
-    // Coefficients and lengths scale inversely.
-    assert_relative_eq!(far(1e6).r_d(3e-6), 1e12 * far(1.0).r_d(3.0), max_relative = 1e-12);
-    let flux = integral(0.0, 2.0, |r| 2.0 * PI * r * far(0.5).r_d(r));
-    assert_relative_eq!(flux, far(1.0).disc(1.0), max_relative = 1e-9);
 }

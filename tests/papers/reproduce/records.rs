@@ -54,7 +54,7 @@ fn the_quickest_record_comes_out_again() {
     if !is_full() {
         return;
     }
-    let seconds = |entry: &&ReproduceEntry| recorded(entry).ok()??.made().processor_s;
+    let seconds = |entry: &&ReproduceEntry| recorded(entry).ok()??.made.processor_s;
     let timed = with_record().into_iter().filter_map(|entry| Some((seconds(&entry)?, *entry)));
     let (_, entry) = timed.min_by(|a, b| a.0.total_cmp(&b.0)).expect("a record");
     let found = reproduce(&[entry], true, &mut |_, _, _| ()).expect("it can be worked out");

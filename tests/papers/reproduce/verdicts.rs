@@ -1,7 +1,7 @@
 //! Reasons for a row's verdict: its source, its bound, its class, its explanation.
 
 use crossbar::study::reproduce::report::{evidence_line, notes};
-use crossbar::study::reproduce::{Bound, Judgement, Method, Origin, PaperRow, RowSource, RowVerdict, figures, timed};
+use crossbar::study::reproduce::{Bound, Judgement, Origin, PaperRow, RowSource, RowVerdict, figures, timed};
 
 use super::{FOUND, all, findings, row};
 
@@ -64,26 +64,6 @@ fn what_cannot_fail_is_no_evidence() {
         assert_eq!(row.verdict(), RowVerdict::ByConstruction, "{}", row.target.id);
     }
     assert_eq!(confined.len(), 1 + 3 + 1 + 1 + 6 + 6 + 1 + 1);
-}
-
-/// Values that follow from printed sizes and a calibrated rate, from the display's rate (inferred from printed rates),
-/// or from the appendix's equations are not predictions.
-#[test]
-fn print_in_other_words_is_not_predicted() {
-    for id in [
-        "cpca/uncompressed-head-16",
-        "cpca/rate-bird-uncompressed",
-        "cpca/newer-card",
-        "cpca/singular-least",
-        "cpca/odd-8-functions",
-        "all-frequency/fps-bunny",
-        "all-frequency/fps-figure-7-glossy",
-    ] {
-        assert_eq!((row(id).method, row(id).verdict()), (Method::Equation, RowVerdict::Consistent), "{id}");
-    }
-    for id in ["subsurface/rate-head-512", "all-frequency/fps-alone-bunny", "all-frequency/fps-alone-teapot"] {
-        assert_eq!(row(id).verdict(), RowVerdict::Calibrated, "{id}");
-    }
 }
 
 /// The tally's sentence has a number for each verdict, and the numbers add up to the number of rows.

@@ -3,9 +3,9 @@
 use refsim::device::Profile;
 use refsim::exec::{BumpStage, DepthValue, PixelBindings, Projection, SamplerBinding};
 use refsim::num::Format;
-use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{Image, SamplerState, TexelFormat};
 
-use crate::running::{QuadRun, bits, constants, ideal, input, run_quad};
+use crate::running::{QuadRun, bits, constants, ideal, image, input, run_quad};
 
 /// `D3DTTFF_PROJECTED`: `tex` reads at (x / w, y / w) or (x / z, y / z); `texbem` adds to these coordinates.
 #[test]
@@ -30,9 +30,7 @@ fn projected_textures_before_1_4() {
 }
 
 fn texture(texels: [[f32; 4]; 4]) -> Image {
-    let values = texels.map(bits);
-    let kind = TextureKind::D2;
-    Image::from_values(TexelFormat::Rgba32f, kind, [4, 1, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
+    image(TexelFormat::Rgba32f, [4, 1], &texels.map(bits))
 }
 
 /// Runs with a 4x1 texture on the first four stages.

@@ -106,19 +106,3 @@ fn a_huge_triangle_fills_the_screen() {
         }
     }
 }
-
-/// A floor through the eye: only the part in front of it is visible, below the horizon.
-#[test]
-fn what_is_behind_the_eye_is_not_seen() {
-    let floor = [[-50.0f32, 20.0], [50.0, 20.0], [0.0, -30.0]].map(|[x, depth]| {
-        let near = 0.1;
-        let far = 100.0;
-        let z = (depth - near) * far / (far - near);
-        vertex([x, -1.0, z, depth])
-    });
-    let s = state(64, 48, CONVENTIONS[0]);
-    let found = counts(&[[&floor[0], &floor[1], &floor[2]]], &s, &RULES);
-    assert!(found.iter().all(|&n| n <= 1));
-    assert!(found[..24 * 64].iter().all(|&n| n == 0), "something above the horizon");
-    assert!(found[47 * 64..].iter().all(|&n| n == 1), "a hole at the feet");
-}

@@ -89,19 +89,3 @@ proptest! {
         }
     }
 }
-
-/// Depth is linear in screen space for any w, and exact at vertices on pixel centers.
-#[test]
-fn depth_is_linear_on_the_screen() {
-    let mut v = [[-1.0f32, 1.0, 0.0], [1.0, 1.0, 0.5], [-1.0, -1.0, 1.0]].map(|[x, y, z]| {
-        let w = 1.0 + z * 7.0;
-        Vertex { position: [x * w, y * w, z * w, w].map(f32::to_bits), ..Vertex::default() }
-    });
-    v[1].texcoords[0][0] = 0x3f80_0000;
-    let done = set_up([&v[0], &v[1], &v[2]], &state(64, 64, CONVENTIONS[0]), &RULES).0.remove(0);
-    let depth = |x, y| f32::from_bits(done.interpolate(x, y, ComponentMask::NONE).depth);
-    assert_eq!(depth(0, 0), 0.0);
-    assert_eq!(depth(32, 0), 0.25);
-    assert_eq!(depth(0, 32), 0.5);
-    assert_eq!(depth(16, 16), 0.375);
-}

@@ -1,6 +1,6 @@
 //! Tests the batch executor's viewport transform and clip tests in rows against [`refsim::raster::setup`].
 
-use super::support::{CONVENTIONS, RULES, grids, state, vertex};
+use super::support::{CONVENTIONS, RULES, grids, state};
 use crate::random::Random;
 use proptest::prelude::*;
 use refsim::device::{SubpixelGrid, SubpixelRounding};
@@ -112,37 +112,6 @@ fn edge_values_arrive_where_the_definition_has_them() {
         {
             let rules = RasterRules { subpixel_grid, subpixel_rounding, ..RULES };
             compare(&vertices, &state(64, 48, convention), &rules);
-        }
-    }
-}
-
-/// Positions left of or above the window's corner are rounded up, all others down; with pixel centers at
-/// integers the corner is at (-1/2, -1/2).
-#[test]
-fn cut_positions_move_toward_the_corner_of_the_window() {
-    let step = 1.0 / 16.0;
-    for (convention, corner) in [(CONVENTIONS[0], -0.5), (CONVENTIONS[2], 0.0)] {
-        let mut state = state(64, 64, convention);
-        state.viewport = Viewport { x: -64, y: -64, width: 128, height: 128, ..state.viewport };
-        let rules = RasterRules { subpixel_rounding: SubpixelRounding::Cut, ..RULES };
-        // The base of the triangle starts at `x`; its edge function has the column's coefficient.
-        let base = |x: f32| {
-            let place = [[x, 0.0], [32.0, 0.0], [32.0, 32.0]];
-            let [a, b, c] = place.map(|[x, y]| vertex([x / 64.0, -y / 64.0, 0.5, 1.0]));
-            let mut out = Vec::new();
-            setup([&a, &b, &c], &state, &rules, &mut out);
-            32.0 - out[0].area.abs() as f32 / (32.0 * 256.0)
-        };
-        for (x, cut) in [
-            (corner + 1.9 * step, corner + step),
-            (corner + 0.99 * step, corner),
-            (corner - 0.01 * step, corner),
-            (corner - 0.99 * step, corner),
-            (corner - step, corner - step),
-            (corner - 1.9 * step, corner - step),
-            (20.0 + 0.99 * step, 20.0),
-        ] {
-            assert_eq!(base(x), cut, "{x} from {corner}");
         }
     }
 }

@@ -82,9 +82,4 @@ fn impossible_images_are_refused() {
     assert!(matches!(new(TextureKind::D2, [u32::MAX; 3], u32::MAX), Err(TextureError::Extent { .. })));
     let bytes = Image::from_bytes(TexelFormat::L8, TextureKind::D2, [2, 2, 1], 1, vec![0; 5]);
     assert_eq!(bytes, Err(TextureError::DataSize { unit: "bytes", expected: 4, found: 5 }));
-    let error = new(TextureKind::Cube, [4, 2, 1], 1).unwrap_err().to_string();
-    assert_eq!(
-        error,
-        "expected square faces of 1 to 16384 texels per side and depth 1 for a cube texture, found 4x2x1"
-    );
 }

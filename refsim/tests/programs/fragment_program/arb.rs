@@ -86,24 +86,22 @@ fn what_is_not_there_is_said() {
         let errors = refsim::asm::assemble(&text).unwrap_err().errors;
         format!("{}\n  help: {}", errors[0], errors[0].help)
     };
-    insta::assert_snapshot!(
-        [
-            error("PARAM m = state.matrix.mvp;"),
-            error("PARAM m = state.light[0].shininess;"),
-            error("PARAM m = state.sky;"),
-            error("OPTION ARB_fog_exp; OPTION ARB_fog_exp2;"),
-            error("TEMP a; OPTION ARB_fog_exp;"),
-            error("TEMP a; SWZ a, a, x, y, b, a;"),
-            error("TEMP texture;"),
-            error("END MOV"),
-            error("OPTION ARB_fragment_program_shadow;"),
-            error("OPTION ARB_precision_hint_fastest; OPTION ARB_precision_hint_nicest;"),
-            error("MOV R0, fragment.color;"),
-            error("TEMP a; MOVR a, a;"),
-            error("TEMP a; TEMP a;"),
-            error("PARAM p[3] = { 1, 2 };"),
-            error("TEMP a; MOV a, program.env[900];"),
-        ]
-        .join("\n")
-    );
+    let programs = [
+        "PARAM m = state.matrix.mvp;",
+        "PARAM m = state.light[0].shininess;",
+        "PARAM m = state.sky;",
+        "OPTION ARB_fog_exp; OPTION ARB_fog_exp2;",
+        "TEMP a; OPTION ARB_fog_exp;",
+        "TEMP a; SWZ a, a, x, y, b, a;",
+        "TEMP texture;",
+        "END MOV",
+        "OPTION ARB_fragment_program_shadow;",
+        "OPTION ARB_precision_hint_fastest; OPTION ARB_precision_hint_nicest;",
+        "MOV R0, fragment.color;",
+        "TEMP a; MOVR a, a;",
+        "TEMP a; TEMP a;",
+        "PARAM p[3] = { 1, 2 };",
+        "TEMP a; MOV a, program.env[900];",
+    ];
+    insta::assert_snapshot!(programs.map(error).join("\n"));
 }

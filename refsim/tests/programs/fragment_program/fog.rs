@@ -1,13 +1,13 @@
 //! `state.*` and the fog options of `!!ARBfp1.0`.
 
-use crate::running::{bits, run_quad};
+use crate::running::{bits, quads, run_quad, screen};
 use refsim::asm::{assemble, print};
 use refsim::check::{RuleId, check};
 use refsim::device::Profile;
 use refsim::exec::{Constants, FixedFunctionState, PixelBindings};
 use refsim::isa::{LightingColor, MaterialFace, MatrixForm, StateBinding, StateMatrix};
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
-use refsim::raster::{FragmentInput, PixelCenter, Primitive, full_screen_quad};
+use refsim::machine::{ExecutorKind, Machine};
+use refsim::raster::FragmentInput;
 use refsim::texture::TexelFormat;
 
 fn nv35() -> Profile {
@@ -115,13 +115,11 @@ fn draw(kind: ExecutorKind, text: &str, constants: &Constants) -> Vec<u8> {
     let mut card = Machine::new(nv35(), kind);
     let target = card.create_target(TexelFormat::Rgba32f, 9, 5).unwrap();
     card.clear_target(target, bits([0.25, 0.5, 0.75, 1.0])).unwrap();
-    let mut quad = full_screen_quad(|u, v| [[u, v, 0.25, 0.75]]);
+    let mut quad = screen();
     for (i, vertex) in quad.iter_mut().enumerate() {
         vertex.fog = (i as f32 * 0.9 - 0.2).to_bits();
     }
-    let mut call = DrawCall::new(VertexSource::Transformed(&quad), Primitive::QuadList, &program, constants, target);
-    call.center = PixelCenter::OpenGl;
-    card.draw(&call).unwrap();
+    card.draw(&quads(&quad, &program, constants, target)).unwrap();
     card.read_back(target).unwrap().bytes().to_vec()
 }
 

@@ -1,12 +1,12 @@
 //! `f[WPOS]` and `fragment.position`: column and row of the pixel's center, depth, 1 / w.
 
-use crate::running::run_quad;
+use crate::running::{quads, run_quad};
 use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
 use refsim::exec::{Constants, PixelBindings};
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
-use refsim::raster::{ClipSpace, FragmentInput, PixelCenter, Primitive, Vertex};
+use refsim::machine::{DrawCall, ExecutorKind, Machine};
+use refsim::raster::{ClipSpace, FragmentInput, PixelCenter, Vertex};
 use refsim::texture::TexelFormat;
 
 const WIDTH: u32 = 20;
@@ -27,10 +27,8 @@ fn drawn(kind: ExecutorKind, text: &str, center: PixelCenter, w: [f32; 2], depth
         Vertex { position, texcoords, ..Vertex::default() }
     });
     let constants = Constants::default();
-    let mut call = DrawCall::new(VertexSource::Transformed(&quad), Primitive::QuadList, &program, &constants, target);
-    call.center = center;
-    call.clip_space = ClipSpace::OpenGl;
-    card.draw(&call).unwrap();
+    let call = quads(&quad, &program, &constants, target);
+    card.draw(&DrawCall { center, clip_space: ClipSpace::OpenGl, ..call }).unwrap();
     let image = card.read_back(target).unwrap();
     let word = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
     image.bytes().chunks_exact(16).map(|texel| [0, 4, 8, 12].map(|at| word(&texel[at..]))).collect()

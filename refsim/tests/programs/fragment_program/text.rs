@@ -1,6 +1,6 @@
 //! Parsing and printing, arbitrary text, spaces, and error messages.
 
-use crate::asm_laws::survives;
+use crate::asm_laws::{mutated, survives};
 use crate::generate::{self, Layout};
 use crate::random::Random;
 use crate::spacing::has_one_reading;
@@ -63,17 +63,9 @@ proptest! {
     fn mutated_programs_are_survived(
         nv in any::<bool>(),
         seed in any::<u64>(),
-        edits in prop::collection::vec((any::<prop::sample::Index>(), 0u8..3, any::<u8>()), 1..6),
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0u8..4, any::<u8>()), 1..6),
     ) {
-        let mut bytes = program(nv, seed).into_bytes();
-        for (at, kind, byte) in edits {
-            let at = at.index(bytes.len());
-            match kind {
-                0 => drop(bytes.remove(at)),
-                1 => bytes.insert(at, bytes[at]),
-                _ => bytes[at] = byte & 0x7f,
-            }
-        }
+        let bytes = mutated(program(nv, seed).into_bytes(), edits);
         survives(&String::from_utf8_lossy(&bytes));
     }
 }

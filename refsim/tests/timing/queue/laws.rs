@@ -85,52 +85,37 @@ fn uses(commands: &[Command], mode: ReadBackMode) -> Vec<(Vec<u64>, Vec<u64>)> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 512, ..ProptestConfig::default() })]
 
+    /// A unit does one thing at a time, nothing starts before its cause has ended, and each unit's times and the
+    /// critical path add up to the whole run.
     #[test]
-    fn no_unit_does_two_things_at_a_time(commands in program(), figures in figures(), mode in mode()) {
+    fn every_timeline_is_consistent(commands in program(), figures in figures(), mode in mode()) {
         let timeline = play(&commands, figures, mode);
+        let whole = timeline.makespan();
         for unit in Unit::ALL {
             let intervals = intervals(&timeline, unit);
-            prop_assert!(intervals.iter().all(|(start, end)| start < end), "{unit}: {intervals:?}");
+            prop_assert!(intervals.iter().all(|(start, end)| start < end && *end <= whole.0), "{unit}: {intervals:?}");
             prop_assert!(intervals.windows(2).all(|pair| pair[0].1 <= pair[1].0), "{unit}: {intervals:?}");
-            prop_assert!(intervals.iter().all(|(_, end)| *end <= timeline.makespan().0));
         }
-    }
-
-    #[test]
-    fn nothing_starts_before_its_cause_has_ended(commands in program(), figures in figures(), mode in mode()) {
-        let timeline = play(&commands, figures, mode);
         for (place, span) in timeline.spans().iter().enumerate() {
             let cause = span.after.map(|id| (id.0 as usize, timeline.span(id).expect("a cause is a span").end));
             prop_assert!(cause.is_none_or(|(id, _)| id < place), "a cause comes first");
-            let ended = cause.map_or(Picoseconds::ZERO, |(_, end)| end);
-            prop_assert_eq!(span.start, ended + span.latency);
+            prop_assert_eq!(span.start, cause.map_or(Picoseconds::ZERO, |(_, end)| end) + span.latency);
         }
-    }
-
-    #[test]
-    fn the_critical_path_is_the_whole_run(commands in program(), figures in figures(), mode in mode()) {
-        let timeline = play(&commands, figures, mode);
-        let path = timeline.critical_path();
         let mut now = Picoseconds::ZERO;
-        for segment in &path {
+        for segment in timeline.critical_path() {
             prop_assert_eq!(segment.start, now);
             now = segment.end;
             let span = segment.span.and_then(|id| timeline.span(id));
             prop_assert!(segment.kind == SpanKind::Fill || span.is_some_and(|span| span.kind == segment.kind));
         }
-        prop_assert_eq!(now, timeline.makespan());
-        let shares: Picoseconds = timeline.where_the_time_went().iter().map(|share| share.time).sum();
-        prop_assert_eq!(shares, timeline.makespan());
-    }
-
-    #[test]
-    fn busy_waiting_and_idle_are_all_there_is(commands in program(), figures in figures(), mode in mode()) {
-        let timeline = play(&commands, figures, mode);
+        prop_assert_eq!(now, whole);
+        prop_assert_eq!(timeline.where_the_time_went().iter().map(|share| share.time).sum::<Picoseconds>(), whole);
         for usage in timeline.usage() {
-            prop_assert!(usage.busy <= timeline.makespan());
-            prop_assert_eq!(usage.busy + usage.waiting + usage.idle, timeline.makespan());
+            prop_assert!(usage.busy <= whole);
+            prop_assert_eq!(usage.busy + usage.waiting + usage.idle, whole);
             prop_assert_eq!(usage.reasons.iter().map(|(_, time)| *time).sum::<Picoseconds>(), usage.waiting);
         }
+        prop_assert_eq!(timeline, play(&commands, figures, mode));
     }
 
     /// Excludes the host's cost of waiting for a fence, which a synchronous program does not have.
@@ -188,11 +173,6 @@ proptest! {
             prop_assert_eq!((one.start.0 * by, one.end.0 * by, one.after), (many.start.0, many.end.0, many.after));
         }
         prop_assert_eq!(once.makespan().0 * by, times.makespan().0);
-    }
-
-    #[test]
-    fn the_same_commands_give_the_same_timeline(commands in program(), figures in figures(), mode in mode()) {
-        prop_assert_eq!(play(&commands, figures, mode), play(&commands, figures, mode));
     }
 
     #[test]

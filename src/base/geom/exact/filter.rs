@@ -40,7 +40,6 @@ pub enum Guess {
     Unclear,
 }
 
-/// Value with an error bound.
 #[derive(Clone, Copy)]
 struct Estimate {
     value: f64,

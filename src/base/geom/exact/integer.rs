@@ -26,7 +26,7 @@ fn common_exponent<'a>(values: impl IntoIterator<Item = &'a f32>) -> i32 {
 }
 
 /// Computes `value / 2^exponent`, an integer.
-fn whole(value: f32, exponent: i32) -> BigInt {
+pub(in crate::geom) fn whole(value: f32, exponent: i32) -> BigInt {
     let (mantissa, own) = split(value);
     if mantissa == 0 { BigInt::zero() } else { BigInt::from(mantissa) << (own - exponent).unsigned_abs() }
 }

@@ -107,7 +107,6 @@ impl Shortlist {
         }
     }
 
-    /// Decides the first hit in integers among the remaining candidates.
     fn settle(self, mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
         let limit = self.limit;
         let mut first: Option<(ExactT, Vec<u32>)> = None;

@@ -62,7 +62,6 @@ fn round(num: &BigUint, den: &BigUint, bits: u32, lowest: i64, top: i64) -> Opti
     }
 }
 
-/// Numerator and denominator of `num / den * 2^-unit`.
 fn scaled(num: &BigUint, den: &BigUint, unit: i64) -> (BigUint, BigUint) {
     if unit < 0 { (num << unit.unsigned_abs(), den.clone()) } else { (num.clone(), den << unit.unsigned_abs()) }
 }

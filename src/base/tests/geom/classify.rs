@@ -1,54 +1,7 @@
 use approx::assert_abs_diff_eq;
-use crossbar_base::geom::classify::{Candidate, HitVerdict, Judgement, TError, classify, t_error};
-use crossbar_base::geom::exact::{self, Sides};
-use crossbar_base::geom::{ExactT, Mesh, Ray};
+use crossbar_base::geom::ExactT;
+use crossbar_base::geom::classify::{TError, t_error};
 use num_bigint::BigUint;
-
-/// Two triangles that share an edge in z = 0, a triangle that touches a corner, and a distant one.
-fn scene() -> Mesh {
-    let positions = vec![
-        [0.0, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [1.0, 1.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [-1.0, 0.0, 0.0],
-        [0.0, -1.0, 0.0],
-        [5.0, 5.0, 5.0],
-        [6.0, 5.0, 5.0],
-        [5.0, 6.0, 5.0],
-    ];
-    Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3], [0, 4, 5], [6, 7, 8]]).expect("a mesh")
-}
-
-fn judge(origin: [f32; 3], candidate: Candidate) -> Judgement {
-    let mesh = scene();
-    let ray = Ray::new(origin, [0.0, 0.0, -1.0]).expect("a ray");
-    let nearest = exact::nearest(&mesh, &ray, Sides::Both);
-    classify(&mesh, nearest.as_ref(), candidate)
-}
-
-#[test]
-fn every_verdict_has_its_case() {
-    let hit = |triangle, t| Candidate { triangle: Some(triangle), t };
-    let none = Candidate { triangle: None, t: 0.0 };
-    let inside = [0.75, 0.25, 3.0];
-    assert_eq!(judge(inside, hit(0, 3.0)).verdict, HitVerdict::Right);
-    assert_eq!(judge(inside, none), Judgement { verdict: HitVerdict::Leak, t_error: None });
-    assert_eq!(judge(inside, hit(1, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: true });
-    assert_eq!(judge(inside, hit(2, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: true });
-    assert_eq!(judge(inside, hit(3, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: false });
-    assert_eq!(judge(inside, hit(77, 3.0)).verdict, HitVerdict::WrongTriangle { adjacent: false });
-    assert_eq!(judge([9.0, 0.0, 3.0], hit(0, 1.0)).verdict, HitVerdict::FalseHit);
-    assert_eq!(judge([9.0, 0.0, 3.0], none).verdict, HitVerdict::Right);
-}
-
-#[test]
-fn either_triangle_of_a_tie_is_right() {
-    for triangle in [0, 1] {
-        let candidate = Candidate { triangle: Some(triangle), t: 3.0 };
-        assert_eq!(judge([0.5, 0.5, 3.0], candidate).verdict, HitVerdict::Right);
-    }
-}
 
 #[test]
 fn the_error_of_t_is_exact() {

@@ -28,14 +28,6 @@ fn contact_is_by_place() {
 }
 
 #[test]
-fn bad_input_is_named() {
-    let found = Mesh::new(vec![[0.0; 3]], vec![[0, 0, 1]]).unwrap_err();
-    assert_eq!(found.to_string(), "triangle 0 uses vertex 1, expected an index below 1 (counted from 0)");
-    let found = Mesh::new(vec![[0.0; 3], [0.0, f32::INFINITY, 0.0]], vec![]).unwrap_err();
-    assert_eq!(found.to_string(), "vertex 1 (counted from 0) has the coordinate inf, expected a finite number");
-}
-
-#[test]
 fn attributes_are_one_per_vertex() {
     let found = square().with_normals(vec![[0.0, 0.0, 1.0]; 4]).unwrap_err();
     assert_eq!(found.to_string(), "found 4 normals, expected one per vertex: 5");

@@ -27,10 +27,3 @@ fn every_part_is_its_own_mirror_image_and_turned_parts_have_four_like_quarters()
         assert_eq!(places(first, |at| at) == places(first, |[x, y, z]| [-y, x, z]), is_turned, "patches from {first}");
     }
 }
-
-#[test]
-fn rates_outside_are_refused() {
-    assert!(teapot(0).is_err());
-    let found = teapot(257).unwrap_err().to_string();
-    assert_eq!(found, "expected a tessellation of 1 to 256 quads along a patch side, found 257");
-}

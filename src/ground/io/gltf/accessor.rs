@@ -4,9 +4,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 use gltf::Accessor;
-use gltf::accessor::sparse::IndexType;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::buffer::View;
 
 use super::buffers::Buffers;
 use crate::error::InputError;
@@ -14,10 +12,6 @@ use crate::io::error::part_error;
 
 /// Largest number of elements of an accessor.
 pub(super) const MAX_ELEMENTS: usize = 1 << 26;
-/// Largest number of elements of an accessor without a buffer.
-const MAX_ZEROS: usize = 1 << 20;
-/// The bytes of an element without a buffer.
-const ZEROS: &[u8] = &[0; 64];
 
 /// Reads accessors within the bounds of their buffers.
 pub(super) struct AccessorReader<'a> {
@@ -57,64 +51,22 @@ impl AccessorReader<'_> {
         }
     }
 
-    /// The bytes of each element, as slices.
     fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, InputError> {
         let (count, size) = (accessor.count(), accessor.size());
-        let outside = |what: &'static str| self.wrong(accessor, what, "bytes beyond it");
         if count > MAX_ELEMENTS {
             return Err(self.wrong(accessor, format!("at most {MAX_ELEMENTS} elements"), &count.to_string()));
         }
-        let mut elements = match accessor.view() {
-            Some(view) => {
-                let all = self.packed(&view, accessor.offset(), (count, size, view.stride()));
-                all.ok_or_else(|| outside("elements within its buffer view"))?
-            }
-            None if count <= MAX_ZEROS => vec![&ZEROS[..size.min(ZEROS.len())]; count],
-            None => {
-                let expected = format!("a buffer view, or at most {MAX_ZEROS} elements");
-                return Err(self.wrong(accessor, expected, &count.to_string()));
-            }
+        let Some(view) = accessor.view().filter(|_| accessor.sparse().is_none()) else {
+            return Err(self.wrong(accessor, "elements in a buffer view", "sparse ones"));
         };
-        if let Some(sparse) = accessor.sparse() {
-            if sparse.count() > count {
-                return Err(self.wrong(
-                    accessor,
-                    format!("at most {count} sparse elements"),
-                    &sparse.count().to_string(),
-                ));
-            }
-            let (places, values) = (sparse.indices(), sparse.values());
-            let width = match places.index_type() {
-                IndexType::U8 => 1,
-                IndexType::U16 => 2,
-                IndexType::U32 => 4,
-            };
-            let within = "sparse elements within their buffer views";
-            let at = self.packed(&places.view(), places.offset(), (sparse.count(), width, None));
-            let new = self.packed(&values.view(), values.offset(), (sparse.count(), size, None));
-            for (at, new) in at.ok_or_else(|| outside(within))?.into_iter().zip(new.ok_or_else(|| outside(within))?) {
-                let at = whole(at);
-                let Some(old) = elements.get_mut(at as usize) else {
-                    return Err(self.wrong(accessor, format!("sparse indices below {count}"), &at.to_string()));
-                };
-                *old = new;
-            }
-        }
-        Ok(elements)
-    }
-
-    /// `count` elements of a size in bytes, contiguous or with a stride; `None` if they exceed the view.
-    fn packed(
-        &self,
-        view: &View<'_>,
-        offset: usize,
-        (count, size, stride): (usize, usize, Option<usize>),
-    ) -> Option<Vec<&[u8]>> {
-        let bytes = self.buffers.view(view)?.get(offset..)?;
-        let stride = stride.unwrap_or(size);
-        let last = count.checked_sub(1)?.checked_mul(stride)?;
-        bytes.get(last..last.checked_add(size)?).filter(|_| stride >= size)?;
-        (0..count).map(|i| bytes.get(i * stride..i * stride + size)).collect()
+        let within = || -> Option<Vec<&[u8]>> {
+            let bytes = self.buffers.view(&view)?.get(accessor.offset()..)?;
+            let stride = view.stride().unwrap_or(size);
+            let last = count.checked_sub(1)?.checked_mul(stride)?;
+            bytes.get(last..last.checked_add(size)?).filter(|_| stride >= size)?;
+            (0..count).map(|i| bytes.get(i * stride..i * stride + size)).collect()
+        };
+        within().ok_or_else(|| self.wrong(accessor, "elements within its buffer view", "bytes beyond it"))
     }
 
     fn wrong(&self, accessor: &Accessor<'_>, expected: impl Display, found: &str) -> InputError {
@@ -122,7 +74,6 @@ impl AccessorReader<'_> {
     }
 }
 
-/// An unsigned little-endian integer of 1, 2 or 4 bytes.
 fn whole(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
 }

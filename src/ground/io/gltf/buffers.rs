@@ -80,7 +80,6 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// The path that a relative URI names, if it stays within the folder.
 fn local(uri: &str) -> Option<PathBuf> {
     let path = percent_decode_str(uri).decode_utf8().ok()?;
     // Reject schemes, drives, and the separator of some systems only.

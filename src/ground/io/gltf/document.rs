@@ -13,7 +13,6 @@ use crate::io::error::{part_error, syntax_error};
 const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BIN: u32 = u32::from_le_bytes(*b"BIN\0");
-/// Attributes of vertices that are read.
 const ATTRIBUTES: [&str; 3] = ["POSITION", "NORMAL", "TEXCOORD_0"];
 /// Properties that are ignored wherever they occur, as are those whose names end in `Texture`.
 const PASSED_OVER: [&str; 8] =
@@ -50,10 +49,8 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &Path) -> Result<(Document, Option
     }
     let mut errors = Vec::new();
     root.validate(&root, json::Path::new, &mut |path, error| errors.push((path().to_string(), error)));
-    // The format allows an accessor without a buffer view, whose elements are zeros, and a primitive without positions,
-    // which is not drawn.
-    let is_legal = |path: &str| path.ends_with(".bufferView") || path.ends_with("[\"POSITION\"]");
-    errors.retain(|(path, error)| *error != Error::Missing || !is_legal(path));
+    // The format allows a primitive without positions, which is not drawn.
+    errors.retain(|(path, error)| *error != Error::Missing || !path.ends_with("[\"POSITION\"]"));
     match errors.first() {
         Some((path, error)) => Err(wrong(path, "what glTF 2.0 asks for", error.to_string().to_lowercase())),
         None => Ok((Document::from_json_without_validation(root), chunk)),

@@ -11,6 +11,7 @@ use crate::error::InputError;
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::io::error::part_error;
+use crate::io::scene_obj::flat_where_unknown;
 
 /// Largest number of vertices of a model over all mesh instances.
 const MAX_VERTICES: usize = 1 << 24;
@@ -92,10 +93,7 @@ impl Geometry {
 
     /// Normals at the corners of each triangle; all zeros if one of them is missing.
     pub(super) fn corner_normals(&self) -> Vec<[[f32; 3]; 3]> {
-        let of = |corners: &[u32; 3]| {
-            let normals = corners.map(|index| self.normals[index as usize]);
-            if normals.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { normals }
-        };
+        let of = |corners: &[u32; 3]| flat_where_unknown(corners.map(|index| self.normals[index as usize]));
         self.triangles.iter().map(of).collect()
     }
 

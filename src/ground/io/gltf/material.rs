@@ -7,12 +7,8 @@ use gltf::Document;
 
 use crate::error::InputError;
 use crate::io::error::material_error;
+use crate::io::scene_obj::{DEFAULT, GREY};
 use crate::scene::Material;
-
-/// Name of the material of primitives without one.
-const DEFAULT: &str = "default";
-/// Reflectance of the default material.
-const GREY: f32 = 0.5;
 
 /// The materials of a file, by their index.
 pub(super) struct Materials {

@@ -1,10 +1,10 @@
 //! glTF 2.0, as JSON (`.gltf`) and as one binary file (`.glb`).
 //!
 //! The reader supports the meshes of the default scene, each placed by its nodes: triangles, strips and fans, with or
-//! without indices; positions, normals and the first texture coordinates; sparse accessors; base color and emission of
-//! materials. It ignores textures, vertex colors, points, lines, cameras, lights, animations, and application-specific
-//! attributes and data. It rejects skinned meshes and morph targets, because their triangles differ from the stored
-//! ones.
+//! without indices; positions, normals and the first texture coordinates; base color and emission of materials. It
+//! ignores textures, vertex colors, points, lines, cameras, lights, animations, and application-specific attributes and
+//! data. It rejects skinned meshes and morph targets, because their triangles differ from the stored
+//! ones, and sparse accessors.
 //!
 //! glTF has y up, scenes have z up: (x, y, z) becomes (x, -z, y). Positions are transformed in double precision and
 //! rounded once.
@@ -32,8 +32,7 @@ use geometry::Geometry;
 use material::Materials;
 
 /// Reads a scene from the bytes of a glTF file; `name` is the file's name in messages, and `beside` reads a file in the
-/// same folder. The scene has no views and no point lights. Never panics. Fails with an [`InputError`] that names the
-/// part of the file, counted from 0 as in the format.
+/// same folder. The scene has no views and no point lights.
 pub fn parse_gltf(
     bytes: &[u8],
     name: &Path,

@@ -8,7 +8,6 @@ use glam::{DMat4, DQuat, DVec3, DVec4};
 use gltf::scene::Transform;
 use gltf::{Document, Mesh, Node};
 
-/// Rotates y up to z up.
 const UPRIGHT: DMat4 = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::NEG_Y, DVec4::W);
 
 /// A mesh with its transform to the scene.

@@ -5,9 +5,8 @@
 //! material is in no library is grey with a note, or rejected if `strict`. Libraries are in the model's folder
 //! ([`mtl`]).
 //!
-//! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no material
-//! has that name, a word that begins with `#` begins a comment, also in the MTL file. If no such library can be read, a
-//! `mtllib` line is read as a list of names, each of which ends in `.mtl`.
+//! Names of materials and libraries extend to the end of their line, so they may contain blanks and `#`. If no such
+//! library can be read, a `mtllib` line is read as a list of names, each of which ends in `.mtl`.
 //!
 //! [`write`] creates text that reads back with the same bits.
 
@@ -19,7 +18,7 @@ use std::io;
 use std::path::Path;
 
 pub use mtl::parse_mtl;
-pub(super) use reader::plain_scene;
+pub(super) use reader::{DEFAULT, GREY, flat_where_unknown, plain_scene};
 pub use write::{write_mtl, write_scene};
 
 use super::lines::{logical_lines, not_utf_16, statement};
@@ -29,8 +28,7 @@ use crate::error::InputError;
 use crate::scene::Scene;
 use reader::SceneReader;
 
-/// Reads a scene from bytes; `name` is the file's name in messages, and `library` reads a material library. Never
-/// panics. Fails with an [`InputError`] that names the line where known.
+/// Reads a scene from bytes; `name` is the file's name in messages, and `library` reads a material library.
 pub fn parse_scene(
     bytes: &[u8],
     name: &Path,

@@ -34,8 +34,7 @@ const INDEX: f32 = 1.5;
 /// Tolerance of `Kd` + `Ks` above 1, for the rounding of numbers that sum to 1.
 const ROUNDING: f32 = 1e-6;
 
-/// Reads the materials of a library, in order; `name` is the file's name in messages. Never panics. Fails with an
-/// [`InputError`] that names the line where known.
+/// Reads the materials of a library, in order; `name` is the file's name in messages.
 pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, InputError> {
     read_mtl(bytes, name, None)
 }
@@ -54,7 +53,6 @@ pub(super) fn read_mtl(
     reader.materials.iter().map(|read| assemble(read, name, notes.as_deref_mut())).collect()
 }
 
-/// The materials read so far.
 struct MtlReader<'a> {
     name: &'a Path,
     /// True if reflectances above 1 are accepted, to be scaled later.
@@ -63,7 +61,6 @@ struct MtlReader<'a> {
     seen: BTreeSet<String>,
 }
 
-/// The statements of a material.
 struct MaterialText {
     line: usize,
     name: String,
@@ -81,34 +78,41 @@ impl MaterialText {
     }
 }
 
-/// A line of a library, split into words.
-struct Statement<'a> {
-    line: usize,
-    text: &'a [u8],
-    key: &'a [u8],
-    values: &'a [&'a [u8]],
-}
-
 impl MtlReader<'_> {
     fn line(&mut self, line: usize, text: &[u8]) -> Result<(), InputError> {
         let words = statement(text);
         let Some((&key, values)) = words.split_first() else { return Ok(()) };
-        let here = &Statement { line, text, key, values };
-        match key {
-            b"newmtl" => self.material(line, text[6..].trim_ascii()),
-            b"Kd" | b"Ks" if self.lenient => self.color(here, "three numbers of at least 0", |_| true),
-            b"Kd" | b"Ks" | b"Tf" => self.color(here, "three numbers from 0 to 1", |v| v <= 1.0),
-            b"Ke" => self.color(here, "three numbers of at least 0", |_| true),
-            b"Ns" => self.number(here, "`Ns` with a number of at least 0", |_| true),
-            b"Ni" => self.number(here, "`Ni` with a number above 0", |v| v > 0.0),
-            b"d" => self.number(here, "`d` with a number from 0 to 1", |v| v <= 1.0),
-            b"Tr" => self.number(here, "`Tr` with a number from 0 to 1", |v| v <= 1.0),
-            b"illum" => {
-                let model = |v: f32| v <= 10.0 && v.fract() == 0.0;
-                self.number(here, "`illum` with a whole number from 0 to 10", model)
-            }
-            _ => Ok(()),
+        // What is expected, whether it is a color, and the allowed numbers, all of at least 0.
+        let (expected, is_color, allowed): (_, _, fn(f32) -> bool) = match key {
+            b"newmtl" => return self.material(line, text[6..].trim_ascii()),
+            b"Kd" | b"Ks" if self.lenient => ("three numbers of at least 0", true, |_| true),
+            b"Kd" | b"Ks" | b"Tf" => ("three numbers from 0 to 1", true, |v| v <= 1.0),
+            b"Ke" => ("three numbers of at least 0", true, |_| true),
+            b"Ns" => ("`Ns` with a number of at least 0", false, |_| true),
+            b"Ni" => ("`Ni` with a number above 0", false, |v| v > 0.0),
+            b"d" => ("`d` with a number from 0 to 1", false, |v| v <= 1.0),
+            b"Tr" => ("`Tr` with a number from 0 to 1", false, |v| v <= 1.0),
+            b"illum" => ("`illum` with a whole number from 0 to 10", false, |v| v <= 10.0 && v.fract() == 0.0),
+            _ => return Ok(()),
+        };
+        // A number that overflows single precision is named before the key's own range.
+        if let Some(word) = values.iter().find(|word| single(word) == Err(NumberError::TooLarge)) {
+            return Err(self.syntax(line, NumberError::TooLarge.expected(), word));
         }
+        let number = |word: &&[u8]| single(word).ok().filter(|&value| value >= 0.0 && allowed(value));
+        let numbers: Option<Vec<f32>> = values.iter().map(number).collect();
+        let numbers = match (is_color, numbers.as_deref()) {
+            (true, Some(&[r, g, b])) => vec![r, g, b],
+            // A single number is the value of all three channels.
+            (true, Some(&[grey])) => vec![grey; 3],
+            (false, Some(&[number])) => vec![number],
+            _ => return Err(self.syntax(line, expected, text)),
+        };
+        let Some(material) = self.materials.last_mut() else {
+            return Err(self.syntax(line, "`newmtl name` before the first figure of a material", text));
+        };
+        material.values.insert(key.to_vec(), numbers);
+        Ok(())
     }
 
     fn material(&mut self, line: usize, name: &[u8]) -> Result<(), InputError> {
@@ -125,63 +129,12 @@ impl MtlReader<'_> {
         Ok(())
     }
 
-    fn color(
-        &mut self,
-        here: &Statement<'_>,
-        expected: &'static str,
-        allowed: impl Fn(f32) -> bool,
-    ) -> Result<(), InputError> {
-        self.not_too_large(here)?;
-        let channels: Vec<f32> = here.values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
-        // A single number is the value of all three channels.
-        let channels = match (here.values.len(), channels[..].len()) {
-            (3, 3) => [channels[0], channels[1], channels[2]],
-            (1, 1) => [channels[0]; 3],
-            _ => return Err(self.syntax(here.line, expected, here.text)),
-        };
-        self.keep(here, &channels)
-    }
-
-    fn number(
-        &mut self,
-        here: &Statement<'_>,
-        expected: &'static str,
-        allowed: impl Fn(f32) -> bool,
-    ) -> Result<(), InputError> {
-        self.not_too_large(here)?;
-        let value = if let &[word] = here.values { number(word).filter(|&v| allowed(v)) } else { None };
-        match value {
-            Some(value) => self.keep(here, &[value]),
-            None => Err(self.syntax(here.line, expected, here.text)),
-        }
-    }
-
-    /// Rejects a number that overflows single precision, before the key's own range is checked.
-    fn not_too_large(&self, here: &Statement<'_>) -> Result<(), InputError> {
-        let large = here.values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
-        large.map_or(Ok(()), |word| Err(self.syntax(here.line, NumberError::TooLarge.expected(), word)))
-    }
-
-    fn keep(&mut self, here: &Statement<'_>, values: &[f32]) -> Result<(), InputError> {
-        let Some(material) = self.materials.last_mut() else {
-            return Err(self.syntax(here.line, "`newmtl name` before the first figure of a material", here.text));
-        };
-        material.values.insert(here.key.to_vec(), values.to_vec());
-        Ok(())
-    }
-
     fn syntax(&self, line: usize, expected: &'static str, found: &[u8]) -> InputError {
         let place = FilePlace::line(self.name, line);
         syntax_error(place, expected, quoted(found))
     }
 }
 
-/// A finite number of at least 0.
-fn number(word: &[u8]) -> Option<f32> {
-    single(word).ok().filter(|&value| value >= 0.0)
-}
-
-/// Creates a material from its statements.
 fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNote>>) -> Result<Material, InputError> {
     let MaterialText { line, name, .. } = read;
     let (line, name) = (*line, name.as_str());
@@ -237,7 +190,6 @@ fn assemble(read: &MaterialText, path: &Path, mut notes: Option<&mut Vec<ModelNo
     Ok(Material { name: name.into(), surface, emission })
 }
 
-/// The largest reflectance over the channels of a material with these colors.
 fn largest_reflectance(model: u8, diffuse: Option<Color>, specular: Option<Color>) -> f32 {
     let (diffuse, specular) = (diffuse.unwrap_or_default(), specular.unwrap_or_default());
     let of = |channel: usize| match model {

@@ -1,7 +1,6 @@
 //! Reads a scene's OBJ file line by line: materials and normals in addition to the geometry.
 
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -16,9 +15,9 @@ use crate::io::error::{material_error, scene_error};
 use crate::scene::{Material, Scene};
 
 /// Name of the material of faces without a material.
-const DEFAULT: &str = "default";
+pub(in super::super) const DEFAULT: &str = "default";
 /// Reflectance of materials that no library defines.
-const GREY: f32 = 0.5;
+pub(in super::super) const GREY: f32 = 0.5;
 /// Largest difference of a normal's squared length from 1 for which the normal is not rescaled.
 const SLACK: f64 = 1e-4;
 
@@ -127,14 +126,18 @@ impl SceneReader {
         let (triangles, odd_faces) = geometry.triangles(notes.is_none())?;
         let mesh = geometry.mesh(&triangles, false)?;
         let list: Vec<[f32; 3]> = geometry.normals().iter().copied().map(of_length_one).collect();
-        let (mut known, mut place_of) = (MaterialNames::of(&materials), BTreeMap::<Option<usize>, u32>::new());
+        let (mut known, mut place_of) = (BTreeMap::new(), BTreeMap::<Option<usize>, u32>::new());
+        for (place, material) in (0..).zip(&materials) {
+            // If two libraries have the same material, the first library counts.
+            known.entry(material.name.clone()).or_insert(place);
+        }
         let mut material_of = Vec::with_capacity(mesh.len());
         for ((_, face), current) in geometry.faces().iter().zip(faces) {
             let place = match place_of.get(&current) {
                 Some(&place) => place,
                 None => {
                     let (material, line) = current.map_or((DEFAULT, None), |at| (&*used[at].0, Some(used[at].1)));
-                    let found = known.find(material);
+                    let found = known.get(material).copied();
                     if let (None, Some(line)) = (found, line) {
                         let (place, material) = (FilePlace::line(&name, line), material.to_owned());
                         let Some(notes) = &mut notes else {
@@ -146,7 +149,7 @@ impl SceneReader {
                     let place = found.unwrap_or_else(|| {
                         materials.push(Material::diffuse(material, [GREY; 3]));
                         let place = materials.len() as u32 - 1;
-                        known.whole.insert(material.to_owned(), place);
+                        known.insert(material.to_owned(), place);
                         place
                     });
                     place_of.insert(current, place);
@@ -163,45 +166,14 @@ impl SceneReader {
 }
 
 /// The normals of a triangle's corners; if a corner has none, the triangle is flat.
-fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
+pub(in super::super) fn flat_where_unknown(corners: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
     if corners.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { corners }
-}
-
-/// The materials of all libraries by their names.
-struct MaterialNames {
-    whole: BTreeMap<String, u32>,
-    /// Names without comments; `None` if several materials share a name.
-    plain: BTreeMap<String, Option<u32>>,
-}
-
-impl MaterialNames {
-    fn of(materials: &[Material]) -> Self {
-        let (mut whole, mut plain) = (BTreeMap::new(), BTreeMap::new());
-        for (place, material) in (0..).zip(materials) {
-            // If two libraries have the same material, the first library counts.
-            if let Entry::Vacant(vacant) = whole.entry(material.name.clone()) {
-                vacant.insert(place);
-                let same = plain.entry(without_comment(&material.name).to_owned());
-                same.and_modify(|place| *place = None).or_insert(Some(place));
-            }
-        }
-        Self { whole, plain }
-    }
-
-    /// The material with this name, else the only material with this name after removal of comments.
-    fn find(&self, name: &str) -> Option<u32> {
-        let plain = || self.plain.get(without_comment(name)).copied().flatten();
-        self.whole.get(name).copied().or_else(plain)
-    }
-}
-
-fn without_comment(name: &str) -> &str {
-    name[..before_comment(name.as_bytes()).len()].trim_end()
 }
 
 /// The names in a line of several libraries; each ends with a word that ends in `.mtl`.
 fn several_libraries(line: &str) -> Vec<&str> {
-    let (mut files, mut rest, mut end) = (Vec::new(), without_comment(line), 0);
+    let line = line[..before_comment(line.as_bytes()).len()].trim_end();
+    let (mut files, mut rest, mut end) = (Vec::new(), line, 0);
     for word in rest.split_inclusive(|c: char| c.is_ascii_whitespace()) {
         end += word.len();
         if word.trim_end().to_ascii_lowercase().ends_with(".mtl") {

@@ -6,8 +6,7 @@ use std::io::{self, Write};
 use crate::scene::{Color, Material, Scene, Surface};
 
 /// Writes the triangles with their normals and the names of their materials; `library` is the file that [`write_mtl`]
-/// fills. Fails with the writer's errors, and with [`io::ErrorKind::InvalidInput`] if names of materials repeat, or
-/// cannot end a line.
+/// fills.
 pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Result<()> {
     check_names(scene.materials())?;
     writeln!(out, "mtllib {library}")?;
@@ -43,8 +42,7 @@ pub fn write_scene(scene: &Scene, library: &str, out: &mut dyn Write) -> io::Res
     Ok(())
 }
 
-/// Writes the materials. A glossy material with a black lobe reads back as diffuse, which is equivalent. Fails as
-/// [`write_scene`] does.
+/// Writes the materials. A glossy material with a black lobe reads back as diffuse, which is equivalent.
 pub fn write_mtl(materials: &[Material], out: &mut dyn Write) -> io::Result<()> {
     check_names(materials)?;
     for material in materials {

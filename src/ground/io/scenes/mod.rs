@@ -13,7 +13,6 @@ use super::scene_obj::parse_scene;
 use crate::scene::Scene;
 use crate::scene::built::rooms::{CornellBox, cornell};
 
-/// Source of a scene.
 enum SceneSource {
     /// The scene file, the compressed OBJ file and the material library.
     Files(&'static str, &'static [u8], &'static str),
@@ -76,10 +75,11 @@ pub fn named(name: &str) -> Option<Scene> {
     })
 }
 
-/// Reads a scene's files. Panics if the files are invalid; tests read every scene.
+/// Reads a scene's files. They are part of the program, and tests read every one, so reading can fail only where memory
+/// runs out, which ends the program at any other allocation too.
 fn read(name: &str, views: &str, mesh: &[u8], materials: &str) -> Scene {
     let mut obj = Vec::new();
-    GzDecoder::new(mesh).read_to_end(&mut obj).expect("a compressed file");
+    GzDecoder::new(mesh).read_to_end(&mut obj).expect("a compressed file, and memory for its text");
     let library = &mut |_: &Path| Ok(materials.as_bytes().to_vec());
     let mut scene = parse_scene(&obj, Path::new(name), library).expect("a scene");
     (_, scene.views, scene.point_lights) = scene_file::parse(views, Path::new(name)).expect("views and lights");

@@ -48,8 +48,7 @@ pub struct ChannelDifference {
 }
 
 /// Compares the channels of two pictures, or only those that `names` lists, in the order of the first picture. If one
-/// channel is sRGB-encoded and the other linear, the encoded one is decoded. Fails with [`InputError`] if the pictures
-/// have no samples to compare.
+/// channel is sRGB-encoded and the other linear, the encoded one is decoded.
 pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec<ChannelDifference>, InputError> {
     let pairs = pairs(left, right, names)?;
     Ok(pairs.into_iter().map(|pair| difference(pair, left.width())).collect())
@@ -73,7 +72,6 @@ pub fn signed_differences(
     Ok(pairs(left, right, names)?.into_iter().map(signed).collect())
 }
 
-/// Two channels with the same name.
 #[derive(Clone, Copy)]
 struct ChannelPair<'a> {
     left: &'a PictureChannel,

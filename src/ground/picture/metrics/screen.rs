@@ -14,8 +14,7 @@ pub struct ScreenPicture {
 }
 
 impl ScreenPicture {
-    /// Computes linear light times `exposure`, clipped at 1; NaN is black. Fails with [`InputError`] if the picture has
-    /// neither `R`, `G` and `B` nor `Y`.
+    /// Computes linear light times `exposure`, clipped at 1; NaN is black.
     pub fn new(picture: &Picture, exposure: f64) -> Result<Self, InputError> {
         let shown = |pixel: [f32; 3]| pixel.map(|channel| clip(f64::from(channel) * exposure));
         let linear = picture.linear()?.into_iter().map(shown).collect();

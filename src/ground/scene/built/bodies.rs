@@ -16,7 +16,6 @@ const HALF: f64 = 1.6;
 /// Fraction of a full turn by which bodies are rotated towards +x.
 const TURNED: f64 = 0.09;
 
-/// A body's surface with this many vertices, turned.
 fn turned(body: &RoundedBody, vertices: usize) -> ClosedSurface {
     let mut surface = body.surface(HALF, vertices);
     let [cos, sin] = on_circle(TURNED);

@@ -9,7 +9,6 @@ use super::resample::ClosedSurface;
 const FILE: &[u8] = include_bytes!("bunny.ply");
 /// Numbers of vertices and triangles of the scan.
 const COUNTS: [usize; 2] = [35_947, 69_451];
-/// Bytes of a vertex and of a triangle.
 const BYTES: [usize; 2] = [12, 7];
 /// Longest edge of the bunny's bounding box after scaling.
 const SIZE: f64 = 2.5;
@@ -24,7 +23,6 @@ pub(super) fn scanned() -> ClosedSurface {
     placed(read())
 }
 
-/// Scales a surface, and moves it to the origin.
 fn placed(surface: ClosedSurface) -> ClosedSurface {
     let fold =
         |start: f64, best: fn(DVec3, DVec3) -> DVec3| surface.positions.iter().copied().fold(DVec3::splat(start), best);
@@ -34,7 +32,6 @@ fn placed(surface: ClosedSurface) -> ClosedSurface {
     ClosedSurface { positions, ..surface }
 }
 
-/// The model of the file, turned so that z is up.
 fn read() -> ClosedSurface {
     let body = FILE.len() - COUNTS[0] * BYTES[0] - COUNTS[1] * BYTES[1];
     let (vertices, triangles) = FILE[body..].split_at(COUNTS[0] * BYTES[0]);

@@ -67,10 +67,8 @@ impl FlatModel {
     }
 }
 
-/// Name and reflectance of a material.
 type Paint = (&'static str, [f32; 3]);
 
-/// Builder of a model of flat parts.
 #[derive(Clone, Debug, Default)]
 struct FlatParts {
     /// Target edge length.
@@ -85,7 +83,6 @@ struct FlatParts {
 }
 
 impl FlatParts {
-    /// Number of vertices that differ in position, normal or material.
     fn distinct_vertices(&self) -> usize {
         let key = |at: u32, material: u32| {
             let of = |vectors: &[[f32; 3]]| vectors[at as usize].map(|component| (component + 0.0).to_bits());
@@ -208,7 +205,6 @@ impl FlatParts {
         self.material_of.resize(self.triangles.len(), material);
     }
 
-    /// Adds the four upright faces of a block between two corners.
     fn sides(&mut self, [x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], material: u32) {
         let at = DVec3::new;
         let (x, y, z) = (at(x1 - x0, 0.0, 0.0), at(0.0, y1 - y0, 0.0), at(0.0, 0.0, z1 - z0));
@@ -236,7 +232,6 @@ impl FlatParts {
         }
     }
 
-    /// Adds a block between two corners.
     fn block(&mut self, low: [f64; 3], high: [f64; 3], material: u32) {
         self.sides(low, high, material);
         let ([x0, y0, z0], at) = (low, DVec3::new);

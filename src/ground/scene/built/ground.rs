@@ -15,8 +15,7 @@ pub const GROUND_SIDE: u32 = 192;
 const BELOW_A_FLAT_BASE: f64 = 1.0 / 1024.0;
 
 /// Builds a horizontal square of `side` x `side` vertices that faces up, around `middle`, with normals and texture
-/// coordinates. Panics if there are fewer than two vertices along an edge, or a coordinate is not finite in single
-/// precision.
+/// coordinates.
 pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
     assert!(side >= 2, "two vertices along an edge, not {side}");
     let along = |at: u32| f64::from(at) / f64::from(side - 1);
@@ -49,8 +48,7 @@ fn has_flat_base(model: &Mesh, height: f64) -> bool {
 /// Combines a model and its ground ([`ground_of`]) in one mesh, with a material per triangle: 0 for the model and 1 for
 /// the ground.
 ///
-/// The ground's vertices have normals; the model keeps its normals, or receives mean normals of its triangles. Fails
-/// with [`InputError`] if there are too many triangles.
+/// The ground's vertices have normals; the model keeps its normals, or receives mean normals of its triangles.
 pub fn on_ground(model: &Mesh, side: u32) -> Result<(Mesh, Vec<u32>), InputError> {
     let ground = ground_of(model, side);
     let first = model.positions().len() as u32;

@@ -157,7 +157,6 @@ impl RoundedBody {
         at
     }
 
-    /// Extracts the surface from a grid of cubes.
     fn cut(&self, half: f64, cell: f64) -> ClosedSurface {
         let side = (2.0 * half / cell).ceil() as usize + 1;
         let corner = |index: usize| {
@@ -200,7 +199,6 @@ impl Cut<'_> {
         self.values[at] < 0.0
     }
 
-    /// Cuts the six tetrahedra of a cube.
     fn cube(&mut self, first: usize, steps: [usize; 3]) {
         let last = first + steps.iter().sum::<usize>();
         let corners =

@@ -104,7 +104,6 @@ impl ClosedSurface {
     }
 }
 
-/// Vertices with their normals.
 struct Curved {
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
@@ -130,12 +129,10 @@ fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// Edges of a triangle in its direction.
 const fn edges([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]]
 }
 
-/// Division of the longest edges.
 struct Refinement {
     vertices: Curved,
     triangles: Vec<[u32; 3]>,
@@ -175,7 +172,6 @@ impl Refinement {
         ClosedSurface::renumbered(&self.vertices.positions, order.map(|at| self.triangles[at]))
     }
 
-    /// Divides an edge and the two triangles at it.
     fn divide(&mut self, [a, b]: [u32; 2]) {
         let middle = self.vertices.positions.len() as u32;
         let (position, normal) = self.vertices.middle([a, b]);
@@ -202,7 +198,6 @@ impl Refinement {
 /// Bits of an edge's squared length, its ends, and the change counts of both ends when it had this length.
 type RankedEdge = (u64, [u32; 2], [u32; 2]);
 
-/// Collapse of the shortest edges.
 struct Coarsening {
     vertices: Curved,
     /// A removed triangle has the same corner three times.

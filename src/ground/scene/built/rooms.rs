@@ -11,7 +11,6 @@ pub const WALLS: [&str; 6] = ["floor", "ceiling", "left", "right", "front", "bac
 const WHITE: Color = [0.725, 0.71, 0.68];
 const RED: Color = [0.63, 0.065, 0.05];
 const GREEN: Color = [0.14, 0.45, 0.091];
-/// Radiance of the light.
 const LIGHT: Color = [17.0, 12.0, 4.0];
 
 #[derive(Default)]
@@ -23,7 +22,6 @@ struct RoomBuilder {
 }
 
 impl RoomBuilder {
-    /// Adds a quadrilateral, its corners counter-clockwise from the front.
     fn quad(&mut self, corners: [[f32; 3]; 4], material: u32) {
         let first = self.positions.len() as u32;
         self.positions.extend(corners);
@@ -102,7 +100,6 @@ pub fn cornell(what: CornellBox) -> Scene {
     room.scene(eye, target, if what.open { 0.345 } else { 1.2 })
 }
 
-/// Adds the ceiling in nine pieces; the middle one emits.
 fn ceiling_with_light(room: &mut RoomBuilder) {
     let (xs, ys, z) = ([0.0, 2.1, 3.4, 5.5], [0.0, 2.25, 3.3, 5.5], 5.5);
     for j in 0..3 {

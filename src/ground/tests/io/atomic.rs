@@ -92,3 +92,15 @@ fn files_of_others_stay() {
     assert_eq!(listing(root.path()), ["a", "mine", "sub"]);
     assert_eq!(fs::read(root.path().join("a")).expect("read"), b"new");
 }
+
+/// A file that cannot be written leaves the others of its list as they were.
+#[test]
+fn all_files_are_written_or_none() {
+    let root = tempfile::tempdir().expect("a folder");
+    fs::write(root.path().join("a"), b"old").expect("written");
+    fs::create_dir(root.path().join("c")).expect("a folder");
+    let files = ["a", "b", "c"].map(|name| (name.to_owned(), b"new".to_vec()));
+    assert!(matches!(write_files(root.path(), &files), Err(WriteError::File { .. })));
+    assert_eq!(listing(root.path()), ["a", "c"]);
+    assert_eq!(fs::read(root.path().join("a")).expect("read"), b"old");
+}

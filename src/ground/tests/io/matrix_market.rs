@@ -17,39 +17,26 @@ fn what_is_written_is_read() {
 }
 
 #[test]
-fn other_fields_and_symmetries_are_read() {
-    let symmetric = parse("%%MatrixMarket matrix coordinate integer symmetric\r\n2 2 2\r\n\r\n2 1 3\r\n2 2 4\r\n");
-    assert_eq!(symmetric.unwrap().entries, [(0, 1, 3.0), (1, 0, 3.0), (1, 1, 4.0)]);
-    let skew = parse("%%matrixmarket MATRIX coordinate real skew-symmetric\n2 2 1\n2 1 3\n");
-    assert_eq!(skew.unwrap().entries, [(0, 1, -3.0), (1, 0, 3.0)]);
-    assert_eq!(parse("%%MatrixMarket matrix coordinate pattern general\n1 2 1\n1 2").unwrap().entries, [(0, 1, 1.0)]);
+fn whole_numbers_and_other_line_ends_are_read() {
+    let text = "\u{feff}%%matrixmarket MATRIX coordinate integer general\r\n2 2 2\r\n\r\n2 1 3\r\n1 2 -4\r\n";
+    for text in [text.to_owned(), text.replace("\r\n", "\r")] {
+        assert_eq!(parse(&text).expect("a matrix").entries, [(0, 1, -4.0), (1, 0, 3.0)]);
+    }
 }
 
 #[test]
 fn what_is_no_matrix_is_refused() {
     let real = |rest: &str| parse(&format!("%%MatrixMarket matrix coordinate real general\n{rest}")).unwrap_err();
     assert!(parse("").unwrap_err().starts_with("t.mtx:1: expected `%%MatrixMarket"));
-    assert!(parse("%%MatrixMarket matrix coordinate pattern skew-symmetric\n2 2 1\n2 1\n").is_err());
-    let integer =
-        |value: &str| parse(&format!("\u{feff}%%MatrixMarket matrix coordinate integer general\n1 1 1\n1 1 {value}"));
-    // 2^53 + 1 is the first integer that is not a double; 2^54 is a double.
-    let inexact = "t.mtx:3: expected an integer that a 64-bit float holds exactly, found ";
-    assert_eq!(integer("9007199254740993").unwrap_err(), format!("{inexact}`9007199254740993`"));
-    assert_eq!(integer("1.5").unwrap_err(), format!("{inexact}`1.5`"));
-    assert_eq!(integer("-18014398509481984").unwrap().entries, [(0, 0, -18014398509481984.0)]);
-    for symmetry in ["symmetric", "skew-symmetric"] {
-        let text = |size: &str| format!("%%MatrixMarket matrix coordinate real {symmetry}\n{size}\n");
-        let square = format!("t.mtx:2: expected as many rows as columns of a {symmetry} matrix, found 2 x 3");
-        assert_eq!(parse(&(text("2 3 1") + "2 1 1")).unwrap_err(), square);
-        let diagonal = parse(&(text("2 2 1") + "2 2 1"));
-        assert_eq!(diagonal.is_err(), symmetry == "skew-symmetric");
+    for other in ["array real general", "coordinate pattern general", "coordinate real symmetric"] {
+        assert!(parse(&format!("%%MatrixMarket matrix {other}\n1 1 1\n1 1 2\n")).is_err(), "{other}");
     }
-    assert!(parse("%%MatrixMarket matrix array real general\n1 1\n2\n").is_err());
-    assert_eq!(real("% nothing"), "t.mtx:2: expected the numbers of rows, columns and entries, found ``");
-    assert_eq!(real("0 1 0"), "t.mtx:2: expected the numbers of rows, columns and entries, found `0 1 0`");
-    assert_eq!(real("2 2 1\n3 1 1"), "t.mtx:3: expected a row from 1 to 2, found `3`");
-    assert_eq!(real("2 2 1\n1 0 1"), "t.mtx:3: expected a column from 1 to 2, found `0`");
-    assert_eq!(real("2 2 1\n1 1"), "t.mtx:3: expected a row, a column and a value, found `1 1`");
+    for text in ["% nothing", "0 1 0"] {
+        assert!(real(text).starts_with("t.mtx:2: expected the numbers of rows, columns and entries, "), "{text}");
+    }
+    for entry in ["3 1 1", "1 0 1", "1 1"] {
+        assert!(real(&format!("2 2 1\n{entry}")).starts_with("t.mtx:3: expected "), "{entry}");
+    }
     for (value, expected) in [
         ("NaN", "a finite number"),
         ("-1e400", "a number that is not too large for a 64-bit float"),
@@ -57,8 +44,8 @@ fn what_is_no_matrix_is_refused() {
     ] {
         assert_eq!(real(&format!("2 2 1\n1 1 {value}")), format!("t.mtx:3: expected {expected}, found `{value}`"));
     }
-    let zero = parse("%%MatrixMarket matrix coordinate real general\r1 1 1\r1 1 -0.0e5\r");
-    assert_eq!(zero.expect("lines that end in CR").entries, [(0, 0, 0.0)]);
+    let zero = parse("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 -0.0e5\n");
+    assert_eq!(zero.expect("a zero with its sign").entries, [(0, 0, 0.0)]);
     let claim = "t.mtx:2: expected at most 16777216 rows and columns in a file of 66 bytes, found 4294967295 x 1";
     assert_eq!(real("4294967295 1 1\n1 1 1"), claim);
     assert_eq!(real("2 2 2\n1 1 1"), "t.mtx: expected 2 entries as line 2 says, found 1");

@@ -6,7 +6,6 @@ mod matrix_market;
 mod npy;
 mod number;
 mod number_table;
-mod numbers;
 mod obj;
 mod ply;
 mod rays;

@@ -26,7 +26,8 @@ fn errors_say_where_and_what() {
     assert_eq!(with("1,nan,3,0,0,1"), "r.csv:3: expected a finite number for oy, found `nan`");
     let large = "a number that is not too large for a 32-bit float: at most 3.4028235e38";
     assert_eq!(with("1,2,3,0,0,1e39"), format!("r.csv:3: expected {large} for dz, found `1e39`"));
-    assert!(load_rays(Path::new("/no/such.csv")).unwrap_err().to_string().eq("cannot read the rays /no/such.csv"));
+    let missing = load_rays(Path::new("/no/such.csv")).unwrap_err().to_string();
+    assert_eq!(missing, "cannot read the table of rays /no/such.csv");
 }
 
 #[test]

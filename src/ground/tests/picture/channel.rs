@@ -1,4 +1,3 @@
-use crossbar_base::error::input_error;
 use crossbar_ground::picture::metrics::{WorstSample, channels};
 use crossbar_ground::picture::{ChannelUnit, Picture, Samples};
 
@@ -31,24 +30,15 @@ fn nan_equals_nan_and_differs_from_all_else() {
 fn channels_go_by_name_and_have_to_be_the_same() {
     let rgb = Picture::rgb(2, 2, &[[0.5; 3]; 4]);
     let other = floats("Y", &[0.5; 4]);
-    assert!(
-        channels(&rgb, &other, &[])
-            .is_err_and(|error| error.to_string().contains("expected the same channels in both pictures, found "))
-    );
-    assert!(
-        channels(&rgb, &rgb, &["Z".to_owned()])
-            .is_err_and(|error| error.to_string().contains("` in both pictures, found "))
-    );
-    assert!(
-        channels(&rgb, &Picture::rgb(2, 1, &[]), &[])
-            .is_err_and(|error| error.to_string().contains("expected two pictures of one size, found "))
-    );
     let ids = Picture::new(2, 2).with("Y", ChannelUnit::Id, Samples::Uint(vec![1; 4])).expect("four samples");
-    assert_eq!(
-        channels(&ids, &other, &[]),
-        Err(input_error!("crossbar::picture::mismatch" =>
-                "expected samples of one type in channel `Y`, found floats and whole numbers"))
-    );
+    for (left, right, names, said) in [
+        (&rgb, &other, vec![], "expected the same channels in both pictures, found "),
+        (&rgb, &rgb, vec!["Z".to_owned()], "expected a channel `Z` in both pictures, found "),
+        (&rgb, &Picture::rgb(2, 1, &[]), vec![], "expected two pictures of one size, found "),
+        (&ids, &other, vec![], "expected samples of one type in channel `Y`, found floats and whole numbers"),
+    ] {
+        assert!(channels(left, right, &names).is_err_and(|error| error.to_string().starts_with(said)), "{said}");
+    }
     assert_eq!(channels(&rgb, &rgb, &["G".to_owned()]).expect("G").len(), 1);
 }
 

@@ -1,9 +1,7 @@
 mod extremes;
-mod harmonics;
 mod hemisphere;
 mod layout;
 mod light;
 mod parabolic;
-mod rotation;
 mod rule;
 mod sky;

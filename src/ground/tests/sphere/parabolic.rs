@@ -9,14 +9,14 @@ fn directions_and_coordinates_are_inverse() {
         let direction = map.direction(column, row);
         assert!((direction.length() - 1.0).abs() < 4e-16);
         let expected = [column, row].map(|at| (at as f64 + 0.5) / 32.0);
-        let found = map.coordinates(direction);
+        let found = ParabolicMap::coordinates_of(direction);
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?} {expected:?}");
     }
     let below = DVec3::new(0.6, -0.48, -0.64);
-    assert!((ParabolicMap::direction_at(map.coordinates(below)) - below).length() < 1e-15);
-    assert_eq!(map.coordinates(DVec3::X), [1.0, 0.5], "columns run along x");
-    assert_eq!(map.coordinates(DVec3::Y), [0.5, 1.0], "rows along y");
-    assert_eq!(map.coordinates(DVec3::Z), [0.5, 0.5]);
+    assert!((ParabolicMap::direction_at(ParabolicMap::coordinates_of(below)) - below).length() < 1e-15);
+    assert_eq!(ParabolicMap::coordinates_of(DVec3::X), [1.0, 0.5], "columns run along x");
+    assert_eq!(ParabolicMap::coordinates_of(DVec3::Y), [0.5, 1.0], "rows along y");
+    assert_eq!(ParabolicMap::coordinates_of(DVec3::Z), [0.5, 0.5]);
     assert!((ParabolicMap::new(4096).direction(0, 0).z + 1.0 / 3.0).abs() < 1e-3, "the corner");
 }
 
@@ -29,7 +29,7 @@ fn interpolation_gives_texels_at_their_centers_and_planes_between() {
         assert!((read(map.direction(column, row)) - value(row * 8 + column)).abs() < 1e-12);
     }
     let between = DVec3::new(0.3, -0.2, (1.0_f64 - 0.13).sqrt());
-    let [x, y] = map.coordinates(between).map(|at| 8.0 * at - 0.5);
+    let [x, y] = ParabolicMap::coordinates_of(between).map(|at| 8.0 * at - 0.5);
     assert!((read(between) - (3.0 * x - 2.0 * y)).abs() < 1e-12);
     for map in [ParabolicMap::new(1), ParabolicMap::new(2), map] {
         for direction in [DVec3::X, DVec3::Z, DVec3::NEG_Z, DVec3::new(0.6, 0.0, -0.8), DVec3::NEG_Y] {

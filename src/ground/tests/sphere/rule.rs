@@ -1,18 +1,7 @@
 use approx::abs_diff_eq;
-use crossbar_base::elementary;
 use crossbar_ground::sphere::DirectionRule;
 use glam::DVec3;
 use std::f64::consts::PI;
-
-#[test]
-fn rules_have_the_size_of_their_degree_and_the_solid_angle_as_their_sum() {
-    let [sphere, hemisphere] = [DirectionRule::sphere(8), DirectionRule::hemisphere(63)];
-    assert_eq!([sphere.len(), hemisphere.len()], [45, 2048]);
-    assert!(abs_diff_eq!(sphere.integral(|_| 1.0), 4.0 * PI, epsilon = 1e-14));
-    assert!(abs_diff_eq!(hemisphere.integral(|_| 1.0), 2.0 * PI, epsilon = 1e-14));
-    assert!(abs_diff_eq!(hemisphere.integral(|v| v.z), PI, epsilon = 1e-14));
-    assert!(hemisphere.directions().iter().all(|v| v.z > 0.0 && (v.length() - 1.0).abs() < 4e-16));
-}
 
 /// Light inside a bowl, whose horizon has one height all around; a rule of rings resolves that height only in steps of
 /// a ring.
@@ -28,28 +17,6 @@ fn horizons_of_any_height_are_told_to_a_fraction_of_a_ring() {
     };
     let [rings, spread] = [DirectionRule::hemisphere(44), DirectionRule::spread(44, 18)].map(|rule| worst(&rule));
     assert!(rings > 0.03 && spread < 0.004, "{rings} and {spread}");
-}
-
-/// Light next to a wall, whose horizon rises towards one side, for any azimuth.
-#[test]
-fn walls_at_any_azimuth_are_told_about_as_well() {
-    // Multiples of two numbers that fill the unit square evenly.
-    let unit = |wall: usize, share: f64| (wall as f64 * share).fract();
-    let rms = |rule: &DirectionRule| {
-        let off = |wall: usize| {
-            let [x, y] = elementary::on_circle(unit(wall, 0.754_877_666));
-            // Cosine of the angle between the ground and the plane through the origin and the wall's upper edge.
-            let [c, s] = elementary::on_circle(0.25 * unit(wall, 0.569_840_291));
-            let light = rule.integral(|v| if v.z * c > (v.x * x + v.y * y) * s { v.z } else { 0.0 });
-            let exact = PI * (1.0 + c) / 2.0;
-            (light - exact) / exact
-        };
-        ((0..400).map(|wall| off(wall) * off(wall)).sum::<f64>() / 400.0).sqrt()
-    };
-    let [rings, spread] = [DirectionRule::hemisphere(44), DirectionRule::spread(44, 18)].map(|rule| rms(&rule));
-    // The errors are 0.27 and 0.31 %. The spread rule has the larger one because its columns are aligned; the rings of
-    // `hemisphere` alternate by half a step.
-    assert!(rings.max(spread) < 0.0035, "{rings} and {spread}");
 }
 
 #[test]

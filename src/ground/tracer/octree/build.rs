@@ -15,7 +15,6 @@ const ROOT_MARGIN: f64 = 1e-3;
 /// Maximum number of consecutive useless levels: splits that leave a child with all of its parent's triangles.
 const MAX_USELESS_LEVELS: u32 = 3;
 
-/// Builder with the triangles in its own form.
 struct OctreeBuilder {
     corners: Vec<[DVec3; 3]>,
     parameters: OctreeParameters,
@@ -73,7 +72,6 @@ impl OctreeBuilder {
         }
     }
 
-    /// Corners of a triangle relative to a point.
     fn from(&self, id: u32, point: DVec3) -> [DVec3; 3] {
         let [a, b, c] = self.corners[id as usize];
         [a - point, b - point, c - point]

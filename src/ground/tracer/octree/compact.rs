@@ -33,7 +33,6 @@ pub(crate) struct Compact {
     children: Vec<[u32; 8]>,
 }
 
-/// Split cell on the traversal stack.
 #[derive(Clone, Copy, Default)]
 struct WaitingCell {
     /// Parameters at which the ray meets the cell's upper planes.

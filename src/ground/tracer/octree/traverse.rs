@@ -60,7 +60,6 @@ pub struct Visit<'a> {
 /// is positive.
 pub(super) type Planes = [[f64; 3]; 2];
 
-/// State of a traversal.
 struct Walk<'a, F> {
     octree: &'a Octree,
     gpu: Option<&'a GpuCells>,

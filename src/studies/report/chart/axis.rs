@@ -28,7 +28,6 @@ impl Scale {
         if most > MAX_LINEAR_FACTOR * least { Self::Logarithmic } else { Self::Linear }
     }
 
-    /// Returns `true` if a value can be shown on the axis.
     pub(super) fn admits(self, value: f64) -> bool {
         value.is_finite() && (self == Self::Linear || value > 0.0)
     }
@@ -48,11 +47,9 @@ pub(super) struct Axis {
     ticks: Vec<(f64, String)>,
 }
 
-/// Margin beyond the outermost values.
 const MARGIN: f64 = 1.06;
 /// Ratio of positive values below which a horizontal axis does not begin at 0.
 const MAX_FACTOR_FROM_0: f64 = 4.0;
-/// Maximum number of intervals between ticks.
 const MAX_INTERVALS: usize = 8;
 
 impl Axis {

@@ -12,6 +12,16 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Series {
+    /// Adds a point to the line with this label; a new label begins a line.
+    pub fn add(lines: &mut Vec<Self>, label: String, point: (f64, f64)) {
+        match lines.iter_mut().find(|line| line.label == label) {
+            Some(line) => line.points.push(point),
+            None => lines.push(Self { label, points: vec![point] }),
+        }
+    }
+}
+
 /// Chart of lines and points over a horizontal and a vertical axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
@@ -35,7 +45,6 @@ pub struct Chart {
     pub ticks: Vec<String>,
 }
 
-/// Series in drawn form.
 pub(super) struct DrawnSeries<'a> {
     pub(super) label: &'a str,
     /// Points that the axes admit.

@@ -1,4 +1,5 @@
-//! Drawing of a chart with plotters: it draws the axes; everything else is drawn in pixels.
+//! Drawing of a chart with plotters: it draws the axes; everything else is drawn in pixels. Labels are in a column to
+//! the right, each as near as possible to the end of its line.
 
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -8,12 +9,11 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::super::palette::LIGHT;
 use super::axis::Axis;
 use super::data::{Chart, DrawnSeries};
-use super::labels::{PITCH, signed, spread};
 use super::style::{Marker, SeriesStyle, rgb};
 
-/// Position in pixels.
 type Pixel = (i32, i32);
-type DrawResult<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type DrawResult<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
 
 /// Size of the plot area, including the numbers of the axes, in pixels.
 const PLOT: (i32, i32) = (580, 400);
@@ -23,22 +23,21 @@ const MARGINS: [i32; 2] = [44, 54];
 const SAMPLE: [i32; 2] = [PLOT.0 + 4, PLOT.0 + 28];
 /// Sizes of fonts; plotters writes them divided by 1.24.
 const FONTS: [f64; 2] = [20.0, 15.5];
+/// Distance of the centres of neighbouring labels, in pixels.
+const PITCH: i32 = 19;
 /// Maximum width of a letter of the smaller font, averaged over a label, in pixels: sans-serif letters are 0.6 of their
 /// font's size wide on average, or less.
 const LETTER: i32 = 8;
-/// Half the size of a marker.
 const MARK: i32 = 4;
 /// Minimum distance between markers of a line, in pixels.
 const APART: i32 = 56;
 
-/// Chart with its layout.
 pub(super) struct Drawing<'a> {
     chart: &'a Chart,
     series: &'a [DrawnSeries<'a>],
     height: i32,
 }
 
-/// Series in pixels.
 struct PixelSeries<'a> {
     series: &'a DrawnSeries<'a>,
     points: Vec<Pixel>,
@@ -50,17 +49,15 @@ impl<'a> Drawing<'a> {
         Self { chart, series, height: PLOT.1.max(labels) }
     }
 
-    /// Width and height, in pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         let letters = self.series.iter().map(|series| signed(series.label.chars().count())).max().unwrap_or(0);
         let width = SAMPLE[1] + 10 + letters * LETTER;
         (width.unsigned_abs(), self.height.unsigned_abs())
     }
 
-    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, x: Axis, y: Axis) -> DrawResult<B> {
+    pub(super) fn draw(&self, area: &Area<'_>, x: Axis, y: Axis) -> DrawResult {
         area.fill(&rgb(LIGHT.paper))?;
-        let title = ("sans-serif", FONTS[0]).into_font().color(&rgb(LIGHT.ink));
-        area.draw(&Text::new(self.chart.title.clone(), (14, 12), title))?;
+        area.draw(&Text::new(self.chart.title.clone(), (14, 12), font(FONTS[0])))?;
         let points = self.axes(area, x, y)?;
         let all: Vec<PixelSeries<'_>> =
             self.series.iter().zip(points).map(|(series, points)| PixelSeries { series, points }).collect();
@@ -73,12 +70,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// Draws the axes, and returns the series in pixels.
-    fn axes<B: DrawingBackend>(
-        &self,
-        area: &DrawingArea<B, Shift>,
-        x: Axis,
-        y: Axis,
-    ) -> Result<Vec<Vec<Pixel>>, DrawingAreaErrorKind<B::ErrorType>> {
+    fn axes(&self, area: &Area<'_>, x: Axis, y: Axis) -> DrawResult<Vec<Vec<Pixel>>> {
         let (plot, _) = area.split_horizontally(PLOT.0);
         let mut context = ChartBuilder::on(&plot)
             .margin_top(MARGINS[0])
@@ -88,7 +80,7 @@ impl<'a> Drawing<'a> {
             .x_label_area_size(MARGINS[1] - 6)
             .y_label_area_size(62)
             .build_cartesian_2d(x, y)?;
-        let numbers = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
+        let numbers = font(FONTS[1]);
         let mut mesh = context.configure_mesh();
         mesh.light_line_style(TRANSPARENT)
             .bold_line_style(rgb(LIGHT.rule))
@@ -103,20 +95,16 @@ impl<'a> Drawing<'a> {
             let (middle, _) = context.backend_coord(&(f64::from(place), 0.0));
             self.name(area, name, (middle, bottom.end + 8))?;
         }
-        Ok(self
-            .series
-            .iter()
-            .map(|series| series.points.iter().map(|point| context.backend_coord(point)).collect())
-            .collect())
+        let pixels = |series: &DrawnSeries<'_>| series.points.iter().map(|at| context.backend_coord(at)).collect();
+        Ok(self.series.iter().map(pixels).collect())
     }
 
     /// Draws a category name below the axis, in two lines if one line would overlap its neighbors.
-    fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> DrawResult<B> {
+    fn name(&self, area: &Area<'_>, name: &str, (middle, top): Pixel) -> DrawResult {
         let room = (PLOT.0 - 82) / signed(self.chart.ticks.len().max(1));
         let long = signed(name.chars().count()) * LETTER > room;
         let lines = if long { halves(name) } else { vec![name] };
-        let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
-        let style = style.pos(Pos::new(HPos::Center, VPos::Top));
+        let style = font(FONTS[1]).pos(Pos::new(HPos::Center, VPos::Top));
         lines
             .into_iter()
             .zip((top..).step_by(16))
@@ -124,11 +112,10 @@ impl<'a> Drawing<'a> {
     }
 
     /// Draws the column of labels: a sample of each series, its name, and a thin line from the end of the series.
-    fn labels<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, all: &[PixelSeries<'_>]) -> DrawResult<B> {
+    fn labels(&self, area: &Area<'_>, all: &[PixelSeries<'_>]) -> DrawResult {
         let wanted: Vec<i32> = all.iter().map(|one| one.end().1).collect();
         let places = spread(&wanted, [MARGINS[0] + PITCH / 2, self.height - MARGINS[1] - PITCH / 2]);
-        let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
-        let style = style.pos(Pos::new(HPos::Left, VPos::Center));
+        let style = font(FONTS[1]).pos(Pos::new(HPos::Left, VPos::Center));
         for (one, y) in all.iter().zip(places) {
             let SeriesStyle { color, .. } = one.series.style;
             area.draw(&PathElement::new([one.end(), (SAMPLE[0] - 3, y)], color.mix(0.45)))?;
@@ -141,6 +128,10 @@ impl<'a> Drawing<'a> {
     }
 }
 
+fn font(size: f64) -> TextStyle<'static> {
+    ("sans-serif", size).into_font().color(&rgb(LIGHT.ink))
+}
+
 /// Splits a name into two lines so that the longer one is shortest; a single word stays one line.
 fn halves(name: &str) -> Vec<&str> {
     let longer = |(space, _): &(usize, &str)| (*space).max(name.len() - space - 1);
@@ -149,13 +140,12 @@ fn halves(name: &str) -> Vec<&str> {
 }
 
 impl PixelSeries<'_> {
-    /// Start of the label's line.
     fn end(&self) -> Pixel {
         self.points.last().copied().unwrap_or_default()
     }
 
     /// Draws the line, dashed or solid; nothing for a series of points.
-    fn path<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> DrawResult<B> {
+    fn path(&self, area: &Area<'_>) -> DrawResult {
         let style = self.series.style;
         let stroke = style.color.stroke_width(2);
         let points = self.points.iter().copied();
@@ -167,7 +157,7 @@ impl PixelSeries<'_> {
     }
 
     /// Draws the markers: all points, or some points along a line, starting at a different point on each line.
-    fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> DrawResult<B> {
+    fn marks(&self, area: &Area<'_>, n: usize) -> DrawResult {
         let few = !self.series.joined || self.points.len() <= 10;
         let mut last = self.points.first().map_or(0, |p| p.0) - (signed(n) * 19).rem_euclid(APART);
         for point in &self.points {
@@ -180,12 +170,11 @@ impl PixelSeries<'_> {
     }
 }
 
-/// Draws a marker.
-fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: SeriesStyle) -> DrawResult<B> {
+fn mark(area: &Area<'_>, (x, y): Pixel, style: SeriesStyle) -> DrawResult {
     let square = [(-MARK, -MARK), (MARK, -MARK), (MARK, MARK), (-MARK, MARK)];
     let triangle = [(0, -MARK - 1), (MARK + 1, MARK), (-MARK - 1, MARK)];
     let diamond = [(0, -MARK - 2), (MARK + 2, 0), (0, MARK + 2), (-MARK - 2, 0)];
-    let polygon = |corners: &[Pixel], open: bool| -> DrawResult<B> {
+    let polygon = |corners: &[Pixel], open: bool| -> DrawResult {
         let mut corners: Vec<Pixel> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
         let fill = if open { rgb(LIGHT.paper) } else { style.color };
         area.draw(&Polygon::new(corners.clone(), fill.filled()))?;
@@ -207,4 +196,57 @@ fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: S
             area.draw(&PathElement::new([(x - MARK, y + MARK), (x + MARK, y - MARK)], stroke))
         }
     }
+}
+
+/// Converts a number of labels or letters to pixel arithmetic; a drawing has far fewer than the maximum.
+fn signed(count: usize) -> i32 {
+    const MOST: i32 = 100_000;
+    i32::try_from(count).unwrap_or(MOST).min(MOST)
+}
+
+/// Places labels near the heights at which their lines end, in the same order: at least a pitch apart, between `top`
+/// and `bottom` if there is room for all, otherwise downward from `top`.
+fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
+    let mut order: Vec<usize> = (0..wanted.len()).collect();
+    order.sort_by_key(|&n| (wanted[n], n));
+    // Labels that touch move together: a group is centered on the mean of its labels' targets.
+    let mut groups: Vec<Group> = Vec::new();
+    for &n in &order {
+        let mut group = Group { labels: vec![n], first: clamped(wanted[n], 1, [top, bottom]) };
+        while let Some(above) = groups.pop_if(|above| above.end() > group.first) {
+            group = above.joined(group, wanted, [top, bottom]);
+        }
+        groups.push(group);
+    }
+    let mut places = vec![0; wanted.len()];
+    for group in groups {
+        for (n, place) in group.labels.iter().zip((0..).map(|k| group.first + k * PITCH)) {
+            places[*n] = place;
+        }
+    }
+    places
+}
+
+struct Group {
+    labels: Vec<usize>,
+    first: i32,
+}
+
+impl Group {
+    fn end(&self) -> i32 {
+        self.first + signed(self.labels.len()) * PITCH
+    }
+
+    fn joined(mut self, below: Self, wanted: &[i32], room: [i32; 2]) -> Self {
+        self.labels.extend(below.labels);
+        let firsts = self.labels.iter().zip(0..).map(|(n, k)| i64::from(wanted[*n]) - i64::from(k * PITCH));
+        let mean = firsts.sum::<i64>().div_euclid(i64::from(signed(self.labels.len())));
+        self.first = clamped(mean as i32, self.labels.len(), room);
+        self
+    }
+}
+
+/// Position of a group's first label, clamped so that the group fits.
+fn clamped(first: i32, labels: usize, [top, bottom]: [i32; 2]) -> i32 {
+    first.min(bottom - (signed(labels) - 1) * PITCH).max(top)
 }

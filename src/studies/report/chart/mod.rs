@@ -5,7 +5,6 @@
 mod axis;
 mod data;
 mod draw;
-mod labels;
 mod style;
 
 pub use axis::Scale;
@@ -22,8 +21,7 @@ use super::visible::visible;
 use crate::error::InputError;
 
 impl Chart {
-    /// Encodes the chart as an SVG file. Fails if there is nothing to draw, or there are more series than
-    /// distinguishable styles.
+    /// Encodes the chart as SVG; fails with nothing to draw, or with more series than distinguishable styles.
     pub fn svg(&self) -> Result<String, InputError> {
         let fail = |reason: String| not_encoded("SVG", reason);
         let count = self.lines.len() + self.dots.len();

@@ -38,7 +38,6 @@ const MARKERS: [Marker; 7] = [
 /// Maximum number of distinguishable series: the lengths of the lists are pairwise coprime.
 pub(super) const MAX_SERIES: usize = COLORS.len() * DASHES.len() * MARKERS.len();
 
-/// Shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Marker {
     Disc,
@@ -60,17 +59,14 @@ pub(super) struct SeriesStyle {
 }
 
 impl SeriesStyle {
-    /// Style of a paper's points.
     pub(super) const PRINTED: Self = Self { color: rgb(LIGHT.ink), dash: None, marker: Marker::Printed };
 
-    /// Style of the n-th series of a chart.
     pub(super) fn nth(n: usize) -> Self {
         let (light, _) = COLORS[n % COLORS.len()];
         Self { color: rgb(light), dash: DASHES[n % DASHES.len()], marker: MARKERS[n % MARKERS.len()] }
     }
 }
 
-/// Converts a color to plotters' type.
 pub(super) const fn rgb([r, g, b]: Color) -> RGBColor {
     RGBColor(r, g, b)
 }
@@ -87,7 +83,6 @@ pub(super) fn dark_rules() -> String {
     format!("@media (prefers-color-scheme:dark){{{}}}", pairs.map(rule).collect::<String>())
 }
 
-/// Formats a color for style sheets.
 fn hex([r, g, b]: Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

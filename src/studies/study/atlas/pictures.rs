@@ -11,7 +11,7 @@ use crate::scene::Camera;
 use crate::tracer::HostTracer;
 
 /// Maximum side of a picture of the atlas, in pixels. A picture of a larger atlas shows every second or fourth texel.
-pub const MAX_PICTURE: u32 = 2048;
+const MAX_PICTURE: u32 = 2048;
 
 /// Criterion of coloring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

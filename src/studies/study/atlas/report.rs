@@ -1,14 +1,17 @@
-//! Tables, pictures and files of the study.
+//! The study: parameters, tables, pictures and files.
 
 use serde_json::json;
 
 use super::export;
-use super::parameters::AtlasStudy;
 use super::pictures::{self, Coloring, ModelPictures};
 use crate::atlas::{Atlas, AtlasQuality};
+use crate::error::InputError;
+use crate::geom::Mesh;
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::{counted, percent};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
+use crate::scene::Camera;
+use crate::study::{ProgressFn, Study, StudyError};
 
 const COMPACTNESS: &str = "Compactness is a cluster's area over the area of a disc with the radius of its ball: 1 for a flat disc, 0.64 for a flat \
     square, 0.41 for an equilateral triangle, and more for folded surfaces, such as a whole closed surface. One cluster in twenty is below \
@@ -17,7 +20,36 @@ const COMPACTNESS: &str = "Compactness is a cluster's area over the area of a di
 const EVENNESS: &str = "Areas are relative to the mean over all texels. Each face owns a rectangle whose sides are powers of two, and can only get \
     twice or half as many texels: areas vary by about a factor of 2 even if all faces are alike.";
 
-pub(super) fn findings(asked: &AtlasStudy, atlas: &Atlas, quality: &AtlasQuality) -> Findings {
+/// Error of a mesh without an atlas.
+pub fn no_atlas(error: InputError) -> StudyError {
+    StudyError::coded("crossbar::atlas", error)
+}
+
+/// Parameters: an atlas to build and measure.
+#[derive(Debug, Clone)]
+pub struct AtlasStudy {
+    /// Name of the mesh.
+    pub name: String,
+    /// Mesh.
+    pub mesh: Mesh,
+    /// Side of the atlas, in texels.
+    pub side: u32,
+    /// Camera of the pictures of the mesh; `None` for no pictures and no files.
+    pub camera: Option<Camera>,
+}
+
+impl Study for AtlasStudy {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        progress("clustering faces", 0, 3);
+        let atlas = Atlas::new(&self.mesh, self.side).map_err(no_atlas)?;
+        progress("measuring", 1, 3);
+        let quality = AtlasQuality::of(&atlas);
+        progress("drawing", 2, 3);
+        Ok(findings(self, &atlas, &quality))
+    }
+}
+
+fn findings(asked: &AtlasStudy, atlas: &Atlas, quality: &AtlasQuality) -> Findings {
     let mut found = Findings::new("A meshed atlas");
     conclude(&mut found, atlas, quality);
     found.paragraph(format!("{}, {} x {} texels.", asked.name, atlas.side(), atlas.side()));

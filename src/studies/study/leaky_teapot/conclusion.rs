@@ -61,7 +61,7 @@ fn names(rows: &[&str]) -> String {
 fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
     let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
-    let names = if right.len() > MAX_NAMES { counted(right.len() as u64, "row", "rows") } else { listed(&right) };
+    let names = names(&right);
     let wrong = counted(best.tally.wrong(), one, more);
     Some(match (right.len(), rows.len() - right.len()) {
         (0, 1) => format!("{} is wrong in {wrong} of {}.", label(best), count(best.tally.rays)),

@@ -35,36 +35,24 @@ impl FormatLimits {
         Self { bits, hits: hits.iter().flatten().count() as u64, t_values: t.len() as u64 }
     }
 
-    /// Returns `true` if many triangles have a normal below one step of the format.
-    pub fn triangles_vanish(&self) -> bool {
-        self.bits.share() >= MUCH
-    }
-
-    /// Returns `true` if many hits share a value of t. In a float format, few values mean a flat surface that faces the
-    /// rays.
-    pub fn t_is_coarse(&self) -> bool {
-        self.bits.fixed_point && self.hits >= SOME_HITS && self.t_values * HITS_PER_VALUE <= self.hits
-    }
-
-    /// Warning, if the format loses too much.
+    /// Warning, if the format loses too much: if many triangles have a normal below one step of the format, or many
+    /// hits share a value of t. In a float format, few values mean a flat surface that faces the rays.
     pub fn warning(&self) -> Option<String> {
-        let below = format!(
-            "n of {} of {} ({}) is below one step of the card's format",
-            count(self.bits.below_step),
-            counted(self.bits.triangles, "triangle", "triangles"),
-            percent(self.bits.share()),
-        );
-        let values = format!(
-            "t of {} has {}",
-            counted(self.hits, "hit", "hits"),
-            counted(self.t_values, "value", "different values")
-        );
-        let said = match (self.triangles_vanish(), self.t_is_coarse()) {
-            (true, true) => format!("{below}, and {values}"),
-            (true, false) => below,
-            (false, true) => values,
-            (false, false) => return None,
-        };
-        Some(format!("no bits left: {said}"))
+        let Self { bits, hits, t_values } = *self;
+        let is_coarse = bits.fixed_point && hits >= SOME_HITS && t_values * HITS_PER_VALUE <= hits;
+        let below = (bits.share() >= MUCH).then(|| {
+            format!(
+                "n of {} of {} ({}) is below one step of the card's format",
+                count(bits.below_step),
+                counted(bits.triangles, "triangle", "triangles"),
+                percent(bits.share()),
+            )
+        });
+        let values = is_coarse.then(|| {
+            let values = counted(t_values, "value", "different values");
+            format!("t of {} has {values}", counted(hits, "hit", "hits"))
+        });
+        let said: Vec<String> = below.into_iter().chain(values).collect();
+        (!said.is_empty()).then(|| format!("no bits left: {}", said.join(", and ")))
     }
 }

@@ -27,7 +27,7 @@ use crate::geom::aimed::{Aimed, aimed_at_edges, aimed_at_vertices};
 use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
-use crate::picture::{RgbImage, rgb8};
+use crate::picture::rgb8;
 use crate::ray_engine::{Crossbar, EdgeRule, EngineError};
 use crate::report::{Findings, Provenance};
 use crate::study::StudyError;
@@ -93,13 +93,8 @@ impl Parameters {
     }
 }
 
-/// Hits of a configuration, by kind of ray: listed or camera rays, rays aimed at edges, rays aimed at vertices.
-#[derive(Debug)]
-struct ConfigurationHits {
-    view: Vec<Option<Hit>>,
-    edges: Vec<Option<Hit>>,
-    vertices: Vec<Option<Hit>>,
-}
+/// Hits of a configuration: of listed or camera rays, of rays aimed at edges, and of rays aimed at vertices.
+type ConfigurationHits = [Vec<Option<Hit>>; 3];
 
 /// Rays aimed at edges and at vertices. Empty if the rays have no common origin, or none are requested.
 fn aimed(parameters: &Parameters) -> [Vec<Ray>; 2] {
@@ -126,7 +121,7 @@ fn hits(
         None => crossbar.intersect(mesh, &parameters.view, *sides)?.hits,
         Some(_) => list(parameters.rays())?,
     };
-    Ok(ConfigurationHits { view, edges: list(edges)?, vertices: list(vertices)? })
+    Ok([view, list(edges)?, list(vertices)?])
 }
 
 /// Traces all configurations. `progress` is called with the label of each before it starts. Fails if a configuration
@@ -161,8 +156,9 @@ fn judged(
     let steps = parameters.cases().count() as u64;
     progress("exact arithmetic", steps, steps + 1);
     let tracer = Tracer::new(mesh);
-    let view = JudgedRays::new(&tracer, parameters.rays().to_vec(), *sides);
-    let [edges, vertices] = aimed.map(|rays| JudgedRays::new(&tracer, rays, *sides));
+    let [edges, vertices] = aimed;
+    let rays = [parameters.rays().to_vec(), edges, vertices].map(|rays| JudgedRays::new(&tracer, rays, *sides));
+    let view = &rays[0];
 
     let shader = TeapotShader::new(mesh);
     let pixels = parameters.view.rays().len();
@@ -173,47 +169,43 @@ fn judged(
     let one_origin = parameters.view.common_origin().is_some();
     let inside = parameters.view.common_origin().map(|eye| Inside::new(mesh, eye));
     for ((configuration, edge_rule), found) in parameters.cases().zip(found) {
-        let ConfigurationHits { view: mut hits, edges: edge_hits, vertices: vertex_hits } = found;
         let bits_left = crossbar(parameters, &configuration, edge_rule).bits_left(mesh, &view.rays, *sides)?;
-        let limits = FormatLimits::new(bits_left, &hits);
-        let (mut verdicts, tally) = view.judge(mesh, &hits);
-        let (edge_verdicts, edge_tally) = edges.judge(mesh, &edge_hits);
-        let (vertex_verdicts, vertex_tally) = vertices.judge(mesh, &vertex_hits);
-        let holes =
-            [(&view, &verdicts), (&edges, &edge_verdicts), (&vertices, &vertex_verdicts)].map(|(rays, verdicts)| {
-                inside.as_ref().map(|inside| inside.holes(&rays.nearest, verdicts)).unwrap_or_default()
-            });
+        let limits = FormatLimits::new(bits_left, &found[0]);
+        let judge = |kind: usize| {
+            let (verdicts, tally) = rays[kind].judge(mesh, &found[kind]);
+            let holes = inside.as_ref().map(|inside| inside.holes(&rays[kind].nearest, &verdicts)).unwrap_or_default();
+            (verdicts, tally, holes)
+        };
+        let [(mut verdicts, tally, eye_holes), (_, edges, edge_holes), (_, vertices, vertex_holes)] =
+            [0, 1, 2].map(judge);
+        let [mut hits, ..] = found;
         hits.resize(pixels, None);
         verdicts.resize(pixels, HitVerdict::Right);
         let triangles: Vec<Option<u32>> = hits.iter().map(|h| h.map(|h| h.triangle)).collect();
         let picture = shader.picture(&parameters.view, &triangles);
+        let colors = verdicts.iter().zip(&exact).map(|(v, e)| PixelVerdict::of(*v, e.is_some()).color());
         rows.push(TeapotRow {
             cost: IntersectionCost::of(&configuration.profile, one_origin, *sides, edge_rule)?,
             edge_rule,
-            holes,
+            holes: [eye_holes, edge_holes, vertex_holes],
             configuration: configuration.into_owned(),
             tally,
-            pixels_differing: pixels_differing(&picture, &exact_picture),
-            map: rgb8(
-                width,
-                height,
-                verdicts.iter().zip(&exact).map(|(v, e)| PixelVerdict::of(*v, e.is_some()).color()),
-            ),
+            pixels_differing: picture.pixels().zip(exact_picture.pixels()).filter(|(a, b)| a != b).count() as u64,
+            map: rgb8(width, height, colors),
             verdicts,
             picture,
             t: hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t)).collect(),
             triangle: triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
-            edges: edge_tally,
-            vertices: vertex_tally,
+            edges,
+            vertices,
             limits,
         });
     }
-    Ok(TeapotOutcome {
-        exact_picture,
-        exact_t: filled(view.nearest.iter().map(|t| t.as_ref().map_or(f32::INFINITY, |h| h.t.to_f32())), pixels),
-        exact_triangle: exact.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
-        rows,
-    })
+    let mut exact_t: Vec<f32> =
+        view.nearest.iter().map(|t| t.as_ref().map_or(f32::INFINITY, |h| h.t.to_f32())).collect();
+    exact_t.resize(pixels, f32::INFINITY);
+    let exact_triangle = exact.iter().map(|t| t.unwrap_or(u32::MAX)).collect();
+    Ok(TeapotOutcome { exact_picture, exact_t, exact_triangle, rows })
 }
 
 impl Study for Parameters {
@@ -231,13 +223,4 @@ impl Study for Parameters {
         }
         provenance
     }
-}
-
-/// Pads values with infinities to a length.
-fn filled(values: impl Iterator<Item = f32>, length: usize) -> Vec<f32> {
-    values.chain(std::iter::repeat(f32::INFINITY)).take(length).collect()
-}
-
-fn pixels_differing(a: &RgbImage, b: &RgbImage) -> u64 {
-    a.pixels().zip(b.pixels()).filter(|(x, y)| x != y).count() as u64
 }

@@ -201,11 +201,9 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     let groups = groups(&outcome.rows);
     // Files of rows with the same bits would be copies.
     found.field("same_bits", same_bits(&groups));
-    let kept: Vec<&str> = groups.iter().map(|group| group.row.configuration.label.as_str()).collect();
-    let is_kept: Vec<bool> = outcome.rows.iter().map(|row| kept.contains(&row.configuration.label.as_str())).collect();
     found.keep_layers("exact", layers(parameters, outcome.exact_t, outcome.exact_triangle)?);
-    for (row, _) in outcome.rows.into_iter().zip(is_kept).filter(|(_, is_kept)| *is_kept) {
-        found.keep_layers(&row.configuration.label, layers(parameters, row.t, row.triangle)?);
+    for Group { row, .. } in &groups {
+        found.keep_layers(&row.configuration.label, layers(parameters, row.t.clone(), row.triangle.clone())?);
     }
     found.heading("The figures");
     found.paragraph(

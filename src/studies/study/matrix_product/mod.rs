@@ -6,16 +6,6 @@ mod operands;
 mod product;
 mod report;
 
-use super::{ProgressFn, Study, StudyError};
-use crate::report::Findings;
-
 pub use multiply::MatrixOperands;
 pub use operands::MatrixInput;
 pub use product::MatrixProduct;
-
-impl Study for MatrixProduct {
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let outcome = self.compute(progress)?;
-        report::findings(self, outcome)
-    }
-}

@@ -5,13 +5,13 @@ use refsim::num::matrix::{Element, MatrixError, MatrixUnit};
 use super::blame::{self, Blame};
 use super::multiply::{ExactSum, MatrixOperands};
 use super::operands::MatrixInput;
-use crate::study::precision::Goal;
+use crate::study::precision::{BitScan, Goal};
 use crate::study::{ProgressFn, StudyError};
 
 /// Maximum number of depths of a curve.
 const POINTS: usize = 8;
 /// Maximum number of bits below the largest exponent that the search for the fewest bits tries.
-const MAX_BITS: u32 = 40;
+const MAX_BITS: u8 = 40;
 
 /// A product with the units that compute it.
 #[derive(Clone, Debug)]
@@ -100,14 +100,14 @@ pub(super) struct ProductRow {
 }
 
 /// Everything that was computed.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct ProductOutcome {
     pub(super) shape: [usize; 3],
     pub(super) depths: Vec<usize>,
     pub(super) rows: Vec<ProductRow>,
     pub(super) blame: Option<Blame>,
     /// Fewest bits with one accumulator that meet the goal.
-    pub(super) fewest_bits: Option<u32>,
+    pub(super) fewest_bits: Option<u8>,
     /// Products between promotions: the largest number that meets the goal; the depth for one accumulator.
     pub(super) rarest_promotion: Option<usize>,
 }
@@ -128,14 +128,8 @@ impl MatrixProduct {
         let ([rows, depth], columns) = (self.factors[0].shape()?, self.factors[1].shape()?[1]);
         let depths: Vec<usize> = (0..POINTS).rev().map(|half| depth >> half).filter(|&depth| depth > 0).collect();
         let steps = (self.units.len() * self.promotions.len() + 1) as u64;
-        let mut outcome = ProductOutcome {
-            shape: [rows, depth, columns],
-            depths: depths.clone(),
-            rows: Vec::new(),
-            blame: None,
-            fewest_bits: None,
-            rarest_promotion: None,
-        };
+        let mut outcome =
+            ProductOutcome { shape: [rows, depth, columns], depths: depths.clone(), ..ProductOutcome::default() };
         let against = self.against.map(|unit| self.operands(&unit)).transpose()?;
         for (index, unit) in self.units.iter().enumerate() {
             progress(unit.name, outcome.rows.len() as u64, steps);
@@ -173,25 +167,23 @@ fn search(
     goal: &Goal,
     operands: &MatrixOperands,
     reference: &[ExactSum],
-) -> Result<(Option<u32>, Option<usize>), MatrixError> {
+) -> Result<(Option<u8>, Option<usize>), MatrixError> {
     let (unit, depth) = (operands.unit, operands.a.length);
-    let meets = |unit: &MatrixUnit, promote| -> Result<bool, MatrixError> {
+    let error = |unit: &MatrixUnit, promote| -> Result<f64, MatrixError> {
         let errors = Errors::of(&operands.product(unit, depth, promote)?, reference);
-        Ok(goal.met(errors.measure(&goal.measure).unwrap_or(f64::NAN)))
+        Ok(errors.measure(&goal.measure).unwrap_or(f64::NAN))
     };
-    let wider = |bits| unit.with_bits(bits).map_or(Ok(false), |unit| meets(&unit, None));
-    let (mut missed, mut met) = (0, MAX_BITS);
-    let is_met = wider(met)?;
-    while is_met && met - missed > 1 {
-        let middle = missed + (met - missed) / 2;
-        *(if wider(middle)? { &mut met } else { &mut missed }) = middle;
-    }
-    let mut rarest = meets(&unit, None)?.then_some(depth);
+    let mut scan = BitScan::default();
+    scan.bisect(1..=MAX_BITS, goal, |bits| {
+        unit.with_bits(bits.into()).map_or(Ok(f64::NAN), |unit| error(&unit, None))
+    })?;
+    let meets = |promote| Ok::<_, MatrixError>(goal.met(error(&unit, promote)?));
+    let mut rarest = meets(None)?.then_some(depth);
     let multiple = unit.block.max(operands.a.share);
     let mut step = multiple * (depth / multiple).max(1).next_power_of_two();
     while rarest.is_none() && step >= multiple && unit.result.element == Element::FP32 {
-        rarest = (step < depth && meets(&unit, Some(step))?).then_some(step);
+        rarest = (step < depth && meets(Some(step))?).then_some(step);
         step /= 2;
     }
-    Ok((is_met.then_some(met), rarest))
+    Ok((scan.smallest, rarest))
 }

@@ -7,7 +7,7 @@ use super::product::{Errors, MatrixProduct, ProductOutcome, ProductRow};
 use crate::io::write_npy_array;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table, Verdict};
-use crate::study::StudyError;
+use crate::study::{ProgressFn, Study, StudyError};
 
 /// Maximum number of addends printed; those with the largest loss are printed.
 const MOST_ADDENDS: usize = 10;
@@ -33,7 +33,14 @@ fn error(value: f64) -> String {
     shown(value, Quantity::Error)
 }
 
-pub(super) fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result<Findings, StudyError> {
+impl Study for MatrixProduct {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let outcome = self.compute(progress)?;
+        findings(self, outcome)
+    }
+}
+
+fn findings(study: &MatrixProduct, outcome: ProductOutcome) -> Result<Findings, StudyError> {
     let [rows, depth, columns] = outcome.shape;
     let mut found = Findings::new(format!("Matrix product, {rows} x {depth} x {columns}"));
     let reference = study.against.map_or("the exact product of the quantised operands", |unit| unit.name);

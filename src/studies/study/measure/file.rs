@@ -16,6 +16,9 @@ use crate::study::StudyError;
 const MAX_BYTES: u64 = 1 << 26;
 const HELP: &str = "the header is `case,column,row,red,green,blue,alpha,depth`; docs/measuring.md describes the table";
 
+/// Columns of codes.
+pub(super) const CODES: [&str; 5] = ["red", "green", "blue", "alpha", "depth"];
+
 /// Pixel that a card drew.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeasuredPixel {
@@ -23,10 +26,15 @@ pub struct MeasuredPixel {
     pub line: u64,
     /// Column and row, counted from 0 at the top left.
     pub place: [u32; 2],
-    /// Stored codes of the channels of target 0, as far as they were measured.
-    pub codes: [Option<u32>; 4],
-    /// Stored code of the depth buffer, if it was measured.
-    pub depth: Option<u32>,
+    /// Stored codes of the channels of target 0, then of the depth buffer, as far as they were measured.
+    pub codes: [Option<u32>; 5],
+}
+
+impl MeasuredPixel {
+    /// Measured codes: index of the column among [`CODES`], and the code.
+    pub(super) fn measured(&self) -> impl Iterator<Item = (usize, u32)> {
+        self.codes.into_iter().enumerate().filter_map(|(at, code)| Some((at, code?)))
+    }
 }
 
 /// Measured pixels of a case.
@@ -92,11 +100,11 @@ pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>,
         let record = record.map_err(broken)?;
         let line = record.position().map_or(0, |position| line_of(bytes, position));
         let row: Row = record.deserialize(Some(&headers)).map_err(broken)?;
-        let codes = [row.red, row.green, row.blue, row.alpha];
-        if codes.iter().chain([&row.depth]).all(Option::is_none) {
+        let codes = [row.red, row.green, row.blue, row.alpha, row.depth];
+        if codes == [None; 5] {
             return Err(wrong(line, "expected a measured code, found none".to_owned()));
         }
-        let pixel = MeasuredPixel { line, place: [row.column, row.row], codes, depth: row.depth };
+        let pixel = MeasuredPixel { line, place: [row.column, row.row], codes };
         let path = folder.join(row.case);
         match cases.iter_mut().find(|case| case.path == path) {
             Some(case) => case.pixels.push(pixel),

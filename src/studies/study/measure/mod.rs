@@ -3,7 +3,6 @@
 //! docs/measuring.md describes how to measure.
 
 mod file;
-mod parameters;
 mod report;
 mod settings;
 
@@ -14,7 +13,7 @@ use crate::case::CaseError;
 use crate::report::{Findings, Provenance};
 
 pub use file::{MeasuredCase, MeasuredPixel, load_measurement, parse_measurement};
-pub use parameters::Measure;
+pub use settings::Measure;
 
 library_errors! {
     CaseError;

@@ -2,8 +2,8 @@
 
 use serde_json::json;
 
-use super::parameters::{CODES, Measure};
-use super::settings::{Setting, Survey};
+use super::file::CODES;
+use super::settings::{Measure, Setting, Survey};
 use crate::report::words::{counted, listed};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
 

@@ -5,13 +5,25 @@ use std::collections::{BTreeMap, BTreeSet};
 use refsim::device::{Profile, Switch};
 use refsim::machine::ExecutorKind;
 
-use super::file::{MeasuredCase, MeasuredPixel};
-use super::parameters::{CODES, Measure};
+use super::file::{CODES, MeasuredCase, MeasuredPixel};
 use crate::case::{CaseError, Loaded, Overrides, Setup};
 use crate::study::{ProgressFn, StudyError};
 
 /// Maximum number of settings drawn per case, and of settings counted for all cases.
 const MOST: [usize; 2] = [4096, 1 << 20];
+
+/// Measured pixels, compared with a device.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    /// Name of the table.
+    pub name: String,
+    /// Cases with their measured pixels.
+    pub cases: Vec<MeasuredCase>,
+    /// Device, with the known switches set.
+    pub profile: Profile,
+    /// Switches that are known, by name, with their values in `profile`.
+    pub known: Vec<(String, String)>,
+}
 
 /// Switch with its possible values; a setting stores an index into them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -77,7 +89,7 @@ impl Survey {
         };
         let mut settings: Vec<(Setting, u64)> = all.into_iter().map(total).collect();
         settings.sort_by_key(|(_, right)| std::cmp::Reverse(*right));
-        let codes = cases.iter().flat_map(|case| &case.pixels).map(|pixel| measured(pixel).count() as u64).sum();
+        let codes = cases.iter().flat_map(|case| &case.pixels).map(|pixel| pixel.measured().count() as u64).sum();
         let mut wrong = Vec::new();
         for case in cases {
             wrong.extend(MeasuredDraws { profile, questions: &questions, case }.wrong(&settings[0].0)?);
@@ -140,7 +152,8 @@ struct MeasuredDraws<'a> {
 
 impl MeasuredDraws<'_> {
     fn counts(&self) -> Result<CaseCounts, StudyError> {
-        let expected: Vec<u32> = self.case.pixels.iter().flat_map(measured).map(|(_, code)| code).collect();
+        let expected: Vec<u32> =
+            self.case.pixels.iter().flat_map(MeasuredPixel::measured).map(|(_, code)| code).collect();
         let relevant = self.relevant()?;
         let mut right = BTreeMap::new();
         for setting in product(self.questions, &relevant, MOST[0])? {
@@ -170,7 +183,7 @@ impl MeasuredDraws<'_> {
     /// Measured codes that a setting gets wrong.
     fn wrong(&self, setting: &Setting) -> Result<Vec<WrongCode>, StudyError> {
         let drawn = self.draw(setting)?;
-        let all = self.case.pixels.iter().flat_map(|pixel| measured(pixel).map(|code| (pixel.line, code)));
+        let all = self.case.pixels.iter().flat_map(|pixel| pixel.measured().map(|code| (pixel.line, code)));
         let pairs = all.zip(drawn).filter(|((_, (_, measured)), drawn)| measured != drawn);
         Ok(pairs.map(|((line, (column, measured)), drawn)| WrongCode { line, column, measured, drawn }).collect())
     }
@@ -201,7 +214,7 @@ impl MeasuredDraws<'_> {
             if x >= width || y >= height {
                 Some(format!("a pixel of the {width}x{height} target, found column {x}, row {y}"))
             } else {
-                let at = measured(pixel).find(|&code| missing(code))?.0;
+                let at = pixel.measured().find(|&code| missing(code))?.0;
                 Some(format!("a code that the case stores, found one for {}", CODES[at]))
             }
         };
@@ -223,13 +236,6 @@ fn others((at, question): (usize, &Question)) -> Vec<(usize, usize)> {
     (0..question.values.len()).filter(|value| *value != question.default).map(|value| (at, value)).collect()
 }
 
-/// Measured codes of a pixel: index of the column among red to alpha and depth, and the code.
-pub(super) fn measured(pixel: &MeasuredPixel) -> impl Iterator<Item = (usize, u32)> {
-    let [red, green, blue, alpha] = pixel.codes;
-    let all = [red, green, blue, alpha, pixel.depth];
-    all.into_iter().enumerate().filter_map(|(at, code)| Some((at, code?)))
-}
-
 /// Draws a case and returns the stored codes at measured pixels.
 fn codes(setup: &Setup, pixels: &[MeasuredPixel]) -> Result<Vec<u32>, CaseError> {
     let mut loaded = Loaded::new(setup, ExecutorKind::Scalar)?;
@@ -240,5 +246,5 @@ fn codes(setup: &Setup, pixels: &[MeasuredPixel]) -> Result<Vec<u32>, CaseError>
         Some(channel) => channel.code(targets[0].raw(0, 0, y, x)),
         _ => depth.and_then(|surface| surface.get(x, y)).unwrap_or_default(),
     };
-    Ok(pixels.iter().flat_map(|pixel| measured(pixel).map(|(at, _)| code(pixel.place, at))).collect())
+    Ok(pixels.iter().flat_map(|pixel| pixel.measured().map(|(at, _)| code(pixel.place, at))).collect())
 }

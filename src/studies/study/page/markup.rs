@@ -1,10 +1,12 @@
 //! The page's markup, around the data, style and script.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde::Serialize;
 
+use super::arithmetic::Arithmetic;
 use super::own::{self, Emulator};
-use super::page_data::PageData;
-use super::teapot::{FixedView, VerdictColor};
+use super::programs::PagePrograms;
+use super::teapot::{FixedView, Teapot, VerdictColor};
 use crate::report::page_style;
 use crate::report::words::counted;
 
@@ -21,10 +23,17 @@ const SCRIPT: [&str; 9] = [
     include_str!("assets/stepper.js"),
 ];
 
-/// Last part of the script.
 const MAIN: &str = include_str!("assets/main.js");
 
-/// Renders the page around its data as JSON.
+/// The data that the page's script reads, as JSON.
+#[derive(Debug, Serialize)]
+pub(super) struct PageData {
+    pub(super) version: &'static str,
+    pub(super) arithmetic: Arithmetic,
+    pub(super) teapot: Teapot,
+    pub(super) programs: PagePrograms,
+}
+
 pub(super) fn html(data: &PageData, json: &str, emulator: Option<&Emulator>) -> String {
     // A less-than sign could end the element.
     let json = json.replace('<', "\\u003c");
@@ -160,7 +169,6 @@ fn programs() -> Markup {
     }
 }
 
-/// Table of the components that a step writes.
 fn written() -> Markup {
     html! {
         div.scroll {

@@ -8,16 +8,17 @@ mod encode;
 mod markup;
 mod operands;
 mod own;
-mod page_data;
 mod program_cases;
 mod programs;
 mod teapot;
 
-use self::page_data::PageData;
+use self::arithmetic::Arithmetic;
+use self::markup::PageData;
+use self::programs::PagePrograms;
+use self::teapot::Teapot;
 use crate::report::not_encoded;
 use crate::study::{ProgressFn, StudyError};
 
-/// The first bytes of a WebAssembly module.
 const WASM: &[u8] = b"\0asm";
 
 /// Renders the page as one self-contained HTML file, with the emulator (`refsim/web`, compiled to WebAssembly) in it if
@@ -30,7 +31,13 @@ pub fn page(emulator: Option<&[u8]>, progress: &mut ProgressFn<'_>) -> Result<St
     }
     let emulator = emulator.map(own::Emulator::new).transpose();
     let emulator = emulator.map_err(|error| not_encoded("gzip", error))?;
-    let data = PageData::compute(progress)?;
+    progress("arithmetic", 0, 3);
+    let arithmetic = Arithmetic::compute();
+    progress("the teapot", 1, 3);
+    let teapot = Teapot::compute()?;
+    progress("programs", 2, 3);
+    let programs = PagePrograms::compute()?;
+    let data = PageData { version: env!("CARGO_PKG_VERSION"), arithmetic, teapot, programs };
     let json = serde_json::to_string(&data).map_err(|error| not_encoded("JSON", error))?;
     Ok(markup::html(&data, &json, emulator.as_ref()))
 }

@@ -6,7 +6,6 @@ use serde::Serialize;
 /// Bits of a format's patterns, as the generator uses them.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct PatternBits {
-    /// Sign bit.
     sign: u32,
     /// Exponent field, or integer bits.
     high: u32,
@@ -21,7 +20,6 @@ pub(super) struct PatternBits {
 }
 
 impl PatternBits {
-    /// The bits of a format.
     pub(super) fn new(format: &Format) -> Self {
         let ones = |bits: u8| (1_u32 << bits) - 1;
         let (upper, lower) = match format.kind {
@@ -58,7 +56,6 @@ impl PatternBits {
         }
     }
 
-    /// The operands of a set.
     pub(super) fn set(&self, counter: u32) -> [u32; 3] {
         let a = self.operand(counter, 0, 0);
         let b = self.operand(counter, 1, a);

@@ -4,7 +4,6 @@ use maud::{Markup, html};
 
 use super::encode::packed;
 
-/// The emulator as a WebAssembly module.
 pub(super) struct Emulator {
     /// The module, compressed and as base64.
     pub(super) packed: String,
@@ -13,7 +12,6 @@ pub(super) struct Emulator {
 }
 
 impl Emulator {
-    /// Packs a module. Fails if it cannot be compressed.
     pub(super) fn new(module: &[u8]) -> std::io::Result<Self> {
         const SHADER: &[u8] = b"refsim_shader";
         let takes_shaders = module.windows(SHADER.len()).any(|bytes| bytes == SHADER);
@@ -74,7 +72,6 @@ pub(super) fn playground(has_emulator: bool) -> Markup {
     }
 }
 
-/// A shader of the visitor's own.
 pub(super) fn shader() -> Markup {
     html! {
         section aria-labelledby="shader" {

@@ -11,15 +11,11 @@ use crate::radiosity::kernels::LUMINANCE_NEXT;
 use crate::ray_engine::kernels::{FLOAT, ONE_ORIGIN_SETUP, ONE_ORIGIN_UNSIGNED, SEVEN_VECTORS_SETUP};
 use crate::subsurface::kernels::LIGHT_TEXELS;
 
-/// Side of the pictures, in pixels.
 pub(super) const SIDE: u32 = 16;
 
-/// A program with its inputs.
 pub(super) struct ProgramCase {
-    /// Name of its files.
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// A sentence that describes a pixel.
     pub(super) about: &'static str,
     pub(super) device: &'static str,
     /// Register formats other than the device's own.
@@ -50,7 +46,6 @@ impl ProgramCase {
     }
 }
 
-/// All programs, oldest first.
 pub(super) fn all() -> [ProgramCase; 5] {
     [one_origin(), any_origin(), radiosity(), subsurface(), exit_radiance()]
 }

@@ -22,10 +22,8 @@ use crate::study::StudyError;
 const NATIVE: u32 = 2;
 /// Index of the word `special` in the parameters of a draw, which begin with the register format.
 const SPECIAL_WORD: usize = 6;
-/// Format of the adapter's own floats.
 const SINGLE: &str = "e8m23";
 
-/// All that the page needs to step programs.
 #[derive(Debug, Serialize)]
 pub(super) struct PagePrograms {
     side: u32,
@@ -37,12 +35,10 @@ pub(super) struct PagePrograms {
     record: [u32; 4],
     /// Word of a draw that marks a continuation.
     resumes: usize,
-    /// Contents of buffers, without duplicates.
     buffers: Vec<String>,
     programs: Vec<PageProgram>,
 }
 
-/// A program with its traces.
 #[derive(Debug, Serialize)]
 struct PageProgram {
     name: &'static str,
@@ -56,7 +52,6 @@ struct PageProgram {
     native: TraceJob,
 }
 
-/// A program in a register format.
 #[derive(Debug, Serialize)]
 struct Variant {
     device: &'static str,
@@ -72,7 +67,6 @@ struct Variant {
     values: String,
     /// Outcome of each pixel's fragment, encoded as in records.
     fates: String,
-    /// The picture, red, green and blue per pixel.
     picture: String,
 }
 
@@ -110,7 +104,6 @@ struct TraceJob {
     count_words: usize,
 }
 
-/// Buffers, indexed by their contents.
 #[derive(Default)]
 struct Buffers {
     all: Vec<String>,
@@ -118,7 +111,6 @@ struct Buffers {
 }
 
 impl PagePrograms {
-    /// Traces all programs by the scalar executor.
     pub(super) fn compute() -> Result<Self, StudyError> {
         let mut buffers = Buffers::default();
         let mut parts = [Parts::default(), Parts::default()];
@@ -219,14 +211,12 @@ impl Variant {
     }
 }
 
-/// Reads traces of one case.
 struct TraceReader<'s> {
     setup: &'s Setup,
     formats: Vec<ValueFormat>,
 }
 
 impl TraceReader<'_> {
-    /// The entries of a fragment, and the bytes of its results.
     fn read(&mut self, fragment: &FragmentTrace) -> (Vec<Entry>, Vec<u8>) {
         let program = &self.setup.pixel;
         let formats = FragmentFormats::new(&self.setup.profile.rules);
@@ -267,7 +257,6 @@ impl TraceReader<'_> {
     }
 }
 
-/// Code of an outcome in records.
 const fn fate(fate: FragmentFate) -> u8 {
     match fate {
         FragmentFate::KilledByShader => 1,

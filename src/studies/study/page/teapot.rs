@@ -27,28 +27,22 @@ use crate::study::shade::TeapotShader;
 
 /// Quads along each side of each patch.
 const TESSELLATION: u32 = 2;
-/// Side of the pictures, in pixels.
 const SIDE: u32 = 128;
-/// Formats of the fixed views.
 const FORMATS: [&str; 3] = ["s3.12", "e5m10", "e7m16"];
-/// Fixed views: name, eye, target. The first is the view of the study.
 const VIEWS: [(&str, [f32; 3], [f32; 3]); 2] = [
     ("from the front", [2.125, -5.625, 3.875], [0.625, 0.0, 1.3125]),
     ("from above", [-2.5, -2.25, 6.25], [0.375, 0.0, 1.0]),
 ];
 /// Tangent of half the field of view of the fixed views.
 const TAN_HALF_HEIGHT: f32 = 0.5625;
-/// Samplers of the intersection programs.
 const SAMPLERS: usize = 3;
 
-/// Everything that the page needs for the teapot.
 #[derive(Debug, Serialize)]
 pub(super) struct Teapot {
     side: u32,
     tan_half_height: f32,
     /// WGSL that traces, and WGSL that fills ray textures.
     shaders: [String; 2],
-    /// Corners and indices, as words.
     positions: String,
     triangles: String,
     fixed: MachineProgram,
@@ -81,7 +75,6 @@ pub(super) struct FixedView {
     pub(super) pictures: Vec<FixedPicture>,
 }
 
-/// A fixed view in a format.
 #[derive(Debug, Serialize)]
 pub(super) struct FixedPicture {
     pub(super) format: &'static str,
@@ -90,14 +83,11 @@ pub(super) struct FixedPicture {
     hits: String,
     /// FNV-1a of these words' bytes, 64 bits.
     pub(super) digest: String,
-    /// Number of leaks that the batch executor draws.
     pub(super) leaks: usize,
-    /// The picture as a PNG file, for the page's markup.
     #[serde(skip)]
     pub(super) png: String,
 }
 
-/// A verdict on a pixel, and its color.
 #[derive(Debug, Serialize)]
 pub(super) struct VerdictColor {
     pub(super) words: &'static str,
@@ -105,7 +95,6 @@ pub(super) struct VerdictColor {
 }
 
 impl Teapot {
-    /// Traces the fixed views by the batch executor and in exact arithmetic.
     pub(super) fn compute() -> Result<Self, StudyError> {
         let mesh = teapot(TESSELLATION)
             .map_err(|error| StudyError::new("page::teapot", "cannot tessellate the teapot").with_source(error))?;
@@ -159,7 +148,6 @@ fn microcode(format: &str, depth_scale: f32) -> Result<(&'static str, Microcode)
     Ok((kernel.name, code))
 }
 
-/// The text of each entry point.
 fn shaders(programs: &[Parts]) -> [String; 2] {
     let mut parts = Parts::default();
     programs.iter().for_each(|program| parts.extend(program));
@@ -227,7 +215,6 @@ fn hit_words(hits: &[Option<Hit>]) -> Vec<u32> {
     triangles.chain(hits.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t).to_bits())).collect()
 }
 
-/// FNV-1a of the words' bytes, lowest byte first.
 fn fnv(words: &[u32]) -> u64 {
     words
         .iter()

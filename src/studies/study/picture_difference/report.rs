@@ -8,12 +8,19 @@ use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, Verdict, false_color};
-use crate::study::StudyError;
+use crate::study::{ProgressFn, Study, StudyError};
 
 const FLIP: &str = "FLIP is the difference seen when flipping between the two pictures: 0 none, 1 the largest. SSIM \
     compares the structure of the luma in windows of 11 x 11 pixels: 1 means equal.";
 
-pub(super) fn findings(study: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, StudyError> {
+impl Study for PictureDifference {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let outcome = self.compare(progress)?;
+        findings(self, outcome)
+    }
+}
+
+fn findings(study: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, StudyError> {
     let [first, second] = &study.pictures;
     let mut found = Findings::new("Two pictures");
     let held = study.holds(&outcome);

@@ -1,11 +1,11 @@
-//! Formats by their bits: two families, the cost of a format, and the formats of cards.
+//! Formats by their bits: two families, and the formats of cards.
 
 use std::ops::RangeInclusive;
 
 use refsim::num::{Denormals, Encoding, Format, FormatKind, Overflow};
 
 /// Formats of emulated cards and of later GPUs.
-const NAMED: [(&str, FormatBits); 8] = [
+pub(super) const NAMED: [(&str, FormatBits); 8] = [
     ("s3.12", FormatBits::fixed(3, 12)),
     ("s0.15", FormatBits::fixed(0, 15)),
     ("e4m3", FormatBits::float(4, 3)),
@@ -81,11 +81,6 @@ impl FormatBits {
         Self { family: FormatFamily::Fixed, range, digits }
     }
 
-    /// Formats of cards with their names.
-    pub(super) fn named() -> impl Iterator<Item = (&'static str, Self)> {
-        NAMED.into_iter()
-    }
-
     /// Width in bits, with the sign.
     pub(super) fn width(self) -> u32 {
         1 + u32::from(self.range) + u32::from(self.digits)
@@ -93,21 +88,14 @@ impl FormatBits {
 
     /// Formats with one bit less: first of precision, then of range.
     pub(super) fn narrower(self) -> impl Iterator<Item = Self> {
-        let legal = |bits: &Self| {
-            bits.family.range_bits().contains(&bits.range) && bits.family.digit_bits(bits.range).contains(&bits.digits)
-        };
-        let fewer = |bits: u8| bits.checked_sub(1);
-        let digits = fewer(self.digits).map(|digits| Self { digits, ..self });
-        let range = fewer(self.range).map(|range| Self { range, ..self });
-        digits.into_iter().chain(range).filter(legal)
-    }
-
-    /// Format with `bits` more bits of range and of precision, up to the maximum of the family.
-    pub(super) fn wider(self, bits: u8) -> Self {
-        let range = (self.range + bits).min(*self.family.range_bits().end());
-        let digits = (self.digits + bits).min(*self.family.digit_bits(range).end());
-        // In fixed point both share one width: precision must not lose bits.
-        if digits < self.digits { self } else { Self { range, digits, ..self } }
+        let Self { family, range, digits } = self;
+        let fewer = [(Some(range), digits.checked_sub(1)), (range.checked_sub(1), Some(digits))];
+        fewer.into_iter().filter_map(move |(range, digits)| {
+            let bits = Self { family, range: range?, digits: digits? };
+            let is_legal =
+                family.range_bits().contains(&bits.range) && family.digit_bits(bits.range).contains(&bits.digits);
+            is_legal.then_some(bits)
+        })
     }
 
     pub(super) fn narrowest(family: FormatFamily) -> Self {
@@ -117,18 +105,18 @@ impl FormatBits {
 
     /// Format of this layout with the rounding of `rules`, and its other rules if `rules` is of the same family.
     pub(super) fn format(self, rules: Format) -> Format {
-        let Self { range, digits, .. } = self;
-        let alike = rules.is_fixed() == (self.family == FormatFamily::Fixed);
-        let own = |kind, overflow| Format {
+        let Self { family, range, digits } = self;
+        let (kind, overflow) = match family {
+            FormatFamily::Float => (FormatKind::Float { exp_bits: range, man_bits: digits }, Overflow::Infinity),
+            FormatFamily::Fixed => (FormatKind::Fixed { int_bits: range, frac_bits: digits }, Overflow::Saturate),
+        };
+        let alike = rules.is_fixed() == (family == FormatFamily::Fixed);
+        Format {
             kind,
             encoding: Encoding::Ieee,
             overflow: if alike { rules.overflow } else { overflow },
             denormals: if alike { rules.denormals } else { Denormals::Keep },
             ..rules
-        };
-        match self.family {
-            FormatFamily::Float => own(FormatKind::Float { exp_bits: range, man_bits: digits }, Overflow::Infinity),
-            FormatFamily::Fixed => own(FormatKind::Fixed { int_bits: range, frac_bits: digits }, Overflow::Saturate),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Smallest format of a family, and the goal's value against bits.
+//! The search for the fewest bits that meet a goal, and the smallest format of a family.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 
 use super::bits::{FormatBits, FormatFamily};
 use super::goal::Goal;
-use super::runs::RunError;
+use crate::report::Series;
 use crate::report::words::counted;
 
 /// Numbers of bits at which a curve is computed first, if its range contains them; the ends of the range are added.
@@ -14,11 +14,11 @@ const FIRST: [u8; 9] = [2, 3, 5, 7, 10, 12, 15, 16, 20];
 
 /// Search for the fewest bits that meet a goal.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct BitScan {
+pub(in crate::study) struct BitScan {
     /// Values of the goal's measure, by bits.
     pub(super) points: BTreeMap<u8, f64>,
     /// Fewest bits at which the goal is met, there and at all larger computed numbers of bits.
-    pub(super) smallest: Option<u8>,
+    pub(in crate::study) smallest: Option<u8>,
     /// A number of bits, and a larger one with a worse value. If such a pair is found, all points are computed.
     pub(super) counterexample: Option<[u8; 2]>,
 }
@@ -26,13 +26,13 @@ pub(super) struct BitScan {
 impl BitScan {
     /// Searches by bisection between the points `first` and the ends. If more bits are worse than fewer, computes all
     /// points.
-    fn run(
+    fn run<E>(
         &mut self,
         range: RangeInclusive<u8>,
         first: &[u8],
         goal: &Goal,
-        mut value: impl FnMut(u8) -> Result<f64, RunError>,
-    ) -> Result<(), RunError> {
+        mut value: impl FnMut(u8) -> Result<f64, E>,
+    ) -> Result<(), E> {
         for bits in first.iter().copied().filter(|bits| range.contains(bits)) {
             self.add(bits, &mut value)?;
         }
@@ -46,12 +46,12 @@ impl BitScan {
     }
 
     /// Searches by bisection, as if more bits were never worse.
-    pub(super) fn bisect(
+    pub(in crate::study) fn bisect<E>(
         &mut self,
         range: RangeInclusive<u8>,
         goal: &Goal,
-        mut value: impl FnMut(u8) -> Result<f64, RunError>,
-    ) -> Result<(), RunError> {
+        mut value: impl FnMut(u8) -> Result<f64, E>,
+    ) -> Result<(), E> {
         for end in [*range.end(), *range.start()] {
             self.add(end, &mut value)?;
         }
@@ -63,14 +63,14 @@ impl BitScan {
     }
 
     fn conclude(&mut self, range: &RangeInclusive<u8>, goal: &Goal) {
-        let misses = self.points.iter().filter(|(_, value)| !goal.met(**value)).map(|(bits, _)| *bits);
-        self.smallest = match misses.max() {
+        let misses = self.points.iter().rfind(|(_, value)| !goal.met(**value));
+        self.smallest = match misses {
             None => Some(*range.start()),
-            Some(bits) => bits.checked_add(1).filter(|bits| range.contains(bits)),
+            Some((bits, _)) => bits.checked_add(1).filter(|bits| range.contains(bits)),
         };
     }
 
-    fn add(&mut self, bits: u8, value: &mut impl FnMut(u8) -> Result<f64, RunError>) -> Result<(), RunError> {
+    fn add<E>(&mut self, bits: u8, value: &mut impl FnMut(u8) -> Result<f64, E>) -> Result<(), E> {
         if let Entry::Vacant(point) = self.points.entry(bits) {
             point.insert(value(bits)?);
         }
@@ -116,11 +116,11 @@ impl Curve {
     }
 
     /// Computes the points, as far as the budget allows. `value` computes the goal's measure in a format.
-    pub(super) fn compute(
+    pub(super) fn compute<E>(
         &mut self,
         goal: &Goal,
-        value: &mut impl FnMut(FormatBits) -> Result<f64, RunError>,
-    ) -> Result<(), RunError> {
+        value: &mut impl FnMut(FormatBits) -> Result<f64, E>,
+    ) -> Result<(), E> {
         let family = self.family;
         if family == FormatFamily::Fixed {
             self.range = enough_integer_bits(goal, value)?;
@@ -140,22 +140,21 @@ impl Curve {
         Ok(())
     }
 
-    /// Bits of the range in words.
-    pub(super) fn range_text(&self) -> String {
+    /// The points as a line of a chart: those that the axis of values can show.
+    pub(super) fn line(&self, is_shown: impl Fn(f64) -> bool) -> Series {
         let what = match self.family {
-            FormatFamily::Float => "exponent",
-            FormatFamily::Fixed => "integer",
+            FormatFamily::Float => ["exponent bit", "exponent bits"],
+            FormatFamily::Fixed => ["integer bit", "integer bits"],
         };
-        counted(self.range.into(), &format!("{what} bit"), &format!("{what} bits"))
+        let label = format!("{}, {}", self.family.name(), counted(self.range.into(), what[0], what[1]));
+        let points = self.scan.points.iter().map(|(bits, value)| (f64::from(*bits), *value));
+        Series { label, points: points.filter(|point| is_shown(point.1)).collect() }
     }
 }
 
 /// Fewest integer bits with which a 31-bit format meets the goal, plus [`SPARE`]; if none does, the number with the
 /// best value.
-fn enough_integer_bits(
-    goal: &Goal,
-    value: &mut impl FnMut(FormatBits) -> Result<f64, RunError>,
-) -> Result<u8, RunError> {
+fn enough_integer_bits<E>(goal: &Goal, value: &mut impl FnMut(FormatBits) -> Result<f64, E>) -> Result<u8, E> {
     let family = FormatFamily::Fixed;
     let mut best = (0, f64::INFINITY);
     for range in family.range_bits() {

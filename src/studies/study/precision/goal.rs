@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::error::{InputError, input_error};
 use crate::names::did_you_mean;
 use crate::report::Series;
 use crate::report::words::listed;
@@ -10,68 +11,51 @@ use crate::study::StudyError;
 
 /// Relation of a measure to its bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GoalRelation {
-    /// `<=`
+enum GoalRelation {
     AtMost,
-    /// `<`
-    Below,
-    /// `>=`
     AtLeast,
-    /// `>`
+    Below,
     Above,
-    /// `=`
     Equal,
 }
 
-impl GoalRelation {
-    /// Relations with their signs. A sign precedes its own prefixes, since parsing takes the first match.
-    const ALL: [(Self, &str); 5] =
-        [(Self::AtMost, "<="), (Self::AtLeast, ">="), (Self::Below, "<"), (Self::Above, ">"), (Self::Equal, "=")];
-
-    fn sign(self) -> &'static str {
-        Self::ALL.iter().find(|(relation, _)| *relation == self).map_or("", |(_, sign)| sign)
-    }
-}
+/// Relations with their signs. A sign precedes its own prefixes, since parsing takes the first match.
+const SIGNS: [(GoalRelation, &str); 5] = [
+    (GoalRelation::AtMost, "<="),
+    (GoalRelation::AtLeast, ">="),
+    (GoalRelation::Below, "<"),
+    (GoalRelation::Above, ">"),
+    (GoalRelation::Equal, "="),
+];
 
 /// Goal of a study of precision: a measure and its bound, written `largest_codes<=1`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
     /// Name of the measure.
     pub measure: String,
-    /// Relation of the measure to the bound.
-    pub relation: GoalRelation,
-    /// Bound, finite.
-    pub bound: f64,
-}
-
-/// Text that is not a goal.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected a goal as `largest_codes<=1` or `ssim>=0.99`, found `{text}`")]
-pub struct GoalError {
-    text: String,
+    relation: GoalRelation,
+    /// Finite.
+    bound: f64,
 }
 
 impl FromStr for Goal {
-    type Err = GoalError;
+    type Err = InputError;
 
-    fn from_str(text: &str) -> Result<Self, GoalError> {
-        let error = || GoalError { text: text.chars().take(60).collect() };
-        let at = text.find(['<', '>', '=']).ok_or_else(error)?;
-        let (measure, rest) = (text[..at].trim(), &text[at..]);
-        let signs = GoalRelation::ALL.iter();
-        let (relation, bound) =
-            signs.clone().find_map(|(r, sign)| Some((*r, rest.strip_prefix(sign)?))).ok_or_else(error)?;
-        let bound: f64 = bound.trim().parse().map_err(|_| error())?;
-        if measure.is_empty() || !bound.is_finite() {
-            return Err(error());
-        }
-        Ok(Self { measure: measure.to_owned(), relation, bound })
+    fn from_str(text: &str) -> Result<Self, InputError> {
+        let parsed = || {
+            let (measure, rest) = text.split_at(text.find(['<', '>', '='])?);
+            let (relation, bound) = SIGNS.iter().find_map(|(r, sign)| Some((*r, rest.strip_prefix(sign)?)))?;
+            let (measure, bound) = (measure.trim().to_owned(), bound.trim().parse().ok()?);
+            Some(Self { measure, relation, bound }).filter(|goal| !goal.measure.is_empty() && goal.bound.is_finite())
+        };
+        let shown: String = text.chars().take(60).collect();
+        parsed().ok_or_else(|| input_error!("expected a goal as `largest_codes<=1` or `ssim>=0.99`, found `{}`", shown))
     }
 }
 
 impl fmt::Display for Goal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{}{}", self.measure, self.relation.sign(), self.bound)
+        write!(f, "{}{}", self.measure, self.bound_text())
     }
 }
 
@@ -81,12 +65,17 @@ impl Goal {
         self.measure.replace('_', " ")
     }
 
+    fn bound_text(&self) -> String {
+        let sign = SIGNS.iter().find(|(relation, _)| *relation == self.relation).map_or("", |(_, sign)| sign);
+        format!("{sign}{}", self.bound)
+    }
+
     /// The bound as a line across the points of a chart.
     pub(super) fn line(&self, lines: &[Series]) -> Series {
         let across = || lines.iter().flat_map(|line| &line.points).map(|point| point.0);
         let ends = [across().min_by(f64::total_cmp), across().max_by(f64::total_cmp)];
         let points = ends.into_iter().flatten().map(|x| (x, self.bound)).collect();
-        Series { label: format!("goal: {}{}", self.relation.sign(), self.bound), points }
+        Series { label: format!("goal: {}", self.bound_text()), points }
     }
 
     /// The goal `given`, or else the default. Fails if the given one is for a measure that is none of `names`.
@@ -115,6 +104,11 @@ impl Goal {
             GoalRelation::Above => value > self.bound,
             GoalRelation::Equal => value == self.bound,
         }
+    }
+
+    /// Returns `true` if only values up to a bound meet the goal.
+    pub(super) fn is_upper_bound(&self) -> bool {
+        matches!(self.relation, GoalRelation::AtMost | GoalRelation::Below)
     }
 
     /// Badness of a value: the smaller, the better. NaN is worst.

@@ -17,51 +17,37 @@ pub(super) struct InstructionNeeds {
     pub(super) regained: Option<f64>,
 }
 
-/// Format that is too small; blame divides its loss among the instructions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct BlamedFormat {
-    pub(super) bits: FormatBits,
-    /// Loss of the goal with all instructions in this format.
-    pub(super) loss: f64,
-}
-
-/// Loss of the goal when all instructions have one bit less than the smallest uniform format.
-pub(super) fn blamed_format(minimum: FormatBits, runs: &mut Runs<'_>) -> Result<BlamedFormat, RunError> {
-    runs.step("blame");
-    // The narrowest format has no narrower neighbor.
-    let bits = minimum.narrower().next().unwrap_or(minimum);
-    Ok(BlamedFormat { bits, loss: loss(runs, &runs.uniform(bits))? })
-}
-
-fn loss(runs: &mut Runs<'_>, assignment: &Assignment) -> Result<f64, RunError> {
+/// Loss of the goal with an assignment.
+pub(super) fn loss(runs: &mut Runs<'_>, assignment: &Assignment) -> Result<f64, RunError> {
     let exact = runs.value(&vec![None; runs.count()])?;
     let value = runs.value(assignment)?;
     Ok(runs.goal.loss(value, exact))
 }
 
-/// Computes the blame of one instruction.
+/// Computes the blame of each instruction for the loss with all of them in a format that is too small.
 pub(super) fn blame(
-    needs: &mut InstructionNeeds,
-    place: usize,
-    all: BlamedFormat,
+    needs: &mut [InstructionNeeds],
+    (bits, all): (FormatBits, f64),
     runs: &mut Runs<'_>,
 ) -> Result<(), RunError> {
-    let mut others = runs.uniform(all.bits);
-    others[place] = None;
     // Without a loss every blame is zero.
-    let share = |loss: f64| match (loss == 0.0, loss.is_finite() && all.loss.is_finite()) {
+    let share = |loss: f64| match (loss == 0.0, loss.is_finite() && all.is_finite()) {
         (true, _) => Some(0.0),
-        (_, true) if all.loss > 0.0 => Some(loss / all.loss),
+        (_, true) if all > 0.0 => Some(loss / all),
         (_, false) if !loss.is_finite() => Some(1.0),
         _ => None,
     };
-    needs.blame = share(loss(runs, &runs.alone(place, all.bits))?);
-    let left = loss(runs, &others)?;
-    needs.regained = match (all.loss.is_finite(), left.is_finite()) {
-        (true, true) => share(all.loss - left),
-        (false, true) => Some(1.0),
-        _ => Some(0.0),
-    };
+    for (place, needs) in needs.iter_mut().enumerate() {
+        let mut others = runs.uniform(bits);
+        others[place] = None;
+        needs.blame = share(loss(runs, &runs.alone(place, bits))?);
+        let left = loss(runs, &others)?;
+        needs.regained = match (all.is_finite(), left.is_finite()) {
+            (true, true) => share(all - left),
+            (false, true) => Some(1.0),
+            _ => Some(0.0),
+        };
+    }
     Ok(())
 }
 

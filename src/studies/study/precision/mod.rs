@@ -5,16 +5,13 @@
 
 mod bits;
 mod case;
-mod costs;
 mod curve;
+mod errors;
 mod expression;
-mod family_report;
 mod goal;
 mod half;
-mod half_report;
 mod instructions;
 mod outcome;
-mod pictures;
 mod report;
 mod runs;
 mod search;
@@ -28,9 +25,9 @@ use crate::report::{Findings, Provenance};
 
 pub use bits::FormatFamily;
 pub use case::CaseSubject;
-pub use costs::FormatCosts;
+pub(in crate::study) use curve::BitScan;
 pub use expression::{ExpressionError, ExpressionStudy, InputDraw};
-pub use goal::{Goal, GoalError, GoalRelation};
+pub use goal::Goal;
 pub use outcome::Precision;
 pub use subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
 pub use systems::PaperSystem;
@@ -40,7 +37,7 @@ impl Study for Precision {
         let goal = self.goal()?;
         let mut runs = self.runs(&goal, progress)?;
         let outcome = self.outcome(&mut runs)?;
-        report::findings(self, &outcome, &runs)
+        report::findings(&outcome, &runs)
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {

@@ -1,13 +1,12 @@
 //! Parameters, and the steps of the study.
 
-use super::bits::{FormatBits, FormatFamily};
-use super::costs::FormatCosts;
+use super::bits::{FormatBits, FormatFamily, NAMED};
 use super::curve::Curve;
 use super::goal::Goal;
 use super::half::{HalfExpression, half_expressions};
-use super::instructions::{BlamedFormat, InstructionNeeds, blame, blamed_format, fewest_bits};
+use super::instructions::{InstructionNeeds, blame, fewest_bits, loss};
 use super::runs::{RunError, Runs};
-use super::search::{MixedFormats, STARTS, search};
+use super::search::{MixedFormats, STARTS, assignment, search};
 use super::subject::PrecisionSubject;
 use super::switches::{SwitchRow, sensitivity};
 use crate::study::{ProgressFn, StudyError};
@@ -16,9 +15,6 @@ use crate::study::{ProgressFn, StudyError};
 const RUNS_PER_CURVE: u64 = 30;
 /// Approximate number of runs per instruction in one family of formats.
 const RUNS_PER_INSTRUCTION: u64 = 55;
-
-/// Maximum number of bits added for held-back input.
-pub(super) const MOST_SPARE: u8 = 6;
 
 /// Parameters of the study.
 pub struct Precision {
@@ -30,25 +26,20 @@ pub struct Precision {
     pub families: Vec<FormatFamily>,
     /// Maximum number of runs.
     pub budget: u64,
-    /// Costs of formats.
-    pub costs: FormatCosts,
 }
 
 /// Results for one family of formats.
 #[derive(Debug)]
 pub(super) struct FamilyOutcome {
     pub(super) curve: Curve,
-    /// Format with one bit less than the smallest uniform format.
-    pub(super) blamed: Option<BlamedFormat>,
+    /// Format with one bit less than the smallest uniform format; blame divides its loss among the instructions.
+    pub(super) blamed: Option<FormatBits>,
     /// Findings by instruction.
     pub(super) needs: Vec<InstructionNeeds>,
-    /// Cheapest assignment found.
+    /// Assignment with the fewest bits that was found.
     pub(super) mixed: Option<MixedFormats>,
     /// Value of the goal's measure with this assignment on the input held back from the search.
     pub(super) held_back: Option<f64>,
-    /// Number of bits to add to the range and to the precision of every instruction so that the held-back input meets
-    /// the goal too; `None` if [`MOST_SPARE`] bits are not enough.
-    pub(super) spare: Option<u8>,
 }
 
 /// Everything that was found.
@@ -69,10 +60,10 @@ pub(super) struct PrecisionOutcome {
 }
 
 impl PrecisionOutcome {
-    /// Cheapest assignment of the families.
-    pub(super) fn cheapest(&self) -> Option<&FamilyOutcome> {
-        let cost = |family: &&FamilyOutcome| family.mixed.as_ref().map_or(f64::INFINITY, |mixed| mixed.cost);
-        self.families.iter().filter(|family| family.mixed.is_some()).min_by(|a, b| cost(a).total_cmp(&cost(b)))
+    /// The curve and the mixed formats of the family whose mixed formats have the fewest bits.
+    pub(super) fn cheapest(&self) -> Option<(&Curve, &MixedFormats)> {
+        let mixed = self.families.iter().filter_map(|family| Some((&family.curve, family.mixed.as_ref()?)));
+        mixed.min_by_key(|(_, mixed)| mixed.width())
     }
 }
 
@@ -87,9 +78,7 @@ impl Precision {
     pub(super) fn runs<'a>(&'a self, goal: &'a Goal, progress: &'a mut ProgressFn<'a>) -> Result<Runs<'a>, StudyError> {
         if self.budget == 0 {
             let found = "expected a budget of 1 run or more, found 0";
-            return Err(
-                StudyError::new("crossbar::precision::budget", found).with_help("the default suits most programs")
-            );
+            return Err(StudyError::new("crossbar::precision::budget", found));
         }
         let mut runs = Runs::new(&*self.subject, goal, self.budget, progress);
         if runs.count() == 0 {
@@ -125,18 +114,19 @@ impl Precision {
         outcome.given = Some(runs.measure(runs.subject.profile())?.value(&runs.goal.measure));
         for &family in &self.families {
             let mut curve = Curve::empty(family);
-            let end = compute_curve(&mut curve, runs);
+            runs.step(format!("{} formats", family.name()));
+            let end = curve.compute(runs.goal, &mut |bits| runs.value(&runs.uniform(bits)));
             outcome.families.push(FamilyOutcome::new(curve, runs.count()));
             end?;
         }
         runs.step("formats of cards");
-        for (name, bits) in FormatBits::named() {
+        for (name, bits) in NAMED {
             let value = runs.value(&runs.uniform(bits))?;
             outcome.named.push((name, bits, value));
         }
         half_expressions(runs, &mut outcome.half)?;
         for family in &mut outcome.families {
-            family.run(&self.costs, runs)?;
+            family.run(runs)?;
         }
         runs.step("open switches");
         let at_curve = |curve: &Curve| curve.minimum.map(|minimum| FormatBits { range: curve.range, ..minimum });
@@ -145,30 +135,24 @@ impl Precision {
     }
 }
 
-/// Computes a curve of runs with all instructions in one format.
-fn compute_curve(curve: &mut Curve, runs: &mut Runs<'_>) -> Result<(), RunError> {
-    runs.step(format!("{} formats", curve.family.name()));
-    curve.compute(runs.goal, &mut |bits| runs.value(&runs.uniform(bits)))
-}
-
 /// Value of the exact run, which meets the goal.
 fn exact_run(runs: &mut Runs<'_>) -> Result<f64, RunError> {
     runs.step("the exact run");
-    let exact = runs.value(&vec![None; runs.count()])?;
-    if runs.goal.met(exact) { Ok(exact) } else { Err(missed_by_exact(runs.goal, exact).into()) }
-}
-
-fn missed_by_exact(goal: &Goal, value: f64) -> StudyError {
-    let found = format!("expected a goal that the exact run meets, found {goal}, and {} {value} there", goal.measure);
-    StudyError::new("crossbar::precision::goal", found)
+    let (goal, exact) = (runs.goal, runs.value(&vec![None; runs.count()])?);
+    if goal.met(exact) {
+        return Ok(exact);
+    }
+    let found = format!("expected a goal that the exact run meets, found {goal}, and {} {exact} there", goal.measure);
+    Err(StudyError::new("crossbar::precision::goal", found)
         .with_help("no number format can be better than registers of single precision: state a wider bound")
+        .into())
 }
 
 impl FamilyOutcome {
     /// Without findings.
     fn new(curve: Curve, instructions: usize) -> Self {
         let needs = vec![InstructionNeeds::default(); instructions];
-        Self { curve, blamed: None, needs, mixed: None, held_back: None, spare: None }
+        Self { curve, blamed: None, needs, mixed: None, held_back: None }
     }
 
     /// Index and share of blame of the most blamed instruction; the first one on a tie.
@@ -179,29 +163,21 @@ impl FamilyOutcome {
 
     /// Runs the mixed formats on held-back input.
     fn verify(&mut self, runs: &Runs<'_>) -> Result<(), StudyError> {
-        let Some(mixed) = &self.mixed else { return Ok(()) };
-        for spare in 0..=MOST_SPARE {
-            let formats: Vec<_> = mixed.formats.iter().map(|bits| Some(bits.wider(spare))).collect();
-            let Some(device) = runs.device(runs.subject.profile(), &formats) else { continue };
-            let Some(found) = runs.subject.held_back(&device)?.map(|measured| measured.value(&runs.goal.measure))
-            else {
-                break;
-            };
-            self.held_back.get_or_insert(found);
-            if runs.goal.met(found) {
-                self.spare = Some(spare);
-                break;
-            }
+        if let Some(mixed) = &self.mixed
+            && let Some(device) = runs.device(runs.subject.profile(), &assignment(&mixed.formats))
+        {
+            let measured = runs.subject.held_back(&device)?;
+            self.held_back = measured.map(|measured| measured.value(&runs.goal.measure));
         }
         Ok(())
     }
 
     /// Finds the bits that each instruction needs, and the mixed formats.
-    fn run(&mut self, costs: &FormatCosts, runs: &mut Runs<'_>) -> Result<(), RunError> {
+    fn run(&mut self, runs: &mut Runs<'_>) -> Result<(), RunError> {
         let Some(minimum) = self.curve.minimum else { return Ok(()) };
         let order = self.share_blame(minimum, runs)?;
         for more in STARTS {
-            search((minimum, more), &order, costs, runs, &mut self.mixed)?;
+            search((minimum, more), &order, runs, &mut self.mixed)?;
         }
         runs.step("bits per instruction");
         for (place, needs) in self.needs.iter_mut().enumerate() {
@@ -212,11 +188,12 @@ impl FamilyOutcome {
 
     /// Computes the blame of each instruction; returns their indices, least blamed first.
     fn share_blame(&mut self, minimum: FormatBits, runs: &mut Runs<'_>) -> Result<Vec<usize>, RunError> {
-        let blamed = blamed_format(minimum, runs)?;
-        self.blamed = Some(blamed);
-        for (place, needs) in self.needs.iter_mut().enumerate() {
-            blame(needs, place, blamed, runs)?;
-        }
+        runs.step("blame");
+        // The narrowest format has no narrower neighbor.
+        let bits = minimum.narrower().next().unwrap_or(minimum);
+        let all = loss(runs, &runs.uniform(bits))?;
+        self.blamed = Some(bits);
+        blame(&mut self.needs, (bits, all), runs)?;
         let blame = |place: &usize| self.needs[*place].blame.unwrap_or(0.0);
         let mut order: Vec<usize> = (0..self.needs.len()).collect();
         order.sort_by(|a, b| blame(a).total_cmp(&blame(b)));

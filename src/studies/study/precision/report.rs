@@ -3,67 +3,50 @@
 use serde_json::json;
 
 use super::bits::FormatBits;
-use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
+use super::outcome::{FamilyOutcome, PrecisionOutcome};
 use super::runs::Runs;
-use super::tables::number;
-use super::{family_report, half_report, pictures, tables};
+use super::search::{MixedFormats, assignment};
+use super::tables::{self, number};
+use crate::report::digits::count;
 use crate::report::words::{counted, percent};
-use crate::report::{Chart, Findings, FoundTable, NamedChart, Scale, Series, Verdict};
+use crate::report::{Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table, Verdict};
 use crate::shader::SourceLine;
 use crate::study::StudyError;
 
 /// Builds the findings; draws the pictures.
-pub(super) fn findings(study: &Precision, outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<Findings, StudyError> {
+pub(super) fn findings(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<Findings, StudyError> {
     let profile = runs.subject.profile();
     let mut found = Findings::new(format!("Precision of {}", runs.subject.title()));
     let count = counted(runs.count() as u64, "instruction", "instructions");
     found.introduce(format!("{}: {count} on {}, goal {}", runs.subject.title(), profile.name, runs.goal));
-    conclude(&mut found, study, outcome, runs);
+    conclude(&mut found, outcome, runs);
     if let Some(chart) = chart(outcome, runs) {
         found.chart(chart);
     }
-    pictures::pictures(&mut found, outcome, runs)?;
+    pictures(&mut found, outcome, runs)?;
     runs.subject.notes().into_iter().for_each(|note| found.paragraph(note));
-    found.heading("Formats for all instructions");
-    found.table(FoundTable::from(tables::named(outcome, runs)).csv("formats").field("formats"));
-    found.table(FoundTable::from(tables::curves(outcome, runs)).csv("curve").field("curve").unprinted());
-    half_report::report(&mut found, &outcome.half, runs)?;
-    for family in &outcome.families {
-        family_report::per_instruction(&mut found, study, family, runs);
-    }
-    open_switches(&mut found, outcome);
+    tables::uniform(&mut found, outcome, runs);
+    tables::half(&mut found, outcome, runs)?;
+    outcome.families.iter().for_each(|family| tables::family(&mut found, family, runs));
+    tables::switches(&mut found, outcome);
     found.heading("Measures");
-    found.table(FoundTable::from(tables::measures(runs)).field("measures").unprinted());
+    let mut measures = Table::of("Measures, against the exact run", "measure meaning");
+    runs.subject.measures().iter().for_each(|measure| measures.push([measure.name.into(), measure.meaning.into()]));
+    found.table(FoundTable::from(measures).field("measures").unprinted());
     fields(&mut found, outcome, runs);
-    if let Some(family) = outcome.cheapest() {
+    if let Some((_, mixed)) = outcome.cheapest()
+        && let Some(device) = runs.device(profile, &assignment(&mixed.formats))
+    {
         let programs: Vec<_> = runs.programs.iter().map(|studied| studied.program).collect();
-        let formats: Vec<_> = family.mixed.iter().flat_map(|mixed| &mixed.formats).copied().map(Some).collect();
-        if let Some(device) = runs.device(profile, &formats) {
-            found.keep_file("mixed.toml", device.to_device_file(&programs).into_bytes());
-        }
+        found.keep_file("mixed.toml", device.to_device_file(&programs).into_bytes());
     }
     let has_minimum = outcome.families.iter().any(|family| family.curve.minimum.is_some());
     found.conclude(Verdict::held(has_minimum));
     Ok(found)
 }
 
-/// Adds the table of switches.
-fn open_switches(found: &mut Findings, outcome: &PrecisionOutcome) {
-    if outcome.switches.is_empty() {
-        return;
-    }
-    found.heading("Open switches");
-    let (table, first, names) = tables::switches(outcome);
-    let table = FoundTable::from(table).folded(&first, |row| names[row].clone(), (["value", "values"], "the same"));
-    found.explained_table(
-        table.csv("switches").field("switches"),
-        "Each value of each switch that has several, one at a time. The minimum has the exponent or integer bits of \
-         the curve; the reference is the exact run of the device as given.",
-    );
-}
-
 /// Adds the sentences at the top.
-fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
+fn conclude(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
     let (goal, measure) = (runs.goal, &runs.goal.measure);
     let given = outcome.given.map_or(String::new(), |value| format!(", and {} on the device as given", number(value)));
     found.conclusion(format!("Goal: {goal}; {measure} is {} in the exact run{given}.", number(outcome.exact)));
@@ -99,14 +82,13 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
             ));
         }
     }
-    if let Some((family, mixed)) = outcome.cheapest().and_then(|family| Some((family, family.mixed.as_ref()?))) {
-        let of = family.curve.minimum.map_or(0.0, |minimum| study.costs.sum(&vec![minimum; mixed.formats.len()]));
-        let unit = if study.costs.is_table() { "cost" } else { "bits" };
+    if let Some((curve, mixed)) = outcome.cheapest() {
+        let of = curve.minimum.map_or(0, |minimum| minimum.width() * mixed.formats.len() as u32);
         found.conclusion(format!(
-            "With a {} format per instruction: {} {unit} in place of {}{}.",
-            family.curve.family.name(),
-            number(mixed.cost),
-            number(of),
+            "With a {} format per instruction: {} bits in place of {}{}.",
+            curve.family.name(),
+            count(mixed.width().into()),
+            count(of.into()),
             if mixed.is_minimal { "; one bit less anywhere misses the goal" } else { ", the best so far" },
         ));
     }
@@ -123,22 +105,13 @@ fn conclude(found: &mut Findings, study: &Precision, outcome: &PrecisionOutcome,
 
 /// Chart of the curves, if there are points enough for an axis.
 fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
-    let mut lines: Vec<Series> = outcome
-        .families
-        .iter()
-        .map(|family| Series {
-            label: format!("{}, {}", family.curve.family.name(), family.curve.range_text()),
-            points: finite(family.curve.scan.points.iter().map(|(bits, value)| (f64::from(*bits), *value))),
-        })
-        .collect();
-    let dots: Vec<Series> = outcome
-        .named
-        .iter()
-        .map(|(name, bits, value)| Series {
-            label: (*name).to_owned(),
-            points: finite([(f64::from(bits.digits), *value)]),
-        })
-        .collect();
+    let (goal, words) = (runs.goal, runs.goal.words());
+    let mut lines: Vec<Series> = outcome.families.iter().map(|family| family.curve.line(f64::is_finite)).collect();
+    let dot = |(name, bits, value): &(&str, FormatBits, f64)| {
+        let point = Some((f64::from(bits.digits), *value)).filter(|point| point.1.is_finite());
+        Series { label: (*name).to_owned(), points: point.into_iter().collect() }
+    };
+    let dots: Vec<Series> = outcome.named.iter().map(dot).collect();
     let mut values: Vec<f64> =
         lines.iter().chain(&dots).flat_map(|series| &series.points).map(|point| point.1).collect();
     values.sort_by(f64::total_cmp);
@@ -148,27 +121,40 @@ fn chart(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Option<NamedChart> {
     }
     let positive = values.iter().copied().filter(|value| *value > 0.0);
     let y_scale = if positive.clone().count() < 2 { Scale::Linear } else { Scale::fitting(positive) };
-    lines.push(runs.goal.line(&lines));
+    lines.push(goal.line(&lines));
     let zero = if y_scale == Scale::Logarithmic { " The axis cannot show values of 0." } else { "" };
     let chart = Chart {
-        title: format!("{} by bits of precision", runs.goal.words()),
+        title: format!("{words} by bits of precision"),
         x: "mantissa or fraction bits of all instructions".to_owned(),
-        y: runs.goal.words(),
+        y: words.clone(),
         y_scale,
         lines,
         dots,
         ..Chart::default()
     };
     let caption = format!(
-        "{} with all instructions in one format, against its mantissa or fraction bits; goal: {}.{zero}",
-        runs.goal.words(),
-        runs.goal
+        "{words} with all instructions in one format, against its mantissa or fraction bits; goal: {goal}.{zero}"
     );
     Some(NamedChart { name: "curve".to_owned(), chart, caption })
 }
 
-fn finite(points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
-    points.into_iter().filter(|point| point.1.is_finite()).collect()
+/// Adds the pictures: exact, in the smallest uniform format, and with one bit less.
+fn pictures(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<(), StudyError> {
+    let mut shown = vec![(None, "exact".to_owned(), "exact run".to_owned())];
+    for minimum in outcome.families.iter().filter_map(|family| family.curve.minimum) {
+        for bits in [minimum].into_iter().chain(minimum.narrower().next()) {
+            shown.push((Some(bits), bits.to_string(), format!("all instructions in {bits}")));
+        }
+    }
+    let mut pictures = Vec::new();
+    for (bits, name, caption) in shown {
+        let measured = runs.subject.measure(&runs.uniform_device(runs.subject.profile(), bits), None)?;
+        let value = number(measured.value(&runs.goal.measure));
+        let caption = format!("{caption}: {} {value}", runs.goal.words());
+        pictures.extend(measured.picture.map(|picture| NamedPicture::new(name, picture, caption)));
+    }
+    found.pictures(pictures);
+    Ok(())
 }
 
 /// Adds the fields of the document.
@@ -178,10 +164,9 @@ fn fields(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
             "family": family.curve.family.name(),
             "minimum": family.curve.minimum.map(|bits| bits.to_string()),
             "counterexample": family.curve.scan.counterexample,
-            "mixed_cost": family.mixed.as_ref().map(|mixed| mixed.cost),
+            "mixed_bits": family.mixed.as_ref().map(MixedFormats::width),
             "one_minimal": family.mixed.as_ref().map(|mixed| mixed.is_minimal),
             "held_back": family.held_back,
-            "spare": family.spare,
         })
     };
     found.fields(json!({

@@ -135,22 +135,12 @@ impl<'a> Runs<'a> {
 
     /// Measures the goal's measure on any device.
     pub(super) fn measure(&mut self, device: &Profile) -> Result<Measured, RunError> {
-        self.spend()?;
-        Ok(self.subject.measure(device, Some(&self.goal.measure))?)
-    }
-
-    /// Measures everything for the report, outside of the budget.
-    pub(super) fn shown(&self, device: &Profile) -> Result<Measured, StudyError> {
-        self.subject.measure(device, None)
-    }
-
-    fn spend(&mut self) -> Result<(), RunError> {
         if self.made >= self.budget {
             return Err(RunError::Budget);
         }
         (self.progress)(&self.step, self.made, self.expected.min(self.budget).max(self.made + 1));
         self.made += 1;
-        Ok(())
+        Ok(self.subject.measure(device, Some(&self.goal.measure))?)
     }
 }
 

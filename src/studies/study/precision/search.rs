@@ -3,7 +3,6 @@
 use std::ops::RangeInclusive;
 
 use super::bits::{Assignment, FormatBits};
-use super::costs::FormatCosts;
 use super::curve::BitScan;
 use super::runs::{RunError, Runs};
 
@@ -16,8 +15,6 @@ pub(super) const STARTS: [u8; 3] = [0, 1, 2];
 pub(super) struct MixedFormats {
     /// Format of each instruction.
     pub(super) formats: Vec<FormatBits>,
-    /// Sum of the formats' costs.
-    pub(super) cost: f64,
     /// `true` if one bit less in any one instruction misses the goal.
     pub(super) is_minimal: bool,
     /// Each format with one bit less. Complete if the assignment is minimal.
@@ -36,19 +33,25 @@ pub(super) struct RefutedFormat {
     pub(super) worst: Option<String>,
 }
 
-fn assignment(formats: &[FormatBits]) -> Assignment {
+impl MixedFormats {
+    /// Sum of the formats' widths, in bits.
+    pub(super) fn width(&self) -> u32 {
+        self.formats.iter().map(|bits| bits.width()).sum()
+    }
+}
+
+pub(super) fn assignment(formats: &[FormatBits]) -> Assignment {
     formats.iter().copied().map(Some).collect()
 }
 
-/// Searches from formats with `more` bits of precision than the smallest uniform format, and stores a cheaper result in
-/// `best`.
+/// Searches from formats with `more` bits of precision than the smallest uniform format, and stores a result with fewer
+/// bits in `best`.
 ///
 /// The instructions are narrowed one after the other, in this `order`: least blamed first. Then single bits are removed
 /// until none can be.
 pub(super) fn search(
     (minimum, more): (FormatBits, u8),
     order: &[usize],
-    costs: &FormatCosts,
     runs: &mut Runs<'_>,
     best: &mut Option<MixedFormats>,
 ) -> Result<(), RunError> {
@@ -63,9 +66,9 @@ pub(super) fn search(
     }
     let result = descend(&mut formats, order, runs);
     // Every step of the descent meets the goal, so the formats also meet it if the budget ends the search.
-    let cost = costs.sum(&formats);
-    if best.as_ref().is_none_or(|best| cost < best.cost) {
-        *best = Some(MixedFormats { cost, is_minimal: result.is_ok(), refuted: refuted(&formats, runs), formats });
+    let found = MixedFormats { is_minimal: result.is_ok(), refuted: refuted(&formats, runs), formats };
+    if best.as_ref().is_none_or(|best| found.width() < best.width()) {
+        *best = Some(found);
     }
     result
 }

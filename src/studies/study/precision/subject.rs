@@ -28,12 +28,6 @@ pub struct PrecisionMeasure {
     pub meaning: &'static str,
 }
 
-/// Measure that the subjects share.
-pub(super) const NOT_FINITE: PrecisionMeasure = PrecisionMeasure {
-    name: "not_finite",
-    meaning: "number of channels that are infinite or NaN where the exact ones are not, or the reverse",
-};
-
 /// Measured values of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measured {
@@ -127,27 +121,27 @@ fn places_of(program: usize, StudiedProgram { program: studied, text }: StudiedP
     let is_move = |instruction: &Instruction| {
         text.is_wgsl() && instruction.opcode == Opcode::Mov && instruction.fragment.precision.is_none()
     };
-    let takes = |at: &usize| takes_format(&studied.instructions[*at]) && !is_move(&studied.instructions[*at]);
     // By text, and by span: an expression of a translated shader may be several instructions.
     let mut by_text: BTreeMap<String, BTreeMap<[u32; 2], Vec<usize>>> = BTreeMap::new();
-    for at in (0..studied.instructions.len()).filter(takes) {
-        let (text, span) = (studied.instruction_text(at), studied.instructions[at].span);
-        // Instructions that tests build have no span.
-        let place = if text.is_some() { [span.start, span.end] } else { [0, at as u32] };
-        by_text.entry(text.unwrap_or_default()).or_default().entry(place).or_default().push(at);
+    for (at, instruction) in studied.instructions.iter().enumerate() {
+        if takes_format(instruction) && !is_move(instruction) {
+            let (text, span) = (studied.instruction_text(at), instruction.span);
+            // Instructions that tests build have no span.
+            let place = if text.is_some() { [span.start, span.end] } else { [0, at as u32] };
+            by_text.entry(text.unwrap_or_default()).or_default().entry(place).or_default().push(at);
+        }
     }
-    let split = |same: BTreeMap<[u32; 2], Vec<usize>>| -> Vec<InstructionPlace> {
-        let together = match same.len() >= UNROLLED {
+    let split = |same: BTreeMap<[u32; 2], Vec<usize>>| -> Vec<Vec<usize>> {
+        match same.len() >= UNROLLED {
             true => vec![same.into_values().flatten().collect()],
             false => same.into_values().collect(),
-        };
-        let place = |mut all: Vec<usize>| {
-            all.sort_unstable();
-            InstructionPlace { program, instructions: all }
-        };
-        together.into_iter().map(place).collect()
+        }
     };
-    let mut places: Vec<InstructionPlace> = by_text.into_values().flat_map(split).collect();
+    let place = |mut instructions: Vec<usize>| {
+        instructions.sort_unstable();
+        InstructionPlace { program, instructions }
+    };
+    let mut places: Vec<InstructionPlace> = by_text.into_values().flat_map(split).map(place).collect();
     places.sort_by_key(|place| place.instructions[0]);
     places
 }

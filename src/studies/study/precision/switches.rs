@@ -31,13 +31,11 @@ pub(super) struct SwitchFindings {
 impl SwitchRow {
     /// Returns `true` if both rows have the same findings.
     pub(super) fn same_as(&self, other: &Self) -> bool {
-        match (&self.found, &other.found) {
-            (Ok(a), Ok(b)) => {
-                let bits = |found: &SwitchFindings| [found.given, found.exact].map(f64::to_bits);
-                bits(a) == bits(b) && a.minimum == b.minimum
-            }
-            (a, b) => a == b,
-        }
+        let key = |row: &Self| {
+            let found = row.found.as_ref();
+            found.map(|found| ([found.given, found.exact].map(f64::to_bits), found.minimum)).map_err(String::clone)
+        };
+        key(self) == key(other)
     }
 }
 

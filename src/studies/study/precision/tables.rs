@@ -2,17 +2,29 @@
 
 use refsim::isa::Span;
 
-use super::bits::FormatBits;
-use super::outcome::{FamilyOutcome, Precision, PrecisionOutcome};
+use super::bits::{FormatBits, FormatFamily};
+use super::half::rewritten;
+use super::outcome::{FamilyOutcome, PrecisionOutcome};
 use super::runs::Runs;
-use super::search::MixedFormats;
 use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Table};
+use crate::report::words::{counted, percent};
+use crate::report::{Cell, Findings, FoundTable, Table};
 use crate::shader::SourceLine;
+use crate::study::StudyError;
 
 /// Formats a value for sentences.
 pub(super) fn number(value: f64) -> String {
     shown(value, Quantity::Error)
+}
+
+/// A table, written to a file and to the document under a name.
+fn kept(table: Table, name: &'static str) -> FoundTable {
+    FoundTable::from(table).csv(name).field(name)
+}
+
+/// Verb for a value that meets the goal or not.
+fn meets(value: f64, runs: &Runs<'_>) -> &'static str {
+    if runs.goal.met(value) { "meets" } else { "misses" }
 }
 
 /// Source line of an instruction.
@@ -26,33 +38,31 @@ pub(super) fn line(place: usize, runs: &Runs<'_>) -> SourceLine {
         .unwrap_or_else(|| studied.text.line(Span::default()))
 }
 
-/// Line number and text of the instruction at a place, with the program's name if there are several programs.
-pub(super) fn named_line(place: usize, runs: &Runs<'_>) -> [Cell; 2] {
+/// A row that begins with the line number and text of the instruction at a place, with the program's name if there are
+/// several programs.
+fn at_line<const N: usize>(place: usize, runs: &Runs<'_>, cells: [Cell; N]) -> impl Iterator<Item = Cell> {
     let SourceLine { file, line, text, .. } = line(place, runs);
     let number = if runs.programs.len() > 1 { format!("{file}:{line}") } else { line.to_string() };
-    [number.into(), text.into()]
+    [number.into(), text.into()].into_iter().chain(cells)
 }
 
-/// Table of uniform runs in the formats of cards.
-pub(super) fn named(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
+/// Adds the uniform runs in the formats of cards, and the points of the curves.
+pub(super) fn uniform(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) {
     let measure = runs.goal.measure.as_str();
+    found.heading("Formats for all instructions");
     let mut table = Table::new("All instructions in formats of cards", &["format", "layout", "bits", measure, "met"]);
     for (name, bits, value) in &outcome.named {
-        let cells = [bits.to_string().into(), bits.width().into(), Cell::error(*value), runs.goal.met(*value).into()];
-        table.push([Cell::from(*name)].into_iter().chain(cells));
+        let met = runs.goal.met(*value);
+        let layout = bits.to_string();
+        table.push([(*name).into(), layout.into(), bits.width().into(), Cell::error(*value), met.into()]);
     }
-    table
-}
-
-/// Table of the curves' points.
-pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
-    let measure = runs.goal.measure.as_str();
+    found.table(kept(table, "formats"));
     let mut table = Table::new("Points of the curves", &["family", "format", "bits", "precision_bits", measure, "met"]);
-    for family in &outcome.families {
-        for (&digits, &value) in &family.curve.scan.points {
-            let bits = FormatBits { family: family.curve.family, range: family.curve.range, digits };
+    for curve in outcome.families.iter().map(|family| &family.curve) {
+        for (&digits, &value) in &curve.scan.points {
+            let bits = FormatBits { family: curve.family, range: curve.range, digits };
             table.push([
-                family.curve.family.name().into(),
+                curve.family.name().into(),
                 bits.to_string().into(),
                 bits.width().into(),
                 digits.into(),
@@ -61,15 +71,55 @@ pub(super) fn curves(outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Table {
             ]);
         }
     }
-    table
+    found.table(kept(table, "curve").unprinted());
 }
 
-/// Table with a row per instruction.
-pub(super) fn instructions(family: &FamilyOutcome, minimum: FormatBits, runs: &Runs<'_>) -> Table {
-    let mut table = Table::of(
-        format!("Instructions, {}", family.curve.family.digits()),
-        "line instruction alone others_at_minimum mixed blame_% regained_% note",
+/// Adds the table of expressions in half precision, a sentence at the top, and the rewritten shader.
+pub(super) fn half(found: &mut Findings, outcome: &PrecisionOutcome, runs: &Runs<'_>) -> Result<(), StudyError> {
+    let rows = &outcome.half;
+    let Some(text) = rewritten(rows, runs).filter(|_| !rows.is_empty()) else { return Ok(()) };
+    let mut table =
+        Table::new("Half precision", &["line", "expression", "alone", "may be f16", "refuted at column, row"]);
+    for row in rows {
+        let may = match (row.together, runs.goal.met(row.alone)) {
+            (true, _) => "yes",
+            (false, true) => "alone",
+            _ => "no",
+        };
+        let refuted = row.worst.as_deref().filter(|_| !row.together);
+        table.push(at_line(row.place, runs, [Cell::error(row.alone), may.into(), refuted.into()]));
+    }
+    let count = rows.iter().filter(|row| row.together).count();
+    let all = counted(rows.len() as u64, "expression", "expressions");
+    let measure = &runs.goal.measure;
+    let value = runs.subject.measure_text(&text, measure)?.map_or(f64::NAN, |measured| measured.value(measure));
+    found.conclusion(format!(
+        "{count} of {all} may be f16 together. half.wgsl has them in f16 and {} the goal: {measure} is {}.",
+        meets(value, runs),
+        number(value)
+    ));
+    found.keep_file("half.wgsl", text.named_source().text().as_bytes().to_vec());
+    found.heading("Half precision");
+    found.explained_table(
+        kept(table, "half"),
+        "Each expression computed in f16 while all others are exact, and whether it may be f16 together with all others \
+         that say yes. Found by adding one after the other, the harmless first. The last column is the pixel with the \
+         largest error of the run that refuted it.",
     );
+    Ok(())
+}
+
+/// Adds the tables of one family.
+pub(super) fn family(found: &mut Findings, family: &FamilyOutcome, runs: &Runs<'_>) {
+    let Some(minimum) = family.curve.minimum else { return };
+    let (name, digits) = (minimum.family.name(), minimum.family.digits());
+    let [csv, mixed_csv, refuted_csv] = match minimum.family {
+        FormatFamily::Float => ["instructions_float", "mixed_float", "refuted_float"],
+        FormatFamily::Fixed => ["instructions_fixed", "mixed_fixed", "refuted_fixed"],
+    };
+    found.heading(format!("Instructions in {name} formats"));
+    let columns = "line instruction alone others_at_minimum mixed blame_% regained_% note";
+    let mut table = Table::of(format!("Instructions, {digits}"), columns);
     let fewest = *minimum.family.digit_bits(minimum.range).start();
     for (place, needs) in family.needs.iter().enumerate() {
         let mixed = family.mixed.as_ref().map(|mixed| mixed.formats[place].to_string());
@@ -83,44 +133,63 @@ pub(super) fn instructions(family: &FamilyOutcome, minimum: FormatBits, runs: &R
             share(needs.regained).into(),
             has_no_effect.then_some("no effect").into(),
         ];
-        table.push(named_line(place, runs).into_iter().chain(cells));
+        table.push(at_line(place, runs, cells));
     }
-    table
-}
-
-/// Table of the mixed formats.
-pub(super) fn mixed(mixed: &MixedFormats, study: &Precision, runs: &Runs<'_>) -> Table {
-    let mut table = Table::of("A format per instruction", "line instruction format bits cost");
-    for (place, &bits) in mixed.formats.iter().enumerate() {
-        let cells: [Cell; 3] = [bits.to_string().into(), bits.width().into(), study.costs.of(bits).into()];
-        table.push(named_line(place, runs).into_iter().chain(cells));
+    found.table(kept(table, csv));
+    if let Some(blamed) = family.blamed {
+        let sum: f64 = family.needs.iter().filter_map(|needs| needs.blame).fold(0.0, |sum, share| sum + share);
+        found.paragraph(format!(
+            "Alone: fewest {digits} with all other instructions exact; others at minimum: with all others in {minimum}. \
+             Blame is the share of the loss with all instructions in {} that remains if only this one is; regained is \
+             the share that disappears if only this one is exact. The shares of blame sum to {}: {}.",
+            blamed,
+            percent(sum),
+            additivity(sum),
+        ));
     }
-    table
-}
-
-/// Table of each format with one bit less.
-pub(super) fn refuted(mixed: &MixedFormats, runs: &Runs<'_>) -> Table {
+    let Some(mixed) = &family.mixed else { return };
+    let state = if mixed.is_minimal { "1-minimal" } else { "the best so far" };
+    found.heading(format!("Mixed {name} formats, {state}"));
+    let mut table = Table::of("A format per instruction", "line instruction format bits");
+    for (place, bits) in mixed.formats.iter().enumerate() {
+        table.push(at_line(place, runs, [bits.to_string().into(), bits.width().into()]));
+    }
+    found.table(kept(table, mixed_csv).unprinted());
     let measure = runs.goal.measure.as_str();
-    let mut table =
-        Table::new("One bit less", &["line", "instruction", "format", measure, "met", "largest error at column, row"]);
-    for refuted in &mixed.refuted {
-        let cells: [Cell; 4] = [
-            refuted.bits.to_string().into(),
-            Cell::error(refuted.value),
-            runs.goal.met(refuted.value).into(),
-            refuted.worst.as_deref().into(),
-        ];
-        table.push(named_line(refuted.place, runs).into_iter().chain(cells));
+    if let Some(value) = family.held_back {
+        let (met, value) = (meets(value, runs), number(value));
+        found
+            .paragraph(format!("On input that was held back from the search {measure} is {value}: it {met} the goal."));
     }
-    table
+    let columns = ["line", "instruction", "format", measure, "met", "largest error at column, row"];
+    let mut table = Table::new("One bit less", &columns);
+    for refuted in &mixed.refuted {
+        let (value, worst) = (refuted.value, refuted.worst.as_deref());
+        let (format, met) = (refuted.bits.to_string().into(), runs.goal.met(value).into());
+        table.push(at_line(refuted.place, runs, [format, Cell::error(value), met, worst.into()]));
+    }
+    found.table(kept(table, refuted_csv).unprinted());
 }
 
-/// Table of switch values, the index of the first row with the same findings per row, and the names of the rows.
-pub(super) fn switches(outcome: &PrecisionOutcome) -> (Table, Vec<usize>, Vec<String>) {
-    let mut table = Table::of("Values of open switches", "switch value current as_given exact minimum note");
+/// Explains the sum of the blame shares.
+fn additivity(sum: f64) -> &'static str {
+    match sum {
+        ..0.99 => "errors that are small alone add up, or one enables another",
+        ..=1.01 => "errors add up",
+        _ => {
+            "more than all together, because errors cancel, or one hides another, as a clamp or a code of a target does"
+        }
+    }
+}
+
+/// Adds the values of open switches; rows with the same findings are folded.
+pub(super) fn switches(found: &mut Findings, outcome: &PrecisionOutcome) {
     let rows = &outcome.switches;
+    if rows.is_empty() {
+        return;
+    }
+    let mut table = Table::of("Values of open switches", "switch value current as_given exact minimum note");
     for row in rows {
-        let head = [Cell::from(row.switch.as_str()), row.value.as_str().into(), row.is_current.into()];
         let cells: [Cell; 4] = match &row.found {
             Ok(found) => {
                 let minimum = found.minimum.map(|bits| bits.to_string());
@@ -128,18 +197,16 @@ pub(super) fn switches(outcome: &PrecisionOutcome) -> (Table, Vec<usize>, Vec<St
             }
             Err(error) => [Cell::Empty, Cell::Empty, Cell::Empty, error.as_str().into()],
         };
+        let head = [Cell::from(row.switch.as_str()), row.value.as_str().into(), row.is_current.into()];
         table.push(head.into_iter().chain(cells));
     }
     let first = |row: usize| rows[..row].iter().position(|other| other.same_as(&rows[row])).unwrap_or(row);
-    let names = rows.iter().map(|row| format!("{}={}", row.switch, row.value)).collect();
-    (table, (0..rows.len()).map(first).collect(), names)
-}
-
-/// Table of the measures' meanings.
-pub(super) fn measures(runs: &Runs<'_>) -> Table {
-    let mut table = Table::of("Measures, against the exact run", "measure meaning");
-    for measure in runs.subject.measures() {
-        table.push([Cell::from(measure.name), measure.meaning.into()]);
-    }
-    table
+    let firsts: Vec<usize> = (0..rows.len()).map(first).collect();
+    let named = |row: usize| format!("{}={}", rows[row].switch, rows[row].value);
+    found.heading("Open switches");
+    found.explained_table(
+        kept(table, "switches").folded(&firsts, named, (["value", "values"], "the same")),
+        "Each value of each switch that has several, one at a time. The minimum has the exponent or integer bits of \
+         the curve; the reference is the exact run of the device as given.",
+    );
 }

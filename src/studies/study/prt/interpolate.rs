@@ -6,11 +6,11 @@ use rayon::prelude::*;
 use crate::card::SeenPixel;
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
-use crate::geom::{Hit, Mesh, Ray};
-use crate::picture::Picture;
+use crate::geom::{Hit, Mesh};
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
 use crate::transfer::Vertices;
+use crate::transfer::brdf::ExitBasis;
 
 /// The surface point at each pixel: corners of a triangle and weights with sum 1, or `None`.
 pub(in crate::study) struct SeenSurface {
@@ -20,7 +20,7 @@ pub(in crate::study) struct SeenSurface {
 impl SeenSurface {
     /// Casts a camera's rays, front faces only.
     pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
-        Self::of_parts(&[(mesh, vertices)], camera)
+        Self::of_parts([(mesh, vertices)], camera)
     }
 
     /// Uses the surface points that a device's rasterizer produced.
@@ -30,26 +30,20 @@ impl SeenSurface {
     }
 
     /// Finds the nearest of several meshes; vertex indices continue from mesh to mesh.
-    pub(super) fn of_parts(parts: &[(&Mesh, &Vertices)], camera: &Camera) -> Self {
+    pub(super) fn of_parts<'a>(parts: impl IntoIterator<Item = (&'a Mesh, &'a Vertices)>, camera: &Camera) -> Self {
         let rays = camera.rays();
         let mut nearest: Vec<Option<(f32, [u32; 3], DVec3)>> = vec![None; rays.len()];
         let mut first = 0;
         for (mesh, vertices) in parts {
             let (hits, _) = HostTracer::new(mesh, Sides::Front).nearest_all(&rays);
-            let pixel = |(ray, hit): (&Ray, &Option<Hit>)| {
-                let hit = hit.as_ref()?;
+            nearest.par_iter_mut().zip(&rays).zip(&hits).for_each(|((nearest, ray), hit)| {
+                let is_nearer = |hit: &&Hit| nearest.is_none_or(|(before, ..)| hit.t < before);
+                let Some(hit) = hit.as_ref().filter(is_nearer) else { return };
                 let corners = vertices.triangles()[hit.triangle as usize];
                 let places = corners.map(|corner| wide(vertices.positions()[corner as usize]));
                 let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
-                Some((hit.t, corners.map(|corner| corner + first), weights(at, places)))
-            };
-            let found: Vec<_> = rays.par_iter().zip(&hits).map(pixel).collect();
-            for (nearest, found) in nearest.iter_mut().zip(found) {
-                let is_nearer = |&(t, ..): &(f32, [u32; 3], DVec3)| nearest.is_none_or(|(before, ..)| t < before);
-                if let Some(found) = found.filter(is_nearer) {
-                    *nearest = Some(found);
-                }
-            }
+                *nearest = Some((hit.t, corners.map(|corner| corner + first), weights(at, places)));
+            });
             first += vertices.len() as u32;
         }
         let pixels = nearest.into_iter().map(|pixel| pixel.map(|(_, corners, weights)| (corners, weights)));
@@ -72,19 +66,14 @@ impl SeenSurface {
     }
 
     /// Radiance of each pixel: exit coefficients towards the view vector, both interpolated as on a card, but without
-    /// rounding. `functions` evaluates the functions of exit radiance at a direction.
-    pub(super) fn radiance(
-        &self,
-        exit: &[Vec<[f64; 3]>],
-        view: &[DVec3],
-        functions: &(dyn Fn(DVec3, &mut [f64]) + Sync),
-    ) -> Vec<[f64; 3]> {
+    /// rounding.
+    pub(super) fn radiance(&self, exit: &[Vec<[f64; 3]>], view: &[DVec3], basis: &ExitBasis) -> Vec<[f64; 3]> {
         let color = |pixel: &Option<([u32; 3], DVec3)>| {
             let Some((corners, weights)) = pixel else { return [0.0; 3] };
             let parts = || corners.iter().zip(weights.to_array());
             let towards = parts().map(|(&corner, weight)| weight * view[corner as usize]).sum::<DVec3>();
             let mut y = vec![0.0; exit[corners[0] as usize].len()];
-            functions(towards.normalize_or_zero(), &mut y);
+            basis.values(towards.normalize_or_zero(), &mut y);
             let of = |row: usize, channel: usize| -> f64 {
                 parts().map(|(&corner, weight)| weight * exit[corner as usize][row][channel]).sum()
             };
@@ -95,22 +84,8 @@ impl SeenSurface {
 
     /// The vertex with the largest weight at each pixel.
     pub(in crate::study) fn nearest(&self) -> impl Iterator<Item = Option<u32>> + '_ {
-        let nearest = |weights: DVec3| {
-            if weights.x >= weights.max_element() {
-                0
-            } else if weights.y >= weights.z {
-                1
-            } else {
-                2
-            }
-        };
-        self.pixels.iter().map(move |pixel| pixel.map(|(corners, weights)| corners[nearest(weights)]))
+        self.pixels.iter().map(|pixel| pixel.map(|(corners, weights)| corners[weights.max_position()]))
     }
-}
-
-pub(in crate::study) fn linear_picture(camera: &Camera, colors: &[[f64; 3]]) -> Picture {
-    let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
-    Picture::rgb(camera.width(), camera.height(), &single)
 }
 
 /// Barycentric weights of a point in a triangle's plane; clamped to the edge if rounding moves it outside.

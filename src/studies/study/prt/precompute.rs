@@ -92,12 +92,8 @@ impl Precomputed {
     }
 }
 
-/// Responses of the materials in a channel.
-struct ChannelResponses {
-    of_materials: Vec<Response>,
-    /// Responses to light that enters the medium below the surface, and its dipole.
-    entering: Option<(Vec<Response>, Dipole)>,
-}
+/// Responses of a channel's materials, and to light that enters the medium below the surface, with its dipole.
+type ChannelResponses = (Vec<Response>, Option<(Vec<Response>, Dipole)>);
 
 impl Precomputation<'_> {
     /// Traces the rays and computes the matrices. Fails if the mesh or a material does not suit the transfer, or its
@@ -109,7 +105,6 @@ impl Precomputation<'_> {
 
     /// As [`Self::run`], by a caster of the mesh that sees both sides.
     pub fn run_by(&self, caster: &mut dyn Caster, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
-        self.check()?;
         let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
         let responses = self.channels.iter().map(|(channel, brdfs)| self.responses(&rule, *channel, brdfs));
         let responses = responses.collect::<Result<Vec<_>, _>>()?;
@@ -139,49 +134,37 @@ impl Precomputation<'_> {
         Ok(Precomputed { file, directions, counts, bounces })
     }
 
-    fn check(&self) -> Result<(), StudyError> {
-        let glossy = |(material, brdf): (usize, &Brdf)| match brdf {
-            Brdf::Lambert { .. } => None,
-            found => {
+    fn responses(&self, rule: &DirectionRule, channel: usize, brdfs: &[Brdf]) -> Result<ChannelResponses, StudyError> {
+        let views = DirectionRule::hemisphere(BRDF_DEGREE);
+        let response = |(material, brdf): (usize, &Brdf)| match (&self.exit, brdf) {
+            (ExitRadiance::Diffuse, &Brdf::Lambert { albedo }) => Ok(Response::diffuse(albedo, rule)?),
+            (ExitRadiance::Diffuse, found) => {
                 let what = format!(
                     "expected diffuse materials for diffuse transfer, found {found:?} as material {material} (counted \
                      from 0)"
                 );
                 let help = "ask for glossy transfer, or give a diffuse reflectance for all";
-                Some(StudyError::new("crossbar::prt::glossy", what).with_help(help))
+                Err(StudyError::new("crossbar::prt::glossy", what).with_help(help))
             }
-        };
-        let mut all = self.channels.iter().flat_map(|(_, brdfs)| brdfs.iter().enumerate());
-        match self.exit {
-            ExitRadiance::Diffuse => all.find_map(glossy).map_or(Ok(()), Err),
-            ExitRadiance::Glossy { .. } => Ok(()),
-        }
-    }
-
-    fn responses(&self, rule: &DirectionRule, channel: usize, brdfs: &[Brdf]) -> Result<ChannelResponses, InputError> {
-        let views = DirectionRule::hemisphere(BRDF_DEGREE);
-        let response = |brdf: &Brdf| match (&self.exit, *brdf) {
-            (ExitRadiance::Diffuse, Brdf::Lambert { albedo }) => Response::diffuse(albedo, rule),
-            (ExitRadiance::Diffuse, _) => Response::diffuse(0.0, rule),
             (ExitRadiance::Glossy { basis, least_squares, incident }, brdf) => {
-                Response::glossy(&brdf, basis, *least_squares, *incident, rule, &views)
+                Ok(Response::glossy(brdf, basis, *least_squares, *incident, rule, &views)?)
             }
         };
-        let of_materials = brdfs.iter().map(response).collect::<Result<_, _>>()?;
+        let of_materials = brdfs.iter().enumerate().map(response).collect::<Result<_, _>>()?;
         let entering = self.scatterer.as_ref().map(|scatterer| {
             let dipole = scatterer.dipoles[channel];
             let entering = Response::entering(|cosine| fresnel_transmittance(dipole.eta(), cosine), rule);
             (vec![entering; brdfs.len()], dipole)
         });
-        Ok(ChannelResponses { of_materials, entering })
+        Ok((of_materials, entering))
     }
 
     /// Transfer of a channel, from direct light on the surface and from light that enters below the surface.
-    fn channel(&self, rays: &TracedRays, responses: &ChannelResponses) -> Result<Transfer, InputError> {
+    fn channel(&self, rays: &TracedRays, (of_materials, entering): &ChannelResponses) -> Result<Transfer, InputError> {
         let whole =
             |responses: &[Response], bounces: u32| Transfer::new(self.vertices, rays, responses, self.order, bounces);
-        let mut transfer = whole(&responses.of_materials, self.bounces)?;
-        if let (Some((of_entering, dipole)), Some(Scatterer { options, .. })) = (&responses.entering, &self.scatterer) {
+        let mut transfer = whole(of_materials, self.bounces)?;
+        if let (Some((of_entering, dipole)), Some(Scatterer { options, .. })) = (entering, &self.scatterer) {
             let entering = whole(of_entering, 0)?;
             transfer.add(&Transfer::scattered(self.vertices, &entering, |r| dipole.r_d(r), *options)?)?;
         }
@@ -192,15 +175,11 @@ impl Precomputation<'_> {
 /// Joins all channels into one signal: point by point, channel by channel.
 fn together(channels: Vec<Transfer>) -> Result<Signal, InputError> {
     let size = channels.first().map_or(0, |one| one.row_count() * one.column_count());
-    let count = channels.len();
-    let mut parts: Vec<Vec<f32>> = channels.into_iter().map(Transfer::into_values).collect();
-    if let ([values], _) = (&mut parts[..], count) {
-        return Signal::new(size, std::mem::take(values));
-    }
+    let parts: Vec<Vec<f32>> = channels.into_iter().map(Transfer::into_values).collect();
     let points = parts.first().map_or(0, |part| part.len() / size.max(1));
-    let mut values = Vec::with_capacity(points * count * size);
+    let mut values = Vec::with_capacity(points * parts.len() * size);
     for point in 0..points {
         parts.iter().for_each(|part| values.extend_from_slice(&part[point * size..(point + 1) * size]));
     }
-    Signal::new(count * size, values)
+    Signal::new(parts.len() * size, values)
 }

@@ -8,23 +8,14 @@ use crate::report::{Findings, Tone};
 pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     let sentences = [accuracy(&outcome.rows), speed(&outcome.rows), sweep(outcome)];
     sentences.into_iter().flatten().for_each(|sentence| found.conclusion(sentence));
-    let iterative = || outcome.rows.iter().filter(|row| row.method != SolveMethod::DIRECT);
-    let count = |of: fn(StopReason) -> bool| iterative().filter(|row| of(row.stopped)).count() as u64;
-    found.tally(
-        count(|stopped| stopped == StopReason::Tolerance),
-        ["method met the tolerance", "methods met the tolerance"],
-        Tone::Good,
-    );
-    found.tally(
-        count(|stopped| matches!(stopped, StopReason::Cycle(_))),
-        ["method ended in a cycle", "methods ended in a cycle"],
-        Tone::Bad,
-    );
-    found.tally(
-        count(|stopped| stopped == StopReason::Iterations),
-        ["method ran out of iterations", "methods ran out of iterations"],
-        Tone::Neutral,
-    );
+    let mut tally = |of: fn(StopReason) -> bool, what: &str, tone| {
+        let iterative = outcome.rows.iter().filter(|row| row.method != SolveMethod::DIRECT);
+        let count = iterative.filter(|row| of(row.stopped)).count() as u64;
+        found.tally(count, [&format!("method {what}"), &format!("methods {what}")], tone);
+    };
+    tally(|stopped| stopped == StopReason::Tolerance, "met the tolerance", Tone::Good);
+    tally(|stopped| matches!(stopped, StopReason::Cycle(_)), "ended in a cycle", Tone::Bad);
+    tally(|stopped| stopped == StopReason::Iterations, "ran out of iterations", Tone::Neutral);
 }
 
 /// Row with the largest mean error; `None` if there is no direct solution to compare with.
@@ -52,13 +43,11 @@ fn accuracy(rows: &[MethodRow]) -> Option<String> {
     })
 }
 
-/// Formats a signed error as too dark or too bright.
 fn shade(bias: f64) -> String {
     let which = if bias < 0.0 { "dark" } else { "bright" };
     format!("{} too {which}", percent(bias.abs()))
 }
 
-/// Sentence about the row that met the tolerance first; `None` if none did.
 fn speed(rows: &[MethodRow]) -> Option<String> {
     let within = || rows.iter().filter(|row| row.stopped == StopReason::Tolerance);
     let (first, last) = (within().min_by_key(|row| row.iterations())?, within().max_by_key(|row| row.iterations())?);

@@ -1,6 +1,6 @@
 //! The Ray Engine's rays in place of the host's: leaks of form factors, and their effect on the solution.
 
-use super::room::{self, Room};
+use super::solve::{Room, room};
 use super::{Parameters, ProgressFn, SolutionError};
 use crate::picture::metrics::ErrorSums;
 use crate::radiosity::solve::Solver;
@@ -16,7 +16,6 @@ pub(super) struct LeakRow {
     pub(super) cast: CastRecord,
     /// Sums of absolute differences of a patch's form factors: the fraction of its light that goes elsewhere.
     pub(super) factors: ErrorSums,
-    /// Error of the direct solution.
     pub(super) error: SolutionError,
 }
 
@@ -32,7 +31,7 @@ pub(super) fn rows(
         let system = System::new(factors.clone(), patches.reflectances(), patches.emittances())?;
         Ok(system.solve(Solver::Direct, &parameters.options.stopping())?.radiosity())
     };
-    let host = room::find(patches, parameters, &CasterChoice::Host, progress)?.factors;
+    let host = room(patches, parameters, &CasterChoice::Host, progress)?.factors;
     let (reference, emittance) = (solve(&host)?, patches.emittances());
     let row = |factors: &FormFactors, cast: CastRecord| -> Result<LeakRow, StudyError> {
         let mut off = ErrorSums::default();
@@ -44,7 +43,7 @@ pub(super) fn rows(
     };
     let mut rows = vec![row(&first.factors, cast.clone())?];
     for caster in parameters.casters.iter().skip(1) {
-        let Room { factors, cast, .. } = room::find(patches, parameters, caster, progress)?;
+        let Room { factors, cast, .. } = room(patches, parameters, caster, progress)?;
         rows.extend(cast.map(|cast| row(&factors, cast)).transpose()?);
     }
     Ok(rows)
@@ -56,7 +55,6 @@ const EXPLAINED: &str = "Each row computes the form factors anew with rays of th
     are those of the direct solution, against the room of the host's rays: the largest relative to the brightest \
     patch, the largest of a patch that does not emit, and the signed mean over these.";
 
-/// Adds the table, and a sentence about the worst row.
 pub(super) fn report(rows: &[LeakRow], found: &mut Findings) {
     let columns = "rays_by rays on_card_% differing differing_% factors_% factors_largest_% largest_error \
          largest_relative mean_relative";

@@ -4,9 +4,12 @@ use std::fmt;
 
 use refsim::device::Profile;
 
+use crate::card::CardError;
+use crate::options::one_of::name;
 use crate::radiosity::on_card::{CardSolution, Cycle, Storage};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::Solver;
+use crate::study::StudyError;
 
 /// Parameters of a solution on a card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,11 +32,10 @@ pub enum SolveMethod {
 /// Reason why an iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum StopReason {
-    /// The residual reached the tolerance.
     Tolerance,
-    /// The iteration entered a cycle of repeating states.
+    /// Repeating states.
     Cycle(Cycle),
-    /// The maximum number of iterations was reached; on a card, without a cycle.
+    /// The maximum number; on a card, without a cycle.
     Iterations,
     /// The method does not iterate.
     Direct,
@@ -43,21 +45,23 @@ impl SolveMethod {
     /// Direct solution on the host.
     pub const DIRECT: Self = Self::Host(Solver::Direct);
 
+    /// The method's layout and format on a card, if it runs on one.
+    pub(super) fn on_card(&self) -> Option<CardMethod> {
+        if let Self::Card(how) = self { Some(*how) } else { None }
+    }
+
     /// Name, unique among methods on one device and valid as a file name.
     pub fn label(&self, profile: &Profile) -> String {
         match self {
             Self::Host(solver) => solver.to_string().replace(':', "-"),
             Self::Card(CardMethod { packing, storage }) => {
-                let packing = if *packing == Packing::Rgb { "rgb" } else { "luminance" };
-                let storage = if *storage == Storage::Fp32 { "fp32" } else { "fp16" };
-                format!("{}-{packing}-{storage}", profile.name)
+                format!("{}-{}-{}", profile.name, name(packing), name(storage))
             }
         }
     }
 }
 
 impl StopReason {
-    /// Reason why an iteration on a card stopped.
     pub(super) fn on_card(found: &CardSolution) -> Self {
         match (found.converged, found.cycle) {
             (true, _) => Self::Tolerance,
@@ -77,4 +81,9 @@ impl fmt::Display for StopReason {
             Self::Direct => f.write_str("elimination"),
         }
     }
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("radiosity::card", error)
 }

@@ -4,16 +4,12 @@
 //! renders the room.
 
 mod conclusion;
-mod difference;
-mod error;
 mod leaks;
 mod method;
 mod options;
 mod outcome;
-mod parameters;
 mod pictures;
 mod report;
-mod room;
 mod solve;
 mod sweep;
 mod tables;
@@ -21,24 +17,23 @@ mod time;
 
 use crate::picture::metrics::value_error;
 use crate::radiosity::form_factor::VisibilityParameters;
-use crate::radiosity::on_card::Fit;
 use crate::radiosity::rate::RateError;
 use crate::radiosity::{DrawError, Patches, System};
 use crate::report::{Findings, Provenance};
+use crate::study::configuration::Configuration;
 use crate::study::error::library_errors;
 use crate::study::{ProgressFn, Study, StudyError};
 
-pub(in crate::study) use error::no_card;
+pub(in crate::study) use method::no_card;
 pub use method::{CardMethod, SolveMethod};
-pub use options::{Factors, RadiosityOptions};
-pub use parameters::Parameters;
+pub use options::{Factors, Parameters, RadiosityOptions};
 
-pub(in crate::study) use difference::SolutionError;
 use method::StopReason;
 use outcome::{MethodRow, RadiosityOutcome};
 use pictures::PictureRenderer;
 pub(in crate::study) use pictures::exposure;
-use sweep::{Sweep, SweepRow};
+pub(in crate::study) use solve::SolutionError;
+use sweep::{SweepRow, require_fit};
 
 library_errors! {
     DrawError => "radiosity::display";
@@ -47,7 +42,7 @@ library_errors! {
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        report::findings(self, run(self, progress)?)
+        report::findings(self, &run(self, progress)?)
     }
 
     fn provenance(&self, mut provenance: Provenance) -> Provenance {
@@ -66,50 +61,37 @@ impl Study for Parameters {
 fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, StudyError> {
     // Before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
-        let what = "expected a scene with a material that emits light, found none";
-        return Err(
-            StudyError::new("radiosity::dark", what).with_help("give a material an emission: `Ke` in an MTL file")
-        );
+        let dark = StudyError::new("radiosity::dark", "expected a scene with a material that emits light, found none");
+        return Err(dark.with_help("give a material an emission: `Ke` in an MTL file"));
     }
     let patches = Patches::new(&parameters.scene, parameters.options.subdivision())?;
-    let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(how.packing) } else { None };
-    for packing in parameters.methods.iter().filter_map(on_card) {
-        let require = |fit: Fit| fit.require(&parameters.profile, packing, patches.list().len());
-        Fit::of(&parameters.profile, packing).and_then(require).map_err(no_card)?;
-    }
-    let sweep = Sweep::new(parameters)?;
-    let room = room::find(&patches, parameters, parameters.caster(), progress)?;
+    require_fit(parameters, &patches)?;
+    let settings = Configuration::of(&parameters.profile).under_each_switch()?;
+    let room = solve::room(&patches, parameters, parameters.caster(), progress)?;
     let leaks = leaks::rows(parameters, &patches, &room, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let mut solved = Vec::new();
     for (at, method) in parameters.methods.iter().enumerate() {
-        progress(
-            &format!("solving: {}", method.label(&parameters.profile)),
-            at as u64,
-            parameters.methods.len() as u64,
-        );
+        let step = format!("solving: {}", method.label(&parameters.profile));
+        progress(&step, at as u64, parameters.methods.len() as u64);
         solved.push(solve::solve(*method, &system, parameters)?);
     }
     let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
     let reference = direct.map(|s| s.radiosity.clone());
     let brightness = |s: &solve::Solved| exposure(&patches, system.emittance(), &s.radiosity);
     let exposure = direct.or(solved.first()).map_or(1.0, brightness);
-    let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
+    let mut studio = PictureRenderer::new(&patches, parameters, exposure, reference.as_deref())?;
     let frames = studio.frames(&solved)?;
-    if let Some(reference) = &reference {
-        studio.compare_with(reference)?;
-    }
     let (mut rows, methods) = (Vec::new(), solved.len() as u64);
     for one in solved {
         progress(&format!("drawing: {}", one.method.label(&parameters.profile)), rows.len() as u64, methods);
         rows.push(row(one, &system, reference.as_deref(), &mut studio, parameters)?);
     }
     drop(studio);
-    let sweep = sweep.rows(progress)?;
+    let sweep = sweep::rows(parameters, &settings, progress)?;
     Ok(RadiosityOutcome { found_sums: room.found_sums, leaks, exposure, rows, frames, sweep, patches })
 }
 
-/// Builds a method's row with its error and pictures.
 fn row(
     mut one: solve::Solved,
     system: &System,

@@ -1,17 +1,49 @@
-//! Options of the study, as the program takes them.
+//! Parameters of the study; its options are options of the program.
 
 use std::str::FromStr;
 
+use refsim::device::Profile;
+use refsim::machine::Executor;
+
 use super::method::{CardMethod, SolveMethod};
 use crate::error::InputError;
-use crate::options::number;
 use crate::options::one_of::variants;
+use crate::options::{number, or};
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::{Options, Solver};
+use crate::scene::{Camera, Scene};
 use crate::study::StudyError;
+use crate::study::caster::CasterChoice;
+
+/// Parameters of the study: scene, methods and output.
+#[derive(Debug)]
+pub struct Parameters {
+    /// Scene.
+    pub scene: Scene,
+    /// Methods; each has a row in the table.
+    pub methods: Vec<SolveMethod>,
+    /// Card for the methods that run on one.
+    pub profile: Profile,
+    /// Switches of the card that were set.
+    pub switches: Vec<(String, String)>,
+    /// Executor of the card.
+    pub executor: Executor,
+    /// Camera of the pictures.
+    pub camera: Camera,
+    /// Casters of the rays for form factors, at least one; the room of the first is solved.
+    pub casters: Vec<CasterChoice>,
+    /// Options.
+    pub options: RadiosityOptions,
+}
+
+impl Parameters {
+    pub(super) fn caster(&self) -> &CasterChoice {
+        self.casters.first().unwrap_or(&CasterChoice::Host)
+    }
+}
 
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]
@@ -99,7 +131,6 @@ impl std::fmt::Display for Factors {
     }
 }
 
-/// The card, or a solver of the host.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum SolverChoice {
     Card,
@@ -133,11 +164,10 @@ impl RadiosityOptions {
         }
     }
 
-    /// Every solver, without duplicates; solvers on the card with every packing and storage. Fails if an option for
-    /// cards is given but no method runs on a card.
+    /// Every solver, without duplicates, on the card in every packing and storage; fails for options without effect.
     pub fn methods(&self) -> Result<Vec<SolveMethod>, StudyError> {
         let usual = [SolverChoice::Card, SolverChoice::Host(Solver::GaussSeidel), SolverChoice::Host(Solver::Direct)];
-        let solvers = if self.solvers.is_empty() { &usual[..] } else { &self.solvers };
+        let solvers = or(&self.solvers, &usual);
         let of_the_card = !self.packings.is_empty() || !self.storages.is_empty();
         let stops = self.tolerance.is_some() || self.iterations.is_some();
         let on_card = solvers.contains(&SolverChoice::Card);
@@ -151,22 +181,17 @@ impl RadiosityOptions {
         if let Some((_, what, or)) = idle.into_iter().find(|(idle, ..)| *idle) {
             return Err(StudyError::usage(what, format!("add `--solver card`, or {or}")));
         }
-        let packings = if self.packings.is_empty() { &[Packing::Rgb][..] } else { &self.packings };
-        let storages = if self.storages.is_empty() { &[Storage::Fp32][..] } else { &self.storages };
+        let (packings, storages) = (or(&self.packings, &[Packing::Rgb]), or(&self.storages, &[Storage::Fp32]));
+        let pairs = packings.iter().flat_map(|&packing| storages.iter().map(move |&storage| (packing, storage)));
+        let cards: Vec<_> =
+            pairs.map(|(packing, storage)| SolveMethod::Card(CardMethod { packing, storage })).collect();
         let mut methods: Vec<SolveMethod> = Vec::new();
-        let mut add = |method| {
+        for method in solvers.iter().flat_map(|solver| match solver {
+            SolverChoice::Host(solver) => vec![SolveMethod::Host(*solver)],
+            SolverChoice::Card => cards.clone(),
+        }) {
             if !methods.contains(&method) {
                 methods.push(method);
-            }
-        };
-        for solver in solvers {
-            match *solver {
-                SolverChoice::Host(solver) => add(SolveMethod::Host(solver)),
-                SolverChoice::Card => {
-                    for (&packing, &storage) in packings.iter().flat_map(|p| storages.iter().map(move |s| (p, s))) {
-                        add(SolveMethod::Card(CardMethod { packing, storage }));
-                    }
-                }
             }
         }
         Ok(methods)

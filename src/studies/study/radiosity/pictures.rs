@@ -6,7 +6,7 @@ use refsim::texture::TexelFormat;
 
 use super::solve::Solved;
 use super::time::CardFacts;
-use super::{Parameters, SolveMethod, time};
+use super::{Parameters, time};
 use crate::picture::metrics::relative_luminance_differences;
 use crate::picture::{Picture, RgbImage};
 use crate::radiosity::display::Display;
@@ -20,23 +20,18 @@ const LUMINANCE: glam::DVec3 = glam::DVec3::new(0.2126, 0.7152, 0.0722);
 /// The card multiplies by the exposure without clipping; display encoding follows on the host.
 const TARGET: TexelFormat = TexelFormat::Rgba32f;
 
-/// Pictures of a solution.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pictures {
     /// Flat-shaded picture: each patch shows its radiosity.
     pub(super) flat: RgbImage,
-    /// Smooth-shaded: interpolated between corners.
     pub(super) smooth: RgbImage,
-    /// For a solution on the card: per pixel, the luminance minus the direct solution's luminance, relative to the
-    /// latter.
+    /// On the card: per pixel, the luminance minus the direct solution's, relative to the latter.
     pub(super) error: Option<Vec<f64>>,
 }
 
-/// Picture of the room after some iterations on the card.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct IterationPicture {
     pub(super) iteration: u32,
-    /// Flat-shaded picture.
     pub(super) flat: RgbImage,
 }
 
@@ -65,17 +60,19 @@ pub(super) struct PictureRenderer<'a> {
 }
 
 impl<'a> PictureRenderer<'a> {
-    pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, StudyError> {
+    /// `reference` is the solution with which solutions on a card are compared.
+    pub(super) fn new(
+        patches: &'a Patches,
+        parameters: &'a Parameters,
+        exposure: f64,
+        reference: Option<&[[f64; 3]]>,
+    ) -> Result<Self, StudyError> {
         let machine = parameters.executor.clone().machine(parameters.profile.clone());
         let mut machine = machine.map_err(|error| StudyError::coded("radiosity::machine", error))?;
         let display = Display::new(&mut machine, patches, &parameters.camera, TARGET)?;
-        Ok(Self { patches, parameters, exposure, machine, display, reference: None })
-    }
-
-    /// Sets the solution with which later solutions on a card are compared.
-    pub(super) fn compare_with(&mut self, reference: &[[f64; 3]]) -> Result<(), StudyError> {
-        self.reference = Some(self.flat(reference)?);
-        Ok(())
+        let mut made = Self { patches, parameters, exposure, machine, display, reference: None };
+        made.reference = reference.map(|reference| made.flat(reference)).transpose()?;
+        Ok(made)
     }
 
     fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Picture, StudyError> {
@@ -89,7 +86,6 @@ impl<'a> PictureRenderer<'a> {
         Ok(picture.display(1.0)?)
     }
 
-    /// Draws the pictures of a solution, and measures its cost on its card.
     pub(super) fn show(
         &mut self,
         solved: &mut Solved,
@@ -108,16 +104,13 @@ impl<'a> PictureRenderer<'a> {
             }
             _ => (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?),
         };
-        let facts = match solved.method {
-            SolveMethod::Card(how) => Some(time::facts(card, how, system, self.patches, self.parameters)?),
-            SolveMethod::Host(_) => None,
-        };
-        let error =
-            self.reference.as_ref().map(|reference| relative_luminance_differences(reference, &flat)).transpose()?;
+        let facts = |how| time::facts(card, how, system, self.patches, self.parameters);
+        let facts = solved.method.on_card().map(facts).transpose()?;
+        let error = |reference| relative_luminance_differences(reference, &flat);
+        let error = self.reference.as_ref().map(error).transpose()?;
         Ok((Pictures { flat: flat.display(1.0)?, smooth, error }, facts))
     }
 
-    /// Draws the room after the recorded iterations.
     pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<IterationPicture>, StudyError> {
         let Some(first) = solved.iter().find(|s| s.card.is_some()) else { return Ok(Vec::new()) };
         let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {

@@ -3,47 +3,38 @@
 use std::collections::BTreeMap;
 
 use super::conclusion::{conclude, least_accurate};
-use super::leaks;
 use super::pictures::IterationPicture;
-use super::tables::{Tables, tables};
-use super::{MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow};
+use super::{MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow, leaks, tables};
 use crate::geom::vector::narrow;
+use crate::picture::RgbImage;
 use crate::radiosity::display::SmoothVertex;
-use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
-use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table, false_color};
+use crate::report::{Cell, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table, false_color};
 use crate::study::{StudyError, timeline_trace};
 
-pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Result<Findings, StudyError> {
+pub(super) fn findings(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Findings, StudyError> {
     let mut found = Findings::new("Matrix radiosity");
-    found.keep_table(FoundTable::from(patches(&outcome)).csv("patches"));
-    found.keep_table(FoundTable::from(vertices(&outcome)).csv("vertices"));
-    if let Some(bytes) = timeline(parameters, &outcome)? {
-        found.keep_file("timeline.json", bytes);
+    found.keep_table(FoundTable::from(patches(outcome)).csv("patches"));
+    found.keep_table(FoundTable::from(vertices(outcome)).csv("vertices"));
+    // The trace is that of the first method on a card.
+    if let Some((row, facts)) = outcome.rows.iter().find_map(|row| Some((row, row.card.as_ref()?))) {
+        let what = format!("{}: new emittance, 4 iterations, the room shown", row.label);
+        let trace = timeline_trace::file(&parameters.profile, &facts.log, &what)?;
+        trace.into_iter().for_each(|bytes| found.keep_file("timeline.json", bytes));
     }
-    conclude(&mut found, &outcome);
-    let about = format!(
-        "{}, solved as by the fragment programs of Carr, Hall and Hart (2003, section 3), and by solvers of the host. \
-         The emulated {} draws pictures from its radiosity texture, times {}, with the sRGB curve.",
-        counted(outcome.patches.list().len() as u64, "patch", "patches"),
-        parameters.profile.title,
-        Cell::ratio(outcome.exposure).text(),
-    );
-    let Tables { room, methods, ends, card, sweep } = tables(parameters, &outcome);
-    let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
-    let errors = errors(parameters, &outcome);
+    conclude(&mut found, outcome);
     // The pictures of the least accurate method and of the direct one come first.
-    let first = least_accurate(&outcome.rows).or(outcome.rows.first()).map(|row| row.label.clone());
+    let first = least_accurate(&outcome.rows).or(outcome.rows.first()).map(|row| &row.label);
     let (mut lead, mut pictures) = (Vec::new(), Vec::new());
-    for row in outcome.rows {
-        let leads = row.method == SolveMethod::DIRECT || Some(&row.label) == first.as_ref();
-        let (label, drawn) = (row.label, row.pictures);
-        let picture = |kind: &str, image, what: &str| {
-            NamedPicture::new(format!("{label}-{kind}"), image, format!("{label}: {what}"))
+    for row in &outcome.rows {
+        let label = &row.label;
+        let picture = |kind: &str, image: &RgbImage, what: &str| {
+            NamedPicture::new(format!("{label}-{kind}"), image.clone(), format!("{label}: {what}"))
         };
-        pictures.push(picture("flat", drawn.flat, "each patch with its radiosity"));
-        let smooth = picture("smooth", drawn.smooth, "resampled to corners");
-        if leads { lead.push(smooth) } else { pictures.push(smooth) }
+        pictures.push(picture("flat", &row.pictures.flat, "each patch with its radiosity"));
+        let leads = row.method == SolveMethod::DIRECT || Some(label) == first;
+        let list = if leads { &mut lead } else { &mut pictures };
+        list.push(picture("smooth", &row.pictures.smooth, "resampled to corners"));
     }
     let is_drawn = |number: &&u32| outcome.frames.iter().any(|frame| frame.iteration == **number);
     for number in parameters.options.frames.iter().filter(|number| !is_drawn(number)) {
@@ -51,38 +42,48 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
             "No picture after iteration {number}: the first method on the card stopped before it."
         ));
     }
-    let frames: Vec<NamedPicture> = outcome.frames.into_iter().map(frame).collect();
     found.pictures(lead);
-    found.paragraph(about);
+    found.paragraph(format!(
+        "{}, solved as by the fragment programs of Carr, Hall and Hart (2003, section 3), and by solvers of the host. \
+         The emulated {} draws pictures from its radiosity texture, times {}, with the sRGB curve.",
+        counted(outcome.patches.list().len() as u64, "patch", "patches"),
+        parameters.profile.title,
+        Cell::ratio(outcome.exposure).text(),
+    ));
     found.heading("The room");
-    found.table(FoundTable::from(room).field("room"));
+    found.table(FoundTable::from(tables::room(parameters, outcome)).field("room"));
     found.pictures(pictures);
     leaks::report(&outcome.leaks, &mut found);
+    let errors = outcome.rows.iter().filter_map(|row| Some((row.label.as_str(), row.pictures.error.as_ref()?)));
+    let errors: Vec<_> = errors.collect();
+    let errors = false_color::errors(parameters.camera.width(), &errors, |label, ends| {
+        format!("{label} against direct: blue -{ends} % (darker), white 0, red +{ends} % (brighter)")
+    });
     if !errors.is_empty() {
         found.heading("Darker and brighter than the direct solution");
         found.pictures(errors);
         found.paragraph(ERRORS);
     }
-    if !frames.is_empty() {
+    if !outcome.frames.is_empty() {
         found.heading("Residual by iteration");
-        found.pictures(frames);
+        found.pictures(outcome.frames.iter().map(frame).collect());
     }
     found.heading("Solution methods");
-    found.table(FoundTable::from(methods).csv("rows").field("ways"));
-    residuals.into_iter().for_each(|chart| found.chart(chart));
-    let has_rows = |table: &Table| !table.rows().is_empty();
-    found.explained_table(FoundTable::from(ends).field("ends"), ENDS);
-    if has_rows(&card) {
+    found.table(FoundTable::from(tables::methods(outcome)).csv("rows").field("ways"));
+    residuals(outcome).into_iter().for_each(|chart| found.chart(chart));
+    found.explained_table(FoundTable::from(tables::ends(parameters, outcome)).field("ends"), ENDS);
+    if outcome.rows.iter().any(|row| row.card.is_some()) {
         found.heading("On the card");
     }
-    found.explained_table(FoundTable::from(card).field("card"), ON_THE_CARD);
-    if has_rows(&sweep) {
+    found.explained_table(FoundTable::from(tables::card(outcome)).field("card"), ON_THE_CARD);
+    if !outcome.sweep.is_empty() {
         found.heading("Sweep over numbers of patches and open switches");
-        darkness.into_iter().for_each(|chart| found.chart(chart));
+        darkness(outcome).into_iter().for_each(|chart| found.chart(chart));
     }
     let first: Vec<usize> = outcome.sweep.iter().map(|row| row.same_as).collect();
     let named = |row: usize| outcome.sweep[row].setting();
-    let sweep = FoundTable::from(sweep).folded(&first, named, (["switch", "switches"], "the same bits"));
+    let sweep = FoundTable::from(tables::sweep(outcome));
+    let sweep = sweep.folded(&first, named, (["switch", "switches"], "the same bits"));
     found.explained_table(sweep.csv("sweep").field("sweep"), SWEEP);
     Ok(found)
 }
@@ -99,38 +100,13 @@ const ON_THE_CARD: &str = "Operations are counted as in the paper: two per eleme
 const SWEEP: &str = "A switch is an open question about the card; each is changed alone. Settings with the same bits \
     share a row. predicted_mean is the first-order prediction if every term of a sum is rounded to the sum's step.";
 
-/// False-color pictures of the error of each solution on the card, all with the same scale.
-fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPicture> {
-    let errors = || outcome.rows.iter().filter_map(|row| Some((row.label.as_str(), row.pictures.error.as_ref()?)));
-    let finite = errors().flat_map(|(_, error)| error).filter(|error| error.is_finite());
-    let scale = finite.fold(0.0, |most: f64, error| most.max(error.abs()));
-    if scale == 0.0 {
-        return Vec::new();
-    }
-    let ends = shown(100.0 * scale, Quantity::Percent);
-    let picture = |(label, error): (&str, &Vec<f64>)| {
-        let caption = format!(
-            "{label} against direct: blue -{ends} % (darker), white 0, red +{ends} % (brighter){}",
-            false_color::not_finite(error)
-        );
-        let image = false_color::signed(parameters.camera.width(), error, scale);
-        NamedPicture::new(format!("{label}-error"), image, caption)
-    };
-    errors().map(picture).collect()
-}
-
-/// Picture of the room after some iterations.
-fn frame(frame: IterationPicture) -> NamedPicture {
+fn frame(frame: &IterationPicture) -> NamedPicture {
     let caption = format!("after {}", counted(frame.iteration.into(), "iteration", "iterations"));
-    NamedPicture::new(format!("iteration-{}", frame.iteration), frame.flat, caption)
+    NamedPicture::new(format!("iteration-{}", frame.iteration), frame.flat.clone(), caption)
 }
 
-/// Table with a row per patch: its position, its areas, its material, and its radiosity by each method.
 fn patches(outcome: &RadiosityOutcome) -> Table {
-    let mut headings: Vec<String> =
-        ["patch", "x", "y", "z", "area", "open_area", "face", "material"].into_iter().map(str::to_owned).collect();
-    headings.extend(channels(outcome));
-    let mut table = Table::new("Patches", &headings);
+    let mut table = Table::with_colors("Patches", "patch x y z area open_area face material", labels(outcome));
     for (i, patch) in outcome.patches.list().iter().enumerate() {
         let [x, y, z] = patch.center().to_array();
         let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
@@ -145,41 +121,30 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
 /// Table of the vertices of the smooth display: position, first vertex of the model at that position, material of the
 /// patches, and radiosity by each method.
 fn vertices(outcome: &RadiosityOutcome) -> Table {
-    let of_model = first_places(outcome.patches.mesh().positions());
-    let mut headings: Vec<String> =
-        ["vertex", "x", "y", "z", "of_model", "material", "patches"].into_iter().map(str::to_owned).collect();
-    headings.extend(channels(outcome));
-    let mut table = Table::new("Vertices", &headings);
+    let mut of_model: BTreeMap<[u32; 3], u32> = BTreeMap::new();
+    for (vertex, &at) in (0..).zip(outcome.patches.mesh().positions()) {
+        of_model.entry(place(at)).or_insert(vertex);
+    }
+    let mut table = Table::with_colors("Vertices", "vertex x y z of_model material patches", labels(outcome));
     for (i, vertex) in SmoothVertex::all(&outcome.patches).iter().enumerate() {
         let [x, y, z] = vertex.at.to_array();
         let material = vertex.patches.first().map(|&patch| outcome.patches.list()[patch as usize].material);
         let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
-        let number = |number: Option<u32>| number.map_or(Cell::Empty, Cell::from);
         let of_model = of_model.get(&place(narrow(vertex.at))).copied();
-        let parts: [Cell; 3] = [number(of_model), number(material), vertex.patches.len().into()];
+        let parts: [Cell; 3] = [of_model.into(), material.into(), vertex.patches.len().into()];
         let found = outcome.rows.iter().flat_map(|row| vertex.mean(&row.radiosity).map(Cell::from));
         table.push(places.into_iter().chain(parts).chain(found));
     }
     table
 }
 
-/// First vertex at each position of a model.
-fn first_places(positions: &[[f32; 3]]) -> BTreeMap<[u32; 3], u32> {
-    let mut first = BTreeMap::new();
-    for (vertex, &at) in (0..).zip(positions) {
-        first.entry(place(at)).or_insert(vertex);
-    }
-    first
+fn labels(outcome: &RadiosityOutcome) -> impl Iterator<Item = &str> {
+    outcome.rows.iter().map(|row| row.label.as_str())
 }
 
 /// Bits of a position; both zeros give the same bits.
 fn place(at: [f32; 3]) -> [u32; 3] {
     at.map(|x| (x + 0.0).to_bits())
-}
-
-/// Column names of all methods' radiosities.
-fn channels(outcome: &RadiosityOutcome) -> impl Iterator<Item = String> + '_ {
-    outcome.rows.iter().flat_map(|row| ["r", "g", "b"].map(|c| format!("{}_{c}", row.label)))
 }
 
 /// Chart of Figure 3: the residual of each method by iteration. `None` if nothing iterates, or if everything is exact
@@ -197,7 +162,7 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let scale = Scale::fitting(lines.iter().filter_map(|line| line.points.last()).map(|end| end.0));
     let shown = lines.iter().flat_map(|line| &line.points).filter(|point| point.1 > 0.0);
     let iterates = shown.map(|point| point.0).fold(0.0, f64::max) > 0.0;
-    iterates.then(|| logarithmic("residual", names, (scale, lines), caption))
+    iterates.then(|| NamedChart::logarithmic("residual", names, (scale, lines), caption))
 }
 
 /// Ratio of mean errors above which a setting of a switch has its own line; the table has all settings.
@@ -218,40 +183,12 @@ fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
         std::iter::once(row.method.clone()).chain(turned).collect::<Vec<_>>().join(", ")
     };
     let mut lines: Vec<Series> = Vec::new();
-    for (_, row) in outcome
-        .sweep
-        .iter()
-        .enumerate()
-        .filter(|(place, row)| row.switch.is_none() || (row.same_as == *place && apart(row)))
-    {
-        let (label, point) = (label(row), (row.patches as f64, error(row)));
-        match lines.iter_mut().find(|line| line.label == label) {
-            Some(line) => line.points.push(point),
-            None => lines.push(Series { label, points: vec![point] }),
-        }
+    let is_own = |(place, row): &(usize, &SweepRow)| row.switch.is_none() || (row.same_as == *place && apart(row));
+    for (_, row) in outcome.sweep.iter().enumerate().filter(is_own) {
+        Series::add(&mut lines, label(row), (row.patches as f64, error(row)));
     }
     let caption = "Absolute value of the mean relative error of non-emitting patches, in per cent.";
     let names = ["Mean error of non-emitting patches", "patches", "error, %"];
     let scale = Scale::fitting(lines.iter().flat_map(|line| &line.points).map(|point| point.0));
-    (!lines.is_empty()).then(|| logarithmic("sweep", names, (scale, lines), caption))
-}
-
-fn logarithmic(
-    name: &str,
-    [title, x, y]: [&str; 3],
-    (x_scale, lines): (Scale, Vec<Series>),
-    caption: &str,
-) -> NamedChart {
-    let (title, x, y) = (title.to_owned(), x.to_owned(), y.to_owned());
-    let chart = Chart { title, x, y, x_scale, y_scale: Scale::Logarithmic, lines, ..Chart::default() };
-    NamedChart { name: name.to_owned(), chart, caption: caption.to_owned() }
-}
-
-/// Encodes the log of the first method on a card as a trace; `None` for devices without timing.
-fn timeline(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Option<Vec<u8>>, StudyError> {
-    let Some((row, facts)) = outcome.rows.iter().find_map(|row| Some((row, row.card.as_ref()?))) else {
-        return Ok(None);
-    };
-    let what = format!("{}: new emittance, 4 iterations, the room shown", row.label);
-    timeline_trace::file(&parameters.profile, &facts.log, &what)
+    (!lines.is_empty()).then(|| NamedChart::logarithmic("sweep", names, (scale, lines), caption))
 }

@@ -3,9 +3,10 @@
 
 use refsim::device::Profile;
 
-use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card, room};
+use super::solve::room;
+use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, no_card};
 use crate::radiosity::bias::{Accumulator, predicted};
-use crate::radiosity::on_card::{CardSolver, Fit, Storage};
+use crate::radiosity::on_card::{CardSolver, Fit, Storage, to_f64};
 use crate::radiosity::solve::Solver;
 use crate::radiosity::{Patches, Subdivision, System};
 use crate::study::StudyError;
@@ -15,84 +16,54 @@ use crate::study::configuration::Configuration;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SweepRow {
     pub(super) patches: usize,
-    /// Name of the method.
     pub(super) method: String,
     /// Switch that was changed, and its value; `None` for the card as configured.
     pub(super) switch: Option<(String, String)>,
-    /// Index of the first row of the sweep with the same bits: this row, or an earlier one with the same patches and
-    /// method.
+    /// Index of the first row with the same bits, patches and method.
     pub(super) same_as: usize,
     pub(super) iterations: u32,
-    /// Reason why it stopped.
     pub(super) stopped: StopReason,
-    /// Error compared with the direct solution.
     pub(super) error: SolutionError,
     /// First-order prediction of [`SolutionError::bias`]; `None` for formats without exponents.
     pub(super) predicted: Option<f64>,
 }
 
 impl SweepRow {
-    /// Formats the setting.
     pub(super) fn setting(&self) -> String {
         self.switch.as_ref().map_or_else(|| "as it is".to_owned(), |(name, value)| format!("{name}={value}"))
     }
 }
 
-/// Sweep over numbers of patches, for each setting of the card: a method with the value of a switch.
-pub(super) struct Sweep<'a> {
-    pub(super) parameters: &'a Parameters,
-    /// Settings by method, then by value of a switch.
-    settings: Vec<(CardMethod, Configuration)>,
-    /// Number of switch values per method.
-    values: usize,
-}
-
-impl<'a> Sweep<'a> {
-    pub(super) fn new(parameters: &'a Parameters) -> Result<Self, StudyError> {
-        let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(*how) } else { None };
-        let values = Configuration::of(&parameters.profile).under_each_switch()?;
-        let methods = parameters.methods.iter().filter_map(on_card);
-        let settings = methods.flat_map(|how| values.iter().map(move |value| (how, value.clone()))).collect();
-        Ok(Self { parameters, settings, values: values.len() })
-    }
-
-    /// Rows by number of patches, method and value. Rows of one number of patches and one method may have the same
-    /// bits.
-    pub(super) fn rows(&self, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, StudyError> {
-        let mut rows = Vec::new();
-        if self.settings.is_empty() {
-            return Ok(rows);
-        }
-        let all = (self.settings.len() * self.parameters.options.sweep.len()) as u64;
-        for &size in &self.parameters.options.sweep {
-            let (system, reference) = self.system(size, progress)?;
-            for of_method in self.settings.chunks(self.values) {
-                let first = rows.len();
-                let mut found: Vec<Vec<[f32; 3]>> = Vec::new();
-                for (how, setting) in of_method {
-                    progress("sweep", rows.len() as u64, all);
-                    let (radiosity, row) = solved(*how, setting, &system, &reference, self.parameters)?;
-                    let same = found.iter().position(|other| same_bits(other, &radiosity));
-                    rows.push(SweepRow { same_as: first + same.unwrap_or(found.len()), ..row });
-                    found.push(radiosity);
-                }
+/// Rows by number of patches, method on the card, and value of a switch. Rows of one number of patches and one method
+/// may have the same bits.
+pub(super) fn rows(
+    parameters: &Parameters,
+    values: &[Configuration],
+    progress: &mut ProgressFn<'_>,
+) -> Result<Vec<SweepRow>, StudyError> {
+    let methods: Vec<CardMethod> = parameters.methods.iter().filter_map(SolveMethod::on_card).collect();
+    let sizes = if methods.is_empty() { &[][..] } else { &parameters.options.sweep[..] };
+    let all = (methods.len() * values.len() * sizes.len()) as u64;
+    let mut rows = Vec::new();
+    for &size in sizes {
+        let patches = Patches::new(&parameters.scene, Subdivision::AtMost(size as usize))?;
+        require_fit(parameters, &patches)?;
+        let factors = room(&patches, parameters, parameters.caster(), progress)?.factors;
+        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
+        let reference = system.solve(Solver::Direct, &parameters.options.stopping())?.radiosity();
+        for &how in &methods {
+            let first = rows.len();
+            let mut found: Vec<Vec<[f32; 3]>> = Vec::new();
+            for setting in values {
+                progress("sweep", rows.len() as u64, all);
+                let (radiosity, row) = solved(how, setting, &system, &reference, parameters)?;
+                let same = found.iter().position(|other| same_bits(other, &radiosity));
+                rows.push(SweepRow { same_as: first + same.unwrap_or(found.len()), ..row });
+                found.push(radiosity);
             }
         }
-        Ok(rows)
     }
-
-    /// System with a given number of patches, and its direct solution.
-    fn system(&self, size: u32, progress: &mut ProgressFn<'_>) -> Result<(System, Vec<[f64; 3]>), StudyError> {
-        let patches = Patches::new(&self.parameters.scene, Subdivision::AtMost(size as usize))?;
-        for (how, _) in self.settings.iter().step_by(self.values) {
-            let require = |fit: Fit| fit.require(&self.parameters.profile, how.packing, patches.list().len());
-            Fit::of(&self.parameters.profile, how.packing).and_then(require).map_err(no_card)?;
-        }
-        let factors = room::find(&patches, self.parameters, self.parameters.caster(), progress)?.factors;
-        let system = System::new(factors, patches.reflectances(), patches.emittances())?;
-        let reference = system.solve(Solver::Direct, &self.parameters.options.stopping())?.radiosity();
-        Ok((system, reference))
-    }
+    Ok(rows)
 }
 
 fn solved(
@@ -107,7 +78,6 @@ fn solved(
     let card = CardSolver::new(profile.clone(), executor, system, how.packing, how.storage);
     let options = parameters.options.stopping();
     let solution = card.and_then(|mut card| card.solve(system, &options, &mut |_| ())).map_err(no_card)?;
-    let widened: Vec<[f64; 3]> = solution.radiosity.iter().map(|b| b.map(f64::from)).collect();
     let row = SweepRow {
         patches: reference.len(),
         method: SolveMethod::Card(how).label(profile),
@@ -115,13 +85,12 @@ fn solved(
         same_as: 0,
         iterations: solution.iterations(),
         stopped: StopReason::on_card(&solution),
-        error: SolutionError::between(&widened, reference, system.emittance()),
+        error: SolutionError::between(&to_f64(&solution.radiosity), reference, system.emittance()),
         predicted: bias(how, profile, system, reference)?,
     };
     Ok((solution.radiosity, row))
 }
 
-/// Predicted bias from rounding alone.
 fn bias(
     how: CardMethod,
     profile: &Profile,
@@ -140,4 +109,13 @@ fn bias(
 
 fn same_bits(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {
     a.iter().flatten().map(|x| x.to_bits()).eq(b.iter().flatten().map(|x| x.to_bits()))
+}
+
+/// Refuses patches whose system does not fit the card in the packing of a method.
+pub(super) fn require_fit(parameters: &Parameters, patches: &Patches) -> Result<(), StudyError> {
+    for how in parameters.methods.iter().filter_map(SolveMethod::on_card) {
+        let require = |fit: Fit| fit.require(&parameters.profile, how.packing, patches.list().len());
+        Fit::of(&parameters.profile, how.packing).and_then(require).map_err(no_card)?;
+    }
+    Ok(())
 }

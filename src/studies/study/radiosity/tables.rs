@@ -1,34 +1,9 @@
 //! Tables of the study.
 
-use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
+use super::{Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
-/// Tables of the study.
-pub(super) struct Tables {
-    /// The scene, and the properties of its form factors.
-    pub(super) room: Table,
-    /// A row per method.
-    pub(super) methods: Table,
-    /// End state of iterations on a card: one row per method.
-    pub(super) ends: Table,
-    /// One row per method on a card.
-    pub(super) card: Table,
-    /// One row per number of patches, method on a card, and setting of its switches that changes the bits.
-    pub(super) sweep: Table,
-}
-
-/// Builds the tables.
-pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tables {
-    Tables {
-        room: room(parameters, outcome),
-        methods: methods(outcome),
-        ends: ends(parameters, outcome),
-        card: card(outcome),
-        sweep: sweep(outcome),
-    }
-}
-
-fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
+pub(super) fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns =
         "patches form_factors least_row_sum largest_row_sum light_escaping partly_covered blind_patches enforced";
     let mut table = Table::of("The room; sums before closure was enforced", columns);
@@ -46,7 +21,7 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-fn methods(outcome: &RadiosityOutcome) -> Table {
+pub(super) fn methods(outcome: &RadiosityOutcome) -> Table {
     let columns = "way iterations stopped_by residual light_unaccounted largest_error largest_relative mean_relative";
     let mut table = Table::of(
         "Methods; errors against the direct solution: relative to the brightest patch, to each patch, \
@@ -70,7 +45,7 @@ fn methods(outcome: &RadiosityOutcome) -> Table {
 }
 
 /// Table of the iterations on a card that do not reach the tolerance: their fixed point, or cycle of repeating states.
-fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
+pub(super) fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns = "way ends entered_after period values_changing of_values largest_change_%";
     let mut table = Table::of("How iterations on the card end; changes from one iteration to the next", columns);
     let values = 3 * outcome.patches.list().len();
@@ -97,8 +72,7 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Table of the sweep over numbers of patches and switches.
-fn sweep(outcome: &RadiosityOutcome) -> Table {
+pub(super) fn sweep(outcome: &RadiosityOutcome) -> Table {
     let columns = "patches way setting iterations stopped_by largest_error mean_relative predicted_mean";
     let mut table = Table::of(
         "Other numbers of patches, and each open switch of the card changed separately; errors as above",
@@ -119,7 +93,7 @@ fn sweep(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-fn card(outcome: &RadiosityOutcome) -> Table {
+pub(super) fn card(outcome: &RadiosityOutcome) -> Table {
     let columns = "way passes texels_a_pass instructions matrix_MB iteration_us iterations_per_s MFLOP_per_s bound_by \
          bandwidth_used_%";
     let mut table = Table::of("An iteration of all three channels on the card, by the pipeline model", columns);
@@ -146,10 +120,4 @@ fn card(outcome: &RadiosityOutcome) -> Table {
         table.push(head.into_iter().chain(time));
     }
     table
-}
-
-impl MethodRow {
-    pub(super) fn iterations(&self) -> usize {
-        self.history.len().saturating_sub(1)
-    }
 }

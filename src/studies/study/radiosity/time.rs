@@ -12,34 +12,26 @@ use crate::radiosity::rate::{RateError, Timing, timed_iteration};
 use crate::radiosity::{Patches, System, model};
 use crate::study::StudyError;
 
-/// Number of iterations in the log.
 pub(super) const LOGGED: u32 = 4;
-/// Number of channels: red, green, blue.
 const CHANNELS: f64 = 3.0;
 
 /// Time of an iteration over all three channels in the pipeline model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct IterationTime {
-    /// Seconds per iteration.
     pub(super) seconds: f64,
     /// Millions of operations per second: two per element and channel, indexing not counted.
     pub(super) mflops: f64,
-    /// Bottleneck of the longest draw.
     pub(super) bound_by: Bottleneck,
     /// Memory bandwidth in use, in [0, 1].
     pub(super) bandwidth: f64,
 }
 
-/// Cost of a method on a card.
 #[derive(Clone, Debug)]
 pub(super) struct CardFacts {
     /// Number of passes per iteration, over all its systems.
     pub(super) passes: usize,
-    /// Texels per block.
     pub(super) block: usize,
-    /// Number of instructions of the longest program.
     pub(super) instructions: usize,
-    /// Bytes of the matrices.
     pub(super) matrix_bytes: f64,
     /// Time of an iteration in the pipeline model; `None` for devices without timing.
     pub(super) time: Option<IterationTime>,
@@ -80,7 +72,6 @@ pub(super) fn facts(
     })
 }
 
-/// Time of an iteration; `None` for devices without timing.
 fn time(
     how: CardMethod,
     systems: usize,

@@ -1,9 +1,11 @@
-//! Entries of the reproduction, and their findings.
+//! Entries of the reproduction, their findings, and work that benches time.
 
 use std::rc::Rc;
 
+use refsim::timing::Picoseconds;
+
 use super::shared::Shared;
-use super::{ModelSize, Paper, PaperRow, RecordStatus, StudyError, equations};
+use super::{ModelSize, Paper, PaperRow, RecordStatus, StudyError, equations, printed};
 use crate::kept::KeptResults;
 use crate::report::{NamedChart, Table};
 
@@ -46,26 +48,12 @@ pub struct ReproduceEntry {
     pub id: &'static str,
     /// Title, including the table, figure or section of the paper.
     pub title: &'static str,
-    work: EntryWork,
+    pub(super) work: fn(&Shared) -> Result<EntryFindings, StudyError>,
     /// Text of the record, for an entry that takes minutes to hours at full size.
     pub(super) record: Option<&'static str>,
 }
 
-type EntryWork = fn(&Shared) -> Result<EntryFindings, StudyError>;
-
-impl Paper {
-    /// Entry that is computed by default.
-    pub(super) const fn entry(self, id: &'static str, title: &'static str, work: EntryWork) -> ReproduceEntry {
-        ReproduceEntry { paper: self, id, title, work, record: None }
-    }
-}
-
 impl ReproduceEntry {
-    /// An entry with a record; by default, the recorded values replace a run at full size.
-    pub(super) const fn recorded(self, record: &'static str) -> Self {
-        Self { record: Some(record), ..self }
-    }
-
     /// Computes the entry. Rows that are expressions of printed values come first, then the rows of its code.
     pub(super) fn run(&self, shared: &Shared) -> Result<EntryFindings, StudyError> {
         let (mut rows, found) = (equations(self.id)?, (self.work)(shared)?);
@@ -88,3 +76,26 @@ impl ReproduceEntry {
 
 /// Entries with their findings.
 pub type Reproduced = Vec<(ReproduceEntry, EntryFindings)>;
+
+/// Work of a system with its modelled time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimedWork {
+    /// Name of the printed figure, as in `radiosity/jacobi-rate`.
+    pub figure: &'static str,
+    /// Printed value, with its unit and its section of the paper.
+    pub printed: String,
+    /// Card.
+    pub device: &'static str,
+    /// Number of items, such as ray-triangle tests; 1 for a frame or a pass.
+    pub items: u64,
+    /// Modelled time of all items.
+    pub time: Picoseconds,
+}
+
+impl TimedWork {
+    pub(super) fn new(figure: &'static str, device: &'static str, time: Picoseconds) -> Result<Self, StudyError> {
+        let found = printed(figure)?;
+        let printed = format!("{} {} ({})", found.text(), found.unit, found.place);
+        Ok(Self { figure, printed, device, items: 1, time })
+    }
+}

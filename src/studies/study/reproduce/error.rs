@@ -4,30 +4,17 @@ use std::fmt::Display;
 
 use refsim::device::Profile;
 use refsim::timing::TimingError;
-use strum::VariantArray as _;
 
-use super::Paper;
-use crate::names::did_you_mean;
 use crate::study::StudyError;
 
 /// Help for errors that no input causes.
 const BUG: &str = "this is a bug: please report it with the command line";
-
-/// Error for a name that is neither a paper's nor an entry's.
-pub(super) fn unknown(found: &str, entries: &[&str]) -> StudyError {
-    let papers: Vec<&str> = Paper::VARIANTS.iter().map(|paper| paper.id()).collect();
-    let known = papers.iter().chain(entries).copied();
-    let help = format!("{}`crossbar reproduce --list` describes the entries", did_you_mean(found, known));
-    let what = format!("expected the name of a paper ({}) or of an entry, found `{found}`", papers.join(", "));
-    StudyError::new("reproduce::unknown", what).with_help(help)
-}
 
 /// Error in the data of the papers' printed figures: malformed, or a figure is missing.
 pub(super) fn papers_error(reason: &str) -> StudyError {
     StudyError::new("reproduce::papers", format!("printed figures of the papers: {reason}")).with_help(BUG)
 }
 
-/// Result of a run.
 pub(super) trait RunResult<T> {
     /// Converts a failure on a device to an entry's error: a machine rejects a draw, or a program does not assemble.
     fn on(self, device: &str) -> Result<T, StudyError>;

@@ -14,7 +14,6 @@ mod cpca;
 mod entries;
 mod entry;
 mod error;
-mod model_size;
 mod overview;
 mod paper;
 mod papers;
@@ -25,31 +24,27 @@ mod record;
 pub mod report;
 mod row;
 mod shared;
-mod sky;
+mod stand_ins;
 mod subsurface;
 mod summary;
-mod timed;
-mod timed_work;
 
 use crate::report::Findings;
 use crate::study::{ProgressFn, Study};
 use shared::Shared;
+use stand_ins::ModelSize;
 
 use crate::study::StudyError;
-pub use entries::{ENTRIES, choose};
-pub use entry::{EntryFindings, ReproduceEntry, Reproduced};
-use model_size::ModelSize;
-use paper::{equations, row as paper_row, value as printed_value};
+pub use entries::{ENTRIES, choose, timed};
+pub use entry::{EntryFindings, ReproduceEntry, Reproduced, TimedWork};
+use paper::{HOST, drawn, equations, row as paper_row, solved, value as printed_value};
 pub use paper::{figures, printed};
 pub use papers::Paper;
-use prose::{number, paragraph};
+use prose::{ends, number, paragraph};
 pub use record::{EntryRecord, RecordMade, RecordStatus, recorded};
 pub use row::{
     Bound, Contradiction, Dependence, Explanation, Judgement, Method, MissClass, Origin, PaperEquation, PaperFigure,
     PaperRow, RowSource, RowVerdict, Setting, Sweep,
 };
-pub use timed::timed;
-pub use timed_work::TimedWork;
 
 /// Functions that tests call directly, because no short run reaches their cases.
 #[doc(hidden)]

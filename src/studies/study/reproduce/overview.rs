@@ -1,12 +1,11 @@
-//! Overview of all rows: conclusion, tally, and a chart of our values relative to the papers'.
+//! Overview of all rows: conclusion and tally.
 
 use strum::VariantArray as _;
 
 use super::{MissClass, PaperRow, Reproduced, RowSource, RowVerdict};
 use crate::report::words::{counted, listed};
-use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
+use crate::report::{Findings, TallyEntry, Tone};
 
-/// Adds the conclusion and the tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = rows(found).collect();
     let evidence = chose_none(found);
@@ -42,7 +41,6 @@ fn counts(parts: &[(&str, usize)]) -> Option<String> {
     (*first > 0).then(|| shown.collect::<Vec<_>>().join("; ") + ".")
 }
 
-/// Returns `true` for a row with the value of a recorded run.
 fn is_recorded(row: &PaperRow) -> bool {
     row.source != RowSource::Computed
 }
@@ -51,7 +49,6 @@ fn needs_rounding(row: &PaperRow) -> bool {
     row.verdict() != RowVerdict::Contradictory && row.holds_by_rounding()
 }
 
-/// Tally of the verdicts, in order.
 pub(super) fn tally<'a>(rows: impl Iterator<Item = &'a PaperRow>) -> Vec<TallyEntry> {
     let verdicts: Vec<RowVerdict> = rows.map(PaperRow::verdict).collect();
     let entry = |verdict: &RowVerdict| TallyEntry {
@@ -111,49 +108,7 @@ fn classes(rows: &[&PaperRow]) -> Option<String> {
     (!counts.is_empty()).then(|| format!("Causes of misses: {}.", counts.join(", ")))
 }
 
-/// Names of the rows that differ from their record.
 fn differ(rows: &[&PaperRow]) -> Option<String> {
     let names: Vec<&str> = rows.iter().filter(|row| row.differs()).map(|row| row.target.id.as_str()).collect();
     (!names.is_empty()).then(|| format!("Not as recorded: {}.", names.join(", ")))
-}
-
-/// Verdicts in the order of the chart; the first two have the colors that they have in the tally.
-const ORDER: [RowVerdict; 9] = [
-    RowVerdict::Predicted,
-    RowVerdict::Missed,
-    RowVerdict::OrderOnly,
-    RowVerdict::Consistent,
-    RowVerdict::ByConstruction,
-    RowVerdict::Calibrated,
-    RowVerdict::Explained,
-    RowVerdict::Contradictory,
-    RowVerdict::TooVague,
-];
-
-/// Chart of our values relative to the papers', one point per row, in the order of `rows.csv`; `None` for fewer than
-/// two rows that can be shown.
-pub(super) fn overview_chart(found: &Reproduced) -> Option<NamedChart> {
-    let rows: Vec<&PaperRow> = rows(found).collect();
-    let ratio = |row: &PaperRow| row.ours / row.target.value;
-    let of = |verdict: RowVerdict| Series {
-        label: verdict.to_string(),
-        points: (1..)
-            .zip(&rows)
-            .filter(|(_, row)| row.verdict() == verdict)
-            .map(|(n, row)| (f64::from(n), ratio(row)))
-            .collect(),
-    };
-    let drawn = count(&rows, |row| ratio(row) > 0.0 && ratio(row).is_finite());
-    (drawn > 1).then(|| NamedChart {
-        name: "overview".to_owned(),
-        chart: Chart {
-            title: "Our value over the paper's, by row".to_owned(),
-            x: "row in rows.csv".to_owned(),
-            y: "ours / paper's".to_owned(),
-            y_scale: Scale::Logarithmic,
-            dots: ORDER.map(of).into(),
-            ..Chart::default()
-        },
-        caption: "Ratio of our value to the paper's, per row. Bounds differ by row; the tables list them.".to_owned(),
-    })
 }

@@ -1,4 +1,4 @@
-//! Prose with computed numbers.
+//! Numbers, and prose with them.
 
 use crate::report::digits::{Quantity, shown};
 
@@ -16,4 +16,9 @@ pub(super) fn paragraph(template: &str, numbers: impl IntoIterator<Item = String
         text.push_str(part);
     }
     text
+}
+
+/// Smallest and largest of some numbers; infinite if there are none.
+pub(super) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 pub use super::overview::evidence_line;
-use super::overview::{overview, overview_chart, rows as all_rows, tally};
+use super::overview::{overview, rows as all_rows, tally};
 use super::summary::summary_lines;
 use super::{Bound, Judgement, PaperFigure, PaperRow, Reproduced, StudyError, figures, number, paragraph};
 use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
@@ -19,8 +19,8 @@ fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
 fn rows(found: &Reproduced) -> Table {
     let mut table = Table::of("The papers' figures and ours", COLUMNS);
     for (entry, row) in all(found) {
-        let [low, high] = ends(row.interval());
-        let [least, most] = ends(row.range());
+        let [low, high] = cells(row.interval());
+        let [least, most] = cells(row.range());
         let target = &row.target;
         table.push([
             entry.into(),
@@ -53,9 +53,8 @@ fn rows(found: &Reproduced) -> Table {
     table
 }
 
-fn ends(interval: Option<[f64; 2]>) -> [Cell; 2] {
-    let end = |value: Option<f64>| value.into();
-    [end(interval.map(|[low, _]| low)), end(interval.map(|[_, high]| high))]
+fn cells(interval: Option<[f64; 2]>) -> [Cell; 2] {
+    interval.map_or([Cell::Empty, Cell::Empty], |ends| ends.map(Cell::from))
 }
 
 const SHOWN: &str = "what place unit paper ours readings difference_% verdict missed_for bound source device method";
@@ -117,7 +116,7 @@ pub fn notes(found: &Reproduced) -> Table {
             note(&row.dependence.to_string(), row.dependence.inputs().to_owned(), name.clone());
         }
         if let Some(explanation) = row.explanation() {
-            let value = row.target.beside(explanation.value()).text();
+            let value = row.target.beside(explanation.value).text();
             note("explained", explanation.reason(), format!("{name}: {value}"));
         }
         if let Some((_, why)) = row.confinement() {
@@ -148,7 +147,6 @@ fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Table of the number of rows per verdict.
 fn tally_table(found: &Reproduced) -> Table {
     let mut table = Table::of("Tally", "verdict rows");
     tally(all_rows(found)).into_iter().for_each(|entry| table.push([entry.what.into(), entry.count.into()]));
@@ -172,16 +170,14 @@ fn as_recorded(found: &Reproduced) -> bool {
 }
 
 const HOW: &str = "Each row compares a figure of a paper with our value. The figure is printed, implied by printed figures, or inferred by us. \
-    Bounds are dated data: all were restated on 2026-11-26, before the recorded runs; rows had been computed since 2026-11-21, and the data list \
-    later changes. A row within its bound is predicted if our value is drawn, solved, counted or timed, and the bound is numerical: {} % of the \
-    paper's value, or of the gain over the host alone where the host was calibrated; every digit of counts and solutions. It is order only if the \
-    bound says only which of two values is larger; by construction if the bound admits every value that the computation can give; consistent if \
-    nothing is measured, and the paper's values are compared with each other or with its own equations. Calibrated rows determined a constant of the \
-    model: they are listed separately and are not evidence. If the text allows several readings, all of them must lie within the bound. A row \
-    outside its bound is missed. It is explained if this run varies something that the papers leave open and reaches the value without losing \
-    another row; one setting explains all rows of a sweep. Missed rows name the cause, if known. If a paper contradicts itself and our value agrees \
-    with one of its values, the row is contradictory; if it agrees with none, the row is missed. Differences are relative to the paper's value. The \
-    source of a row is this run (computed), a recorded run at full size (recorded), or both, with the same bits.";
+    Bounds are dated data: all were restated on 2026-11-26, before the recorded runs, and the data list later changes. A row within its bound is \
+    predicted if our value is drawn, solved, counted or timed, and the bound is numerical: {} % of the paper's value, or of the gain over the host \
+    alone; every digit of counts and solutions. It is order only if the bound says only which of two values is larger; by construction if the bound \
+    admits every value that the computation can give; consistent if nothing is measured. Calibrated rows determined a constant of the model: they \
+    are not evidence. All readings that the text allows must lie within the bound. A row outside its bound is missed, and names the cause, if known. \
+    It is explained if this run varies something that the papers leave open and reaches the value without losing another row. If a paper contradicts \
+    itself and our value agrees with one of its values, the row is contradictory. Differences are relative to the paper's value. The source of a row \
+    is this run (computed), a recorded run at full size (recorded), or both, with the same bits.";
 
 /// Maximum number of entries with printed tables; for more, the program prints a line per paper.
 const PRINTED: usize = 3;
@@ -196,7 +192,6 @@ pub fn findings(found: &Reproduced) -> Findings {
     all.keep_table(FoundTable::from(tally_table(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
     all.heading("All rows");
-    overview_chart(found).into_iter().for_each(|chart| all.chart(chart));
     all.paragraph(how);
     let is_short = found.len() <= PRINTED;
     let printed = |table: Table| if is_short { FoundTable::from(table) } else { FoundTable::from(table).unprinted() };

@@ -1,7 +1,7 @@
 //! Results that several entries share, computed on first use.
 
 use std::any::Any;
-use std::cell::OnceCell;
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use serde::Serialize;
@@ -23,18 +23,10 @@ pub(super) trait SharedResult: Sized + 'static {
 #[derive(Default)]
 pub(super) struct Shared {
     pub(super) models: ModelSize,
-    results: Link,
+    /// A key with a pointer to its [`SharedResult`] in each box.
+    results: RefCell<Vec<Box<dyn Any>>>,
     /// Folder in which long work stores its pieces, so that it can continue after an interruption.
     kept: Option<Rc<KeptResults>>,
-}
-
-/// List of results. It only grows, so that results can be borrowed while others are added.
-type Link = OnceCell<Box<Node>>;
-
-struct Node {
-    /// A [`SharedResult`] with its key.
-    result: Box<dyn Any>,
-    next: Link,
 }
 
 impl Shared {
@@ -66,25 +58,17 @@ impl Shared {
     }
 
     /// Returns a result; computes it on first use, and again if that failed.
-    pub(super) fn get<T: SharedResult>(&self, key: T::Key) -> Result<&T, StudyError> {
-        if let Some(found) = self.nodes().find_map(|node| node.get::<T>(&key)) {
+    pub(super) fn get<T: SharedResult>(&self, key: T::Key) -> Result<Rc<T>, StudyError> {
+        let of_key = |result: &Box<dyn Any>| {
+            let (known, result) = result.downcast_ref::<(T::Key, Rc<T>)>()?;
+            (*known == key).then(|| Rc::clone(result))
+        };
+        let known = self.results.borrow().iter().find_map(of_key);
+        if let Some(found) = known {
             return Ok(found);
         }
-        let found = T::compute(&key, self)?;
-        // Appends it after the results that it needed.
-        let end = self.nodes().last().map_or(&self.results, |node| &node.next);
-        let node = end.get_or_init(|| Box::new(Node { result: Box::new((key, found)), next: Link::new() }));
-        Ok(&node.result.downcast_ref::<(T::Key, T)>().expect("the type that was boxed").1)
-    }
-
-    fn nodes(&self) -> impl Iterator<Item = &Node> {
-        std::iter::successors(self.results.get(), |node| node.next.get()).map(|node| &**node)
-    }
-}
-
-impl Node {
-    fn get<T: SharedResult>(&self, key: &T::Key) -> Option<&T> {
-        let (known, result) = self.result.downcast_ref::<(T::Key, T)>()?;
-        (known == key).then_some(result)
+        let found = Rc::new(T::compute(&key, self)?);
+        self.results.borrow_mut().push(Box::new((key, Rc::clone(&found))));
+        Ok(found)
     }
 }

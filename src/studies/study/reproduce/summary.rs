@@ -1,7 +1,5 @@
 //! The lines at the top of the page that summarize each paper.
 
-use std::fmt::Write as _;
-
 use strum::VariantArray as _;
 
 use super::overview::tally;
@@ -29,32 +27,24 @@ pub fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
     Paper::VARIANTS.iter().filter_map(line).collect()
 }
 
-fn missed(found: &EntryFindings) -> usize {
-    found.rows.iter().filter(|row| row.verdict() == RowVerdict::Missed).count()
-}
-
-/// Sentence about the entries without a missed row, and the entries with the most.
+/// Sentence about the entries with missed rows: those with the most of them.
 fn text(parts: &[&Part]) -> String {
-    let judged = || parts.iter().filter(|(_, found)| !found.rows.is_empty());
-    let whole = judged().filter(|(_, found)| missed(found) == 0).count();
-    let mut text = match (whole, judged().count()) {
-        (_, 0) => return String::new(),
-        (all, count) if all == count => "No row is missed.".to_owned(),
-        (0, _) => "Every entry has missed rows".to_owned(),
-        (whole, count) => format!("No row is missed in {whole} of {count} entries"),
-    };
-    let mut worst: Vec<(usize, usize, &str)> = judged()
-        .map(|(entry, found)| (missed(found), found.rows.len(), entry.id))
-        .filter(|(missed, ..)| *missed > 0)
-        .collect();
-    worst.sort_by_key(|(missed, ..)| std::cmp::Reverse(*missed));
-    let names: Vec<String> =
-        worst.iter().take(NAMED).map(|(missed, rows, id)| format!("{id} ({missed} of {rows})")).collect();
-    if !names.is_empty() {
-        let most = if worst.len() > NAMED { "the most in" } else { "missed in" };
-        _ = write!(text, "; {most} {}.", listed(&names));
+    let mut worst: Vec<(usize, String)> = Vec::new();
+    for (entry, found) in parts {
+        let missed = found.rows.iter().filter(|row| row.verdict() == RowVerdict::Missed).count();
+        worst.push((missed, format!("{} ({missed} of {})", entry.id, found.rows.len())));
     }
-    text
+    worst.retain(|(missed, _)| *missed > 0);
+    worst.sort_by_key(|(missed, _)| std::cmp::Reverse(*missed));
+    let names: Vec<&String> = worst.iter().take(NAMED).map(|(_, name)| name).collect();
+    let most = if worst.len() > NAMED { "Most missed rows are in" } else { "Rows are missed in" };
+    if parts.iter().all(|(_, found)| found.rows.is_empty()) {
+        String::new()
+    } else if names.is_empty() {
+        "No row is missed.".to_owned()
+    } else {
+        format!("{most} {}.", listed(&names))
+    }
 }
 
 fn capital(text: &str) -> String {

@@ -6,7 +6,6 @@ use crate::picture::metrics::{ErrorSums, value_error};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, Reference};
 
-/// Names of the channels.
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// Errors of radiosities relative to expected ones; infinite if only one of two radiosities is finite.
@@ -19,7 +18,6 @@ pub(super) struct GatherError {
 }
 
 impl GatherError {
-    /// Error of `found` compared with `expected`, per texel.
     pub(super) fn between(atlas: &Atlas, found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
         let [mut off, mut reference] = [ErrorSums::default(); 2];
         for ((texel, found), expected) in atlas.texels().iter().zip(found).zip(expected) {
@@ -35,40 +33,30 @@ impl GatherError {
     }
 }
 
-/// Sums over all pairs of texels for one lit model.
-#[derive(Clone, Copy)]
-pub(super) struct AllPairSums<'a> {
-    pub(super) atlas: &'a Atlas,
-    pub(super) parameters: &'a Parameters,
-    /// Dipoles for red, green and blue.
-    pub(super) dipoles: &'a [Dipole; 3],
-    pub(super) irradiance: &'a [[f64; 3]],
-}
-
-impl AllPairSums<'_> {
-    /// Radiosities of all texels, row by row. A channel that equals an earlier one has its sums.
-    pub(super) fn radiosity(self, progress: &mut ProgressFn<'_>) -> Result<Vec<[f64; 3]>, StudyError> {
-        let mut texels = vec![[0.0; 3]; self.irradiance.len()];
-        for (channel, name) in CHANNELS.iter().enumerate() {
-            if let Some(other) = self.like(channel) {
-                texels.iter_mut().for_each(|b| b[channel] = b[other]);
-                continue;
-            }
-            let step = format!("all pairs of texels, {name}");
-            let mut done = |done, rows| progress(&step, done as u64, rows as u64);
-            let values: Vec<f64> = self.irradiance.iter().map(|e| e[channel]).collect();
-            let reference = Reference::new(self.atlas, self.parameters.options.mm_per_unit, &self.dipoles[channel])?;
-            let radiosity = reference.radiosity(&values, &mut done)?;
-            texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
+/// Radiosities of all texels, row by row. A channel that equals an earlier one has its sums.
+pub(super) fn radiosity(
+    parameters: &Parameters,
+    atlas: &Atlas,
+    dipoles: &[Dipole; 3],
+    irradiance: &[[f64; 3]],
+    progress: &mut ProgressFn<'_>,
+) -> Result<Vec<[f64; 3]>, StudyError> {
+    let mut texels = vec![[0.0; 3]; irradiance.len()];
+    for (channel, name) in CHANNELS.iter().enumerate() {
+        let is_like = |other: &usize| {
+            dipoles[*other].coefficients() == dipoles[channel].coefficients()
+                && irradiance.iter().all(|e| e[*other] == e[channel])
+        };
+        if let Some(other) = (0..channel).find(is_like) {
+            texels.iter_mut().for_each(|b| b[channel] = b[other]);
+            continue;
         }
-        Ok(texels)
+        let step = format!("all pairs of texels, {name}");
+        let mut done = |done, rows| progress(&step, done as u64, rows as u64);
+        let values: Vec<f64> = irradiance.iter().map(|e| e[channel]).collect();
+        let reference = Reference::new(atlas, parameters.options.mm_per_unit, &dipoles[channel])?;
+        let radiosity = reference.radiosity(&values, &mut done)?;
+        texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
     }
-
-    /// The first earlier channel with the same medium and light.
-    fn like(self, channel: usize) -> Option<usize> {
-        (0..channel).find(|&other| {
-            self.dipoles[other].coefficients() == self.dipoles[channel].coefficients()
-                && self.irradiance.iter().all(|e| e[other] == e[channel])
-        })
-    }
+    Ok(texels)
 }

@@ -10,7 +10,6 @@ use crate::subsurface::on_card::Light;
 
 /// Number of bins of the angle, from 0 to 180 degrees.
 const BINS: usize = 12;
-/// Width of a bin, in degrees.
 const WIDTH: f64 = 180.0 / BINS as f64;
 
 /// Error of radiosities in a bin, relative to the all-pairs sums in the bin; over all channels.
@@ -25,15 +24,11 @@ pub(super) struct BinError {
 /// Texels whose normals form an angle of `degrees[0]` to `degrees[1]` with the direction towards the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AngleBin {
-    /// The bin's ends, in degrees.
     pub(super) degrees: [f64; 2],
-    /// Fraction of the model's area, above 0.
     pub(super) area: f64,
-    /// Mean of B over all pairs, over area and channels.
     pub(super) radiosity: f64,
     /// The links' own error: the error of the host's sum over them.
     pub(super) links: BinError,
-    /// Total error of links and card.
     pub(super) all: BinError,
 }
 
@@ -73,7 +68,6 @@ pub(super) fn by_angle(
     sums.iter().enumerate().filter(|(_, sums)| sums.area > 0.0).map(bin).collect()
 }
 
-/// Sums over the texels of a bin, weighted by area, over all channels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     area: f64,

@@ -11,25 +11,22 @@ use crate::subsurface::links::LinkChoice;
 /// Largest error at which the conclusion calls a choice of links sufficient.
 const ENOUGH: f64 = 0.01;
 
-/// Adds the sentences, the warnings and the tally.
 pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &SubsurfaceOutcome) {
     let rows = &outcome.rows;
     let sentences = [accuracy(rows), by_angle(parameters, rows), smallest(rows), speed(parameters, rows)];
     let warnings = [repeated(outcome), coarse(outcome), thin(outcome)];
     sentences.into_iter().chain(warnings).flatten().for_each(|sentence| found.conclusion(sentence));
-    let within = |row: &&WayRow| row.error.is_some_and(|error| error.rms <= ENOUGH);
-    let judged = outcome.rows.iter().filter(|row| row.error.is_some()).count() as u64;
-    let good = outcome.rows.iter().filter(within).count() as u64;
-    found.tally(good, ["way within 1 % of all pairs", "ways within 1 % of all pairs"], Tone::Good);
-    found.tally(judged - good, ["way beyond 1 %", "ways beyond 1 %"], Tone::Bad);
+    let errors = rows.iter().filter_map(|row| row.error);
+    let (good, bad): (Vec<_>, Vec<_>) = errors.partition(|error| error.rms <= ENOUGH);
+    found.tally(good.len() as u64, ["way within 1 % of all pairs", "ways within 1 % of all pairs"], Tone::Good);
+    found.tally(bad.len() as u64, ["way beyond 1 %", "ways beyond 1 %"], Tone::Bad);
 }
 
 fn accuracy(rows: &[WayRow]) -> Option<String> {
-    let error = |row: &WayRow| row.error.map(|error| error.rms);
-    let judged = || rows.iter().filter(|row| row.error.is_some());
-    let best = judged().min_by(|a, b| error(a).unwrap_or(0.0).total_cmp(&error(b).unwrap_or(0.0)))?;
-    let worst = judged().max_by(|a, b| error(a).unwrap_or(0.0).total_cmp(&error(b).unwrap_or(0.0)))?;
-    let (least, most) = (percent(error(best)?), percent(error(worst)?));
+    let judged = || rows.iter().filter_map(|row| Some((row, row.error?.rms)));
+    let (best, least) = judged().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (worst, most) = judged().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (least, most) = (percent(least), percent(most));
     Some(if best.label == worst.label {
         format!(
             "{} differs from all pairs by {least} (root mean square); its links alone account for {}.",
@@ -94,7 +91,6 @@ fn ranges(bins: impl Iterator<Item = [f64; 2]>) -> Vec<String> {
     ranges.iter().map(|[from, to]| format!("{from} to {to}")).collect()
 }
 
-/// Sentence about the smallest storage with an error within [`ENOUGH`].
 fn smallest(rows: &[WayRow]) -> Option<String> {
     if rows.iter().all(|row| row.error.is_none()) {
         return None;

@@ -5,17 +5,13 @@ mod all_pairs;
 mod angles;
 mod conclusion;
 pub(in crate::study) mod environment;
-mod error;
-mod gather_way;
 mod model;
 mod options;
 mod outcome;
-mod parameters;
 mod pictures;
 mod report;
 mod seams;
 mod tables;
-mod vertices;
 mod way;
 
 use crate::atlas::Atlas;
@@ -32,11 +28,8 @@ use outcome::SubsurfaceOutcome;
 use seams::Neighbours;
 use way::WayRow;
 
-pub use error::no_atlas;
-pub(in crate::study) use error::no_card;
-pub use gather_way::{GatherWay, MapBits};
-pub use options::SubsurfaceOptions;
-pub use parameters::{Lighting, Parameters};
+pub(in crate::study) use options::no_card;
+pub use options::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceOptions, no_atlas};
 
 impl Study for Parameters {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
@@ -50,8 +43,7 @@ impl Study for Parameters {
     }
 }
 
-/// Builds the atlas, lights it, gathers over all pairs and by every way. Fails if the model, its medium or its
-/// light does not suit the study, or the card refuses the work.
+/// Builds the atlas, lights it, gathers over all pairs and by every way.
 fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, StudyError> {
     // Before the sums, which take long.
     SubsurfaceCard::require(&parameters.profile).map_err(no_card)?;
@@ -74,6 +66,8 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Subsurf
         return Err(StudyError::new("subsurface::dark", "expected light on the model, found none").with_help(help));
     }
     let (model, neighbours) = (CardModel::new(&atlas), Neighbours::of(&atlas));
+    let truth = parameters.options.gathers_all_pairs();
+    let truth = truth.then(|| all_pairs::radiosity(parameters, &atlas, &dipoles, &irradiance, progress)).transpose()?;
     let scene = way::Scene {
         parameters,
         atlas: &atlas,
@@ -81,12 +75,9 @@ fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Subsurf
         model: &model,
         dipoles: &dipoles,
         irradiance: &irradiance,
-        truth: None,
+        truth: truth.as_deref(),
         neighbours: &neighbours,
     };
-    let truth =
-        if parameters.options.gathers_all_pairs() { Some(scene.all_pairs().radiosity(progress)?) } else { None };
-    let scene = way::Scene { truth: truth.as_deref(), ..scene };
     let mut rows = Vec::new();
     // Ways that differ only in formats follow each other, and share their links.
     let mut last: Option<(GatherWay, Links)> = None;

@@ -1,9 +1,10 @@
-//! The model as an atlas: values per face, and the model's lengths compared with the medium's.
+//! The model as an atlas: values per face and per vertex, and the model's lengths compared with the medium's.
 
 use glam::DVec3;
 
 use super::Parameters;
 use crate::atlas::Atlas;
+use crate::geom::Mesh;
 use crate::subsurface::{Dipole, median_thickness};
 
 /// Lengths of the model and of the medium, in mm.
@@ -13,11 +14,9 @@ pub(super) struct ModelLengths {
     pub(super) texel: f64,
     /// Fraction of the surface area whose texels are longer than the shortest mean free path of a channel.
     pub(super) coarse: f64,
-    /// The shortest mean free path of a channel.
     pub(super) mean_free_path: f64,
     /// The longest diffusion length of a channel; infinite if a channel does not absorb.
     pub(super) diffusion_length: f64,
-    /// The diagonal of the bounding box.
     pub(super) diagonal: f64,
     pub(super) shortest_side: f64,
     /// Median distance to the opposite surface along the inward normal; `None` for open models.
@@ -57,4 +56,24 @@ pub(super) fn by_face(atlas: &Atlas, texels: &[[f64; 3]]) -> Vec<[f64; 3]> {
         (sum / f64::from(place.texels())).to_array()
     };
     atlas.places().iter().map(mean).collect()
+}
+
+/// Means of texel values at each vertex, over the texels at its corners of faces, weighted by face area. `None` for a
+/// vertex without a face that has an area.
+pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
+    let mut sums = vec![(0.0, DVec3::ZERO); mesh.positions().len()];
+    for (face, (vertices, place)) in (0..).zip(mesh.triangles().iter().zip(atlas.places())) {
+        for (corner, &vertex) in vertices.iter().enumerate() {
+            let mut weights = [0.0; 3];
+            weights[corner] = 1.0;
+            let [x0, y0, x1, y1] = place.bounds();
+            let [x, y] = atlas.coordinates(face, weights);
+            // The texel at this corner of the face.
+            let [column, row] = [x.clamp(x0, x1), y.clamp(y0, y1)].map(|at| at as usize);
+            let (sum, mean) = &mut sums[vertex as usize];
+            *sum += mesh.area(face);
+            *mean += mesh.area(face) * DVec3::from(texels[row * atlas.side() as usize + column]);
+        }
+    }
+    sums.into_iter().map(|(area, sum)| (area > 0.0).then(|| (sum / area).to_array())).collect()
 }

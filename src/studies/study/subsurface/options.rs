@@ -1,18 +1,102 @@
-//! Options of the study, as on the command line.
+//! Parameters of the study; its options are options of the program.
 
-use super::gather_way::{GatherWay, MapBits};
-use crate::options::number;
-use crate::options::one_of::{OneOf, one_of, variants};
+use refsim::device::Profile;
+use refsim::machine::Executor;
+
+use crate::card::CardError;
+use crate::error::InputError;
+use crate::geom::Mesh;
+use crate::options::one_of::{OneOf, name, one_of, variants};
+use crate::options::{number, or};
+use crate::scene::Camera;
 use crate::study::StudyError;
+use crate::study::caster::CasterChoice;
 use crate::subsurface::Material;
 use crate::subsurface::kernels::LinkLayout;
 use crate::subsurface::links::LinkChoice;
-use crate::subsurface::on_card::FloatTexels;
+use crate::subsurface::on_card::{FloatTexels, Light};
+use crate::transfer::light::CubeLight;
 
 /// Maximum side of an atlas, in texels, for which `crossbar subsurface` gathers over all pairs by default.
 pub(super) const ALL_PAIRS_SIDE: u32 = 32;
 /// Maximum side of an atlas for all pairs; their time grows with the square of the number of texels.
 const MAX_ALL_PAIRS_SIDE: u32 = 512;
+
+/// A model made of a medium, its lights, and the ways in which the card gathers.
+#[derive(Debug)]
+pub struct Parameters {
+    /// The model's name.
+    pub model: String,
+    /// Its surface.
+    pub mesh: Mesh,
+    /// Its medium.
+    pub material: Material,
+    /// The light.
+    pub lighting: Lighting,
+    /// Ways of gathering; each has a row in the table.
+    pub ways: Vec<GatherWay>,
+    /// The card.
+    pub profile: Profile,
+    /// Switches of the card that were set.
+    pub switches: Vec<(String, String)>,
+    /// The executor of the card.
+    pub executor: Executor,
+    /// Caster of the shadow rays of an environment map.
+    pub caster: CasterChoice,
+    /// The camera of the pictures.
+    pub camera: Camera,
+    /// The options.
+    pub options: SubsurfaceOptions,
+}
+
+/// The light on the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Lighting {
+    /// Lights drawn by pass 1.
+    Lights(Vec<Light>),
+    /// Distant light of an environment map, per texel and with shadows; replaces pass 1.
+    Environment(CubeLight),
+}
+
+/// The format of the radiosity map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
+pub enum MapBits {
+    /// 8 bits per channel, whose levels the card generates.
+    #[strum(serialize = "8bit")]
+    Eight,
+    /// Half floats; passes compute the levels.
+    Fp16,
+    /// Single floats; passes compute the levels.
+    Fp32,
+}
+
+/// One way of gathering.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GatherWay {
+    /// Number and layout of links per texel.
+    pub choice: LinkChoice,
+    /// `true` for a factor per channel, `false` for green's factor for all channels.
+    pub rgb: bool,
+    /// Format of the link textures.
+    pub links: FloatTexels,
+    /// Format of the radiosity map.
+    pub map: MapBits,
+}
+
+impl GatherWay {
+    /// A name for tables and files.
+    pub fn label(&self, side: u32) -> String {
+        let channels = if self.rgb { "-rgb" } else { "" };
+        let (choice, count) = (self.choice.word(), self.choice.per_texel(side));
+        format!("{choice}-{count}{channels}-{}-map-{}", name(&self.links), name(&self.map))
+    }
+
+    /// Returns `true` if the other way of gathering uses the same links.
+    pub(super) fn has_links_of(&self, other: &Self) -> bool {
+        (self.choice, self.rgb) == (other.choice, other.rgb)
+    }
+}
 
 /// Options of the study.
 #[derive(Clone, Debug, clap::Args)]
@@ -42,7 +126,7 @@ pub struct SubsurfaceOptions {
     pub link_formats: Vec<FloatTexels>,
 
     /// Format of the radiosity map; may be repeated [default: fp16]
-    #[arg(long = "map", value_name = "F", value_parser = maps())]
+    #[arg(long = "map", value_name = "F", value_parser = variants::<MapBits>())]
     pub maps: Vec<MapBits>,
 
     /// Largest relative error of factors, in addition to 1e-5 of the total
@@ -67,15 +151,6 @@ fn rgb() -> OneOf<bool> {
     one_of([("scalar", "One, that of green", false), ("rgb", "Red, green and blue", true)])
 }
 
-/// Values of `--map`: formats of the radiosity map.
-fn maps() -> OneOf<MapBits> {
-    one_of([
-        ("8bit", "8 bits per channel, whose levels the card generates", MapBits::Eight),
-        ("fp16", "Half floats; passes compute the levels", MapBits::Float(FloatTexels::Fp16)),
-        ("fp32", "Single floats; passes compute the levels", MapBits::Float(FloatTexels::Fp32)),
-    ])
-}
-
 fn yes_or_no() -> OneOf<bool> {
     one_of([("yes", "Do it", true), ("no", "Do not", false)])
 }
@@ -95,21 +170,17 @@ impl SubsurfaceOptions {
         self.all_pairs.unwrap_or(self.side <= ALL_PAIRS_SIDE)
     }
 
-    /// Every combination of the options that may be repeated; each is a row of the table. Fails if no level of the
-    /// atlas has the requested number of fixed links.
+    /// Every combination of the options that may be repeated; fails if no level has that many fixed links.
     pub fn ways(&self, material: &Material) -> Result<Vec<GatherWay>, StudyError> {
         let [r, g, b] = material.channels;
-        let choices = or(&self.choices, LinkLayout::Fixed);
-        let (channels, formats) = (or(&self.channels, r != g || g != b), or(&self.link_formats, FloatTexels::Fp16));
-        let maps = or(&self.maps, MapBits::Float(FloatTexels::Fp16));
+        let (choices, channels) = (or(&self.choices, &[LinkLayout::Fixed]), or(&self.channels, &[r != g || g != b]));
+        let (formats, maps) = (or(&self.link_formats, &[FloatTexels::Fp16]), or(&self.maps, &[MapBits::Fp16]));
         let mut ways = Vec::new();
         for &choice in &choices {
             for &links in &self.links {
                 let choice = link_choice(choice, links, self.side)?;
-                for &rgb in &channels {
-                    for &links in &formats {
-                        ways.extend(maps.iter().map(|&map| GatherWay { choice, rgb, links, map }));
-                    }
+                for (&rgb, &links) in channels.iter().flat_map(|rgb| formats.iter().map(move |links| (rgb, links))) {
+                    ways.extend(maps.iter().map(|&map| GatherWay { choice, rgb, links, map }));
                 }
             }
         }
@@ -117,22 +188,23 @@ impl SubsurfaceOptions {
     }
 }
 
-/// The requested values, or the usual value.
-fn or<T: Copy>(asked: &[T], usual: T) -> Vec<T> {
-    if asked.is_empty() { vec![usual] } else { asked.to_vec() }
+fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, StudyError> {
+    if choice == LinkLayout::Adaptive {
+        return Ok(LinkChoice::Adaptive { count: links as usize });
+    }
+    let mut levels = (0..=side.max(1).ilog2()).map(|level| LinkChoice::Fixed { level });
+    levels.find(|fixed| fixed.per_texel(side) == u64::from(links)).ok_or_else(|| {
+        let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
+        StudyError::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
+    })
 }
 
-fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, StudyError> {
-    match choice {
-        LinkLayout::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
-        LinkLayout::Fixed => {
-            let found = (0..=side.max(1).ilog2())
-                .map(|level| LinkChoice::Fixed { level })
-                .find(|fixed| fixed.per_texel(side) == u64::from(links));
-            found.ok_or_else(|| {
-                let help = "fixed links are all clusters of a level: 1, 4, 16, 64, ... up to the number of texels";
-                StudyError::usage(format!("no level of an atlas of {side} x {side} has {links} clusters"), help)
-            })
-        }
-    }
+/// Error of a model for which no atlas exists.
+pub fn no_atlas(error: InputError) -> StudyError {
+    StudyError::coded("subsurface::atlas", error)
+}
+
+/// Error of the card.
+pub(in crate::study) fn no_card(error: CardError) -> StudyError {
+    StudyError::coded("subsurface::card", error)
 }

@@ -6,22 +6,17 @@ use crate::atlas::Atlas;
 use crate::study::caster::CastRecord;
 use crate::subsurface::Dipole;
 
-/// Results of a study.
 #[derive(Debug)]
 pub(super) struct SubsurfaceOutcome {
-    /// The model's atlas.
     pub(super) atlas: Atlas,
-    /// Lengths of model and medium.
     pub(super) lengths: ModelLengths,
     /// Dipoles for red, green and blue.
     pub(super) dipoles: [Dipole; 3],
     /// E of equation 8 per texel, computed by the host.
     pub(super) irradiance: Vec<[f64; 3]>,
-    /// Statistics of the Ray Engine, if it cast shadow rays.
     pub(super) cast: Option<CastRecord>,
     /// Radiosities over all pairs, in f64, per texel, row by row; `None` if not requested.
     pub(super) truth: Option<Vec<[f64; 3]>>,
-    /// One row per way of gathering.
     pub(super) rows: Vec<WayRow>,
 }
 

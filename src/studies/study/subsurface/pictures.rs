@@ -4,7 +4,6 @@ use super::{SubsurfaceOutcome, WayRow};
 use crate::picture::display::encode;
 use crate::picture::metrics::value_error;
 use crate::picture::{Picture, RgbImage, rgb8};
-use crate::report::digits::{Quantity, shown};
 use crate::report::{NamedPicture, false_color};
 use crate::study::StudyError;
 use crate::study::prt::auto_exposure;
@@ -34,7 +33,6 @@ pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, Stu
     ])
 }
 
-/// Pictures of the scattered light, one per way of gathering.
 pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let picture = |row: &WayRow| {
         let image = row.scattered.display(exposure)?;
@@ -72,18 +70,7 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Vec<NamedPicture> {
         row.radiosity.iter().zip(truth).map(texel).collect()
     };
     let errors: Vec<(&str, Vec<f64>)> = outcome.rows.iter().map(|row| (row.label.as_str(), error(row))).collect();
-    let finite = errors.iter().flat_map(|(_, error)| error).filter(|error| error.is_finite());
-    let scale = finite.fold(0.0, |most: f64, e| most.max(e.abs()));
-    if scale == 0.0 {
-        return Vec::new();
-    }
-    let ends = shown(100.0 * scale, Quantity::Percent);
-    let picture = |(label, error): (&str, Vec<f64>)| {
-        let caption = format!(
-            "{label} against all pairs, of the brightest: blue -{ends} % (darker), white 0, red +{ends} %{}",
-            false_color::not_finite(&error)
-        );
-        NamedPicture::new(format!("{label}-error"), false_color::signed(outcome.atlas.side(), &error, scale), caption)
-    };
-    errors.into_iter().map(picture).collect()
+    false_color::errors(outcome.atlas.side(), &errors, |label, ends| {
+        format!("{label} against all pairs, of the brightest: blue -{ends} % (darker), white 0, red +{ends} %")
+    })
 }

@@ -1,15 +1,16 @@
 //! The study's page, tables, charts, pictures and trace.
 
 use super::conclusion::conclude;
-use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, pictures, tables, vertices};
+use super::{ALL_PAIRS_SIDE, Parameters, SubsurfaceOutcome, WayRow, pictures, tables};
+use crate::options::one_of::name;
 use crate::report::words::counted;
-use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series};
+use crate::report::{Cell, Findings, FoundTable, NamedChart, Scale, Series};
 use crate::study::{StudyError, timeline_trace};
 
 pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<Findings, StudyError> {
     let mut found = Findings::new("Subsurface scattering");
     found.keep_table(FoundTable::from(tables::faces(parameters, outcome)).csv("faces").field("faces"));
-    found.keep_table(FoundTable::from(vertices::table(parameters, outcome)).csv("vertices"));
+    found.keep_table(FoundTable::from(tables::vertices(parameters, outcome)).csv("vertices"));
     if let Some(row) = outcome.rows.first() {
         let what = format!("{}: light, levels, gather, view", row.label);
         if let Some(bytes) = timeline_trace::file(&parameters.profile, &row.log, &what)? {
@@ -70,29 +71,19 @@ const TIMES: &str = "Times are modelled, not measured; the model has no constant
 fn error_chart(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Option<NamedChart> {
     let mut lines: Vec<Series> = Vec::new();
     for (row, error) in outcome.rows.iter().filter_map(|row| Some((row, row.error?))) {
-        let label = line(row);
         let point = (row.way.choice.per_texel(parameters.options.side) as f64, 100.0 * error.rms);
-        match lines.iter_mut().find(|line| line.label == label) {
-            Some(line) => line.points.push(point),
-            None => lines.push(Series { label, points: vec![point] }),
-        }
+        Series::add(&mut lines, line(row), point);
     }
     let numbers = || lines.iter().flat_map(|line| &line.points).map(|point| point.0);
     let (least, most) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(0.0, f64::max));
-    (most > least).then(|| {
-        let x_scale = Scale::fitting(numbers());
-        let (title, x, y) = ("Error of B against all pairs", "links per texel", "root mean square error, %");
-        let (title, x, y) = (title.to_owned(), x.to_owned(), y.to_owned());
-        let chart =
-            Chart { title, x, y, x_scale, y_scale: Scale::Logarithmic, lines: lines.clone(), ..Chart::default() };
-        let caption = "Links and card together.".to_owned();
-        NamedChart { name: "error".to_owned(), chart, caption }
-    })
+    let labels = ["Error of B against all pairs", "links per texel", "root mean square error, %"];
+    let scale = Scale::fitting(numbers());
+    (most > least).then(|| NamedChart::logarithmic("error", labels, (scale, lines), "Links and card together."))
 }
 
 /// Name of a row's way of gathering, without its number of links.
 fn line(row: &WayRow) -> String {
     let channels = if row.way.rgb { ", RGB" } else { "" };
     let choice = row.way.choice.word();
-    format!("{choice}{channels}, {} links, {} map", super::gather_way::name(row.way.links), row.way.map)
+    format!("{choice}{channels}, {} links, {} map", name(&row.way.links), name(&row.way.map))
 }

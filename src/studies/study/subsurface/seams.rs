@@ -17,7 +17,6 @@ const SAME_SIDE: f64 = 0.7;
 pub(super) struct Neighbours(Vec<Vec<usize>>);
 
 impl Neighbours {
-    /// Finds neighbors in an atlas, by distance.
     pub(super) fn of(atlas: &Atlas) -> Self {
         let reach = REACH * atlas.mean_texel_area().sqrt();
         let texels = atlas.texels();

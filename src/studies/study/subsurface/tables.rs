@@ -5,7 +5,6 @@ use super::{Parameters, SubsurfaceOutcome, model};
 use crate::report::{Cell, Table};
 use crate::subsurface::on_card::PassKind;
 
-/// Table of model and medium.
 pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "The model in mm, and the medium's lengths",
@@ -28,7 +27,6 @@ pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Tab
     table
 }
 
-/// Table with a row per channel of the medium.
 pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         format!("{}: coefficients per mm, lengths in mm", parameters.material.name),
@@ -49,7 +47,6 @@ pub(super) fn medium(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
     table
 }
 
-/// Table of errors, one row per way of gathering.
 pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Ways of gathering; errors of B: root mean square by area and maximum, relative to B; seams: roughness of errors among neighbouring texels",
@@ -90,7 +87,6 @@ pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table of the card's resources, one row per way of gathering.
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "Card resources; reads and instructions per texel of pass 2",
@@ -140,19 +136,26 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// Table with a row per face: its area, the light that entered it, and B by every way of gathering.
 pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
-    let columns: Vec<(&str, Vec<[f64; 3]>)> =
-        outcome.columns().map(|(label, texels)| (label, model::by_face(&outcome.atlas, texels))).collect();
-    let mut headings = ["face", "area_mm2"].map(str::to_owned).to_vec();
-    headings.extend(columns.iter().flat_map(|(label, _)| ["r", "g", "b"].map(|c| format!("{label}_{c}"))));
-    let mut table = Table::new("Faces", &headings);
+    let columns: Vec<_> = outcome.columns().map(|(_, texels)| model::by_face(&outcome.atlas, texels)).collect();
+    let mut table = Table::with_colors("Faces", "face area_mm2", outcome.columns().map(|(label, _)| label));
     let scale = parameters.options.mm_per_unit * parameters.options.mm_per_unit;
     for face in 0..outcome.atlas.places().len() {
         let area = parameters.mesh.area(face as u32) * scale;
         let head: [Cell; 2] = [face.into(), area.into()];
-        let found = columns.iter().flat_map(|(_, values)| values[face]);
-        table.push(head.into_iter().chain(found.map(Cell::from)));
+        table.push(head.into_iter().chain(columns.iter().flat_map(|values| values[face]).map(Cell::from)));
+    }
+    table
+}
+
+pub(super) fn vertices(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let at_vertices = |(_, texels)| model::by_vertex(&outcome.atlas, &parameters.mesh, texels);
+    let columns: Vec<_> = outcome.columns().map(at_vertices).collect();
+    let mut table = Table::with_colors("Vertices", "vertex x y z", outcome.columns().map(|(label, _)| label));
+    for (vertex, place) in parameters.mesh.positions().iter().enumerate() {
+        let head = [Cell::from(vertex)].into_iter().chain(place.map(Cell::from));
+        let found = columns.iter().flat_map(|values| [0, 1, 2].map(|c| values[vertex].map(|value| value[c]).into()));
+        table.push(head.chain(found));
     }
     table
 }

@@ -1,14 +1,12 @@
 //! One way of gathering: links, the three passes, and their cost.
 
-use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::num::Format;
 use refsim::timing::TimingError;
 
-use super::all_pairs::{AllPairSums, GatherError};
-use super::error::{no_card, no_time};
+use super::all_pairs::GatherError;
 use super::seams::Neighbours;
-use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
+use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles, no_card};
 use crate::atlas::Atlas;
 use crate::card::CardError;
 use crate::picture::Picture;
@@ -37,23 +35,12 @@ pub(super) struct Scene<'a> {
     pub(super) dipoles: &'a [Dipole; 3],
     /// E per texel, computed by the host.
     pub(super) irradiance: &'a [[f64; 3]],
-    /// Radiosities over all pairs, if requested.
     pub(super) truth: Option<&'a [[f64; 3]]>,
-    /// Neighboring texels on the surface.
     pub(super) neighbours: &'a Neighbours,
 }
 
-impl<'a> Scene<'a> {
-    pub(super) fn all_pairs(&self) -> AllPairSums<'a> {
-        let Self { atlas, parameters, dipoles, irradiance, .. } = *self;
-        AllPairSums { atlas, parameters, dipoles, irradiance }
-    }
-}
-
-/// Results of a way of gathering.
 #[derive(Debug)]
 pub(super) struct WayRow {
-    /// Its name.
     pub(super) label: String,
     pub(super) way: GatherWay,
     /// Reads of link textures and of the map per texel: 2 L and 1.25 L in the paper (4.2.3), for scalar factors.
@@ -62,7 +49,6 @@ pub(super) struct WayRow {
     pub(super) memory: [u64; 2],
     /// Numbers of instructions and samplers of each program of pass 2.
     pub(super) programs: Vec<[usize; 2]>,
-    /// Factors that the format of the links loses.
     pub(super) lost: LostFactors,
     /// Number of texel channels of the map at its largest value.
     pub(super) saturated: usize,
@@ -80,13 +66,10 @@ pub(super) struct WayRow {
     pub(super) angles: Vec<AngleBin>,
     /// Modelled times of the passes; `None` for devices without timing.
     pub(super) times: Option<[PassTime; 4]>,
-    /// B of every texel, computed by the card.
     pub(super) radiosity: Vec<[f64; 3]>,
     /// E of every texel, as in the card's map; only for the first way of gathering.
     pub(super) irradiance: Vec<[f64; 3]>,
-    /// Scattered and direct light.
     pub(super) picture: Picture,
-    /// Scattered light alone.
     pub(super) scattered: Picture,
     pub(super) log: Vec<Event>,
 }
@@ -102,7 +85,6 @@ fn link_dipoles<'a>(scene: &Scene<'a>, way: GatherWay) -> &'a [Dipole] {
     if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] }
 }
 
-/// Gathers in one way, over its links.
 pub(super) fn run(
     scene: &Scene<'_>,
     way: GatherWay,
@@ -118,8 +100,8 @@ pub(super) fn run(
     let encoded = EncodedLinks::new(links, scene.surface, MeanWeighting::Area);
     let textures = LinkTextures::new(links, scene.surface, MeanWeighting::Area);
     progress(&format!("passes: {label}"), 1, 2);
-    let mut card = lit_card(scene, way, parameters.profile.clone(), &textures, true).map_err(no_card)?;
-    let radiosity = gathered(&card).map_err(no_card)?;
+    let mut card = lit_card(scene, way, &textures).map_err(no_card)?;
+    let radiosity = card.read_scattered().map_err(no_card)?.colors();
     drop(textures);
     let picture = card.view(&view(parameters, VIEW.direct)).map_err(no_card)?;
     let events = card.take_log();
@@ -127,25 +109,28 @@ pub(super) fn run(
     let times = match pass_times(&parameters.profile, &events) {
         Ok(times) => Some(times),
         Err(TimingError::Missing { .. }) => None,
-        Err(error) => return Err(no_time(error)),
+        Err(error) => return Err(StudyError::coded("subsurface::timing", error)),
     };
     let scattered = card.view(&view(parameters, DirectLight::None)).map_err(no_card)?;
     let irradiance = if first { entered(scene, &card).map_err(no_card)? } else { Vec::new() };
     let off = |found: &[[f64; 3]], expected: &[[f64; 3]]| GatherError::between(scene.atlas, found, expected);
     let against_truth = |found: &[[f64; 3]]| scene.truth.map(|truth| off(found, truth));
     let programs = card.gather_programs();
-    let row = WayRow {
+    Ok(WayRow {
         lookups: [encoded.texture_count(), links.per_texel()],
         memory: [card.memory().bytes(), card.memory().parts.iter().filter(|part| part.0 == "links").map(|p| p.1).sum()],
         programs: programs.iter().map(|program| [program.instructions(), program.samplers()]).collect(),
-        lost: encoded.lost(format(way.links)),
+        lost: encoded.lost(if way.links == FloatTexels::Fp16 { Format::FP16 } else { Format::FP32 }),
         saturated: card.saturated().map_err(no_card)?,
         links_error: against_truth(&summed),
         seams: scene.truth.map(|truth| scene.neighbours.seams(scene.atlas, &summed, truth)),
         plain_error: against_truth(&plain),
         card_error: off(&radiosity, &summed),
         error: against_truth(&radiosity),
-        angles: angles(scene, [&summed, &radiosity]),
+        angles: angles::direction(&parameters.lighting)
+            .zip(scene.truth)
+            .map(|(towards, truth)| angles::by_angle(scene.atlas, towards, truth, [&summed, &radiosity]))
+            .unwrap_or_default(),
         times,
         irradiance,
         picture,
@@ -154,25 +139,11 @@ pub(super) fn run(
         radiosity,
         way,
         label,
-    };
-    Ok(row)
+    })
 }
 
-/// Errors by angle from the light, for the host's sum over links and for the card.
-fn angles(scene: &Scene<'_>, found: [&[[f64; 3]]; 2]) -> Vec<AngleBin> {
-    let light = angles::direction(&scene.parameters.lighting);
-    let judged = light.zip(scene.truth);
-    judged.map_or_else(Vec::new, |(towards, truth)| angles::by_angle(scene.atlas, towards, truth, found))
-}
-
-/// A card loaded with these links, whose maps are lit and gathered; it records events if requested.
-pub(super) fn lit_card(
-    scene: &Scene<'_>,
-    way: GatherWay,
-    profile: Profile,
-    textures: &LinkTextures,
-    record: bool,
-) -> Result<SubsurfaceCard, CardError> {
+/// A card loaded with these links, whose maps are lit and gathered; it records events.
+fn lit_card(scene: &Scene<'_>, way: GatherWay, textures: &LinkTextures) -> Result<SubsurfaceCard, CardError> {
     let parameters = scene.parameters;
     let options = SubsurfaceCardOptions {
         light: LightStage::default(),
@@ -182,9 +153,10 @@ pub(super) fn lit_card(
         half: false,
         tiles: None,
     };
-    let (executor, eta) = (parameters.executor.clone(), parameters.material.eta);
+    let (profile, executor) = (parameters.profile.clone(), parameters.executor.clone());
+    let eta = parameters.material.eta;
     let mut card = SubsurfaceCard::new(profile, executor, scene.model.clone(), textures, eta, options)?;
-    card.record(record);
+    card.record(true);
     match &parameters.lighting {
         Lighting::Lights(lights) => card.light(lights)?,
         Lighting::Environment(_) => card.irradiate(scene.irradiance)?,
@@ -192,23 +164,11 @@ pub(super) fn lit_card(
     Ok(card)
 }
 
-/// B of every texel, from the card.
-pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, CardError> {
-    Ok(card.read_scattered()?.colors())
-}
-
-fn format(texels: FloatTexels) -> Format {
-    match texels {
-        FloatTexels::Fp16 => Format::FP16,
-        FloatTexels::Fp32 => Format::FP32,
-    }
-}
-
 /// The map's format; 8 bits hold the host's brightest texel as 1.
 fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
     match map {
-        MapBits::Float(FloatTexels::Fp16) => MapFormat::Fp16,
-        MapBits::Float(FloatTexels::Fp32) => MapFormat::Fp32,
+        MapBits::Fp16 => MapFormat::Fp16,
+        MapBits::Fp32 => MapFormat::Fp32,
         MapBits::Eight => {
             let mean = scene.atlas.mean_texel_area();
             let stored = scene.atlas.texels().iter().zip(scene.irradiance);

@@ -83,7 +83,8 @@ impl FormatSubject<'_> {
             progress(&format!("pictures in {format}"), 0, 1);
             let on = (&card.profile, executor);
             let marble = statue.0.draw(|card| card.irradiate(statue.1), on, view, FloatTexels::Fp32);
-            let drawn = [ran(bunny.0.draw(bunny.1, on, &view, &maps))?, ran(marble)?.map(|drawn| drawn.0)];
+            let glossy = bunny.0.draw(bunny.1, on, &view, &maps);
+            let drawn = [ran(glossy)?, ran(marble)?].map(|drawn| drawn.map(|(colors, _)| colors));
             let by_sums = ran(light::radiosity(&host, on.0, executor))?;
             let first = &*first.get_or_insert_with(|| drawn.clone());
             let off = |at: usize| Some(error_255ths(&masks[at], drawn[at].as_ref()?, first[at].as_ref()?));

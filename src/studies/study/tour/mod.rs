@@ -16,7 +16,7 @@ use crate::card::{MeshView, seen_pixels};
 use crate::cpca::on_card::PrtCardOptions;
 use crate::error::InputError;
 use crate::geom::Sides;
-use crate::options::Size;
+use crate::options::{Size, number};
 use crate::radiosity::{Patches, Subdivision, System};
 use crate::report::{Findings, NamedPicture, Provenance};
 use crate::study::caster::CasterChoice;
@@ -50,12 +50,15 @@ const MM_PER_UNIT: f64 = 40.0;
 const SHADOW_GROUP: usize = 8;
 
 /// Parameters of the tour.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Parameters {
-    /// Pixels of the picture.
-    pub size: Size,
-    /// Factor, 1 to 8, by which edges of patches and models are longer than by default, approximately.
-    pub coarser: u32,
+    /// Pixels of the picture
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
+    size: Size,
+
+    /// Lengthen edges of patches and models by this factor, for a quick look
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = number::whole::<u32>(1..=8))]
+    coarser: u32,
 }
 
 impl Study for Parameters {
@@ -98,7 +101,7 @@ impl Study for Parameters {
         progress("pictures", 0, 1);
         let view = MeshView { camera, exposure, format: TexelFormat::Bgra8 };
         let maps = PrtCardOptions { map_format: TexelFormat::Rgba16Snorm, ..PrtCardOptions::default() };
-        let (glossy, time) = bunny.timed(&bunny_light, (&radeon, &executor), &view, &maps)?;
+        let (glossy, time) = bunny.draw(&bunny_light, (&radeon, &executor), &view, &maps)?;
         clock.step("the bunny", &radeon, "a frame".to_owned(), time);
         let floats = MeshView { format: TexelFormat::Rgba32f, ..view };
         let (marble, time) =

@@ -25,17 +25,6 @@ fn pictures_are_shown_pixel_by_pixel_and_small_ones_enlarged() {
     assert_eq!([shown(512, 3), shown(16_000, 1)], [(false, 512), (false, 16_000)]);
 }
 
-#[test]
-fn a_picture_alone_is_enlarged_by_a_whole_factor() {
-    let mut found = Findings::new("t");
-    found.pictures(vec![NamedPicture::new("p", rgb8(160, 1, vec![[0; 3]; 160]), "a caption")]);
-    let html = page(found);
-    assert!(
-        html.contains("id=\"picture-0\" style=\"--shown: 320px; --zoomed: 1120px\"")
-            && html.contains("href=\"#caption-0\"")
-    );
-}
-
 fn rgb(image: &RgbImage, x: u32, y: u32) -> [u8; 3] {
     image.get_pixel(x, y).0
 }

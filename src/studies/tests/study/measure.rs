@@ -13,7 +13,7 @@ fn parse(text: &str) -> Result<Vec<MeasuredCase>, StudyError> {
 fn pixels_are_sorted_by_case() {
     let text = "case,row,column,red,alpha\na.toml,1,2,255,\nb.toml,0,0,,3\na.toml, 0, 0, 7, 8\n";
     let cases = parse(text).expect("a table");
-    let pixel = |line, place, red, alpha| MeasuredPixel { line, place, codes: [red, None, None, alpha], depth: None };
+    let pixel = |line, place, red, alpha| MeasuredPixel { line, place, codes: [red, None, None, alpha, None] };
     let a = vec![pixel(2, [2, 1], Some(255), None), pixel(4, [0, 0], Some(7), Some(8))];
     let b = vec![pixel(3, [0, 0], None, Some(3))];
     let expected = [("cards/a.toml", a), ("cards/b.toml", b)];

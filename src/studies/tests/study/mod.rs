@@ -15,7 +15,7 @@ mod subsurface;
 
 use std::collections::BTreeMap;
 
-use crossbar_ground::io::PictureFile;
+use crossbar_ground::io::load_picture;
 use crossbar_ground::picture::Picture;
 use crossbar_studies::report::{Findings, Provenance};
 use crossbar_studies::study::Study;
@@ -45,7 +45,7 @@ impl StudyFiles {
     fn picture(&self, name: &str) -> Picture {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join(name), self.bytes(name)).expect("a file");
-        PictureFile::open(&folder.path().join(name)).and_then(|file| file.decode()).expect("a picture")
+        load_picture(&folder.path().join(name)).expect("a picture")
     }
 
     /// Rows of a table; each maps headings to cells.

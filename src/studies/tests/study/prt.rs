@@ -1,4 +1,4 @@
-//! Radiance transfer: errors of compression, pictures of lights, interpolation over triangles, pictures of factors.
+//! Radiance transfer: pictures of lights, interpolation over triangles, pictures of factors.
 
 use std::f64::consts::PI;
 
@@ -7,13 +7,11 @@ use crossbar_base::geom::{Mesh, Ray};
 use crossbar_ground::picture::Picture;
 use crossbar_ground::scene::Camera;
 use crossbar_ground::sphere::{EnvironmentPicture, HarmonicLight};
-use crossbar_studies::study::prt::{
-    AllFrequencyRendering, BrdfFactors, CompressionError, FactorSubject, LitModel, LitView, Rendering,
-};
+use crossbar_studies::study::prt::{BrdfFactors, FactorSubject, LitModel, LitPart, LitView, Rendering};
 use crossbar_systems::all_frequency::Reflectance;
 use crossbar_systems::all_frequency::factor::{FactorSampling, Supersamples};
 use crossbar_systems::all_frequency::file::AllFrequencyFile;
-use crossbar_systems::clustering::{AffineSubspace, Clustering, Signal};
+use crossbar_systems::clustering::Signal;
 use crossbar_systems::transfer::brdf::Brdf;
 use crossbar_systems::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
 use crossbar_systems::transfer::grid::texel_center;
@@ -23,20 +21,6 @@ use crossbar_systems::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::StudyFiles;
-
-#[test]
-fn errors_are_those_of_the_means() {
-    let signal = Signal::new(2, vec![3.0, 4.0, 1.0, 0.0, 0.0, 0.0]).expect("a signal");
-    let mean = AffineSubspace { mean: vec![0.0, 0.0], vectors: Vec::new(), eigenvalues: Vec::new() };
-    let clustering = Clustering::new(vec![mean], vec![0; 3], Vec::new()).expect("one cluster");
-    let error = CompressionError::new(&signal, &clustering);
-    assert_eq!((&error.squared[..], error.total, error.energy), (&[25.0, 1.0, 0.0][..], 26.0, 26.0));
-    assert_eq!((error.relative(), error.largest()), (1.0, 0));
-    assert_eq!(error.root_mean_square(), (26.0_f64 / 6.0).sqrt());
-    // The mean is 26 / 3: 25 and 1 are above a tenth of it, 0 is below all limits.
-    let counts: Vec<String> = error.histogram().rows().iter().map(|row| row[2].text()).collect();
-    assert_eq!((counts[0].as_str(), counts[10].as_str(), counts.len()), ("1", "2", 11));
-}
 
 /// A triangle in the plane z = 0, its vertices, and a camera above it.
 fn triangle() -> (Mesh, Vertices, LitView) {
@@ -89,9 +73,8 @@ fn picture_of(light: DistantLight) -> Picture {
         coded: None,
         model: None,
     };
-    let colors = vec![[1.0; 3]];
-    let lit = LitModel { view, mesh, vertices, colors, file, original: None, ground: None, light, keep: None };
-    StudyFiles::of(&AllFrequencyRendering { lit }).picture("light.png")
+    let model = LitPart { mesh, vertices, colors: vec![[1.0; 3]], file };
+    StudyFiles::of(&LitModel { view, model, original: None, ground: None, light, keep: None }).picture("light.png")
 }
 
 /// If a disk's picture is read as a light again, the disk is in its original direction.

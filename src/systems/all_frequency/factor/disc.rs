@@ -228,7 +228,6 @@ pub fn harmonic_errors(samples: &HemisphereSamples, order: usize) -> Result<Prod
 struct Expansion {
     /// Maps values at texels to coefficients: one row per function.
     analysis: Matrix,
-    /// Values of the functions at texels: one row per function.
     synthesis: Matrix,
 }
 

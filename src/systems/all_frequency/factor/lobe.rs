@@ -9,11 +9,11 @@ use glam::DVec3;
 
 use super::product::{ProductFunction, ProductSymmetry};
 use crate::error::InputError;
+use crate::fresnel::{dielectric, schlick};
 use crate::transfer::brdf::Brdf;
 use crate::transfer::brdf::facets::{
     beckmann, cosine_along_tangent, groove, schlick_azimuth, schlick_seen, schlick_zenith,
 };
-use crate::transfer::brdf::fresnel::{dielectric, schlick};
 
 /// The factor before distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual
 /// distributions.

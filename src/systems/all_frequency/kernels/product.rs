@@ -43,11 +43,6 @@ impl ProductKernel {
         self.layout.terms.div_ceil(self.terms_per_texel)
     }
 
-    /// Number of texture reads.
-    pub fn reads(&self) -> usize {
-        self.maps() * if self.filter == MapFilter::Program { 4 } else { 1 }
-    }
-
     fn coordinates(&self) -> String {
         match (self.layout.view, self.filter) {
             (ViewNumbers::Coordinates, MapFilter::Sampler) => format!("t{}", self.layout.view_set()),

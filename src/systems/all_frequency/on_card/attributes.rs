@@ -28,11 +28,16 @@ impl TransferredMesh<'_> {
         self.reflectance.terms()
     }
 
+    /// G(v) . T_p times the surface's color for each vertex, of any sign; 0 if the eye is below the horizon.
+    pub fn radiance(&self, eye: [f32; 3]) -> Vec<[f64; 3]> {
+        let transferred = |vertex: usize, row: usize| self.transferred.of(vertex)[row].map(f64::from);
+        exit_radiance(self.vertices, self.reflectance, &|vertex| self.color(vertex), &transferred, wide(eye))
+    }
+
     pub(super) fn color(&self, vertex: usize) -> [f64; 3] {
         self.colors[self.vertices.materials()[vertex] as usize]
     }
 
-    /// Checks that the parts have matching sizes.
     pub(super) fn check(&self) -> Result<(), CardError> {
         let materials = self.vertices.materials().iter().max().map_or(0, |&most| most as usize + 1);
         let transferred = self.transferred;
@@ -57,18 +62,11 @@ pub struct FactoredCounts {
 }
 
 impl FactoredCounts {
-    /// Adds the vertices of another mesh.
     pub(super) fn add_vertices(&mut self, others: Self) {
         let sum = |of: Option<u64>, others: Option<u64>| of.into_iter().chain(others).reduce(|a, b| a + b);
         self.vertices_below_zero = sum(self.vertices_below_zero, others.vertices_below_zero);
         self.vertices_above_one = sum(self.vertices_above_one, others.vertices_above_one);
     }
-}
-
-/// Computes step 4 per vertex, for vertex colors.
-pub(super) fn radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
-    let transferred = |vertex: usize, row: usize| mesh.transferred.of(vertex)[row].map(f64::from);
-    exit_radiance(mesh.vertices, mesh.reflectance, &|vertex| mesh.color(vertex), &transferred, wide(eye))
 }
 
 /// Computes step 4 per vertex of a diffuse surface, whose radiance does not depend on the view.

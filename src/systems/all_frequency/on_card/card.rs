@@ -9,7 +9,7 @@ use refsim::machine::{Executor, Machine};
 use refsim::output::WriteMask;
 use refsim::texture::TexelFormat;
 
-use super::attributes::{FactoredCounts, TransferredMesh, colors, diffuse_radiance, radiance, radiance_sets};
+use super::attributes::{FactoredCounts, TransferredMesh, colors, diffuse_radiance, radiance_sets};
 use super::options::{ProductPlace, VertexColors};
 use super::programs::{FactorMaps, Programs};
 use super::time;
@@ -106,8 +106,7 @@ impl<'a> MeshOnCard<'a> {
 
 impl<'a> FactoredCard<'a> {
     /// Uploads meshes, such as a model and the ground below it, and their maps of G. They share a camera and a depth
-    /// buffer, and are drawn in order. Fails with [`CardError`] if the device lacks programs, coordinate sets, samplers
-    /// or filtering of the format, or a mesh's parts have inconsistent sizes.
+    /// buffer, and are drawn in order.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -128,14 +127,7 @@ impl<'a> FactoredCard<'a> {
         Ok(Self { display, meshes, place })
     }
 
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
-    }
-
-    /// Draws a frame and returns its render target. Background pixels are 0, alpha is 1 elsewhere. Fails with
-    /// [`CardError`] if the exposure is out of range, radiance exceeds the range of its format, or the card rejects a
-    /// draw.
+    /// Draws a frame and returns its render target. Background pixels are 0, alpha is 1 elsewhere.
     pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(view, false)?.0)
     }
@@ -209,7 +201,7 @@ fn attributes(
         return Ok((passes, FactoredCounts::default()));
     }
     let (colors, counts) = match *place {
-        ProductPlace::Vertices(format) => colors(&radiance(mesh, view.camera.eye()), view.exposure, format)?,
+        ProductPlace::Vertices(format) => colors(&mesh.radiance(view.camera.eye()), view.exposure, format)?,
         // A diffuse surface has one term, whose G does not depend on the view. Floats clamp no colors.
         ProductPlace::Pixels(_) => {
             let (colors, _) = colors(&diffuse_radiance(mesh), view.exposure, VertexColors::Floats)?;

@@ -96,7 +96,6 @@ impl ProductOptions {
         SetLayout { terms, channels: if self.is_pass_per_channel { 1 } else { 3 }, view: self.view }
     }
 
-    /// Rejects options that the device cannot satisfy.
     pub(super) fn check(&self, profile: &Profile, terms: usize) -> Result<(), CardError> {
         require_versions(profile, &[Version::Ps2_0], "the product per pixel")?;
         if let Some(found) = self.map_bits.filter(|bits| !(2..=24).contains(bits)) {

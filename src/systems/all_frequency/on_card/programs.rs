@@ -14,14 +14,11 @@ use crate::all_frequency::kernels::{MapFilter, ProductKernel, TransferredVertexK
 use crate::card::kernels::{COLOR, FLOAT_COLOR, SHADE, SHADE_COLOR};
 use crate::card::{BILINEAR, CardError, KernelText, WrittenKernel, new_texture, require_versions, vertex_version};
 
-/// Checked programs.
 #[derive(Clone, Debug)]
 pub(super) struct Programs {
     pub(super) vertex: CheckedProgram,
     pub(super) pixel: CheckedProgram,
-    /// True if the vertex program computes the view.
     pub(super) makes_view: bool,
-    /// The sampler of the maps.
     pub(super) sampler: SamplerState,
 }
 

@@ -1,4 +1,4 @@
-//! Step 4 of section 6 by plain loops in f64: for vertices, and for pixels from interpolated values of vertices.
+//! Step 4 of section 6 by plain loops in f64, for pixels from interpolated values of vertices.
 
 use glam::DVec3;
 
@@ -7,24 +7,6 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::kernels::ViewNumbers;
 use crate::geom::vector::wide;
 use crate::sphere::ParabolicMap;
-
-/// G(v) . T_p times the surface's color for each vertex: red, green, blue, of any sign; 0 if the eye is below the
-/// horizon.
-pub fn vertex_radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
-    let mut all = Vec::with_capacity(mesh.vertices.len());
-    for vertex in 0..mesh.vertices.len() {
-        let view = wide(eye) - wide(mesh.vertices.positions()[vertex]);
-        let mut g = vec![0.0; mesh.terms()];
-        mesh.reflectance.view(mesh.vertices.frames()[vertex].to_local(view.normalize_or_zero()), &mut g);
-        let mut radiance = [0.0; 3];
-        for (row, g) in mesh.transferred.of(vertex).iter().zip(&g) {
-            (0..3).for_each(|channel| radiance[channel] += g * f64::from(row[channel]));
-        }
-        let color = mesh.color(vertex);
-        all.push([0, 1, 2].map(|channel| radiance[channel] * color[channel]));
-    }
-    all
-}
 
 /// Interpolates vertex colors.
 pub fn pixel_of_colors(colors: &[[f64; 3]], corners: [u32; 3], weights: [f64; 3]) -> [f64; 3] {

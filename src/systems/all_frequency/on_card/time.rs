@@ -10,7 +10,6 @@ use crate::all_frequency::kernels::TransferredVertexKernel;
 use crate::all_frequency::shade::Multiplies;
 use crate::card::frame_time::{UnseenFrame, host_work};
 
-/// Channels of light.
 const CHANNELS: u64 = 3;
 /// Representatives per cluster in all of Table 1.
 const REPRESENTATIVES: u64 = 16;

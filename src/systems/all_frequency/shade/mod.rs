@@ -11,4 +11,5 @@ mod shader;
 mod transferred;
 
 pub use shader::Shader;
-pub use transferred::{LightSizeError, Multiplies, TransferredRadiance, exit_radiance};
+use transferred::check_light;
+pub use transferred::{Multiplies, TransferredRadiance, exit_radiance};

@@ -1,8 +1,9 @@
 //! Transferred radiance by plain loops in f64.
 
-use super::LightSizeError;
+use super::check_light;
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::compressed::CompressedTransfer;
+use crate::error::InputError;
 use crate::linalg::dot;
 
 /// A segment's part of equation 13.
@@ -31,9 +32,9 @@ fn sums<'a>(vertices: usize, rows: usize, segments: impl Iterator<Item = PlainSe
 }
 
 /// T_p from uncoded transfer. `light` is as in [`Shader::transferred`](super::Shader::transferred).
-pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LightSizeError> {
+pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, InputError> {
     let coefficients = transfer.coefficients();
-    LightSizeError::check(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;
+    check_light(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;
     let segments = transfer.segments.iter().map(|part| {
         let light = &light[part.segment * coefficients..][..coefficients];
         let channels = [0, 1, 2].map(|c| light.iter().map(|rgb| rgb[c]).collect::<Vec<f64>>());
@@ -55,9 +56,9 @@ pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<
 }
 
 /// T_p from coded transfer, decoded as integers times steps.
-pub fn transferred_of_code(transfer: &CodedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LightSizeError> {
+pub fn transferred_of_code(transfer: &CodedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, InputError> {
     let coefficients = transfer.coefficients;
-    LightSizeError::check(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;
+    check_light(light.len(), coefficients, transfer.segments.last().map(|part| part.segment))?;
     let segments = transfer.segments.iter().map(|part| {
         let light = &light[part.segment * coefficients..][..coefficients];
         let product = |row: &[i16]| {

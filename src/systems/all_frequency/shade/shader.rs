@@ -6,8 +6,9 @@
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
-use super::{LightSizeError, Multiplies, TransferredRadiance};
+use super::{Multiplies, TransferredRadiance, check_light};
 use crate::all_frequency::code::{BLOCK_ROWS, CodedSegment, CodedTransfer, SparseColumn};
+use crate::error::InputError;
 
 /// Numbers processed together by vector instructions.
 const LANES: usize = 8;
@@ -96,14 +97,14 @@ impl Shader {
     }
 
     /// T_p of all vertices under a light, given by its coefficients (red, green, blue), segment by segment.
-    pub fn transferred(&self, light: &[[f32; 3]]) -> Result<TransferredRadiance, LightSizeError> {
+    pub fn transferred(&self, light: &[[f32; 3]]) -> Result<TransferredRadiance, InputError> {
         Ok(self.weighted(&self.per_cluster(light)?))
     }
 
     /// M^i L for all representatives, times the steps of representative and weights: step 2 of section 6.
-    pub fn per_cluster(&self, light: &[[f32; 3]]) -> Result<Vec<f32>, LightSizeError> {
+    pub fn per_cluster(&self, light: &[[f32; 3]]) -> Result<Vec<f32>, InputError> {
         let last = self.segments.last().map(|part| part.segment);
-        LightSizeError::check(light.len(), self.coefficients, last)?;
+        check_light(light.len(), self.coefficients, last)?;
         let stride = self.stride();
         let mut products = vec![0.0; self.representatives * stride];
         let (mut tasks, mut rest) = (Vec::new(), &mut products[..]);

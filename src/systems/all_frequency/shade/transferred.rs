@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use thiserror::Error;
 
 use crate::all_frequency::Reflectance;
+use crate::error::{InputError, ensure};
 use crate::geom::vector::wide;
 use crate::transfer::Vertices;
 
@@ -50,24 +50,12 @@ pub struct Multiplies {
     pub per_vertex: u64,
 }
 
-/// The light has fewer coefficients than transfer needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error("expected at least {expected} light coefficients, {per_segment} per segment, found {found}")]
-pub struct LightSizeError {
-    /// Number of coefficients up to the last segment.
-    pub expected: usize,
-    /// Coefficients per segment.
-    pub per_segment: usize,
-    /// Number of coefficients given.
-    pub found: usize,
-}
-
-impl LightSizeError {
-    /// Rejects too few coefficients for segments up to `last`.
-    pub(super) fn check(found: usize, per_segment: usize, last: Option<usize>) -> Result<(), Self> {
-        let expected = last.map_or(0, |last| (last + 1) * per_segment);
-        if found < expected { Err(Self { expected, per_segment, found }) } else { Ok(()) }
-    }
+/// Rejects too few light coefficients for segments up to `last`, of `per_segment` each.
+pub(super) fn check_light(found: usize, per_segment: usize, last: Option<usize>) -> Result<(), InputError> {
+    let expected = last.map_or(0, |last| (last + 1) * per_segment);
+    ensure!(found >= expected, "crossbar::prt::segments" =>
+        "expected at least {expected} light coefficients, {per_segment} per segment, found {found}");
+    Ok(())
 }
 
 /// G(v) . T_p times the surface's color for every vertex: `color` returns the color of a vertex, `transferred` a row of

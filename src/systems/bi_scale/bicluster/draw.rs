@@ -34,12 +34,10 @@ impl Counts {
         Self { sums, total }
     }
 
-    /// Number of elements in all rows.
     pub(super) fn total(&self) -> u64 {
         self.total
     }
 
-    /// Adds elements to a row; `more` may be negative.
     pub(super) fn add(&mut self, row: usize, more: i64) {
         self.total = self.total.wrapping_add_signed(more);
         let mut node = row + 1;

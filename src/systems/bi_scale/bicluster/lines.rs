@@ -1,7 +1,5 @@
 //! Lists of the entries of each row or column, and how often each value occurs in a column.
 
-use std::cmp::Ordering;
-
 use crate::bi_scale::matrix::MatrixEntry;
 
 /// Entries line by line, in any order.
@@ -41,7 +39,6 @@ impl ColumnTally {
         self.most = self.most.max(count);
     }
 
-    /// Reverts an [`Self::add`].
     pub(super) fn remove(&mut self, value: i32) {
         self.nonzeros -= 1;
         let known = self.values.iter_mut().find(|(known, _)| *known == value);
@@ -59,10 +56,10 @@ impl ColumnTally {
         self.values.iter().find(|(known, _)| *known == value).map_or(0, |(_, count)| *count) + self.nonzeros
     }
 
-    /// The most frequent value; on ties, the lowest by `order`. Panics if there is no value.
-    pub(super) fn most_frequent(&self, order: impl Fn(i32, i32) -> Ordering) -> i32 {
+    /// The most frequent value; on ties, the lowest. Panics if there is no value.
+    pub(super) fn most_frequent(&self) -> i32 {
         let frequent = self.values.iter().filter(|(_, count)| *count == self.most && *count > 0);
-        frequent.map(|(value, _)| *value).min_by(|&a, &b| order(a, b)).expect("a column with a value")
+        frequent.map(|(value, _)| *value).min().expect("a column with a value")
     }
 
     pub(super) fn clear(&mut self) {

@@ -7,7 +7,6 @@
 
 use super::draw::{Counts, start};
 use super::lines::{ColumnTally, Lines, transposed};
-use super::numbers::{KnownNumbers, SearchNumbers, UnitNumbers};
 use super::queue::BucketQueue;
 use super::{Bicluster, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
@@ -17,27 +16,13 @@ use crate::error::{InputError, ensure, input_error};
 /// `seed` chooses the non-zeros at which biclusters start. `found` is called after each with the number of remaining
 /// non-zeros.
 ///
-/// Besides the biclusters, the search takes 16 bytes per non-zero and about 80 per row and column. If no unit exists in
-/// which 32 bits hold the values and all residuals, it takes about 100 bytes more per distinct number. If only a
-/// residual exceeds 32 bits, the search restarts, and `found` counts down from all non-zeros again.
+/// Besides the biclusters, the search takes 16 bytes per non-zero and about 80 per row and column. Fails with
+/// [`InputError`] for more than 2^32 non-zeros, or if 32 bits of units do not hold a residual.
 pub fn bicluster(matrix: &SparseMatrix, seed: u64, found: &mut dyn FnMut(u64)) -> Result<Biclustering, InputError> {
     let nonzeros = matrix.nonzeros() as u64;
     ensure!(u32::try_from(nonzeros).is_ok(), "expected at most {} non-zeros, found {nonzeros}", u32::MAX);
-    let values = matrix.values();
-    if values.table_len().is_none() {
-        let mut search = Search::new(matrix.to_rows(), matrix.columns(), UnitNumbers, seed);
-        if let Some(biclustering) = search.run(matrix, found) {
-            return Ok(biclustering);
-        }
-    }
-    let (numbers, rows) = KnownNumbers::new(matrix).ok_or_else(residuals_error)?;
-    let mut search = Search::new(rows, matrix.columns(), numbers, seed);
-    let biclustering = search.run(matrix, found).ok_or_else(residuals_error)?;
-    Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.number(integer)))
-}
-
-fn residuals_error() -> InputError {
-    input_error!("expected at most {} distinct residuals, all of them finite, found others", i32::MAX)
+    let biclustering = Search::new(matrix.to_rows(), matrix.columns(), seed).run(matrix, found);
+    biclustering.ok_or_else(|| input_error!("expected residuals that 32 bits of units hold, found others"))
 }
 
 /// State of the lines of one direction: rows or columns.
@@ -147,13 +132,13 @@ impl SearchSide {
     }
 
     /// Subtracts the bicluster's values from the entries `all` of a line inside; `places` are the crossing lines'
-    /// indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if no integer
-    /// represents a residual.
-    fn subtract<N: SearchNumbers>(
+    /// indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if 32 bits do
+    /// not hold a residual.
+    fn subtract(
         &mut self,
         line: u32,
         all: impl ExactSizeIterator<Item = MatrixEntry>,
-        (places, numbers): (&[u32], &mut N),
+        places: &[u32],
         t: impl Fn(u32) -> i32,
     ) -> Option<i64> {
         let entries = &mut self.lines[line as usize];
@@ -167,7 +152,7 @@ impl SearchSide {
                 return Some(entry);
             }
             met[place as usize] = true;
-            let residual = numbers.difference(entry.value, t(entry.index));
+            let residual = entry.value.checked_sub(t(entry.index));
             has_all &= residual.is_some();
             let value = residual.unwrap_or(0);
             (value != 0).then_some(MatrixEntry { value, ..entry })
@@ -179,7 +164,7 @@ impl SearchSide {
         // Elements of the line that were 0 become -t.
         let is_new = |entry: &MatrixEntry| !self.met[places[entry.index as usize] as usize];
         for entry in all.filter(is_new) {
-            entries.push(MatrixEntry { value: numbers.difference(0, entry.value)?, ..entry });
+            entries.push(MatrixEntry { value: entry.value.checked_neg()?, ..entry });
         }
         Some(entries.len().cast_signed() as i64 - before)
     }
@@ -196,9 +181,8 @@ impl SearchSide {
 }
 
 #[derive(Debug)]
-struct Search<N> {
+struct Search {
     seed: u64,
-    numbers: N,
     rows: SearchSide,
     columns: SearchSide,
     /// Counts of each column's values in the rows inside.
@@ -209,13 +193,12 @@ struct Search<N> {
     left: Counts,
 }
 
-impl<N: SearchNumbers> Search<N> {
-    fn new(rows: Lines, width: usize, numbers: N, seed: u64) -> Self {
+impl Search {
+    fn new(rows: Lines, width: usize, seed: u64) -> Self {
         let columns = transposed(&rows, width);
         let left = Counts::new(rows.iter().map(|row| row.len() as u64));
         Self {
             seed,
-            numbers,
             rows: SearchSide::new(rows),
             columns: SearchSide::new(columns),
             tallies: vec![ColumnTally::default(); width],
@@ -224,9 +207,9 @@ impl<N: SearchNumbers> Search<N> {
         }
     }
 
-    /// Lines 2 to 21 of Algorithm 1, on integers that represent the values; `None` if a residual has no integer.
+    /// Lines 2 to 21 of Algorithm 1; `None` if 32 bits do not hold a residual.
     fn run(&mut self, matrix: &SparseMatrix, found: &mut dyn FnMut(u64)) -> Option<Biclustering> {
-        let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
+        let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
         while self.left.total() > 0 {
             self.begin(start(self.seed, biclustering.len() as u64, self.left.total()));
             while self.step() {}
@@ -300,8 +283,7 @@ impl<N: SearchNumbers> Search<N> {
     }
 
     fn insert_column(&mut self, column: u32) {
-        let order = |a: i32, b: i32| self.numbers.order(a, b);
-        self.values[column as usize] = self.tallies[column as usize].most_frequent(order);
+        self.values[column as usize] = self.tallies[column as usize].most_frequent();
         self.columns.insert(column);
         self.cross_rows(column, u32::wrapping_add);
     }
@@ -325,19 +307,18 @@ impl<N: SearchNumbers> Search<N> {
         }
     }
 
-    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix; `None` if a residual has no
-    /// integer.
+    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix; `None` if 32 bits do
+    /// not hold a residual.
     fn end(&mut self) -> Option<Bicluster> {
         let bicluster = self.bicluster();
-        let numbers = &mut self.numbers;
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
-            self.columns.subtract(column, all, (&self.rows.places, numbers), |_| t)?;
+            self.columns.subtract(column, all, &self.rows.places, |_| t)?;
         }
         for &row in &bicluster.rows {
             let (places, values) = (&self.columns.places[..], &self.values);
             let all = bicluster.columns.iter().copied();
-            let more = self.rows.subtract(row, all, (places, numbers), |column| values[column as usize])?;
+            let more = self.rows.subtract(row, all, places, |column| values[column as usize])?;
             self.left.add(row as usize, more);
         }
         self.columns.touched.iter().for_each(|&column| self.tallies[column as usize].clear());

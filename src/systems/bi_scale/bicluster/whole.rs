@@ -1,13 +1,14 @@
-//! Biclusters.
+//! Biclusters, and their sum: exactly the matrix.
 
-use crate::bi_scale::matrix::{EntryValues, MatrixEntry};
+use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix, number};
+use crate::error::{InputError, input_error};
 
 /// A constant-column bicluster: within each of its columns, all of its rows have the same value (equation 4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bicluster {
     /// Rows j_1 ... j_r, increasing.
     pub rows: Vec<u32>,
-    /// Columns k_1 ... k_l, increasing, each with its non-zero value t, encoded as in [`Biclustering::values`].
+    /// Columns k_1 ... k_l, increasing, each with its non-zero value t, in units of the matrix.
     pub columns: Vec<MatrixEntry>,
 }
 
@@ -18,12 +19,12 @@ impl Bicluster {
     }
 
     /// True if the bicluster fits a matrix of this size: rows and columns are in range and increasing, and values are
-    /// non-zero and exist.
-    pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2], values: &EntryValues) -> bool {
+    /// non-zero.
+    pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2]) -> bool {
         let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
         let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
         let column_fits = self.columns.last().is_some_and(|last| (last.index as usize) < matrix_columns);
-        increase && row_fits && column_fits && self.columns.iter().all(|entry| values.has(entry.value))
+        increase && row_fits && column_fits && self.columns.iter().all(|entry| entry.value != 0)
     }
 }
 
@@ -32,7 +33,7 @@ impl Bicluster {
 pub struct Biclustering {
     matrix_rows: usize,
     matrix_columns: usize,
-    values: EntryValues,
+    fraction_bits: u32,
     row_begins: Vec<usize>,
     rows: Vec<u32>,
     column_begins: Vec<usize>,
@@ -41,10 +42,10 @@ pub struct Biclustering {
 
 impl Biclustering {
     /// The biclustering of a zero matrix of this size.
-    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, values: EntryValues) -> Self {
+    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
-        Self { matrix_rows, matrix_columns, values, row_begins, rows, column_begins, columns }
+        Self { matrix_rows, matrix_columns, fraction_bits, row_begins, rows, column_begins, columns }
     }
 
     pub(crate) fn push(&mut self, bicluster: &Bicluster) {
@@ -69,25 +70,15 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// Changes the encoding of values; `number` decodes each. The new encoding is a table, or units of
-    /// 2^-`fraction_bits` if this is given and 32 bits hold all values.
-    pub(in crate::bi_scale) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> f64) -> Self {
-        self.values = EntryValues::of_numbers(fraction_bits, self.columns.iter().map(|entry| number(entry.value)));
-        for entry in &mut self.columns {
-            entry.value = self.values.entry(number(entry.value)).expect("one of the numbers");
-        }
-        self
+    /// Values are multiples of 2 to the power of minus this.
+    pub fn fraction_bits(&self) -> u32 {
+        self.fraction_bits
     }
 
-    /// The numbers that the values of columns represent.
-    pub fn values(&self) -> &EntryValues {
-        &self.values
-    }
-
-    /// The number that a value of a column represents. Panics if no such value exists.
+    /// The number that the value of a column represents.
     #[inline]
-    pub fn value(&self, entry: i32) -> f64 {
-        self.values.value(entry)
+    pub fn value(&self, value: i32) -> f64 {
+        number(value, self.fraction_bits)
     }
 
     /// The rows of a bicluster, increasing. Panics if there is no such bicluster.
@@ -135,5 +126,37 @@ impl Biclustering {
             }
         }
         (begins, of_row)
+    }
+
+    /// The sum of the biclusters: the original matrix. Fails with [`InputError`] if 32 bits do not hold a sum, as for
+    /// biclusters from other programs.
+    pub fn sum(&self) -> Result<SparseMatrix, InputError> {
+        let (begins, of_row) = self.by_row();
+        let columns = self.matrix_size()[1];
+        let mut matrix = SparseMatrix::new(columns, self.fraction_bits())?;
+        let (mut sums, mut touched) = (vec![0_i64; columns], Vec::new());
+        for (row, ends) in begins.windows(2).enumerate() {
+            for entry in of_row[ends[0]..ends[1]].iter().flat_map(|&number| self.columns_of(number as usize)) {
+                sums[entry.index as usize] += i64::from(entry.value);
+                touched.push(entry.index);
+            }
+            touched.sort_unstable();
+            touched.dedup();
+            let mut entries = Vec::new();
+            for index in touched.drain(..) {
+                match i32::try_from(std::mem::take(&mut sums[index as usize])) {
+                    Ok(0) => {}
+                    Ok(value) => entries.push(MatrixEntry { index, value }),
+                    Err(_) => {
+                        return Err(input_error!(
+                            "expected a sum that 32 bits of units hold in row {row}, column {index} (counted from 0), \
+                             found another: the biclusters are of no matrix"
+                        ));
+                    }
+                }
+            }
+            matrix.push_row(&entries)?;
+        }
+        Ok(matrix)
     }
 }

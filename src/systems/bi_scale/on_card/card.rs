@@ -7,7 +7,7 @@ use std::sync::Arc;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::exec::CheckedProgram;
-use refsim::machine::{Executor, Machine};
+use refsim::machine::Executor;
 use refsim::output::WriteMask;
 
 use super::gather::version;
@@ -57,7 +57,6 @@ pub struct BiScaleCard<'a> {
     vertices: CardVertices,
     /// Texture coordinates, tangents, normals.
     beside: Vec<Attribute>,
-    /// One part per texture that triangles use.
     parts: Vec<CardPart>,
     depth: DepthPrograms,
     vertex: CheckedProgram,
@@ -66,9 +65,6 @@ pub struct BiScaleCard<'a> {
 
 impl<'a> BiScaleCard<'a> {
     /// Uploads a mesh and its textures.
-    ///
-    /// Fails with [`CardError`] if the device lacks programs, texture coordinates, or support of the volumes' size or
-    /// format, or the mesh's parts have inconsistent sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -113,11 +109,6 @@ impl<'a> BiScaleCard<'a> {
         })
     }
 
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
-    }
-
     /// Width, height and depth of each texture's volume, in texels.
     pub fn volumes(&self) -> impl Iterator<Item = [usize; 3]> {
         self.parts.iter().map(|part| part.volume.grid.extents())
@@ -141,8 +132,7 @@ impl<'a> BiScaleCard<'a> {
     }
 
     /// Draws a frame from local light, M colors (red, green, blue) per vertex, and returns the target. Background
-    /// pixels are 0, alpha is 1 elsewhere. Fails with [`CardError`] if the exposure is out of range, the light has
-    /// another size or exceeds the range of its format, or the card rejects a draw.
+    /// pixels are 0, alpha is 1 elsewhere.
     pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(local, view, false)?.0)
     }
@@ -153,7 +143,6 @@ impl<'a> BiScaleCard<'a> {
         self.show(local, view, true)
     }
 
-    /// Draws a frame: the mesh into the depth buffer, then the directions of each texture, summed pass by pass.
     fn show(
         &mut self,
         local: &[[f32; 3]],

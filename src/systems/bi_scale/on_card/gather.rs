@@ -4,7 +4,7 @@
 //! Additions have the order of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), so a card with single
 //! precision gives the same bits, except for subnormal numbers, which `gt200` flushes. Lists have about the paper's
 //! size: four bytes per row of a bicluster, eight per column. Values of biclusters are rounded to single precision,
-//! which is exact for visibility; values beyond its range are rejected.
+//! which is exact for visibility.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -79,8 +79,7 @@ pub(super) fn version(profile: &Profile, what: &str) -> Result<Version, KernelEr
 }
 
 impl GatherCard {
-    /// Uploads the lists of biclusters. Fails with [`CardError`] if the device lacks the shader version, texture format
-    /// or texture size, or a value is beyond single precision.
+    /// Uploads the lists of biclusters.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -94,7 +93,6 @@ impl GatherCard {
         let side = sides.fold(SIDE, |side, limit| side.min(limit as usize));
         let [rows, columns] = biclusters.matrix_size();
         check_places("columns", columns)?;
-        require_singles(biclusters)?;
         let instructions = limits.instructions.map_or(INSTRUCTIONS, |limit| limit as usize).min(INSTRUCTIONS);
         let of = |is_weighted| {
             let texels = ListSumKernel::most_texels(is_weighted, instructions);
@@ -117,11 +115,6 @@ impl GatherCard {
             }
         }
         Ok(Self { machine, columns, rows, light, format, stages, programs, version })
-    }
-
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        &mut self.machine
     }
 
     /// Counts of a product's reads and draws.
@@ -243,20 +236,6 @@ impl Stage {
         })?;
         Ok(())
     }
-}
-
-/// Rejects biclusters with values beyond single precision.
-fn require_singles(biclusters: &Biclustering) -> Result<(), CardError> {
-    for bicluster in 0..biclusters.len() {
-        let values = biclusters.columns_of(bicluster).iter().map(|entry| biclusters.value(entry.value));
-        if let Some(found) = values.into_iter().find(|value| !(*value as f32).is_finite()) {
-            return Err(CardError::input(format!(
-                "expected values of biclusters within single precision, found {found:e} in bicluster {bicluster}: \
-                 scale the matrix"
-            )));
-        }
-    }
-    Ok(())
 }
 
 /// The lists of the bicluster buffer: columns in increasing order, with their values. The texel after the last column

@@ -26,14 +26,11 @@ pub(super) fn extents(count: usize) -> [usize; 2] {
     [1 << bits.div_ceil(2), 1 << (bits / 2)]
 }
 
-/// Limits of a pass.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ListLimits<'a> {
     /// Largest number of list texels per fragment.
     pub(super) texels: usize,
-    /// Largest side of a texture, in texels.
     pub(super) side: usize,
-    /// The device's name.
     pub(super) device: &'a str,
 }
 
@@ -50,7 +47,6 @@ pub(super) struct ListPass {
     pub(super) pass: [usize; 2],
 }
 
-/// Lists in textures.
 #[derive(Clone, Debug)]
 pub(super) struct Lists {
     /// Index of the sum at each place of the target.

@@ -4,19 +4,17 @@
 //!   The paper's implementation is in CUDA, which is not emulated.
 //! - [`BiScaleCard`]: the display: a bidirectional texture in a volume, local light as interpolated texture
 //!   coordinates, and passes summed by blending.
-//! - [`mod@reference`]: pixels in f64.
 
 mod card;
 mod gather;
 mod lists;
 mod options;
 mod parts;
-pub mod reference;
 mod subject;
 mod textures;
 
 pub use card::{BiScaleCard, DisplayCounts};
 pub use gather::{GatherCard, GatherCounts};
-pub use options::{DisplayOptions, LightFormat, LocalFormat};
+pub use options::{DisplayOptions, LightFormat};
 pub use subject::{TexturedMesh, corner_coordinates};
 pub use textures::{VolumeTexture, volume_image};

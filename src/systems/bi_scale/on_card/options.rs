@@ -5,14 +5,14 @@ use refsim::texture::TexelFormat;
 use crate::bi_scale::kernels::BlockEdges;
 use crate::card::through_half;
 
-/// Format of the light on the card, before it is multiplied.
+/// Format of light: as texels before it is multiplied, and as local light in vertices.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
 pub enum LightFormat {
     /// 8-bit fractions of the largest number.
     Bytes,
-    /// Half precision, as fractions of the largest number.
+    /// Half precision; in texels as fractions of the largest number.
     Fp16,
     /// Single precision: the same bits as the host's sums.
     #[default]
@@ -33,23 +33,7 @@ impl LightFormat {
     pub(super) fn scale(self, largest: f32) -> f32 {
         if self == Self::Fp32 || largest == 0.0 { 1.0 } else { largest }
     }
-}
 
-/// Format of local light in vertices.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
-#[strum(serialize_all = "lowercase")]
-pub enum LocalFormat {
-    /// 8-bit fractions of the frame's largest number.
-    Bytes,
-    /// Half precision.
-    Fp16,
-    /// Single precision.
-    #[default]
-    Fp32,
-}
-
-impl LocalFormat {
     /// Rounds a number to the format, for a frame whose largest number is `largest`.
     pub(super) fn rounded(self, value: f64, largest: f64) -> f32 {
         match self {
@@ -57,15 +41,6 @@ impl LocalFormat {
             Self::Fp16 => through_half(value as f32),
             Self::Bytes if largest > 0.0 => ((value / largest * 255.0).round_ties_even() / 255.0 * largest) as f32,
             Self::Bytes => 0.0,
-        }
-    }
-
-    /// Bytes per number.
-    pub const fn bytes(self) -> usize {
-        match self {
-            Self::Bytes => 1,
-            Self::Fp16 => 2,
-            Self::Fp32 => 4,
         }
     }
 }
@@ -78,11 +53,11 @@ pub struct DisplayOptions {
     /// Texel format of the volume: `rgba8`, scaled by the largest sample, `rgba16f` or `rgba32f`.
     pub texture: TexelFormat,
     /// Format of local light in vertices.
-    pub local: LocalFormat,
+    pub local: LightFormat,
 }
 
 impl Default for DisplayOptions {
     fn default() -> Self {
-        Self { edges: BlockEdges::default(), texture: TexelFormat::Rgba8, local: LocalFormat::default() }
+        Self { edges: BlockEdges::default(), texture: TexelFormat::Rgba8, local: LightFormat::default() }
     }
 }

@@ -7,13 +7,12 @@ use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::machine::Machine;
 
-use super::options::{DisplayOptions, LocalFormat};
+use super::options::{DisplayOptions, LightFormat};
 use super::subject::{CardVertices, TexturedMesh};
 use super::textures::VolumeTexture;
 use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
 use crate::card::{Attribute, CardError, WrittenKernel, by_register, check_finite};
 
-/// A texture, its triangles, and its programs, which depend on the volume's size.
 #[derive(Debug)]
 pub(super) struct CardPart {
     pub(super) indices: Vec<u32>,
@@ -35,7 +34,6 @@ impl CardPart {
     }
 }
 
-/// The parts of a mesh, without textures that no triangle uses.
 pub(super) fn parts(
     machine: &mut Machine,
     mesh: &TexturedMesh<'_>,
@@ -76,7 +74,7 @@ pub(super) struct LocalStream<'a> {
     pub(super) factor: f64,
     /// Largest magnitude of local light times `factor`.
     pub(super) largest: f64,
-    pub(super) format: LocalFormat,
+    pub(super) format: LightFormat,
 }
 
 impl LocalStream<'_> {

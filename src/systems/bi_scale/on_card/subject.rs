@@ -2,9 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
+
+use crate::bi_scale::paper;
+use crate::bi_scale::shade::ShadedPixel;
 use crate::bi_scale::texture::BidirectionalTexture;
-use crate::card::CardError;
+use crate::card::{CardError, SeenPixel};
 use crate::geom::Mesh;
+use crate::geom::vector::wide;
 use crate::transfer::Vertices;
 
 /// A mesh covered by bidirectional textures.
@@ -39,7 +44,6 @@ pub(super) struct CardVertices {
     pub(super) vertices: Vec<u32>,
     /// The texture coordinates of each vertex of the card.
     pub(super) coordinates: Vec<[f32; 2]>,
-    /// Vertex indices, three per triangle.
     pub(super) indices: Vec<u32>,
 }
 
@@ -67,11 +71,21 @@ impl TexturedMesh<'_> {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
 
-    pub(super) fn texture(&self, triangle: u32) -> &BidirectionalTexture {
-        &self.textures[self.texture_of[triangle as usize] as usize]
+    /// Equation 3 in f64 at a pixel of a triangle, by plain loops: texture coordinates, local view and local light are
+    /// interpolated between its vertices.
+    pub fn pixel(&self, local: &[[f64; 3]], eye: [f32; 3], seen: &SeenPixel) -> [f64; 3] {
+        let (mut place, mut view) = ([0.0; 2], DVec3::ZERO);
+        let coordinates = self.coordinates[seen.triangle as usize];
+        for ((corner, weight), coordinates) in seen.corners.into_iter().zip(seen.weights).zip(coordinates) {
+            let towards = wide(eye) - wide(self.vertices.positions()[corner as usize]);
+            view += weight * self.vertices.frames()[corner as usize].to_local(towards);
+            (0..2).for_each(|axis| place[axis] += weight * f64::from(coordinates[axis]));
+        }
+        let view = view.normalize_or_zero();
+        let texture = &self.textures[self.texture_of[seen.triangle as usize] as usize];
+        paper::radiance(texture, local, &ShadedPixel { corners: seen.corners, weights: seen.weights, place, view })
     }
 
-    /// Checks that the parts have matching sizes.
     pub(super) fn check(&self) -> Result<(), CardError> {
         let triangles = self.vertices.triangles().len();
         CardError::check_size("triangles with texture coordinates", triangles, self.coordinates.len())?;

@@ -2,12 +2,11 @@
 //! pixel's local directions.
 //!
 //! - [`ShadedPixel`]: a pixel's vertices, texture coordinates and view; [`pixel_frame`]: its local frame;
-//! - [`TexelSamples`]: the four texels around texture coordinates;
 //! - [`TextureLookup`]: a faster [`paper::radiance`](super::paper::radiance) with bit-identical results;
 //! - [`TracedScene`]: ray-traced pixels, and the causes of a pixel's error.
 
 mod pixel;
 mod traced;
 
-pub use pixel::{ShadedPixel, TexelSamples, TextureLookup, pixel_frame};
+pub use pixel::{ShadedPixel, TextureLookup, pixel_frame};
 pub use traced::{TracedLight, TracedPoint, TracedRung, TracedScene};

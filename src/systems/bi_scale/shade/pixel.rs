@@ -5,7 +5,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::bi_scale::texture::{BidirectionalTexture, ViewSamples};
+use crate::bi_scale::texture::{BidirectionalTexture, GridSamples};
 use crate::transfer::{LocalFrame, Vertices};
 
 /// A pixel that shows a surface.
@@ -32,33 +32,6 @@ pub fn pixel_frame(vertices: &Vertices, corners: [u32; 3], weights: [f64; 3]) ->
     let heaviest = (1..3).fold(0, |most, at| if weights[at] > weights[most] { at } else { most });
     let frame = crate::geom::vector::unit(normal).and_then(|normal| LocalFrame::new(normal, tangent));
     frame.unwrap_or(frames[heaviest])
-}
-
-/// The four texels around texture coordinates of a repeating patch, and their weights, which sum to 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TexelSamples {
-    /// Texel indices, row by row.
-    pub numbers: [usize; 4],
-    /// Bilinear weights.
-    pub weights: [f64; 4],
-}
-
-impl TexelSamples {
-    /// The samples for a patch of `size` x `size` texels, with centers at (texel + 1/2) / `size`.
-    pub fn around(size: usize, place: [f64; 2]) -> Self {
-        let along = |at: f64| {
-            let texels = (at - at.floor()) * size as f64 - 0.5;
-            let low = texels.floor();
-            // -1 is the last texel of the previous repetition.
-            let index = (low as isize).rem_euclid(size.cast_signed()).cast_unsigned();
-            (index, (index + 1) % size, texels - low)
-        };
-        let [(u0, u1, fu), (v0, v1, fv)] = place.map(along);
-        Self {
-            numbers: [v0 * size + u0, v0 * size + u1, v1 * size + u0, v1 * size + u1],
-            weights: [(1.0 - fu) * (1.0 - fv), fu * (1.0 - fv), (1.0 - fu) * fv, fu * fv],
-        }
-    }
 }
 
 /// A texture laid out for shading.
@@ -88,18 +61,13 @@ impl TextureLookup {
         Self { size, view: texture.view().clone(), lights, samples }
     }
 
-    /// The number M of directions of light.
-    pub fn lights(&self) -> usize {
-        self.lights
-    }
-
     /// Equation 3 for a pixel: [`paper::radiance`](crate::bi_scale::paper::radiance). `b` is scratch memory for M
     /// samples. Panics if a corner has no row.
     pub fn radiance(&self, local: &[[f64; 3]], pixel: &ShadedPixel, b: &mut Vec<[f64; 3]>) -> [f64; 3] {
         b.clear();
         b.resize(self.lights, [0.0; 3]);
-        let views = ViewSamples::around(&self.view, pixel.view);
-        let texels = TexelSamples::around(self.size, pixel.place);
+        let views = GridSamples::of_view(&self.view, pixel.view);
+        let texels = GridSamples::of_texels(self.size, pixel.place);
         for (view, of_view) in views.numbers.into_iter().zip(views.weights) {
             for (texel, of_texel) in texels.numbers.into_iter().zip(texels.weights) {
                 let weight = of_view * of_texel;

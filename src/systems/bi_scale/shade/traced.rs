@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::pixel::ShadedPixel;
 use crate::bi_scale::paper;
-use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch, SeenPoint, ViewSamples};
+use crate::bi_scale::texture::{BidirectionalTexture, GridSamples, MesoPatch, SeenPoint};
 use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
 use crate::tracer::HostTracer;
@@ -41,7 +41,6 @@ impl TracedRung {
         [Self::Exact, Self::Light, Self::Visibility, Self::Directions, Self::Views, Self::Texture];
 }
 
-/// Number of steps.
 const RUNGS: usize = TracedRung::ALL.len();
 
 /// A light at the resolutions of ray tracing and of transfer.
@@ -141,7 +140,7 @@ impl TracedScene<'_> {
             add(TracedRung::Directions, responses[nearest], radiance, share * solid_angles[texel]);
             (0..3).for_each(|channel| local[nearest][channel] += radiance[channel] * share * solid_angles[texel]);
         }
-        let around = ViewSamples::around(texture.view(), pixel.view);
+        let around = GridSamples::of_view(texture.view(), pixel.view);
         for (view, weight) in around.numbers.into_iter().zip(around.weights).filter(|(_, weight)| *weight > 0.0) {
             let responses = of_view(&patch.seen(pixel.place, texture.view().directions()[view]));
             for (b, &arriving) in responses.into_iter().zip(&local) {

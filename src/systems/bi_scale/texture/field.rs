@@ -134,7 +134,6 @@ impl HeightField {
         self.tops[self.wrapped(i, j)]
     }
 
-    /// The surface of a cell.
     pub(super) fn cell(&self, [i, j]: [isize; 2]) -> CellPatch {
         let [h00, h10, h01, h11] =
             [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]].map(|[column, row]| self.texel(column, row));

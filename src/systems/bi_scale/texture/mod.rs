@@ -1,7 +1,7 @@
 //! The meso scale: bidirectional textures, the outgoing light of a small surface patch by position, view and light
 //! (section III, equation 3).
 //!
-//! - [`BidirectionalTexture`]: samples of b(u, e, d); [`ViewSamples`]: the four views around a direction; `file`:
+//! - [`BidirectionalTexture`]: samples of b(u, e, d); [`GridSamples`]: the four views or texels around a place; `file`:
 //!   textures as NPY files;
 //! - [`HeightField`], [`MesoMaterial`], [`MesoPatch`]: a repeated patch of heights and materials, seen and lit by rays;
 //! - [`PatchKind`]: procedural bumps, mail, tiles, bricks and weave;
@@ -21,4 +21,4 @@ pub use file::{load_bidirectional_texture, write_bidirectional_texture};
 pub use kinds::PatchKind;
 pub use patch::{MesoMaterial, MesoPatch, MesoTexel, SeenPoint};
 pub use ray::REACH;
-pub use response::{BidirectionalTexture, TextureSampling, ViewSamples};
+pub use response::{BidirectionalTexture, GridSamples, TextureSampling};

@@ -34,10 +34,7 @@ impl MesoMaterial {
 
     /// Checks that all parameters are in range. Fails with [`InputError`] for the first that is not.
     pub fn check(&self) -> Result<(), InputError> {
-        for albedo in self.color {
-            Brdf::Lambert { albedo }.check()?;
-        }
-        for albedo in self.lobe_color {
+        for albedo in self.color.into_iter().chain(self.lobe_color) {
             Brdf::Lambert { albedo }.check()?;
         }
         self.lobe.map_or(Ok(()), |lobe| lobe.check())

@@ -26,7 +26,6 @@ pub(super) struct TexelRay {
     pub(super) end: f64,
 }
 
-/// The interval of a ray over a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CellSpan {
     pub(super) cell: [isize; 2],
@@ -38,7 +37,6 @@ pub(super) struct CellSpan {
 pub(super) struct SurfaceHit {
     pub(super) t: f64,
     pub(super) cell: [isize; 2],
-    /// The position in texels.
     pub(super) at: [f64; 2],
 }
 
@@ -77,7 +75,6 @@ impl TexelRay {
         (from < to).then_some(CellSpan { cell, from, to })
     }
 
-    /// The position in texels at a parameter.
     pub(super) fn place(&self, t: f64) -> [f64; 2] {
         [0, 1].map(|axis| self.at[axis] + t * self.step[axis])
     }

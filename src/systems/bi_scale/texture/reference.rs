@@ -22,7 +22,6 @@ fn cells_below(ray: &TexelRay) -> Vec<[isize; 2]> {
     cells
 }
 
-/// The nearest hit among all cells.
 pub(super) fn first_hit(field: &HeightField, ray: &TexelRay) -> Option<SurfaceHit> {
     let mut nearest: Option<(f64, SurfaceHit)> = None;
     for cell in cells_below(ray) {
@@ -36,7 +35,6 @@ pub(super) fn first_hit(field: &HeightField, ray: &TexelRay) -> Option<SurfaceHi
     nearest.map(|(_, hit)| hit)
 }
 
-/// True if a ray dips below the surface of any cell.
 pub(super) fn is_blocked(field: &HeightField, ray: &TexelRay) -> bool {
     let mut blocked = false;
     for cell in cells_below(ray) {

@@ -26,12 +26,12 @@ pub(super) fn size_error(found: usize) -> InputError {
     input_error!("expected a patch of 1 to {} texels along an edge, found {found}", BidirectionalTexture::MOST)
 }
 
-/// The four samples of the view around a direction, and their weights, which sum to 1.
+/// The four samples around a place of a square grid, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ViewSamples {
-    /// Indices of view directions; at the square's rim they repeat.
+pub struct GridSamples {
+    /// Indices of the samples, row by row; at the rim of the views' square they repeat.
     pub numbers: [usize; 4],
-    /// Bilinear weights in the square.
+    /// Bilinear weights.
     pub weights: [f64; 4],
 }
 
@@ -101,18 +101,34 @@ impl BidirectionalTexture {
     }
 }
 
-impl ViewSamples {
-    /// The samples around a local direction, bilinear in the square that is mapped to the hemisphere (section V: "we
-    /// map the view direction back" and take "the four adjacent samples"). At the square's rim, the horizon, the
-    /// nearest samples are taken.
-    pub fn around(view: &LocalDirections, direction: DVec3) -> Self {
+impl GridSamples {
+    /// The views around a local direction, bilinear in the square that is mapped to the hemisphere (section V: "we map
+    /// the view direction back" and take "the four adjacent samples"). At the square's rim, the horizon, the nearest
+    /// samples are taken.
+    pub fn of_view(view: &LocalDirections, direction: DVec3) -> Self {
         let side = view.side();
-        let [across, down] = square(direction).map(|at| {
+        let along = |at: f64| {
             let center = ((at + 1.0) / 2.0 * side as f64 - 0.5).clamp(0.0, (side - 1) as f64);
             let low = (center as usize).min(side - 1);
             (low, (low + 1).min(side - 1), center - low as f64)
-        });
-        let ((u0, u1, fu), (v0, v1, fv)) = (across, down);
+        };
+        Self::of(side, square(direction).map(along))
+    }
+
+    /// The texels around texture coordinates of a repeating patch of `size` x `size` texels, with centers at (texel +
+    /// 1/2) / `size`.
+    pub fn of_texels(size: usize, place: [f64; 2]) -> Self {
+        let along = |at: f64| {
+            let texels = (at - at.floor()) * size as f64 - 0.5;
+            let low = texels.floor();
+            // -1 is the last texel of the previous repetition.
+            let index = (low as isize).rem_euclid(size.cast_signed()).cast_unsigned();
+            (index, (index + 1) % size, texels - low)
+        };
+        Self::of(size, place.map(along))
+    }
+
+    fn of(side: usize, [(u0, u1, fu), (v0, v1, fv)]: [(usize, usize, f64); 2]) -> Self {
         Self {
             numbers: [v0 * side + u0, v0 * side + u1, v1 * side + u0, v1 * side + u1],
             weights: [(1.0 - fu) * (1.0 - fv), fu * (1.0 - fv), (1.0 - fu) * fv, fu * fv],

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::{check_shape, check_triangles, distinct, overdraw};
 use crate::clustering::{Clustering, Signal};
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure};
 
 /// A clustering with fewer triangles across clusters.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,8 +23,7 @@ pub struct Reclassified {
 /// Moves vertices to clusters of their neighbours (section 5). The next move is always the one with the greatest
 /// reduction of overdraw per increase of squared error (infinite if the error does not increase); ties go to the lowest
 /// vertex. Moves add at most `budget` times the initial squared error; a move that would exceed it is skipped. The
-/// paper uses 0.05 to 0.1. Fails with [`InputError`] if mesh, signal and clustering contradict each other, or the
-/// budget is invalid.
+/// paper uses 0.05 to 0.1.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,
@@ -33,9 +32,10 @@ pub fn reclassify(
 ) -> Result<Reclassified, InputError> {
     check_shape(signal, clustering)?;
     check_triangles(triangles, signal.points())?;
-    if !(budget.is_finite() && budget >= 0.0) {
-        return Err(input_error!("expected an error budget of at least 0, as a share of the error, found {budget}"));
-    }
+    ensure!(
+        budget.is_finite() && budget >= 0.0,
+        "expected an error budget of at least 0, as a share of the error, found {budget}"
+    );
     let mut search = Search::new(signal, clustering, triangles);
     let limit = budget * search.errors.iter().sum::<f64>();
     let (moved, added_error) = search.run(limit);
@@ -44,7 +44,6 @@ pub fn reclassify(
     Ok(Reclassified { clustering, moved, added_error, drawn })
 }
 
-/// A vertex's best move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Move {
     vertex: u32,
@@ -60,15 +59,6 @@ impl Move {
     fn quotient(&self) -> f64 {
         if self.increase <= 0.0 { f64::INFINITY } else { self.reduction as f64 / self.increase }
     }
-
-    /// Orders moves by quality; the better move is greater.
-    fn compare(&self, other: &Self) -> Ordering {
-        self.quotient()
-            .total_cmp(&other.quotient())
-            .then(self.reduction.cmp(&other.reduction))
-            .then(other.increase.total_cmp(&self.increase))
-            .then((other.vertex, other.to).cmp(&(self.vertex, self.to)))
-    }
 }
 
 impl Eq for Move {}
@@ -79,9 +69,14 @@ impl PartialOrd for Move {
     }
 }
 
+/// The better move is greater.
 impl Ord for Move {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.compare(other)
+        self.quotient()
+            .total_cmp(&other.quotient())
+            .then(self.reduction.cmp(&other.reduction))
+            .then(other.increase.total_cmp(&self.increase))
+            .then((other.vertex, other.to).cmp(&(self.vertex, self.to)))
     }
 }
 

@@ -42,8 +42,7 @@ pub struct Superclusters {
 
 impl Superclusters {
     /// Begins with one supercluster per cluster. Repeatedly merges the two superclusters that share the most triangles
-    /// and fit the registers together (on ties, the lowest), until no two neighbours fit. Fails with [`InputError`] if
-    /// a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
+    /// and fit the registers together (on ties, the lowest), until no two neighbours fit.
     pub fn new(
         clustering: &Clustering,
         triangles: &[[u32; 3]],
@@ -61,7 +60,7 @@ impl Superclusters {
         Ok(Self::numbered(of_cluster))
     }
 
-    /// One supercluster per cluster. Fails with [`InputError`] if a cluster exceeds the registers.
+    /// One supercluster per cluster.
     pub fn apart(clustering: &Clustering, registers: ConstantRegisters) -> Result<Self, InputError> {
         let count = needed(clustering, registers)?.len();
         Ok(Self { of_cluster: (0..count as u32).collect(), count })

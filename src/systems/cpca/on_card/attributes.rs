@@ -17,7 +17,6 @@ pub(super) struct Chunk {
     pub(super) clusters: Vec<u32>,
     /// Attributes by register: position, address and alpha, weights, and for glossy transfer tangent and normal.
     pub(super) attributes: Vec<Attribute>,
-    /// Vertex indices, three per triangle.
     pub(super) indices: Vec<u32>,
 }
 
@@ -42,7 +41,6 @@ impl Chunk {
     }
 }
 
-/// A chunk per supercluster.
 pub(super) fn chunks(
     transfer: &CompressedTransfer<'_>,
     weights: &CardWeights,
@@ -85,7 +83,6 @@ pub(super) fn chunks(
     chunks
 }
 
-/// The data from which a vertex's attributes are computed.
 struct VertexSourceData<'a> {
     transfer: &'a CompressedTransfer<'a>,
     weights: &'a CardWeights,

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::event::Event;
-use refsim::machine::{Executor, Machine};
+use refsim::machine::Executor;
 use refsim::output::WriteMask;
 use refsim::timing::host::HostOperation;
 
@@ -32,7 +32,6 @@ use attributes::{Chunk, chunks};
 use model::TransferSize;
 use programs::{ShadingPrograms, exit_maps, kernel, map_scale, registers};
 
-/// Write masks of the passes of glossy transfer.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
 
 /// A mesh with compressed transfer on a card.
@@ -54,9 +53,6 @@ pub struct PrtCard<'a> {
 
 impl<'a> PrtCard<'a> {
     /// Uploads a mesh with its transfer.
-    ///
-    /// Fails with [`CardError`] if the device does not support the programs, the number of vectors or functions exceeds
-    /// a limit, clusters have more vectors than `transfer` states, or its parts have inconsistent sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -99,13 +95,7 @@ impl<'a> PrtCard<'a> {
         self.size
     }
 
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
-    }
-
-    /// Draws a frame and returns the target. Background pixels are 0. Fails with [`CardError`] if the order of the
-    /// light is too low, the exposure is out of range, a product is not finite, or the card rejects a draw.
+    /// Draws a frame and returns the target. Background pixels are 0.
     pub fn view_texels(&mut self, light: &HarmonicLight, view: &MeshView) -> Result<Texels, CardError> {
         Ok(self.show(light, view, false)?.0)
     }
@@ -118,7 +108,6 @@ impl<'a> PrtCard<'a> {
         Ok((texels, log))
     }
 
-    /// Draws a frame: products on the host, the mesh into the depth buffer, then chunk by chunk into the target.
     fn show(
         &mut self,
         light: &HarmonicLight,

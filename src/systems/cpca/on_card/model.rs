@@ -18,7 +18,6 @@ pub struct TransferSize {
     pub vectors: usize,
 }
 
-/// Channels of light.
 const CHANNELS: usize = 3;
 
 impl TransferSize {

@@ -3,7 +3,8 @@
 
 use rayon::prelude::*;
 
-use super::transfer::{CompressedTransfer, TransferShape};
+use super::model::TransferSize;
+use super::transfer::CompressedTransfer;
 use super::weights::CardWeights;
 use crate::card::CardError;
 use crate::linalg::dot;
@@ -19,16 +20,15 @@ pub struct Products {
 
 impl Products {
     /// Computes products in double precision, multiplied by `factor` and by the ranges of weights, and rounded once.
-    /// Light coefficients beyond the matrices' columns are ignored. Fails with [`CardError`] if parts have inconsistent
-    /// sizes, the order of the light is too low, or a product overflows single precision.
+    /// Light coefficients beyond the matrices' columns are ignored.
     pub fn new(
         transfer: &CompressedTransfer<'_>,
         weights: &CardWeights,
         light: &HarmonicLight,
         factor: f64,
     ) -> Result<Self, CardError> {
-        let shape = transfer.shape()?;
-        let expected = shape.columns.isqrt();
+        let size = transfer.size()?;
+        let expected = size.columns.isqrt();
         if light.order() < expected {
             return Err(CardError::input(format!(
                 "expected light of order {expected} or more, found {}",
@@ -37,9 +37,9 @@ impl Products {
         }
         let of_cluster = |cluster: usize| {
             let subspace = &transfer.clustering.subspaces()[cluster];
-            let mut mean = of_vector(&subspace.mean, light, shape, factor);
+            let mut mean = of_vector(&subspace.mean, light, size, factor);
             let mut vectors: Vec<Vec<f64>> =
-                subspace.vectors().map(|vector| of_vector(vector, light, shape, factor)).collect();
+                subspace.vectors().map(|vector| of_vector(vector, light, size, factor)).collect();
             for (vector, &[low, extent]) in vectors.iter_mut().zip(weights.ranges(cluster)) {
                 for (mean, value) in mean.iter_mut().zip(vector) {
                     *mean += low * *value;
@@ -52,7 +52,7 @@ impl Products {
             (0..transfer.clustering.subspaces().len()).into_par_iter().map(of_cluster).collect();
         match clusters.iter().flatten().find(|value| !value.is_finite()) {
             Some(&found) => Err(CardError::figure("products of finite size", f64::from(found))),
-            None => Ok(Self { rows: shape.rows, clusters }),
+            None => Ok(Self { rows: size.rows, clusters }),
         }
     }
 
@@ -65,12 +65,13 @@ impl Products {
 }
 
 /// The product of each channel's matrix and the light, row by row.
-fn of_vector(vector: &[f64], light: &HarmonicLight, shape: TransferShape, factor: f64) -> Vec<f64> {
-    let size = shape.rows * shape.columns;
+fn of_vector(vector: &[f64], light: &HarmonicLight, size: TransferSize, factor: f64) -> Vec<f64> {
+    let TransferSize { rows, columns, .. } = size;
+    let count = rows * columns;
     let channels = light.channels().iter().enumerate();
-    let rows = channels.flat_map(|(channel, light)| {
-        let matrix = &vector[if shape.channels == 3 { channel * size } else { 0 }..][..size];
-        matrix.chunks_exact(shape.columns).map(|row| factor * dot(row, &light[..shape.columns]))
+    let products = channels.flat_map(|(channel, light)| {
+        let matrix = &vector[if vector.len() > count { channel * count } else { 0 }..][..count];
+        matrix.chunks_exact(columns).map(|row| factor * dot(row, &light[..columns]))
     });
-    rows.collect()
+    products.collect()
 }

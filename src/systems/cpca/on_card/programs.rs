@@ -18,7 +18,6 @@ use crate::cpca::kernels::{ExitKernel, VertexKernel, VertexShading};
 use crate::sphere::ParabolicMap;
 use crate::transfer::brdf::ExitBasis;
 
-/// Checked programs.
 #[derive(Clone, Debug)]
 pub(super) struct ShadingPrograms {
     pub(super) kernel: VertexKernel,
@@ -27,7 +26,6 @@ pub(super) struct ShadingPrograms {
     pub(super) pixel: CheckedProgram,
 }
 
-/// The vertex program for a transfer on a device.
 pub(super) fn kernel(profile: &Profile, transfer: &CompressedTransfer<'_>) -> Result<VertexKernel, CardError> {
     let shading = if transfer.is_glossy() {
         require_versions(profile, &[Version::Ps2_0], "glossy transfer")?;
@@ -55,7 +53,6 @@ pub(super) fn kernel(profile: &Profile, transfer: &CompressedTransfer<'_>) -> Re
 }
 
 impl ShadingPrograms {
-    /// Checks the vertex program and its pixel programs for a device.
     pub(super) fn new(profile: &Profile, kernel: VertexKernel) -> Result<Self, KernelError> {
         let pixel = match kernel.shading {
             VertexShading::Diffuse => SHADE.checked(profile)?,

@@ -24,16 +24,6 @@ pub struct CompressedTransfer<'a> {
     pub vectors: usize,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct TransferShape {
-    /// Number of matrices per vertex.
-    pub(super) channels: usize,
-    /// Number of rows of a matrix, N_r.
-    pub(super) rows: usize,
-    /// Number of columns, N_i.
-    pub(super) columns: usize,
-}
-
 impl CompressedTransfer<'_> {
     /// True if exit radiance depends on the view.
     pub fn is_glossy(&self) -> bool {
@@ -42,13 +32,6 @@ impl CompressedTransfer<'_> {
 
     /// The sizes of the transfer. Fails with [`CardError`] if its parts are inconsistent.
     pub fn size(&self) -> Result<TransferSize, CardError> {
-        let TransferShape { rows, columns, .. } = self.shape()?;
-        let clusters = self.clustering.subspaces().len();
-        Ok(TransferSize { vertices: self.vertices.len(), rows, columns, clusters, vectors: self.vectors })
-    }
-
-    /// Checks that the parts have matching sizes.
-    pub(super) fn shape(&self) -> Result<TransferShape, CardError> {
         let (channels, rows, found) = (self.channels, self.basis.len(), self.clustering.dimension());
         let size = channels * rows;
         let columns = found.checked_div(size).unwrap_or(0);
@@ -66,7 +49,10 @@ impl CompressedTransfer<'_> {
                  on data, so clusters of adaptive size are evaluated on the host alone",
                 self.vectors
             ))),
-            None => Ok(TransferShape { channels, rows, columns }),
+            None => {
+                let (vertices, clusters) = (self.vertices.len(), self.clustering.subspaces().len());
+                Ok(TransferSize { vertices, rows, columns, clusters, vectors: self.vectors })
+            }
         }
     }
 }

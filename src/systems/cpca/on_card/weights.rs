@@ -22,15 +22,6 @@ pub enum WeightFormat {
 }
 
 impl WeightFormat {
-    /// Number of bytes of a weight.
-    pub fn bytes(self) -> usize {
-        match self {
-            Self::Fp32 => 4,
-            Self::Fp16 | Self::Unorm16 => 2,
-            Self::Unorm8 => 1,
-        }
-    }
-
     /// The largest code of a fixed-point weight; `None` for floats.
     fn largest_code(self) -> Option<f64> {
         match self {

@@ -55,7 +55,6 @@ impl TracedRays {
     /// blocked ray.
     ///
     /// Rays that certainly hit nothing are not cast, which does not change the result; nor does the number of threads.
-    /// Fails with [`InputError`] if the caster fails.
     pub fn trace(
         vertices: &Vertices,
         rule: DirectionRule,

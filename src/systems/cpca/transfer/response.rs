@@ -34,8 +34,7 @@ pub struct Response {
 }
 
 impl Response {
-    /// A diffuse response: exit radiance is albedo / pi times irradiance. It has one row, the t_p of section 3. Fails
-    /// with [`InputError`] if the albedo is not in [0, 1].
+    /// A diffuse response: exit radiance is albedo / pi times irradiance. It has one row, the t_p of section 3.
     pub fn diffuse(albedo: f64, rule: &DirectionRule) -> Result<Self, InputError> {
         require((0.0..=1.0).contains(&albedo), "the albedo", "a number from 0 to 1", albedo)?;
         let columns = rule.directions().iter().map(|s| albedo / PI * s.z).collect();
@@ -52,8 +51,7 @@ impl Response {
 
     /// A glossy response in harmonics, for equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or a variant. A_r^-1 is applied
     /// if `exit_inverse`; otherwise rows are the zero-hemisphere projection of exit radiance. `views` is the rule that
-    /// integrates B ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)). Fails with [`InputError`] for parameters out
-    /// of range.
+    /// integrates B ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)).
     pub fn glossy(
         brdf: &Brdf,
         exit: &ExitBasis,

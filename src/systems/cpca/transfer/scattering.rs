@@ -56,8 +56,7 @@ impl Transfer {
     /// `entering` is the irradiance that enters the medium at each vertex, in one row
     /// ([`Response::entering`](super::Response::entering)). `reflectance`, such as a dipole's, maps a distance in mm to
     /// the exitance per flux entering there, per mm^2; over a vertex's own area it is integrated as over a disk. The
-    /// triangles should be smaller than the mean free path. Fails with [`InputError`] if `entering` belongs to other
-    /// vertices or has more than one row, or an option is out of range.
+    /// triangles should be smaller than the mean free path.
     pub fn scattered(
         vertices: &Vertices,
         entering: &Self,
@@ -99,7 +98,6 @@ impl Hierarchy {
         hierarchy
     }
 
-    /// Appends the clusters over a range of the order.
     fn divide(&mut self, first: usize, count: usize) {
         let (places, areas) = (&self.places, &self.areas);
         let members = &mut self.order[first..first + count];

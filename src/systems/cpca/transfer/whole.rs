@@ -30,9 +30,7 @@ impl Transfer {
     /// Computes the transfer of all vertices for light of an order. There must be one response per material, all in one
     /// exit basis. `bounces` is the number of interreflections, not counting the reflection towards the eye; with 0,
     /// only direct light with shadows is computed. The rays must have been traced from these vertices, with hits kept
-    /// if `bounces` is not 0. Fails with
-    /// [`InputError`] for responses with different bases or of another rule, a missing material, an order outside 1 to
-    /// 10, or bounces without hits.
+    /// if `bounces` is not 0.
     pub fn new(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -125,7 +123,6 @@ impl Transfer {
         self.values
     }
 
-    /// A transfer with this basis and size, and new values.
     pub(super) fn with_values(&self, values: Vec<f32>) -> Self {
         Self { basis: self.basis.clone(), columns: self.columns, values, bounces: Vec::new() }
     }
@@ -142,8 +139,7 @@ impl Transfer {
     }
 
     /// Adds a transfer of the same vertices in another exit basis. A diffuse part in [`ExitBasis::Radiance`] is added
-    /// to the coefficient of y_0 (Figure 9). Fails with [`InputError`] if sizes differ, or this basis lacks a function
-    /// of the other.
+    /// to the coefficient of y_0 (Figure 9).
     pub fn add(&mut self, other: &Self) -> Result<(), InputError> {
         differ("columns", [self.columns, other.columns])?;
         differ("vertices", [self.vertex_count(), other.vertex_count()])?;
@@ -211,7 +207,6 @@ fn squares(values: &[f32], size: usize) -> f64 {
     values.par_chunks(CHUNK * size).map(chunk).collect::<Vec<_>>().into_iter().sum()
 }
 
-/// Returns an error if two numbers differ.
 pub(super) fn differ(what: &str, [a, b]: [usize; 2]) -> Result<(), InputError> {
     ensure!(a == b, "crossbar::prt::precompute" => "expected equal numbers of {what}, found {a} and {b}");
     Ok(())

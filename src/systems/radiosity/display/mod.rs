@@ -50,8 +50,7 @@ pub struct Display {
 impl Display {
     /// Projects the patches, uploads the sets of patches that meet at corners, and creates targets of the camera's
     /// size. A `target` of [`TexelFormat::Bgra8`] clamps to [0, 1] in 8 bits, like a screen of the time;
-    /// [`TexelFormat::Rgba32f`] stores all values. Fails with [`DrawError`] if the card has no fragment programs, or
-    /// its targets are too small.
+    /// [`TexelFormat::Rgba32f`] stores all values.
     pub fn new(
         machine: &mut Machine,
         patches: &Patches,
@@ -75,8 +74,7 @@ impl Display {
         Ok(Self { patches: patches.list().len(), shapes, flat, id, resampler, target, ids })
     }
 
-    /// Uploads the host's radiosities, one per patch, as a texture of one row, to draw from. Fails with [`DrawError`]
-    /// if there is not one radiosity per patch, or the card's textures are too small.
+    /// Uploads the host's radiosities, one per patch, as a texture of one row, to draw from.
     pub fn upload(&self, machine: &mut Machine, radiosity: &[[f64; 3]]) -> Result<TextureId, DrawError> {
         if radiosity.len() != self.patches {
             return Err(DrawError::Count { patches: self.patches, found: radiosity.len() });
@@ -100,15 +98,13 @@ impl Display {
         self.picture(machine)
     }
 
-    /// Draws the patch whose front each pixel shows, if any; rows from the top. Fails with [`DrawError`] if the card
-    /// rejects a draw.
+    /// Draws the patch whose front each pixel shows, if any; rows from the top.
     pub fn ids(&self, machine: &mut Machine) -> Result<Vec<Option<u32>>, DrawError> {
         self.draw(machine, self.ids, None, 1.0, |_| &self.id)?;
         let codes = Texels::read_back(machine, self.ids.color)?;
         Ok(codes.texels.into_iter().map(|[code, ..]| patch_of(code)).collect())
     }
 
-    /// Clears the target, and draws all patches.
     fn draw<'a>(
         &'a self,
         machine: &mut Machine,

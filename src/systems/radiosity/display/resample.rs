@@ -10,7 +10,6 @@ use crate::card::{FullScreenPass, PingPong, Texels, nearest};
 use crate::radiosity::draw::{DrawError, bits};
 use crate::radiosity::kernels;
 
-/// Maximum width in texels.
 const WIDTH: usize = 512;
 /// Patches per pass.
 const PER_PASS: usize = 4;
@@ -19,7 +18,6 @@ const PER_PASS: usize = 4;
 /// radiosities.
 const PATCH_TEXEL: [[f64; 4]; 2] = [[1.0, 0.0, 0.0, 0.0], [0.0, 0.5, 0.0, 0.0]];
 
-/// The texture of radiosities at corners, with the passes that fill it.
 #[derive(Debug)]
 pub(super) struct Resampler {
     program: CheckedProgram,
@@ -31,7 +29,6 @@ pub(super) struct Resampler {
 }
 
 impl Resampler {
-    /// Uploads the sets of patches that meet at corners.
     pub(super) fn new(machine: &mut Machine, corner_sets: &CornerSets) -> Result<Self, DrawError> {
         let program = kernels::RESAMPLE.checked(machine.profile())?;
         let sets = &corner_sets.sets;

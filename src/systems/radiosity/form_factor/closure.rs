@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::FormFactors;
-use super::rows::mirror;
+use super::rows::divide;
 use crate::error::{InputError, input_error};
 
 /// Maximum number of rounds of scaling; each at least halves the logarithm of the remaining error.
@@ -97,8 +97,7 @@ impl FormFactors {
                 *value = *value * areas[i] * (scale[i] * d);
             }
         });
-        mirror(&mut self.matrix);
-        self.matrix.par_rows_mut().zip(areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
+        divide(&mut self.matrix, areas);
     }
 }
 

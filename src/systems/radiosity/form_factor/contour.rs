@@ -17,7 +17,6 @@ const ACROSS: f64 = 1e-14;
 /// Maximum distance at which sides count as on one line, relative to their length.
 const ON_LINE: f64 = 1e-9;
 
-/// A side of a polygon.
 #[derive(Clone, Copy, Debug)]
 struct BoundaryEdge {
     start: DVec3,

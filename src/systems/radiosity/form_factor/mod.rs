@@ -20,7 +20,6 @@ pub use closure::RowSums;
 pub(super) use polygon::clipped;
 pub use polygon::point_to_polygon;
 pub use visibility::VisibilityParameters;
-pub(super) use visibility::point_share;
 
 /// The form factors between all patches of a scene, with the patches' areas.
 #[derive(Clone, Debug, PartialEq)]

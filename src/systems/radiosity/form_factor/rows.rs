@@ -24,11 +24,9 @@ fn exchanges(patches: &Patches) -> Result<Matrix, InputError> {
     Ok(matrix)
 }
 
-/// The form factors of exchanges.
 fn complete(mut matrix: Matrix, patches: &Patches) -> FormFactors {
     let areas = patches.areas();
-    mirror(&mut matrix);
-    matrix.par_rows_mut().zip(&areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
+    divide(&mut matrix, &areas);
     FormFactors { areas, matrix }
 }
 
@@ -41,8 +39,7 @@ impl FormFactors {
 
     /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
     /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of finished
-    /// pairs and of all pairs. Fails with [`InputError`] for too many patches or no samples, or if the ray caster
-    /// fails.
+    /// pairs and of all pairs.
     pub fn with_visibility(
         patches: &Patches,
         caster: &mut dyn Caster,
@@ -55,12 +52,13 @@ impl FormFactors {
     }
 }
 
-/// Copies the upper triangle to the lower one.
-pub(super) fn mirror(matrix: &mut Matrix) {
+/// Turns exchanges in the upper triangle into form factors: copies it to the lower one, and divides rows by areas.
+pub(super) fn divide(matrix: &mut Matrix, areas: &[f64]) {
     for i in 1..matrix.row_count() {
         for j in 0..i {
             let value = matrix.row(j)[i];
             matrix.row_mut(i)[j] = value;
         }
     }
+    matrix.par_rows_mut().zip(areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
 }

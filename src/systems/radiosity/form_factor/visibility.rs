@@ -3,7 +3,6 @@
 //! The estimate is consistent, and exactly 1 where every ray is unoccluded: an empty room keeps its unoccluded factors
 //! to the bit.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::exchange::kernel;
@@ -13,8 +12,8 @@ use crate::geom::vector::narrow;
 use crate::geom::{Hit, Ray};
 use crate::linalg::Matrix;
 use crate::radiosity::Patches;
+use crate::tracer::Caster;
 use crate::tracer::offset::scene_clearance;
-use crate::tracer::{CastError, Caster};
 
 /// Parameters of the visibility estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,16 +41,6 @@ struct VisibilitySample {
     arrives: f32,
 }
 
-fn require_samples(parameters: VisibilityParameters) -> Result<(), InputError> {
-    ensure!(parameters.side > 0, "radiosity::form_factors" =>
-        "expected 1 sample or more along a side of a patch, found 0");
-    Ok(())
-}
-
-fn cast_error(error: CastError) -> InputError {
-    InputError::of("radiosity::form_factors", error)
-}
-
 /// Multiplies the factors above the diagonal by the visible fraction.
 pub(super) fn hide(
     patches: &Patches,
@@ -60,7 +49,8 @@ pub(super) fn hide(
     parameters: VisibilityParameters,
     done: &mut dyn FnMut(usize, usize),
 ) -> Result<(), InputError> {
-    require_samples(parameters)?;
+    ensure!(parameters.side > 0, "radiosity::form_factors" =>
+        "expected 1 sample or more along a side of a patch, found 0");
     let pairs: Vec<[u32; 2]> = factors
         .rows()
         .enumerate()
@@ -72,7 +62,8 @@ pub(super) fn hide(
         let samples: Vec<VisibilitySample> =
             bundle.par_iter().flat_map_iter(|&pair| samples(patches, pair, parameters)).collect();
         let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
-        let mut hits = caster.cast(&rays).map_err(cast_error)?.into_iter();
+        let hits = caster.cast(&rays).map_err(|error| InputError::of("radiosity::form_factors", error))?;
+        let mut hits = hits.into_iter();
         for (&[i, j], samples) in bundle.iter().zip(samples.chunks(rays_a_pair)) {
             let faces = [i, j].map(|patch| patches.list()[patch as usize].face);
             factors.row_mut(i as usize)[j as usize] *= share(patches, faces, samples, &mut hits);
@@ -101,17 +92,12 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
         let left = (far.len() - sample) as u64;
         far.swap(sample, sample + (random.bits(index, number, 4) % left) as usize);
         let ((x, dx), (y, dy)) = (at(i, sample, number, 0), at(j, far[sample], number, 2));
-        let (ray, arrives) = ray_between(x + lift * pair[0].normal(), y, lift);
+        let start = x + lift * pair[0].normal();
+        let to = y - start;
+        let (ray, arrives) = (Ray::new(narrow(start), narrow(to)).ok(), (1.0 - 2.0 * lift / to.length()) as f32);
         dealt.push(VisibilitySample { weight: dx * dy * kernel(pair, x, y), ray, arrives });
     }
     dealt
-}
-
-/// Returns the ray from one point to another, and the parameter from which a hit counts as its end.
-fn ray_between(start: DVec3, end: DVec3, lift: f64) -> (Option<Ray>, f32) {
-    let to = end - start;
-    let ray = Ray::new(narrow(start), narrow(to)).ok();
-    (ray, (1.0 - 2.0 * lift / to.length()) as f32)
 }
 
 /// Unoccluded fraction of the samples' weight; consumes one hit per ray.
@@ -134,35 +120,4 @@ fn share(
     }
     // If all weights are 0, the quotient would be NaN.
     if open == all { 1.0 } else { open / all }
-}
-
-/// Visible fraction of each target patch, seen from a point with a normal.
-pub(in crate::radiosity) fn point_share(
-    patches: &Patches,
-    [point, normal]: [DVec3; 2],
-    targets: &[usize],
-    caster: &mut dyn Caster,
-    parameters: VisibilityParameters,
-) -> Result<Vec<f64>, InputError> {
-    require_samples(parameters)?;
-    let (side, lift) = (u64::from(parameters.side), scene_clearance(patches.extent()));
-    let (random, start) = (CounterRng::new(parameters.seed), point + lift * normal);
-    let count = side.saturating_mul(side);
-    let sample = |target: usize, k: u64| {
-        let patch = &patches.list()[target];
-        let along = |stratum: u64, d| ((stratum as f64) + random.unit(target as u64, k, d)) / side as f64;
-        let there = patches.open_point(target, [along(k % side, 0), along(k / side, 1)]);
-        let to = there.at - point;
-        let (cosines, square) = (normal.dot(to).max(0.0) * (-patch.normal().dot(to)).max(0.0), to.dot(to));
-        let (ray, arrives) = ray_between(start, there.at, lift);
-        let weight = if square > 0.0 { there.density * cosines / (square * square) } else { 0.0 };
-        VisibilitySample { weight, ray, arrives }
-    };
-    let samples: Vec<VisibilitySample> =
-        targets.iter().flat_map(|&target| (0..count).map(move |k| (target, k))).map(|(t, k)| sample(t, k)).collect();
-    let rays: Vec<Ray> = samples.iter().filter_map(|sample| sample.ray).collect();
-    let mut hits = caster.cast(&rays).map_err(cast_error)?.into_iter();
-    let face = |target: usize| patches.list()[target].face;
-    let parts = targets.iter().zip(samples.chunks(count as usize));
-    Ok(parts.map(|(&target, samples)| share(patches, [face(target); 2], samples, &mut hits)).collect())
 }

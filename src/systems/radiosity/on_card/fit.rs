@@ -45,16 +45,14 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Limits of a device. A block is 254 texels on the paper's card. Fails with [`CardError::Input`] for a device
-    /// without fragment programs of sufficient length.
+    /// Limits of a device. A block is 254 texels on the paper's card.
     pub fn of(profile: &Profile, packing: Packing) -> Result<Self, CardError> {
         let (instructions, limit) = limits(profile)?;
         let blocks = kernels::of(packing, false).map(|kernel| kernel.block(instructions));
         Ok(Self { block: blocks[0].min(blocks[1]).max(1), limit })
     }
 
-    /// Checks the size of a system before its form factors are computed, which takes long. Fails with
-    /// [`CardError::Input`].
+    /// Checks the size of a system before its form factors are computed, which takes long.
     pub fn require(self, profile: &Profile, packing: Packing, patches: usize) -> Result<(), CardError> {
         let size = packing.matrix_texels(patches);
         if size[0].max(size[1]) <= self.limit {
@@ -63,8 +61,7 @@ impl Fit {
         Err(too_large(profile, packing::too_large("a matrix", self.limit, size)))
     }
 
-    /// Lays out a system for the device: one system of three channels, or three systems of one channel. Fails with
-    /// [`CardError::Input`].
+    /// Lays out a system for the device: one system of three channels, or three systems of one channel.
     pub fn systems(self, profile: &Profile, packing: Packing, system: &System) -> Result<Vec<CardSystem>, CardError> {
         let made = match packing {
             Packing::Rgb => CardSystem::rgb(system, self.block, self.limit).map(|one| vec![one]),

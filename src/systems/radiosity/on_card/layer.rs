@@ -72,7 +72,6 @@ impl Layer {
         self.partial.written_by(pass)
     }
 
-    /// Draws one pass of equation 4.
     pub(super) fn pass(&self, machine: &mut Machine, programs: &Programs, number: usize) -> Result<(), CardError> {
         let Some(&pass) = programs.passes.get(number) else { return Ok(()) };
         match self.layout.packing {

@@ -46,8 +46,7 @@ pub struct CardSolver {
 }
 
 impl CardSolver {
-    /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one. Fails with
-    /// [`CardError::Input`]; [`CardError::Draw`] if the device lacks the format, or a GPU of the host does not open.
+    /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -132,8 +131,7 @@ impl CardSolver {
         Ok(())
     }
 
-    /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey. Fails with
-    /// [`CardError::Draw`].
+    /// Reads the radiosities back: red, green and blue of each patch. A single luminance system is grey.
     pub fn read(&self) -> Result<Vec<[f32; 3]>, CardError> {
         let all = self.read_texels()?;
         let last = all.len().saturating_sub(1);

@@ -19,7 +19,6 @@ pub struct PassProgram {
 }
 
 impl PassProgram {
-    /// Unrolls a kernel for a block and checks it against the device.
     pub(super) fn new(profile: &Profile, kernel: KernelText, texels: usize) -> Result<Self, KernelError> {
         let (text, checked) = kernel.unrolled_and_checked(profile, texels)?;
         Ok(Self { kernel, texels, text, checked })
@@ -46,7 +45,6 @@ pub(super) struct Programs {
 }
 
 impl Programs {
-    /// Unrolls the programs for `width` texels in blocks of `block`; the first pass has a separate program.
     pub(super) fn new(
         profile: &Profile,
         [first, next]: [KernelText; 2],

@@ -27,8 +27,7 @@ pub enum Solver {
     Direct,
 }
 
-/// Solves a system. Fails with [`InputError`]. Reaching the maximum number of iterations is not an error: see
-/// [`Solution::converged`].
+/// Solves a system. Reaching the maximum number of iterations is not an error: see [`Solution::converged`].
 pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, InputError> {
     check(problem)?;
     match solver {

@@ -8,7 +8,6 @@ use crate::tracer::triangle_test::HostRay;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Ticket(pub u64);
 
-/// Ray in a GPU cell's cache.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Waiting {
     pub(super) flight: u32,
@@ -30,7 +29,6 @@ impl Cache {
     }
 }
 
-/// Ray without an answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RayInFlight {
     pub(super) ticket: Ticket,
@@ -54,7 +52,6 @@ impl RaysInFlight {
         self.given
     }
 
-    /// Issues `rays` more tickets.
     pub(super) fn give(&mut self, rays: usize) {
         self.given += rays as u64;
     }
@@ -73,7 +70,6 @@ impl RaysInFlight {
         &mut self.places[place as usize]
     }
 
-    /// Removes a ray; its slot is free again.
     pub(super) fn end(&mut self, place: u32) -> RayInFlight {
         self.free.push(place);
         self.places[place as usize]

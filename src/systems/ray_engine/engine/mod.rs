@@ -15,7 +15,6 @@
 
 mod counts;
 mod flight;
-mod order;
 mod parameters;
 mod passes;
 mod schedule;
@@ -28,12 +27,12 @@ use refsim::machine::Executor;
 
 use super::ray_tree::RayTree;
 use super::{Crossbar, EngineError};
+use crate::geom::random::CounterRng;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::tracer::HostTracer;
 use crate::tracer::octree::{CellId, GpuCells};
 use crate::tracer::{CastError, Caster};
 use flight::{Cache, RaysInFlight};
-use order::order;
 use passes::Passes;
 
 pub use counts::EngineCounts;
@@ -62,8 +61,7 @@ pub struct RayEngine<'a> {
 }
 
 impl<'a> RayEngine<'a> {
-    /// Creates an engine over a mesh: builds the octree and marks the GPU cells. Fails with [`EngineError`] if the card
-    /// runs no intersection program.
+    /// Creates an engine over a mesh: builds the octree and marks the GPU cells.
     pub fn new(
         mesh: &'a Mesh,
         profile: Profile,
@@ -91,8 +89,7 @@ impl<'a> RayEngine<'a> {
         })
     }
 
-    /// Submits rays, and may answer some waiting rays. The rays get consecutive tickets from the returned one. Fails
-    /// with [`EngineError`] if the card rejects the work.
+    /// Submits rays, and may answer some waiting rays. The rays get consecutive tickets from the returned one.
     pub fn submit(&mut self, rays: &[Ray]) -> Result<Ticket, EngineError> {
         let first = self.flights.given();
         self.flights.give(rays.len());
@@ -155,16 +152,6 @@ impl<'a> RayEngine<'a> {
         EngineCounts { tree: self.tree.counts(), ..self.counts }
     }
 
-    /// Host tracer.
-    pub fn tracer(&self) -> &HostTracer {
-        &self.tracer
-    }
-
-    /// GPU cells.
-    pub fn cells(&self) -> &GpuCells {
-        &self.cells
-    }
-
     /// Bucket occupancy of the ray tree, in [0, 1].
     pub fn occupancy(&self) -> Vec<f64> {
         self.tree.occupancy()
@@ -186,4 +173,19 @@ impl Caster for RayEngine<'_> {
     fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError> {
         self.trace(rays).map_err(|error| CastError(Box::new(error)))
     }
+}
+
+/// Returns a permutation of `count` rays: the identity, or shuffled (section 5.3: "in random order, which helps keep
+/// the tree balanced") by a seed and the index of the first ray.
+fn order(count: usize, shuffled: Option<(u64, u64)>) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..count).collect();
+    if let Some((seed, first)) = shuffled {
+        let random = CounterRng::new(seed);
+        for last in (1..count).rev() {
+            let bits = random.bits(first, last as u64, 0);
+            // The high half of the product is almost uniform for any possible number of rays.
+            places.swap(last, ((u128::from(bits) * (last as u128 + 1)) >> 64) as usize);
+        }
+    }
+    places
 }

@@ -22,7 +22,6 @@ pub(super) struct PassInFlight {
     pub(super) hits: Vec<Option<CardHit>>,
     /// Fence after the read-back; `None` if the host has already waited for it.
     fence: Option<FenceId>,
-    /// Set of textures and targets.
     sheet: usize,
 }
 
@@ -34,7 +33,6 @@ pub(super) struct Passes {
     flying: VecDeque<PassInFlight>,
     /// Sets of textures and targets that no pass in flight uses, least recently used first.
     free: VecDeque<usize>,
-    /// Number of sets.
     sheets: usize,
 }
 
@@ -93,7 +91,6 @@ impl Passes {
         Some(pass)
     }
 
-    /// Takes the log of the card since the last call.
     pub(super) fn take_log(&mut self) -> Vec<Event> {
         self.card.machine.take_log()
     }

@@ -63,7 +63,6 @@ impl RayEngine<'_> {
         }
     }
 
-    /// Runs until nothing is in flight.
     pub(super) fn settle(&mut self) -> Result<(), EngineError> {
         while self.take_pass() {
             self.drive()?;

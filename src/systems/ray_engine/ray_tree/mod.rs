@@ -5,12 +5,10 @@
 //! which they vary most, and in two at the mean of the directions, likewise.
 
 mod key;
-mod split;
 mod take;
 
 use crate::geom::Ray;
-use key::{Key, RayTreeEntry};
-use split::Split;
+use key::{Key, RayTreeEntry, Split};
 
 /// Parameters of a ray tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -23,7 +23,6 @@ pub(super) struct PhotonEmission<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: &'a Settings,
     pub(super) lights: &'a Lights<'a>,
-    /// Number of photons.
     pub(super) count: u32,
     /// `true` to store only light that has passed at least one mirror or glass, and no other surface.
     pub(super) caustic: bool,

@@ -139,8 +139,7 @@ impl GatherKernel {
         }
     }
 
-    /// The program for this number of links, checked for a device. Fails with [`KernelError`] if it breaks a rule of
-    /// the device.
+    /// The program for this number of links, checked for a device.
     pub fn checked(&self, profile: &Profile, links: usize) -> Result<CheckedProgram, KernelError> {
         checked(profile, format!("`{}`, written out for {links} links", self.name()), &self.text(links))
     }
@@ -172,7 +171,6 @@ impl Writer {
         let _ = writeln!(self.text, "TEX {}, {at}, TEX{unit}, RECT;", self.register(into));
     }
 
-    /// Reads the next texture of links.
     fn read_links(&mut self, into: usize) {
         let in_one = self.kernel.tiles * self.kernel.tiles;
         let unit = 1 + usize::from(self.kernel.continues) + self.textures / in_one;

@@ -33,8 +33,7 @@ impl LightKernel {
         text + tail
     }
 
-    /// The program for this number of lights, checked for a device. Fails with [`KernelError`] if it breaks a rule of
-    /// the device.
+    /// The program for this number of lights, checked for a device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.kernel.name;
         let name = if lights == 1 { format!("`{name}`") } else { format!("`{name}`, written out for {lights} lights") };

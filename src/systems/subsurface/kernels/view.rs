@@ -15,16 +15,13 @@ use super::LightKernel;
 use crate::card::{KernelError, KernelText, checked, instructions};
 
 /// The Fresnel transmittance towards the eye.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum EyeTransmittance {
     /// Computed by the program.
     #[default]
     Exact,
     /// Read from a 1-D texture by the cosine.
     Table,
-    /// A constant: the mean over the hemisphere.
-    Mean,
 }
 
 /// The stage that computes direct light.
@@ -141,7 +138,7 @@ impl ViewKernel {
     /// All programs.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
-        for transmittance in [EyeTransmittance::Exact, EyeTransmittance::Table, EyeTransmittance::Mean] {
+        for transmittance in [EyeTransmittance::Exact, EyeTransmittance::Table] {
             let direct = [DirectLight::None, DirectLight::ByVertex, DirectLight::ByFragment];
             all.extend(direct.map(|direct| Self { transmittance, direct }));
         }
@@ -153,7 +150,6 @@ impl ViewKernel {
         let transmittance = match self.transmittance {
             EyeTransmittance::Exact => "exact",
             EyeTransmittance::Table => "table",
-            EyeTransmittance::Mean => "mean",
         };
         let direct = match self.direct {
             DirectLight::None => "",
@@ -166,14 +162,10 @@ impl ViewKernel {
     /// The program for this number of lights computed at each fragment.
     pub fn text(&self, lights: usize) -> String {
         let by_fragment = self.direct == DirectLight::ByFragment;
-        let mut text = PLACE.to_owned();
-        if by_fragment || self.transmittance != EyeTransmittance::Mean {
-            text.push_str(DIRECTIONS);
-        }
+        let mut text = [PLACE, DIRECTIONS].concat();
         text.push_str(match self.transmittance {
             EyeTransmittance::Exact => EXACT,
             EyeTransmittance::Table => TABLE,
-            EyeTransmittance::Mean => "",
         });
         if by_fragment {
             text.push_str(&LIGHT_PART.text(lights));
@@ -193,8 +185,7 @@ impl ViewKernel {
         LIGHT_PART.most_within([0, 1].map(|lights| instructions(&self.text(lights))), slots, constants)
     }
 
-    /// The program for this number of lights computed at each fragment, checked for a device. Fails with
-    /// [`KernelError`] if it breaks a rule of the device.
+    /// The program for this number of lights computed at each fragment, checked for a device.
     pub fn checked(&self, profile: &Profile, lights: usize) -> Result<CheckedProgram, KernelError> {
         let name = self.name();
         let name = if self.direct == DirectLight::ByFragment {

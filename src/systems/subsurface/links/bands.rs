@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::choice::{self, LinkChoice};
-use crate::error::{InputError, ensure, input_error};
+use crate::error::{InputError, ensure};
 use crate::subsurface::multipole::{BLOCK_LEVEL, BlockReceiver, ClusterId, Factors, SurfaceMoments};
 
 /// Maximum number of factors: 1 GiB.
@@ -95,16 +95,12 @@ impl PackedCluster {
 /// Checks a choice, and returns its number of links per texel.
 pub(super) fn check(surface: &SurfaceMoments, choice: LinkChoice, channels: usize) -> Result<usize, InputError> {
     let side = surface.side();
-    match choice {
-        LinkChoice::Fixed { level } if level >= surface.level_count() => {
-            let levels = surface.level_count();
-            return Err(input_error!("subsurface::links" => "expected a level below {levels}, found {level}"));
-        }
-        LinkChoice::Adaptive { count: 0 } => {
-            return Err(input_error!("subsurface::links" => "expected at least one link per texel"));
-        }
-        LinkChoice::Fixed { .. } | LinkChoice::Adaptive { .. } => {}
+    if let LinkChoice::Fixed { level } = choice {
+        let levels = surface.level_count();
+        ensure!(level < levels, "subsurface::links" => "expected a level below {levels}, found {level}");
     }
+    let is_empty = choice == LinkChoice::Adaptive { count: 0 };
+    ensure!(!is_empty, "subsurface::links" => "expected at least one link per texel");
     let links = choice.per_texel(side) as usize;
     let factors = u128::from(side) * u128::from(side) * links as u128 * channels as u128;
     ensure!(factors <= MAX_FACTORS as u128, "subsurface::links" =>

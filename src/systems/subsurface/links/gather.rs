@@ -25,8 +25,7 @@ pub struct IrradianceMeans {
 }
 
 impl IrradianceMeans {
-    /// The means of the irradiances of all texels, row by row. Fails with [`InputError`] if there is not one irradiance
-    /// per texel.
+    /// The means of the irradiances of all texels, row by row.
     pub fn new(
         surface: &SurfaceMoments,
         irradiances: &[[f64; 3]],

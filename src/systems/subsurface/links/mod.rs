@@ -38,9 +38,7 @@ pub struct Links {
 }
 
 impl Links {
-    /// Computes the links of every texel, for one dipole (scalar factors) or for red, green and blue. Fails with
-    /// [`InputError`] for another number of dipoles, a level that the atlas does not have, a tolerance out of range, no
-    /// links, or more than [`MAX_FACTORS`] factors.
+    /// Computes the links of every texel, for one dipole (scalar factors) or for red, green and blue.
     pub fn new(
         surface: &SurfaceMoments,
         dipoles: &[Dipole],
@@ -101,13 +99,5 @@ impl Links {
     /// Factors texel by texel, row by row, then link by link, then channel by channel.
     pub fn factors(&self) -> &[f32] {
         &self.factors
-    }
-
-    /// The clusters of fixed links; empty for adaptive links.
-    pub fn fixed_clusters(&self) -> Vec<ClusterId> {
-        match self.choice {
-            LinkChoice::Fixed { .. } => self.clusters.iter().map(|cluster| cluster.id()).collect(),
-            LinkChoice::Adaptive { .. } => Vec::new(),
-        }
     }
 }

@@ -31,7 +31,6 @@ impl Window {
         self.s[0] < self.t[1] && self.t[0] < self.s[1]
     }
 
-    /// The four quarters.
     pub(super) fn quarters(&self) -> [Self; 4] {
         let [s0, s1] = self.s;
         let [t0, t1] = self.t;

@@ -18,8 +18,7 @@ pub struct Factors<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Factors<'a, N> {
-    /// Creates factors within a tolerance, for example [`super::TOLERANCE`]. Fails with [`InputError`] if the tolerance
-    /// is not from [`MIN_TOLERANCE`] to [`MAX_TOLERANCE`].
+    /// Creates factors within a tolerance of [`MIN_TOLERANCE`] to [`MAX_TOLERANCE`], such as [`super::TOLERANCE`].
     pub fn new(surface: &'a SurfaceMoments, dipoles: [Dipole; N], tolerance: f64) -> Result<Self, InputError> {
         ensure!((MIN_TOLERANCE..=MAX_TOLERANCE).contains(&tolerance), "subsurface::links" =>
             "expected a tolerance of factors from {MIN_TOLERANCE} to {MAX_TOLERANCE}, found {tolerance}");

@@ -67,7 +67,6 @@ struct Interval<const N: usize> {
     negligible: [f64; N],
 }
 
-/// Value, first and fourth derivative of R_d by v.
 struct Derivatives {
     value: f64,
     first: f64,

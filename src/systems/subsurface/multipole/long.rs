@@ -27,13 +27,11 @@ struct Part {
     area: f64,
 }
 
-/// The outline of a flat convex polygon.
 struct Outline {
     normal: DVec3,
     sides: Vec<OutlineSide>,
 }
 
-/// A side of a polygon.
 struct OutlineSide {
     start: DVec3,
     /// The unit vector to its end.
@@ -276,7 +274,6 @@ struct Interval<const N: usize> {
 }
 
 impl<const N: usize> Interval<N> {
-    /// Creates an interval from values at both ends and the middle.
     fn new([from, to]: [f64; 2], [a, c, e]: [[f64; N]; 3], mut value: impl FnMut(f64) -> [f64; N]) -> Self {
         let [b, d] = [0.25, 0.75].map(|part| value(from + part * (to - from)));
         let sixth = (to - from) / 6.0;

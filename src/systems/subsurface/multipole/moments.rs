@@ -6,9 +6,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moments {
     pub(super) area: f64,
-    /// Mean point of the piece.
     pub(super) point: DVec3,
-    /// Covariance about the mean point.
     pub(super) covariance: Covariance,
     pub(super) size_squared: f64,
 }

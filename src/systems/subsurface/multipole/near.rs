@@ -159,7 +159,6 @@ impl<const N: usize> Pair<'_, N> {
     }
 }
 
-/// A piece of a texel.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Piece {
     halvings: usize,

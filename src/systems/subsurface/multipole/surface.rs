@@ -32,8 +32,7 @@ pub struct SurfaceMoments {
 }
 
 impl SurfaceMoments {
-    /// Computes the moments of the clusters of an atlas. Fails with [`InputError`] if the scale is not from
-    /// [`MIN_MM_PER_UNIT`](super::MIN_MM_PER_UNIT) to [`MAX_MM_PER_UNIT`](super::MAX_MM_PER_UNIT).
+    /// Computes the moments of the clusters of an atlas.
     pub fn new(atlas: &Atlas, mm_per_unit: f64) -> Result<Self, InputError> {
         check_scale(mm_per_unit)?;
         let in_mm = |corner: DVec3| mm_per_unit * corner;

@@ -40,7 +40,6 @@ impl GatherProgram {
     }
 }
 
-/// Textures, programs and targets of pass 2.
 #[derive(Debug)]
 pub(super) struct Gather {
     side: u32,
@@ -77,7 +76,6 @@ impl Gather {
         Ok(Self { side: links.side, level: links.level, factor, textures, programs, targets })
     }
 
-    /// Gathers from a map.
     pub(super) fn run(&self, machine: &mut Machine, map: &LeveledMap) -> Result<(), CardError> {
         let mut next = 0;
         for (pass, program) in self.programs.iter().enumerate() {
@@ -124,7 +122,6 @@ impl Gather {
         self.targets[pass % self.targets.len()]
     }
 
-    /// The scattered irradiance.
     pub(super) fn scattered(&self) -> TextureId {
         self.target(self.programs.len() - 1)
     }

@@ -60,7 +60,6 @@ impl LeveledMap {
         [base, levels, row]
     }
 
-    /// Computes all levels from the map.
     pub(super) fn fill(&self, machine: &mut Machine) -> Result<(), CardError> {
         let Some(float) = &self.float else {
             machine.generate_mipmaps(self.map)?;

@@ -98,14 +98,12 @@ impl CardLights {
         Ok(all)
     }
 
-    /// The irradiance of skies times the mean transmittance, and `factor`.
     pub(super) fn sky_irradiance(&self, mean_transmittance: f64, factor: f64) -> [f32; 4] {
         let [r, g, b] = self.sky.map(|radiance| narrow(radiance * PI * mean_transmittance * factor));
         [r, g, b, 0.0]
     }
 }
 
-/// A constant of a light: its color times `factor`.
 pub(super) fn colored(color: [f64; 3], factor: impl Fn(usize) -> f64) -> [f32; 4] {
     let [r, g, b] = [0, 1, 2].map(|channel| narrow(color[channel] * factor(channel)));
     [r, g, b, 0.0]

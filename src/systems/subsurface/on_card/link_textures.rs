@@ -10,10 +10,8 @@ use crate::subsurface::multipole::SurfaceMoments;
 #[derive(Clone, Debug)]
 pub struct LinkTextures {
     pub(super) side: u32,
-    /// The level of fixed links.
     pub(super) level: Option<u32>,
     pub(super) rgb: bool,
-    /// Links per texel.
     pub(super) count: usize,
     /// The textures of [`EncodedLinks`].
     textures: Vec<Texels>,
@@ -57,7 +55,6 @@ impl LinkTextures {
         Ok(Self { side, level, rgb, count, textures })
     }
 
-    /// The layout of links in the textures, which selects the program.
     pub(super) fn layout(&self) -> LinkLayout {
         if self.level.is_some() { LinkLayout::Fixed } else { LinkLayout::Adaptive }
     }

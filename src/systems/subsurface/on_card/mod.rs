@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::isa::Version;
-use refsim::machine::{Executor, Machine};
+use refsim::machine::Executor;
 
 pub use gather::GatherProgram;
 pub use light::Light;
@@ -56,9 +56,7 @@ pub struct SubsurfaceCard {
 }
 
 impl SubsurfaceCard {
-    /// Uploads a model and its links. `eta` is the index of refraction. Fails with [`CardError`] if the device does not
-    /// support the programs, an atlas or a program is too large for it, the links belong to another atlas, or a number
-    /// is out of range.
+    /// Uploads a model and its links. `eta` is the index of refraction.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -88,7 +86,6 @@ impl SubsurfaceCard {
         Ok(require_versions(profile, &[Version::Fp1_0, Version::Vs2_0], "the passes")?)
     }
 
-    /// Checks sizes before any work.
     fn fits(profile: &Profile, links: &LinkTextures, options: &SubsurfaceCardOptions) -> Result<(), CardError> {
         Self::require(profile)?;
         let sides = [profile.limits.max_texture_size, profile.limits.max_target_size].into_iter().flatten();
@@ -122,7 +119,7 @@ impl SubsurfaceCard {
     /// Runs passes 1 and 2 for new lights. Fails with [`CardError::Input`] or [`CardError::Draw`].
     pub fn light(&mut self, lights: &[Light]) -> Result<(), CardError> {
         self.lights = CardLights::new(lights, &self.model)?;
-        self.light.run(self.view.machine_mut(), &self.lights, self.map.map)?;
+        self.light.run(self.view.display.machine_mut(), &self.lights, self.map.map)?;
         self.scatter()
     }
 
@@ -130,28 +127,25 @@ impl SubsurfaceCard {
     /// then runs pass 2. There is no direct light then. Fails with [`CardError::Input`] or [`CardError::Draw`].
     pub fn irradiate(&mut self, irradiances: &[[f64; 3]]) -> Result<(), CardError> {
         self.lights = CardLights::default();
-        self.light.fill(self.view.machine_mut(), &self.model, irradiances, self.map.map)?;
+        self.light.fill(self.view.display.machine_mut(), &self.model, irradiances, self.map.map)?;
         self.scatter()
     }
 
-    /// Computes levels and runs pass 2.
     fn scatter(&mut self) -> Result<(), CardError> {
         self.note(PassKind::RadiosityMap);
-        self.map.fill(self.view.machine_mut())?;
+        self.map.fill(self.view.display.machine_mut())?;
         self.note(PassKind::Levels);
         self.gather()
     }
 
-    /// Runs pass 2 with the current map, as [`Self::light`] and [`Self::irradiate`] do at their end. Fails with
-    /// [`CardError::Draw`].
+    /// Runs pass 2 with the current map, as [`Self::light`] and [`Self::irradiate`] do at their end.
     pub fn gather(&mut self) -> Result<(), CardError> {
-        self.gather.run(self.view.machine_mut(), &self.map)?;
+        self.gather.run(self.view.display.machine_mut(), &self.map)?;
         self.note(PassKind::Gather);
         Ok(())
     }
 
-    /// Draws the model from a camera: pass 3. Background pixels are 0. Fails with [`CardError::Input`] or
-    /// [`CardError::Draw`].
+    /// Draws the model from a camera: pass 3. Background pixels are 0.
     pub fn view(&mut self, view: &View) -> Result<Picture, CardError> {
         let Texels { width, height, texels } = self.view_texels(view)?;
         let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
@@ -168,21 +162,20 @@ impl SubsurfaceCard {
     /// Reads all levels of the radiosity map, finest first: irradiance times transmittance times area, divided by the
     /// mean area and multiplied by the map's scale. Fails with [`CardError::Draw`].
     pub fn read_levels(&self) -> Result<Vec<Texels>, CardError> {
-        self.map.read_back(self.view.machine())
+        self.map.read_back(self.view.display.machine())
     }
 
     /// Reads only the finest level of the radiosity map. Fails with [`CardError::Draw`].
     pub fn read_map(&self) -> Result<Texels, CardError> {
-        Ok(Texels::read_back(self.view.machine(), self.map.map)?)
+        Ok(Texels::read_back(self.view.display.machine(), self.map.map)?)
     }
 
     /// Reads the scattered irradiance: B of equation 9 per texel. Fails with [`CardError::Draw`].
     pub fn read_scattered(&self) -> Result<Texels, CardError> {
-        Ok(Texels::read_back(self.view.machine(), self.gather.scattered())?)
+        Ok(Texels::read_back(self.view.display.machine(), self.gather.scattered())?)
     }
 
-    /// Number of channels of the radiosity map's texels at the largest value, where light may have been clamped. Fails
-    /// with [`CardError::Draw`].
+    /// Number of channels of the radiosity map's texels at the largest value, where light may have been clamped.
     pub fn saturated(&self) -> Result<usize, CardError> {
         let largest = self.options.map.largest();
         let map = self.read_map()?;
@@ -190,15 +183,10 @@ impl SubsurfaceCard {
         Ok(channels.filter(|value| **value >= largest).count())
     }
 
-    /// The emulated card.
-    pub fn machine_mut(&mut self) -> &mut Machine {
-        self.view.machine_mut()
-    }
-
     /// Starts or stops recording the log.
     pub fn record(&mut self, on: bool) {
-        self.view.machine_mut().record(on);
-        self.view.machine_mut().take_log();
+        self.view.display.machine_mut().record(on);
+        self.view.display.machine_mut().take_log();
         self.log = on.then(Vec::new);
     }
 
@@ -207,10 +195,9 @@ impl SubsurfaceCard {
         self.log.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// Assigns the machine's recorded log to a pass.
     fn note(&mut self, pass: PassKind) {
         if let Some(log) = &mut self.log {
-            log.extend(self.view.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));
+            log.extend(self.view.display.machine_mut().take_log().into_iter().map(|event| PassEvent { pass, event }));
         }
     }
 }

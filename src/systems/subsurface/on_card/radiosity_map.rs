@@ -16,7 +16,6 @@ use crate::subsurface::fresnel::mean_transmittance;
 use crate::subsurface::kernels::{self, LightKernel};
 use crate::subsurface::material::check_eta;
 
-/// Programs, geometry and targets of pass 1.
 #[derive(Debug)]
 pub(super) struct LightPass {
     format: MapFormat,

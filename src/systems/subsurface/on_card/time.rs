@@ -54,8 +54,7 @@ pub struct PassTime {
     pub bytes: u64,
 }
 
-/// The times of a log's passes, in the order of [`PassKind::ALL`]. Fails with [`TimingError`] if the device's rates are
-/// unknown.
+/// The times of a log's passes, in the order of [`PassKind::ALL`].
 pub fn pass_times(profile: &Profile, log: &[PassEvent]) -> Result<[PassTime; 4], TimingError> {
     let model = Model::new(Level::Pipeline, profile)?;
     Ok(PassKind::ALL.map(|kind| {

@@ -11,7 +11,7 @@ use super::model::CardModel;
 use crate::card::{
     Attribute, BILINEAR, CardError, KeptFragments, MeshDisplay, MeshDraw, MeshPass, MeshView, Texels, new_texture,
 };
-use crate::subsurface::fresnel::{fresnel_transmittance, mean_transmittance};
+use crate::subsurface::fresnel::fresnel_transmittance;
 use crate::subsurface::kernels::{self, DirectLight, EyeTransmittance, ViewKernel, fragment_room, vertex_room};
 
 /// Texels of the table of transmittances.
@@ -53,7 +53,8 @@ impl View {
 #[derive(Debug)]
 pub(super) struct ViewPass {
     eta: f64,
-    display: MeshDisplay,
+    /// The card, which all passes share.
+    pub(super) display: MeshDisplay,
     /// Normals, pairs of places in the atlas, and bounds of reads.
     beside: [Attribute; 3],
     table: Option<TextureId>,
@@ -71,17 +72,6 @@ impl ViewPass {
         Self { eta, display: MeshDisplay::in_frame(machine, *model.frame(), positions), beside, table: None }
     }
 
-    /// The card, which all passes share.
-    pub(super) fn machine(&self) -> &Machine {
-        self.display.machine()
-    }
-
-    /// The card, which all passes share.
-    pub(super) fn machine_mut(&mut self) -> &mut Machine {
-        self.display.machine_mut()
-    }
-
-    /// Draws a view.
     pub(super) fn show(&mut self, lights: &CardLights, scattered: TextureId, view: &View) -> Result<Texels, CardError> {
         view.check()?;
         let direct = direct_lights(self.display.machine(), lights, view.kernel)?;
@@ -185,7 +175,6 @@ impl ViewConstants<'_> {
                 let texels = TABLE as f32;
                 (1.0, [(texels - 1.0) / texels, 0.5 / texels, 0.0])
             }
-            EyeTransmittance::Mean => (mean_transmittance(self.eta), [0.0; 3]),
         };
         let factor = (factor * self.view.mesh.exposure / PI) as f32;
         let mut all =

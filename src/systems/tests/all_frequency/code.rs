@@ -163,19 +163,6 @@ fn sizes_are_counted_by_part() {
     assert_eq!((size.representatives, size.weights, size.steps), (2 * nonzeros, weights, 16));
 }
 
-#[test]
-fn other_bits_are_refused() {
-    for (representative_bits, weight_bits, what) in
-        [(1, 16, "representatives"), (17, 16, "representatives"), (16, 0, "weights")]
-    {
-        let options = CodeOptions { representative_bits, weight_bits, scale: ScaleOf::Segment };
-        let error = CodedTransfer::new(&sample(1, 4), options).expect_err("refused");
-        let found = if what == "weights" { weight_bits } else { representative_bits };
-        assert_eq!(error.error_code(), "crossbar::prt::code");
-        assert_eq!(error.to_string(), format!("expected 2 to 16 bits for {what}, the sign among them, found {found}"));
-    }
-}
-
 /// Weights of any size, on a single vector of a single number, are coded as multiples of their step, ties to even.
 #[test]
 fn numbers_come_back_within_half_a_step() {

@@ -3,8 +3,7 @@
 use std::f64::consts::PI;
 
 use crossbar_systems::all_frequency::factor::{
-    DiscSamples, FactorSampling, Factorization, HemisphereSamples, Lobe, ProductErrors, ProductFunction, ProductTable,
-    Supersamples, harmonic_errors,
+    DiscSamples, FactorSampling, Factorization, HemisphereSamples, Lobe, ProductErrors, ProductFunction, Supersamples,
 };
 use crossbar_systems::transfer::brdf::Brdf;
 use glam::DVec3;
@@ -94,17 +93,4 @@ fn errors_are_those_of_plain_sums() {
     close(errors.least, least);
     assert_eq!(errors.negative, negative as f64 / f64::from(pairs));
     assert!(errors.least < 0.0, "two terms of a sharp lobe ring");
-}
-
-fn disc(side: usize, product: &dyn ProductFunction) -> HemisphereSamples {
-    let sampling = FactorSampling { side, supersamples: Supersamples::NONE, ..FactorSampling::default() };
-    let table: ProductTable = sampling.table(product, &mut |_, _| ()).expect("a table");
-    DiscSamples::new(&table).samples().clone()
-}
-
-#[test]
-fn errors_fall_with_the_order() {
-    let lobe = disc(16, &Lobe::cook_torrance(0.4, 0.5));
-    let [four, seven] = [4, 7].map(|order| harmonic_errors(&lobe, order).expect("errors"));
-    assert!(seven.rms < four.rms && four.rms > 0.0, "{} {}", seven.rms, four.rms);
 }

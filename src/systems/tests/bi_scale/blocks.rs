@@ -1,8 +1,8 @@
 //! Blocks of a volume do not leak into each other.
 
 use crossbar_systems::bi_scale::kernels::{BlockEdges, BlockGrid};
-use crossbar_systems::bi_scale::on_card::reference::patch_at;
 use crossbar_systems::bi_scale::on_card::volume_image;
+use crossbar_systems::bi_scale::texture::GridSamples;
 use refsim::texture::{Image, Lod, SampleRules, TexelFormat, sample, touched};
 
 use super::{FLOATS, device, texture};
@@ -86,7 +86,12 @@ fn blocks_repeat_as_the_hosts_patch_does() {
                 let (light, view) = (pick(0, lights * lights), pick(1, views * views));
                 let uv = [2, 3].map(|dimension| pick(dimension, 768 * size) as f32 / (256 * size) as f32 - 1.0);
                 let found = value(&image, &rules, coordinates(&grid, (light, view), uv));
-                let expected = patch_at(texture.patch(view, light), size, uv.map(f64::from), edges);
+                let inside = |at: f64| (at - at.floor()).clamp(0.5 / size as f64, 1.0 - 0.5 / size as f64);
+                let place = uv.map(|at| if edges == BlockEdges::Touching { inside(at.into()) } else { at.into() });
+                let GridSamples { numbers, weights } = GridSamples::of_texels(size, place);
+                let patch = texture.patch(view, light);
+                let terms = |channel: usize| numbers.map(|number| f64::from(patch[number][channel])).into_iter();
+                let expected = [0, 1, 2].map(|channel| terms(channel).zip(weights).map(|(b, w)| w * b).sum::<f64>());
                 assert_eq!(found, expected, "{grid:?}, light {light}, view {view}, {uv:?}");
             }
         }

@@ -1,8 +1,7 @@
 //! Pictures of bi-scale transfer on cards, compared with f64; counts of a frame; errors.
 
 use crossbar_systems::bi_scale::kernels::BlockEdges;
-use crossbar_systems::bi_scale::on_card::reference::pixel;
-use crossbar_systems::bi_scale::on_card::{BiScaleCard, DisplayOptions, LocalFormat, TexturedMesh, corner_coordinates};
+use crossbar_systems::bi_scale::on_card::{BiScaleCard, DisplayOptions, LightFormat, TexturedMesh, corner_coordinates};
 use crossbar_systems::bi_scale::texture::BidirectionalTexture;
 use crossbar_systems::transfer::synthetic::hills;
 use crossbar_systems::transfer::{Tangents, Vertices};
@@ -53,14 +52,14 @@ impl Hills {
     }
 
     /// Root mean square and largest difference from equation 3 in f64, relative to the largest pixel.
-    fn error(&self, profile: &Profile, edges: BlockEdges, drawing: &Texels) -> [f64; 2] {
+    fn error(&self, profile: &Profile, drawing: &Texels) -> [f64; 2] {
         let seen = seen_pixels(profile, self.vertices.geometry(), &camera()).expect("pixels");
         let local: Vec<[f64; 3]> = self.local.iter().map(|rgb| rgb.map(f64::from)).collect();
         let (mut worst, mut largest, mut squares, mut count) = (0.0_f64, 0.0_f64, 0.0, 0);
         for (texel, seen) in drawing.texels.iter().zip(&seen) {
             assert_eq!(texel[3] != 0.0, seen.is_some(), "what is covered");
             let Some(seen) = seen else { continue };
-            let expected = pixel(&self.mesh(), &local, camera().eye(), edges, seen);
+            let expected = self.mesh().pixel(&local, camera().eye(), seen);
             for (found, expected) in texel.iter().zip(expected) {
                 let off = (f64::from(*found) - 0.7 * expected).abs();
                 (worst, largest, squares) = (worst.max(off), largest.max(0.7 * expected), squares + off * off);
@@ -89,7 +88,7 @@ fn rough(size: usize, views: usize, lights: usize) -> BidirectionalTexture {
 }
 
 fn floats(edges: BlockEdges) -> DisplayOptions {
-    DisplayOptions { edges, texture: FLOATS, local: LocalFormat::Fp32 }
+    DisplayOptions { edges, texture: FLOATS, local: LightFormat::Fp32 }
 }
 
 #[test]
@@ -99,19 +98,17 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
     {
         let hills = Hills::new(flat(views, lights));
         let options = floats(BlockEdges::default());
-        let [_, error] = hills.error(&device(name), options.edges, &hills.draw(&device(name), options, FLOATS));
+        let [_, error] = hills.error(&device(name), &hills.draw(&device(name), options, FLOATS));
         assert!(error < 3e-6, "{name}, {views}, {lights}: {error}");
     }
     // With different texels, the sampler's weights matter, whose number of bits is given.
     for bits in [8, 12] {
         let mut profile = device("ideal-fp32");
         profile.rules.filter_fraction_bits = bits;
-        for edges in [BlockEdges::Touching, BlockEdges::Wrapped] {
-            let hills = Hills::new(rough(8, 4, 3));
-            let [_, error] = hills.error(&profile, edges, &hills.draw(&profile, floats(edges), FLOATS));
-            let bound = 3e-6 + 1.0 / f64::from(1_u32 << bits);
-            assert!(error < bound, "{bits} bits, {edges}: {error} of {bound}");
-        }
+        let hills = Hills::new(rough(8, 4, 3));
+        let [_, error] = hills.error(&profile, &hills.draw(&profile, floats(BlockEdges::Wrapped), FLOATS));
+        let bound = 3e-6 + 1.0 / f64::from(1_u32 << bits);
+        assert!(error < bound, "{bits} bits: {error} of {bound}");
     }
     // From below all faces are backs, which are not drawn.
     let (hills, options) = (Hills::new(flat(1, 1)), floats(BlockEdges::default()));
@@ -133,7 +130,7 @@ fn triangles_show_their_own_textures() {
     let options = floats(BlockEdges::default());
     let profile = device("gt200");
     let drawing = hills.draw(&profile, options, FLOATS);
-    let [_, error] = hills.error(&profile, options.edges, &drawing);
+    let [_, error] = hills.error(&profile, &drawing);
     assert!(error < 3e-6, "{error}");
     let counts =
         BiScaleCard::new(profile.clone(), ExecutorKind::Batch, hills.mesh(), options).expect("a card").counts();
@@ -144,7 +141,6 @@ fn triangles_show_their_own_textures() {
     assert!((100..1400).contains(&differ), "{differ}");
 }
 
-/// One quantity in fewer bits, the others in single precision.
 #[test]
 fn fewer_bits_show() {
     let hills = Hills::new(rough(8, 4, 4));
@@ -152,13 +148,13 @@ fn fewer_bits_show() {
     // The sampler's weights have more bits than the card's, so that their rounding does not hide other errors.
     let mut profile = device("gt200");
     profile.rules.filter_fraction_bits = 12;
-    let rms = |options, format| hills.error(&profile, fine.edges, &hills.draw(&profile, options, format))[0];
+    let rms = |options, format| hills.error(&profile, &hills.draw(&profile, options, format))[0];
     let best = rms(fine, FLOATS);
     let texture = |texture| rms(DisplayOptions { texture, ..fine }, FLOATS);
     let local = |local| rms(DisplayOptions { local, ..fine }, FLOATS);
     for (what, bytes, half, low, high) in [
         ("texture", texture(TexelFormat::Rgba8), texture(TexelFormat::Rgba16f), 1e-4, 4e-3),
-        ("local light", local(LocalFormat::Bytes), local(LocalFormat::Fp16), 1e-4, 4e-3),
+        ("local light", local(LightFormat::Bytes), local(LightFormat::Fp16), 1e-4, 4e-3),
         ("target", rms(fine, TexelFormat::Rgba8), rms(fine, TexelFormat::Rgba16f), 4e-4, 1e-2),
     ] {
         assert!(bytes > 1.5 * best && half < 0.7 * bytes, "{what}: {bytes}, {half}, {best}");

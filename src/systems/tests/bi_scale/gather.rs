@@ -8,7 +8,6 @@ use refsim::machine::ExecutorKind;
 
 use super::device;
 use crate::geom::random::CounterRng;
-use crate::io::CoordinateMatrix;
 
 /// A matrix of multiples of 1/4 in runs, so that biclusters have many rows; some rows and columns are empty.
 fn matrix(rows: usize, columns: usize, seed: u64) -> SparseMatrix {
@@ -38,24 +37,6 @@ fn light(columns: usize, seed: u64) -> Vec<[f32; 3]> {
 
 fn bits(numbers: &[[f32; 3]]) -> Vec<[u32; 3]> {
     numbers.iter().map(|rgb| rgb.map(f32::to_bits)).collect()
-}
-
-/// Values are rounded to single precision, as on the host; values beyond its range are rejected.
-#[test]
-fn values_beyond_single_precision_are_refused() {
-    let of = |value: f64| {
-        let matrix = CoordinateMatrix { rows: 1, columns: 2, entries: vec![(0, 1, value)] };
-        biclusters(&SparseMatrix::from_coordinates(&matrix).expect("a matrix"))
-    };
-    let card = |found: &Biclustering| GatherCard::new(device("gt200"), ExecutorKind::Batch, found, LightFormat::Fp32);
-    let tenth = of(0.1);
-    let local = card(&tenth).expect("a card").multiply(&[[0.0; 3], [1.0, 2.0, 4.0]]).expect("a product");
-    assert_eq!(local, [[0.1_f32, 0.2, 0.4]]);
-    let error = card(&of(-1e300)).expect_err("refused").to_string();
-    assert_eq!(
-        error,
-        "expected values of biclusters within single precision, found -1e300 in bicluster 0: scale the matrix"
-    );
 }
 
 /// Small programs and textures divide the sums into many passes and textures.

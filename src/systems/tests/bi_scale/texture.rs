@@ -1,8 +1,7 @@
 //! Patches of heights, textures of samples, and the samples around a position.
 
 use approx::assert_abs_diff_eq;
-use crossbar_systems::bi_scale::shade::TexelSamples;
-use crossbar_systems::bi_scale::texture::{BidirectionalTexture, HeightField, PatchKind, ViewSamples};
+use crossbar_systems::bi_scale::texture::{BidirectionalTexture, GridSamples, HeightField, PatchKind};
 use glam::DVec3;
 
 use super::directions;
@@ -75,22 +74,22 @@ fn samples_out_of_range_are_refused() {
 fn a_center_has_its_own_sample_alone_and_weights_sum_to_1() {
     let view = directions(12);
     for (number, &direction) in view.directions().iter().enumerate() {
-        let found = ViewSamples::around(&view, direction);
+        let found = GridSamples::of_view(&view, direction);
         let own: f64 = found.numbers.iter().zip(found.weights).filter(|(n, _)| **n == number).map(|(_, w)| w).sum();
         assert_abs_diff_eq!(own, 1.0, epsilon = 1e-6);
         assert_abs_diff_eq!(found.weights.iter().sum::<f64>(), 1.0, epsilon = 1e-12);
     }
-    let horizon = ViewSamples::around(&view, DVec3::new(1.0, 0.0, -0.5).normalize());
+    let horizon = GridSamples::of_view(&view, DVec3::new(1.0, 0.0, -0.5).normalize());
     assert!(horizon.numbers.iter().all(|number| number % 12 == 11));
-    assert_eq!(ViewSamples::around(&directions(1), DVec3::Z).numbers, [0; 4]);
+    assert_eq!(GridSamples::of_view(&directions(1), DVec3::Z).numbers, [0; 4]);
 }
 
 #[test]
 fn texels_repeat() {
-    let at = |place| TexelSamples::around(4, place);
-    assert_eq!(at([0.375, 0.625]), TexelSamples { numbers: [9, 10, 13, 14], weights: [1.0, 0.0, 0.0, 0.0] });
+    let at = |place| GridSamples::of_texels(4, place);
+    assert_eq!(at([0.375, 0.625]), GridSamples { numbers: [9, 10, 13, 14], weights: [1.0, 0.0, 0.0, 0.0] });
     assert_eq!(at([0.0, 0.125]).numbers, [3, 0, 7, 4]);
     assert_eq!(at([0.0, 0.125]).weights, [0.5, 0.5, 0.0, 0.0]);
     assert_eq!(at([2.25, -0.75]), at([0.25, 0.25]));
-    assert_eq!(TexelSamples::around(1, [0.9, 0.1]).numbers, [0; 4]);
+    assert_eq!(GridSamples::of_texels(1, [0.9, 0.1]).numbers, [0; 4]);
 }

@@ -7,7 +7,6 @@ pub(crate) mod facets;
 mod matrix;
 mod models;
 
-pub(crate) use crate::fresnel;
 pub use matrix::{BRDF_DEGREE, ExitBasis, brdf_matrix};
 pub(crate) use matrix::{Projector, exit_per_direction, integrals};
 pub use models::Brdf;

@@ -56,8 +56,7 @@ impl fmt::Display for MeshDigest {
     }
 }
 
-/// Checks that a file's mesh `found` is `expected`, with the same tangents; the message names `path`. Fails with
-/// [`InputError`] for another mesh.
+/// Checks that a file's mesh `found` is `expected`, with the same tangents; the message names `path`.
 pub fn require_mesh(path: &Path, expected: &MeshDigest, found: Option<MeshDigest>) -> Result<(), InputError> {
     if found.as_ref() == Some(expected) {
         return Ok(());

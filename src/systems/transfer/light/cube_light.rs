@@ -39,8 +39,7 @@ impl CubeLight {
         Ok(Self { texels })
     }
 
-    /// Creates a light with equal radiance from all directions. Fails with [`InputError`] if the radiance is negative
-    /// or not finite.
+    /// Creates a light with equal radiance from all directions.
     pub fn constant(radiance: [f64; 3]) -> Result<Self, InputError> {
         Self::new(vec![radiance; LIGHT_TEXELS])
     }
@@ -57,10 +56,9 @@ impl CubeLight {
         Self::sampled(|direction| picture.radiance(direction))
     }
 
-    /// Creates a light from small, rotated sources, counted from 0 in errors. Each adds its radiance times the covered fraction
-    /// of each fine texel. The fractions are computed on a grid fine enough for the source, and scaled so that the
-    /// source's flux, 2 pi (1 - cos radius) times its radiance, is exact. Fails with [`InputError`] for a matrix that
-    /// is not a rotation, or a source without direction, radius or radiance.
+    /// Creates a light from small, rotated sources, counted from 0 in errors. Each adds its radiance times the covered
+    /// fraction of each fine texel. The fractions are computed on a grid fine enough for the source, and scaled so that
+    /// the source's flux, 2 pi (1 - cos radius) times its radiance, is exact.
     pub fn from_disks(sources: &[DiskSource], rotation: &DMat3) -> Result<Self, InputError> {
         Self::decimated(&fine_disks(sources, rotation)?)
     }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::elementary::sin_cos;
-use crate::error::{InputError, input_error};
+use crate::error::{InputError, ensure, input_error};
 use crate::geom::vector::unit;
 use crate::io::LightSourceRow;
 use crate::sphere::CUBE_FACES;
@@ -41,14 +41,10 @@ impl DiskSource {
             input_error!("crossbar::prt::light" =>
                 "source {number}: expected a direction of finite length above 0, found {}", self.towards)
         })?;
-        if !(self.radius > 0.0 && self.radius <= std::f64::consts::PI) {
-            return Err(input_error!("crossbar::prt::light" =>
-                    "source {number}: expected an angular radius above 0 and up to pi radians, found {}", self.radius));
-        }
-        if !self.radiance.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
-            return Err(input_error!("crossbar::prt::light" =>
-                    "source {number}: expected finite radiances of at least 0, found {:?}", self.radiance));
-        }
+        ensure!(self.radius > 0.0 && self.radius <= std::f64::consts::PI, "crossbar::prt::light" =>
+            "source {number}: expected an angular radius above 0 and up to pi radians, found {}", self.radius);
+        ensure!(self.radiance.iter().all(|channel| channel.is_finite() && *channel >= 0.0), "crossbar::prt::light" =>
+            "source {number}: expected finite radiances of at least 0, found {:?}", self.radiance);
         Ok(Self { towards, ..*self })
     }
 

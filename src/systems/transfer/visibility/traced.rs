@@ -117,8 +117,7 @@ impl VisibilityMaps {
     /// Rays that certainly hit nothing are not cast, which does not change the result; nor does the number of threads.
     ///
     /// The maps take [`VISIBILITY_BYTES`](super::VISIBILITY_BYTES) per vertex; rays that wait to be cast take at most
-    /// 32 vertices times 98,304 directions times 30 bytes, 90 MB. Fails with [`InputError`] if a vertex does not exist
-    /// or the caster fails.
+    /// 32 vertices times 98,304 directions times 30 bytes, 90 MB.
     pub fn trace_sampled(
         vertices: &Vertices,
         of: &[u32],

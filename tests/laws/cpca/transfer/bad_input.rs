@@ -59,21 +59,18 @@ fn figures_that_do_not_fit_are_refused() {
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(6), &mut caster(&mesh), false).expect("traced");
     let response = Response::diffuse(0.5, rays.rule()).expect("a response");
-    let message = |responses: &[Response], order, bounces| {
-        Transfer::new(&vertices, &rays, responses, order, bounces).expect_err("refused").to_string()
-    };
+    let is_refused =
+        |responses: &[Response], order, bounces| Transfer::new(&vertices, &rays, responses, order, bounces).is_err();
     let fits = [response.clone()];
-    assert!(message(&fits, 11, 0).contains("an order from 1 to 10"));
-    assert!(message(&fits, 0, 0).contains("an order from 1 to 10"));
-    assert!(message(&[], 5, 0).contains("triangle 0 has material 0"));
-    assert!(message(&fits, 5, 1).contains("keep_hits"));
+    assert!(is_refused(&fits, 11, 0) && is_refused(&fits, 0, 0), "orders");
+    assert!(is_refused(&[], 5, 0), "no material");
+    assert!(is_refused(&fits, 5, 1), "hits were not kept");
     let other = Response::diffuse(0.5, &DirectionRule::hemisphere(8)).expect("a response");
-    assert!(message(&[other], 5, 0).contains("equal numbers of directions"));
+    assert!(is_refused(&[other], 5, 0), "other directions");
     assert!(Response::diffuse(f64::NAN, rays.rule()).is_err());
     let elsewhere = Mesh::new(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]).expect("a mesh");
     let elsewhere = Vertices::new(&elsewhere, Tangents::Any).expect("vertices");
-    let error = Transfer::new(&elsewhere, &rays, &fits, 5, 0).expect_err("refused");
-    assert!(error.to_string().contains("vertices of rays, found 3 and"), "{error}");
+    assert!(Transfer::new(&elsewhere, &rays, &fits, 5, 0).is_err(), "other vertices");
 }
 
 /// A caster that fails.

@@ -73,21 +73,6 @@ fn where_nothing_is_lost_everything_looks_like_the_sky() {
 }
 
 #[test]
-fn half_of_white_is_a_series_that_can_be_summed() {
-    // In a closed box no sky is visible; a bounce halves the reflected light, which is already 0.
-    let mut soup = Soup::default();
-    soup.boxed(DVec3::ONE, DVec3::ZERO);
-    let mesh = soup.flat();
-    let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
-    let rays = trace(&mesh, &vertices, 12);
-    assert_eq!((rays.counts().dark.len(), rays.counts().buried.len(), vertices.len()), (24, 0, 24));
-    let response = Response::diffuse(0.5, rays.rule()).expect("a response");
-    let transfer = Transfer::new(&vertices, &rays, &[response], 5, 3).expect("t_p");
-    assert!(transfer.clone().into_values().iter().all(|&value| value == 0.0));
-    assert_eq!(transfer.bounces, [0.0]);
-}
-
-#[test]
 fn glossy_bounces_are_those_of_the_reference_where_bands_suffice() {
     // Where it is positive, a lobe of exponent 1 times s_z is a polynomial of degree 2 in the light and 1 in the view.
     let mesh = step();

@@ -21,7 +21,6 @@ fn product(matrix: &[[f64; 3]; 3], vector: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2])
 }
 
-/// Converts linear sRGB to XYZ with white at (1, 1, 1).
 fn relative_xyz(linear: [f64; 3]) -> [f64; 3] {
     let xyz = product(&TO_XYZ, linear);
     [0, 1, 2].map(|i| xyz[i] / WHITE[i])

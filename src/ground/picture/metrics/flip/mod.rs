@@ -70,7 +70,6 @@ pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<Fli
     Some(FlipMap { errors, mean, maximum })
 }
 
-/// Computes the filtered colors and the features of a picture.
 fn perceived(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
     let width = picture.width;
     let opponents: Vec<[f64; 3]> = picture.linear.par_iter().map(|&linear| to_opponents(linear)).collect();

@@ -5,12 +5,14 @@
 
 use std::cmp::Ordering;
 
+use num_bigint::{BigInt, BigUint};
 use num_traits::ToPrimitive;
-use refsim::num::{Format, Unpacked, from_f64, from_parts, ops, to_f64, unpack};
+use num_traits::float::FloatCore;
+use refsim::num::{Format, from_f64, from_parts, ops, to_f64};
 
 use super::graph::{Graph, Operation};
 use super::real::{Dyadic, End, Function, Real, RealInterval, apply};
-use super::special::special;
+use crate::geom::exact::ratio::to_f64 as to_double;
 
 /// Numbers of bits of computations over the reals, tried in this order until the rounded result is decided.
 pub(super) const PRECISIONS: [u64; 8] = [96, 192, 384, 768, 1536, 3072, 6144, 12_288];
@@ -25,15 +27,6 @@ pub(super) enum Arithmetic {
     Double,
     /// A format of the emulator.
     Number(Format),
-}
-
-/// Value that a pattern represents.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum FormatNumber {
-    Nan,
-    Infinite,
-    /// A number, without the sign of a zero.
-    Finite(Dyadic),
 }
 
 impl Arithmetic {
@@ -53,29 +46,6 @@ impl Arithmetic {
         }
     }
 
-    pub(super) fn decode(self, bits: u64) -> FormatNumber {
-        let finite = |negative, digits: u64, exponent: i64| {
-            let digits = num_bigint::BigInt::from(digits);
-            FormatNumber::Finite(Dyadic::new(if negative { -digits } else { digits }, exponent))
-        };
-        match self {
-            Self::Double => {
-                let (negative, field, fraction) = (bits >> 63 != 0, (bits >> 52) & 0x7ff, bits & ((1 << 52) - 1));
-                match (field, fraction) {
-                    (0x7ff, 0) => FormatNumber::Infinite,
-                    (0x7ff, _) => FormatNumber::Nan,
-                    (0, _) => finite(negative, fraction, -1074),
-                    _ => finite(negative, fraction | 1 << 52, field.cast_signed() - 1075),
-                }
-            }
-            Self::Number(format) => match unpack(&format, bits as u32) {
-                Unpacked::Nan { .. } => FormatNumber::Nan,
-                Unpacked::Inf { .. } => FormatNumber::Infinite,
-                Unpacked::Finite { sign, sig, exp, .. } => finite(sign, sig, exp.into()),
-            },
-        }
-    }
-
     /// Rounds once; an unbounded end counts as beyond the largest number.
     pub(super) fn encode(self, end: &End) -> u64 {
         let (negative, digits, exponent) = match end {
@@ -89,7 +59,13 @@ impl Arithmetic {
         let exponent = (exponent + drop.cast_signed()).clamp(-FAR, FAR);
         match self {
             Self::Number(format) => from_parts(format, negative, kept, exponent as i32, sticky).bits.into(),
-            Self::Double => double(negative, kept, exponent, sticky),
+            Self::Double => {
+                let digits = BigUint::from(kept << 1 | u128::from(sticky));
+                // Numbers of 121 bits with exponents beyond these are zero or infinite.
+                let [up, down] = [exponent - 1, 1 - exponent].map(|places| places.clamp(0, 1400));
+                let magnitude = to_double(&(digits << up), &(BigUint::from(1u32) << down));
+                (if negative { -magnitude } else { magnitude }).to_bits()
+            }
         }
     }
 
@@ -154,7 +130,7 @@ impl Arithmetic {
     /// Bits of error: `log2(1 + n)`, where `n` counts the numbers from one value to the other; all bits if a result is
     /// NaN.
     pub(super) fn error_bits(self, computed: u64, exact: u64) -> f64 {
-        if self.decode(computed) == FormatNumber::Nan {
+        if self.value(computed).is_nan() {
             return self.width().into();
         }
         let distance = self.ordinal(computed).abs_diff(self.ordinal(exact));
@@ -169,10 +145,10 @@ impl Arithmetic {
 
     /// The real value of a pattern that is a number.
     pub(super) fn real(self, bits: u64) -> Real {
-        match self.decode(bits) {
-            FormatNumber::Finite(x) => Real::Range(RealInterval::point(x)),
-            _ => Real::Undefined,
-        }
+        let x = self.value(bits);
+        let (digits, exponent, sign) = FloatCore::integer_decode(x);
+        let number = || RealInterval::point(Dyadic::new(BigInt::from(digits) * sign, exponent.into()));
+        if x.is_finite() { Real::Range(number()) } else { Real::Undefined }
     }
 
     /// Computes all nodes; truth values are 0 and 1.
@@ -227,20 +203,35 @@ impl Arithmetic {
     }
 
     fn order(self, x: u64, y: u64) -> Option<Ordering> {
-        let is_nan = |bits| self.decode(bits) == FormatNumber::Nan;
+        let is_nan = |bits| self.value(bits).is_nan();
         (!is_nan(x) && !is_nan(y)).then(|| self.ordinal(x).cmp(&self.ordinal(y)))
     }
 
     fn function(self, function: Function, operands: &[u64]) -> u64 {
-        if let Some(bits) = self.native(function, operands) {
-            return bits;
-        }
-        let is_regular = |bits: &u64| matches!(self.decode(*bits), FormatNumber::Finite(x) if !x.is_zero());
-        let special = || {
-            let values: Vec<f64> = operands.iter().map(|&bits| self.value(bits)).collect();
-            self.rounded(special(function, &values))
+        use Function as F;
+        let values = || operands.iter().map(|&bits| self.value(bits)).collect::<Vec<f64>>();
+        let special = || self.rounded(function.special(&values()));
+        let word = |index: usize| operands.get(index).copied().unwrap_or_default() as u32;
+        let (x, y) = (word(0), word(1));
+        // Operations whose exact result is rational.
+        let outcome = match (self, function) {
+            (Self::Double, F::Add | F::Subtract | F::Multiply | F::Divide | F::Sqrt | F::Negate | F::Abs) => {
+                return special();
+            }
+            (Self::Number(format), F::Add) => Some(ops::add(format, x, y)),
+            (Self::Number(format), F::Subtract) => Some(ops::sub(format, x, y)),
+            (Self::Number(format), F::Multiply) => Some(ops::mul(format, x, y)),
+            (Self::Number(format), F::Divide) => Some(ops::div(format, x, y)),
+            (Self::Number(format), F::Sqrt) => Some(ops::sqrt(format, x)),
+            (Self::Number(format), F::Negate) => Some(ops::neg(format, x)),
+            (Self::Number(format), F::Abs) => Some(ops::abs(format, x)),
+            (Self::Number(format), F::Fma) => Some(ops::fused_mad(format, x, y, word(2))),
+            _ => None,
         };
-        if !operands.iter().all(is_regular) {
+        if let Some(outcome) = outcome {
+            return outcome.bits.into();
+        }
+        if values().iter().any(|x| *x == 0.0 || !x.is_finite()) {
             return special();
         }
         let reals: Vec<Real> = operands.iter().map(|&bits| self.real(bits)).collect();
@@ -258,34 +249,6 @@ impl Arithmetic {
         // If even the highest precision does not decide, the value is at a rounding boundary.
         last.map_or(self.nan(), |range| self.encode(&range.high))
     }
-
-    /// Operations whose exact result is rational.
-    fn native(self, function: Function, operands: &[u64]) -> Option<u64> {
-        use Function as F;
-        if let Self::Double = self {
-            let is_exact =
-                matches!(function, F::Add | F::Subtract | F::Multiply | F::Divide | F::Sqrt | F::Negate | F::Abs);
-            return is_exact.then(|| {
-                let values: Vec<f64> = operands.iter().map(|&bits| f64::from_bits(bits)).collect();
-                self.rounded(special(function, &values))
-            });
-        }
-        let Self::Number(format) = self else { return None };
-        let word = |index: usize| operands.get(index).copied().unwrap_or_default() as u32;
-        let (x, y) = (word(0), word(1));
-        let outcome = match function {
-            F::Add => ops::add(format, x, y),
-            F::Subtract => ops::sub(format, x, y),
-            F::Multiply => ops::mul(format, x, y),
-            F::Divide => ops::div(format, x, y),
-            F::Sqrt => ops::sqrt(format, x),
-            F::Negate => ops::neg(format, x),
-            F::Abs => ops::abs(format, x),
-            F::Fma => ops::fused_mad(format, x, y, word(2)),
-            _ => return None,
-        };
-        Some(outcome.bits.into())
-    }
 }
 
 impl Operation {
@@ -299,30 +262,4 @@ impl Operation {
             Self::If(parts) => parts,
         }
     }
-}
-
-/// Rounds `digits 2^exponent`, with more nonzero bits below it if `sticky`, to the nearest double.
-fn double(negative: bool, digits: u128, exponent: i64, sticky: bool) -> u64 {
-    let sign = u64::from(negative) << 63;
-    if digits == 0 {
-        return sign;
-    }
-    let top = exponent + i64::from(128 - digits.leading_zeros());
-    if top > 1024 {
-        return f64::INFINITY.to_bits() | sign;
-    }
-    let unit = (top - 53).max(-1074);
-    let drop = unit - exponent;
-    let (kept, up) = match drop {
-        ..=0 => (digits << drop.unsigned_abs(), false),
-        1..=127 => {
-            let (kept, half) = (digits >> drop, digits >> (drop - 1) & 1 == 1);
-            let below = sticky || digits & ((1 << (drop - 1)) - 1) != 0;
-            (kept, half && (below || kept & 1 == 1))
-        }
-        _ => (0, false),
-    };
-    // The hidden bit adds 1 to the exponent field, and so does a carry.
-    let magnitude = ((unit + 1074).cast_unsigned() << 52) + kept as u64 + u64::from(up);
-    magnitude.min(f64::INFINITY.to_bits()) | sign
 }

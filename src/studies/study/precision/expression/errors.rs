@@ -1,9 +1,10 @@
 //! Errors of an expression in a format.
 
-use super::super::goal::{Goal, GoalRelation};
+use super::super::goal::Goal;
 use super::arithmetic::Arithmetic;
 use super::graph::Expression;
 use super::sample::{Sample, Samples, parallel};
+use crate::picture::metrics::relative_error;
 
 /// Measures of goals.
 pub(super) const MEASURES: [&str; 2] = ["mean_relative", "largest_relative"];
@@ -50,10 +51,10 @@ pub(super) fn relative_errors(
     let at = |Sample { inputs, value, .. }: &Sample| {
         let inputs: Vec<u64> = inputs.iter().map(|&bits| arithmetic.rounded(from.value(bits))).collect();
         let computed = arithmetic.values(&expression.body, &inputs, &constants).pop().unwrap_or_default();
-        relative(arithmetic.value(computed), *value)
+        relative_error(arithmetic.value(computed), *value)
     };
     // Errors are not negative, so later errors never decrease a sum or a maximum.
-    let ends_early = ends_early && matches!(goal.relation, GoalRelation::AtMost | GoalRelation::Below);
+    let ends_early = ends_early && goal.is_upper_bound();
     let (count, mut errors) = (samples.kept.len(), Vec::new());
     loop {
         let next = errors.len()..count.min(2 * errors.len() + FIRST);
@@ -65,15 +66,5 @@ pub(super) fn relative_errors(
         if errors.len() == count || ends_early && !goal.met(value) {
             return value;
         }
-    }
-}
-
-/// Relative error; infinite for an infinite result or NaN, 1 where only the exact value is 0.
-fn relative(computed: f64, exact: f64) -> f64 {
-    match computed - exact {
-        0.0 => 0.0,
-        _ if !computed.is_finite() => f64::INFINITY,
-        _ if exact == 0.0 => 1.0,
-        error => (error / exact).abs(),
     }
 }

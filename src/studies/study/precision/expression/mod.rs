@@ -12,7 +12,6 @@ mod graph;
 mod real;
 mod report;
 mod sample;
-mod special;
 mod study;
 mod syntax;
 

@@ -161,23 +161,20 @@ fn worst_input(expression: &Expression, row: &FormatErrors) -> [Cell; 7] {
 
 /// Chart of the goal's measure by mantissa or fraction bits, if there are values to draw.
 fn chart(outcome: &ExpressionOutcome, goal: &Goal) -> Option<NamedChart> {
-    let line = |curve: &Curve| {
-        let points = curve.scan.points.iter().map(|(bits, value)| (f64::from(*bits), *value));
-        let label = format!("{}, {}", curve.family.name(), curve.range_text());
-        Series { label, points: points.filter(|(_, value)| value.is_finite() && *value > 0.0).collect() }
-    };
+    let line = |curve: &Curve| curve.line(|value| value.is_finite() && value > 0.0);
     let mut lines: Vec<Series> = outcome.curves.iter().map(line).filter(|line| line.points.len() > 1).collect();
     let is_flat = lines.iter().all(|line| line.points.iter().all(|point| point.1 == line.points[0].1));
     let y_scale = Scale::fitting(lines.iter().flat_map(|line| &line.points).map(|point| point.1));
     lines.push(goal.line(&lines));
+    let words = goal.words();
     let chart = Chart {
-        title: format!("{} by bits of precision", goal.words()),
+        title: format!("{words} by bits of precision"),
         x: "mantissa or fraction bits of all operations".to_owned(),
-        y: goal.words(),
+        y: words.clone(),
         y_scale,
         lines,
         ..Chart::default()
     };
-    let caption = format!("{} of the whole expression in one format; goal: {goal}.", goal.words());
+    let caption = format!("{words} of the whole expression in one format; goal: {goal}.");
     (!is_flat).then(|| NamedChart { name: "curve".to_owned(), chart, caption })
 }

@@ -15,12 +15,13 @@ const DISCARDED: usize = 20;
 const MISSES: usize = 1_000_000;
 
 /// Distribution of inputs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "kebab-case")]
 pub enum InputDraw {
     /// Every number of the format is equally likely, as in Herbie.
     #[default]
     Floats,
-    /// Every real number is equally likely, then rounded.
+    /// Every real number of the range is equally likely, then rounded.
     Reals,
 }
 

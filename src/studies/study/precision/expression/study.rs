@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::super::bits::{FormatBits, FormatFamily};
+use super::super::bits::{FormatBits, FormatFamily, NAMED};
 use super::super::curve::Curve;
 use super::super::goal::Goal;
 use super::arithmetic::Arithmetic;
@@ -155,10 +155,8 @@ impl ExpressionStudy {
 
     /// Formats whose errors are shown: double precision, and cards' formats of the families.
     fn formats(&self) -> Vec<(&'static str, Arithmetic)> {
-        let named = FormatBits::named().filter(|(_, bits)| self.families.contains(&bits.family));
-        let mut all: Vec<_> = named.map(|(name, bits)| (name, number(bits))).collect();
-        all.push(("fp64", Arithmetic::Double));
-        all
+        let named = NAMED.into_iter().filter(|(_, bits)| self.families.contains(&bits.family));
+        named.map(|(name, bits)| (name, number(bits))).chain([("fp64", Arithmetic::Double)]).collect()
     }
 
     pub(super) fn outcome(&self, expression: &Expression, goal: &Goal) -> Result<ExpressionOutcome, StudyError> {

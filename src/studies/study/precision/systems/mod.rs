@@ -4,19 +4,15 @@
 mod all_frequency;
 mod bi_scale;
 mod cpca;
-mod picture_subject;
-mod programs;
 mod radiosity;
 mod ray_engine;
-mod run;
+mod subject;
 mod subsurface;
 
 use refsim::device::Profile;
 
 use super::subject::PrecisionSubject;
 use crate::study::StudyError;
-use picture_subject::SystemSubject;
-use ray_engine::RayEngineSubject;
 
 /// System of the papers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumString, strum::IntoStaticStr)]
@@ -50,15 +46,13 @@ impl PaperSystem {
 
     /// Subject on a device. Fails if the device cannot run the system.
     pub fn subject(self, profile: Profile) -> Result<Box<dyn PrecisionSubject>, StudyError> {
-        Ok(match self {
-            Self::RayEngine => Box::new(RayEngineSubject::new(profile)?),
-            Self::Radiosity => Box::new(SystemSubject::new(Box::new(radiosity::CornellBox::new()?), profile)?),
-            Self::Subsurface => Box::new(SystemSubject::new(Box::new(subsurface::Marble::new()?), profile)?),
-            Self::Cpca => Box::new(SystemSubject::new(Box::new(cpca::GlossyBunny::new()?), profile)?),
-            Self::AllFrequency => {
-                Box::new(SystemSubject::new(Box::new(all_frequency::FactoredBunny::new()?), profile)?)
-            }
-            Self::BiScale => Box::new(SystemSubject::new(Box::new(bi_scale::TexturedBunny::new()?), profile)?),
-        })
+        Ok(Box::new(match self {
+            Self::RayEngine => ray_engine::subject(profile)?,
+            Self::Radiosity => radiosity::cornell_box()?.subject(profile)?,
+            Self::Subsurface => subsurface::marble()?.subject(profile)?,
+            Self::Cpca => cpca::glossy_bunny()?.subject(profile)?,
+            Self::AllFrequency => all_frequency::factored_bunny()?.subject(profile)?,
+            Self::BiScale => bi_scale::textured_bunny()?.subject(profile)?,
+        }))
     }
 }

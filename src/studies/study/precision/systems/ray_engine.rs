@@ -5,8 +5,7 @@ use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::machine::{Executor, ExecutorKind};
 
-use super::programs::PixelPrograms;
-use crate::geom::Mesh;
+use super::subject::{INPUTS, PICTURE, PixelPrograms, SystemSubject};
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::teapot::teapot;
 use crate::picture::rgb8;
@@ -15,12 +14,10 @@ use crate::scene::Camera;
 use crate::study::StudyError;
 use crate::study::leaky_teapot::{JudgedRays, PixelVerdict};
 use crate::study::precision::goal::Goal;
-use crate::study::precision::subject::{Measured, PrecisionMeasure, PrecisionSubject, StudiedProgram};
+use crate::study::precision::subject::{Measured, PrecisionMeasure};
 
 /// Number of quads per side of a Bezier patch.
 const TESSELLATION: u32 = 4;
-/// Number of pixels per side of the view.
-const SIDE: u32 = 64;
 
 const MEASURES: [PrecisionMeasure; 5] = [
     PrecisionMeasure { name: "leaks", meaning: "rays that miss a surface which they hit exactly" },
@@ -36,106 +33,43 @@ const MEASURES: [PrecisionMeasure; 5] = [
     },
 ];
 
-/// Eye rays on the teapot.
-pub(super) struct RayEngineSubject {
-    profile: Profile,
-    executor: Executor,
-    mesh: Mesh,
-    /// View of the search, and the held-back view.
-    views: [(RayBatch, JudgedRays); 2],
-    programs: PixelPrograms,
-}
-
-impl RayEngineSubject {
-    /// Finds the rays' exact hits.
-    pub(super) fn new(mut profile: Profile) -> Result<Self, StudyError> {
-        // Devices that support both versions choose between them by the format of their registers.
-        if profile.supports(Version::Ps2_0) {
-            profile.limits.versions.retain(|version| *version != Version::Ps1_4);
-        }
-        let mesh = teapot(TESSELLATION).expect("a tessellation above 0");
-        let camera = Camera::teapot(SIDE, SIDE).expect("a picture of some pixels");
-        let turned = camera.carried(DVec3::ZERO, &DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z));
-        let tracer = Tracer::new(&mesh);
-        let views = [camera, turned].map(|camera| {
-            let view = RayBatch::new(SIDE, SIDE, camera.rays()).expect("a ray for each pixel");
-            let judged = JudgedRays::new(&tracer, view.rays().to_vec(), Sides::Front);
-            (view, judged)
-        });
-        let executor = ExecutorKind::Batch.into();
-        let programs = drawn(&profile, &executor, &mesh, &views[0].0)?;
-        Ok(Self { profile, executor, mesh, views, programs })
+/// Eye rays on the teapot, from two sides. By default, at most one ray in a thousand is wrong. A bound on leaks alone
+/// would not suffice: a format in which every ray hits something has no leaks.
+pub(super) fn subject(mut profile: Profile) -> Result<SystemSubject, StudyError> {
+    // Devices that support both versions choose between them by the format of their registers.
+    if profile.supports(Version::Ps2_0) {
+        profile.limits.versions.retain(|version| *version != Version::Ps1_4);
     }
-
-    /// Traces a view on a device, and measures its errors.
-    fn measured(
-        &self,
-        (view, judged): &(RayBatch, JudgedRays),
-        profile: &Profile,
-        is_pictured: bool,
-    ) -> Result<Measured, StudyError> {
-        let hits =
-            Crossbar::new(profile.clone(), self.executor.clone()).intersect(&self.mesh, view, Sides::Front)?.hits;
-        let (verdicts, tally) = judged.judge(&self.mesh, &hits);
-        let wrong = tally.leaks + tally.false_hits + tally.wrong_triangle;
+    let mesh = teapot(TESSELLATION).expect("a tessellation above 0");
+    let camera = Camera::teapot(PICTURE, PICTURE).expect("a picture of some pixels");
+    let turned = camera.carried(DVec3::ZERO, &DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z));
+    let tracer = Tracer::new(&mesh);
+    let views = [camera, turned].map(|camera| {
+        let view = RayBatch::new(PICTURE, PICTURE, camera.rays()).expect("a ray for each pixel");
+        let judged = JudgedRays::new(&tracer, view.rays().to_vec(), Sides::Front);
+        (view, judged)
+    });
+    let measure = move |input: usize, profile: &Profile, executor: &Executor| -> Result<Measured, StudyError> {
+        let (view, judged) = &views[input];
+        let hits = Crossbar::new(profile.clone(), executor.clone()).intersect(&mesh, view, Sides::Front)?.hits;
+        let (verdicts, tally) = judged.judge(&mesh, &hits);
         let values = vec![
             ("leaks", tally.leaks as f64),
             ("wrong_triangles", tally.wrong_triangle as f64),
             ("false_hits", tally.false_hits as f64),
-            ("wrong", wrong as f64 / tally.rays as f64),
+            ("wrong", tally.wrong() as f64 / tally.rays as f64),
             ("largest_t", tally.largest_t_error),
         ];
         let mut pixels = judged.pixels(&verdicts);
-        let picture = is_pictured.then(|| rgb8(SIDE, SIDE, pixels.clone().map(PixelVerdict::color)));
+        let picture = Some(rgb8(PICTURE, PICTURE, pixels.clone().map(PixelVerdict::color)));
         let worst = pixels.position(|verdict| verdict.is_error());
-        let worst = worst.map(|at| {
-            let (x, y) = (at as u32 % SIDE, at as u32 / SIDE);
-            format!("ray at pixel {x}, {y}")
-        });
+        let worst = worst.map(|at| format!("ray at pixel {}, {}", at as u32 % PICTURE, at as u32 / PICTURE));
         Ok(Measured { values, worst, picture })
-    }
-}
-
-/// Programs that find the hits of a view.
-fn drawn(profile: &Profile, executor: &Executor, mesh: &Mesh, view: &RayBatch) -> Result<PixelPrograms, StudyError> {
-    let (programs, _) = PixelPrograms::of(profile, executor, |device, executor| {
-        Ok(Crossbar::new(device.clone(), executor.clone()).intersect(mesh, view, Sides::Front)?)
-    })?;
-    Ok(programs)
-}
-
-impl PrecisionSubject for RayEngineSubject {
-    fn title(&self) -> String {
-        "The Ray Engine on the teapot".to_owned()
-    }
-
-    fn profile(&self) -> &Profile {
-        &self.profile
-    }
-
-    fn programs(&self) -> Vec<StudiedProgram<'_>> {
-        self.programs.list()
-    }
-
-    fn measures(&self) -> &[PrecisionMeasure] {
-        &MEASURES
-    }
-
-    /// At most one ray in a thousand is wrong. A bound on leaks alone would not suffice: a format in which every ray
-    /// hits something has no leaks.
-    fn default_goal(&self) -> Goal {
-        Goal::at_most("wrong", 0.001)
-    }
-
-    fn measure(&self, profile: &Profile, wanted: Option<&str>) -> Result<Measured, StudyError> {
-        self.measured(&self.views[0], profile, wanted.is_none())
-    }
-
-    fn chooses_other_programs(&self, profile: &Profile) -> Result<bool, StudyError> {
-        Ok(!drawn(profile, &self.executor, &self.mesh, &self.views[0].0)?.are_among(&self.programs))
-    }
-
-    fn held_back(&self, profile: &Profile) -> Result<Option<Measured>, StudyError> {
-        self.measured(&self.views[1], profile, false).map(Some)
-    }
+    };
+    let executor = ExecutorKind::Batch.into();
+    let (programs, _) =
+        PixelPrograms::of(&profile, &executor, |device, executor| measure(INPUTS[0], device, executor))?;
+    let goal = Goal::at_most("wrong", 0.001);
+    let (title, measure) = ("The Ray Engine on the teapot", Box::new(measure));
+    Ok(SystemSubject { title, goal, measures: &MEASURES, profile, executor, programs, measure })
 }

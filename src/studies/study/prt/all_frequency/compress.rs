@@ -2,6 +2,8 @@
 
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
+
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
@@ -13,8 +15,6 @@ use crate::transfer::Vertices;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
-
-use super::tally::{CompressionTally, SegmentTally};
 
 /// Transfer to be compressed, and options.
 #[derive(Debug)]
@@ -35,6 +35,25 @@ pub struct SegmentedCompression<'a> {
     pub kept: Option<(&'a KeptResults, &'a str)>,
 }
 
+/// Error and size of a segment.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SegmentTally {
+    /// Index of the segment.
+    pub segment: usize,
+    /// Number of vertices at which the segment is not 0.
+    pub vertices: usize,
+    /// Number of clusters of these vertices.
+    pub clusters: usize,
+    /// Sum of squares of the segment's transfer.
+    pub squares: f64,
+    /// Squared error of compression.
+    pub squared_error: f64,
+    /// Squared error after coding.
+    pub coded_squared_error: f64,
+    /// Time of transfer, compression and coding, in seconds.
+    pub seconds: [f64; 3],
+}
+
 impl SegmentedCompression<'_> {
     /// Bytes of raw transfer in single precision, of all 24 segments at all vertices.
     pub fn raw_bytes(&self) -> u64 {
@@ -42,9 +61,9 @@ impl SegmentedCompression<'_> {
         4 * self.vertices.len() as u64 * numbers as u64
     }
 
-    /// Compresses and codes all segments. Fails if transfer cannot be computed, compressed or coded, or finished
-    /// segments cannot be stored or read back.
-    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
+    /// Compresses and codes all segments; empty ones are left out. Fails if transfer cannot be computed, compressed or
+    /// coded, or finished segments cannot be stored or read back.
+    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, Vec<SegmentTally>), StudyError> {
         let hats = LinearBasis::new(self.hats);
         let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
         let count = Segmentation::Quarters.count();
@@ -64,7 +83,7 @@ impl SegmentedCompression<'_> {
         let (segments, tallies) = found.into_iter().flatten().unzip();
         let (rows, coefficients) = (self.reflectance.terms(), Segmentation::Quarters.len());
         let coded = CodedTransfer { rows, coefficients, vertices: self.vertices.len(), options: self.code, segments };
-        Ok((coded, CompressionTally { segments: tallies }))
+        Ok((coded, tallies))
     }
 
     /// Compresses and codes a segment, whose transfer took `seconds` to compute.

@@ -3,17 +3,15 @@
 
 use rayon::prelude::*;
 
-use super::cause_pictures::CausePictures;
-use super::light::LocalLight;
-use super::subject::BiScaleRendering;
-use super::subject::no_mesh_transfer;
-use super::surface::SurfacePixel;
+use super::subject::{BiScaleRendering, LocalLight, SurfacePixel, no_mesh_transfer};
 use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::paper;
 use crate::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene};
 use crate::geom::exact::Sides;
+use crate::picture::metrics::{ErrorSums, value_error};
 use crate::report::digits::{Quantity, shown};
-use crate::report::{Findings, FoundTable, NamedPicture, false_color};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table};
+use crate::study::prt::lit_view::{difference_of_means, signed_picture};
 use crate::study::{ProgressFn, StudyError};
 use crate::tracer::HostTracer;
 use crate::transfer::light::CubeLight;
@@ -23,72 +21,36 @@ use crate::transfer::visibility::VisibilitySampling;
 /// Number of pixels between progress reports.
 const BLOCK: usize = 256;
 
-/// The pictures of all steps; the last is the picture from transfer.
-type Pictures = Vec<Vec<[f64; 3]>>;
-
-/// Pictures that separate the errors of a rendering by cause.
-pub(super) struct Causes<'a> {
-    rendering: &'a BiScaleRendering,
-    tracer: HostTracer,
-    sampling: VisibilitySampling,
-    fine: Vec<[f64; 3]>,
+/// A sequence of pictures from the ray-traced one to the picture from transfer, each of which adds one approximation.
+#[derive(Clone, Debug)]
+pub(in crate::study) struct CausePictures {
+    /// Approximation that each picture after the first adds to the previous one: a word, and a sentence.
+    pub(in crate::study) causes: Vec<(&'static str, String)>,
+    /// The ray-traced picture first, the picture from transfer last.
+    pub(in crate::study) pictures: Vec<Vec<[f64; 3]>>,
 }
 
-impl<'a> Causes<'a> {
-    pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
-        let values = rendering.file.values().ok_or_else(no_mesh_transfer)?;
-        // Values without a fixed unit are averages of an unknown number of samples.
-        let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
-        let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
-        let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
-        Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine()? })
-    }
-
+impl CausePictures {
     /// All pictures; `drawn` is the picture from transfer.
-    pub(super) fn pictures(
-        &self,
+    pub(super) fn new(
+        rendering: &BiScaleRendering,
+        meaning: &BiScaleMeaning,
         pixels: &[Option<SurfacePixel>],
         (cube, drawn): (&CubeLight, &[[f64; 3]]),
         progress: &mut ProgressFn<'_>,
-    ) -> CausePictures {
-        let mut pictures = self.rungs(pixels, cube, progress);
-        let mut causes = self.names();
-        // Without biclusters, `drawn` already uses the matrix in f64.
-        if self.rendering.file.biclusters.is_some()
-            && let Some(local) = LocalLight::exact(&self.rendering.file, cube)
-        {
-            pictures.push(self.by_reference(pixels, &local));
-            causes.push(("precision", "biclusters in single precision".to_owned()));
-        }
-        pictures.push(drawn.to_vec());
-        CausePictures { causes, pictures }
-    }
-
-    fn names(&self) -> Vec<(&'static str, String)> {
-        let along = 1 << self.sampling.log2_samples;
-        let lights = self.rendering.textures.first().map_or(0, |texture| texture.samples.light().directions().len());
-        vec![
-            ("light", "light of 6 x 32 x 32 texels".to_owned()),
-            ("visibility", format!("visibility of {along} x {along} directions a texel")),
-            ("directions", format!("{lights} local directions")),
-            ("views", "views of the texture".to_owned()),
-            ("texture", "texels of the texture".to_owned()),
-            ("interpolation", "interpolation over vertices".to_owned()),
-        ]
-    }
-
-    fn rungs(&self, pixels: &[Option<SurfacePixel>], cube: &CubeLight, progress: &mut ProgressFn<'_>) -> Pictures {
-        let surface = &self.rendering.surface;
-        let scene =
-            TracedScene { tracer: &self.tracer, length: ray_length(&surface.vertices), sampling: self.sampling };
-        let light = TracedLight { fine: &self.fine, texels: cube.texels() };
+    ) -> Result<Self, StudyError> {
+        let BiScaleRendering { surface, file, textures, .. } = rendering;
+        let log2_samples = (file.fraction_bits().ok_or_else(no_mesh_transfer)? / 2).min(2);
+        let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
+        let (tracer, fine) = (HostTracer::new(&surface.mesh, Sides::Both), rendering.light.fine()?);
+        let scene = TracedScene { tracer: &tracer, length: ray_length(&surface.vertices), sampling };
+        let light = TracedLight { fine: &fine, texels: cube.texels() };
         let of_pixel = |pixel: &Option<SurfacePixel>| {
             let rungs = pixel.as_ref().and_then(|pixel| {
-                let texture = &self.rendering.textures[pixel.texture];
+                let texture = &textures[pixel.texture];
                 let corners = surface.mesh.corners(pixel.triangle)?;
                 let point = TracedPoint::new(corners, pixel.shaded.weights, pixel.frame)?;
-                let patch = texture.patch.as_ref()?;
-                Some(scene.rungs(&point, &pixel.shaded, (patch, &texture.samples), light))
+                Some(scene.rungs(&point, &pixel.shaded, (texture.patch.as_ref()?, &texture.samples), light))
             });
             rungs.unwrap_or_default()
         };
@@ -97,58 +59,100 @@ impl<'a> Causes<'a> {
             progress("pixels by rays", all.len() as u64, pixels.len() as u64);
             all.extend(block.par_iter().map(of_pixel).collect::<Vec<_>>());
         }
-        TracedRung::ALL.iter().map(|&rung| all.iter().map(|rungs| rungs[rung as usize]).collect()).collect()
+        let picture = |&rung: &TracedRung| -> Vec<[f64; 3]> { all.iter().map(|rungs| rungs[rung as usize]).collect() };
+        let mut pictures: Vec<Vec<[f64; 3]>> = TracedRung::ALL.iter().map(picture).collect();
+        let along = 1 << log2_samples;
+        let lights = textures.first().map_or(0, |texture| texture.samples.light().directions().len());
+        let mut causes = vec![
+            ("light", "light of 6 x 32 x 32 texels".to_owned()),
+            ("visibility", format!("visibility of {along} x {along} directions a texel")),
+            ("directions", format!("{lights} local directions")),
+            ("views", "views of the texture".to_owned()),
+            ("texture", "texels of the texture".to_owned()),
+            ("interpolation", "interpolation over vertices".to_owned()),
+        ];
+        // Without biclusters, `drawn` already uses the matrix in f64.
+        if file.biclusters.is_some()
+            && let Some(local) = LocalLight::exact(file, cube)
+        {
+            // Equation 3 by the plain loops of the reference.
+            let color =
+                |pixel: &SurfacePixel| paper::radiance(&textures[pixel.texture].samples, &local.rows, &pixel.shaded);
+            pictures.push(pixels.par_iter().map(|pixel| pixel.as_ref().map_or([0.0; 3], color)).collect());
+            causes.push(("precision", "biclusters in single precision".to_owned()));
+        }
+        pictures.push(drawn.to_vec());
+        Ok(Self { causes, pictures })
     }
 
-    /// Equation 3 by the plain loops of the reference.
-    fn by_reference(&self, pixels: &[Option<SurfacePixel>], local: &LocalLight) -> Vec<[f64; 3]> {
-        let color = |pixel: &Option<SurfacePixel>| {
-            pixel.as_ref().map_or([0.0; 3], |pixel| {
-                paper::radiance(&self.rendering.textures[pixel.texture].samples, &local.rows, &pixel.shaded)
-            })
+    /// The ray-traced picture.
+    pub(in crate::study) fn exact(&self) -> &[[f64; 3]] {
+        self.pictures.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// The picture from transfer.
+    pub(in crate::study) fn drawn(&self) -> &[[f64; 3]] {
+        self.pictures.last().map_or(&[], Vec::as_slice)
+    }
+
+    /// The ray-traced picture in which textures replace patches, as in transfer.
+    pub(in crate::study) fn textured(&self) -> &[[f64; 3]] {
+        self.pictures.get(TracedRung::Texture as usize).map_or(&[], Vec::as_slice)
+    }
+
+    /// RMS difference of two pictures, in percent of the RMS of the ray-traced picture; 0 if that picture is black.
+    pub(in crate::study) fn apart(&self, one: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
+        let whole: f64 = self.exact().iter().flatten().map(|value| value * value).sum();
+        if whole > 0.0 { 100.0 * (differences(one, other).squares() / whole).sqrt() } else { 0.0 }
+    }
+
+    pub(in crate::study) fn table(&self, title: &str) -> Table {
+        let row = |(step, cause): (&[Vec<[f64; 3]>], &(&str, String))| {
+            [
+                cause.1.as_str().into(),
+                Cell::measured(self.apart(&step[0], &step[1])),
+                Cell::measured(self.apart(self.exact(), &step[1])),
+                Cell::measured(differences(&step[0], &step[1]).largest),
+            ]
         };
-        pixels.par_iter().map(color).collect()
+        let table = Table::new(title, &["cause", "step (%)", "up to here (%)", "largest (radiance)"]);
+        table.with(self.pictures.windows(2).zip(&self.causes).map(row))
+    }
+
+    pub(super) fn report(
+        &self,
+        rendering: &BiScaleRendering,
+        exposure: f64,
+        found: &mut Findings,
+    ) -> Result<(), StudyError> {
+        let (exact, drawn, width) = (self.exact(), self.drawn(), rendering.view.camera.width());
+        let (whole, largest) = difference_of_means(drawn, exact);
+        let scale = largest.max(1e-30);
+        let steps = self.pictures.windows(2).zip(&self.causes).map(|(step, (word, cause))| {
+            let (changes, _) = difference_of_means(&step[1], &step[0]);
+            signed_picture(format!("cause-{word}"), &format!("{cause}: what it changes;"), width, &changes, scale)
+        });
+        found.heading("Compared with a ray-traced picture");
+        let by_rays = rendering.view.picture(exact);
+        let image = by_rays.display(exposure)?;
+        found.keep_layers("reference", by_rays);
+        found.pictures(vec![
+            NamedPicture::new("reference", image, "ray-traced, each pixel on its own"),
+            signed_picture("difference", "transfer minus ray-traced:", width, &whole, scale),
+        ]);
+        let table = self.table("Error by cause, relative to the root mean square of the ray-traced picture");
+        found.table(FoundTable::from(table).csv("causes").field("causes"));
+        found.pictures(steps.collect());
+        found.conclusion(format!(
+            "Compared with the ray-traced picture, the root mean square error is {} %.",
+            shown(self.apart(exact, drawn), Quantity::Measured)
+        ));
+        Ok(())
     }
 }
 
-/// Reports the pictures, with the ray-traced picture.
-pub(super) fn report(
-    rendering: &BiScaleRendering,
-    found_pictures: &CausePictures,
-    exposure: f64,
-    found: &mut Findings,
-) -> Result<(), StudyError> {
-    let CausePictures { causes, pictures } = found_pictures;
-    let (exact, drawn) = (found_pictures.exact(), found_pictures.drawn());
-    let width = rendering.view.camera.width();
-    let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
-    let signed = |before: &[[f64; 3]], after: &[[f64; 3]]| -> Vec<f64> {
-        after.iter().zip(before).map(|(a, b)| mean(a) - mean(b)).collect()
-    };
-    let scale = signed(exact, drawn).iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(1e-30);
-    let shown_scale = shown(scale, Quantity::Measured);
-    let mut differences = Vec::new();
-    for (step, name) in pictures.windows(2).zip(causes) {
-        let caption = format!("{}: what it changes; blue -{shown_scale}, white 0, red +{shown_scale}", name.1);
-        let image = false_color::signed(width, &signed(&step[0], &step[1]), scale);
-        differences.push(NamedPicture::new(format!("cause-{}", name.0), image, caption));
-    }
-    found.heading("Compared with a ray-traced picture");
-    let by_rays = rendering.view.picture(exact);
-    let image = by_rays.display(exposure)?;
-    found.keep_layers("reference", by_rays);
-    let caption = format!("transfer minus ray-traced: blue -{shown_scale}, white 0, red +{shown_scale}");
-    let whole = false_color::signed(width, &signed(exact, drawn), scale);
-    found.pictures(vec![
-        NamedPicture::new("reference", image, "ray-traced, each pixel on its own"),
-        NamedPicture::new("difference", whole, caption),
-    ]);
-    let table = found_pictures.table("Error by cause, relative to the root mean square of the ray-traced picture");
-    found.table(FoundTable::from(table).csv("causes").field("causes"));
-    found.pictures(differences);
-    found.conclusion(format!(
-        "Compared with the ray-traced picture, the root mean square error is {} %.",
-        shown(found_pictures.apart(exact, drawn), Quantity::Measured)
-    ));
-    Ok(())
+fn differences(one: &[[f64; 3]], other: &[[f64; 3]]) -> ErrorSums {
+    let mut sums = ErrorSums::default();
+    one.iter().flatten().zip(other.iter().flatten()).for_each(|(&a, &b)| sums.add(value_error(a, b), 1.0));
+    sums
 }

@@ -1,16 +1,22 @@
-//! The card that draws a picture, and the code that the studies of all systems share.
+//! The card that draws a picture, and the findings that the studies of all systems share.
 
+use glam::DVec3;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
+use refsim::timing::host::{HostError, HostModel};
 use serde_json::json;
 
-use super::difference::ComparedPicture;
+use super::errors::{PixelErrors, STEPS, held};
+use crate::card::SeenPixel;
+use crate::card::frame_time::{FrameTime, FrameTimeError, frame_time};
 use crate::error::InputError;
-use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
+use crate::picture::metrics::value_error;
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::study::StudyError;
-use crate::study::prt::LitView;
+use crate::study::prt::{LitView, light_picture};
 use crate::study::timeline_trace;
 
 /// The card that draws.
@@ -39,62 +45,140 @@ impl CardSetting {
         provenance.switches.clone_from(&self.switches);
         provenance
     }
-}
 
-/// Inputs for the findings of a study of a card's picture.
-pub(super) struct PictureStudy<'a> {
-    pub(super) card: &'a CardSetting,
-    pub(super) view: &'a LitView,
-    /// Input that card and host share.
-    pub(super) from: &'static str,
-}
-
-impl PictureStudy<'_> {
-    /// Exposes linear radiance of pixels; returns the exposure and the pixels.
-    pub(super) fn exposed(&self, linear: Vec<[f64; 3]>) -> (f64, Vec<[f64; 3]>) {
-        let exposure = self.view.exposure_of(&linear);
-        (exposure, linear.into_iter().map(|color| color.map(|value| exposure * value)).collect())
-    }
-
-    /// Findings with both pictures, their difference and the sentence about it.
-    pub(super) fn findings(
+    /// The time of a frame; `None` on a device with unknown rates.
+    pub(super) fn modelled(
         &self,
-        title: &str,
-        compared: &ComparedPicture<'_>,
-        exposure: f64,
-    ) -> Result<Findings, InputError> {
-        let card = &self.card.profile.title;
-        let mut found = Findings::new(title);
-        found.taken_from(self.view.camera.world_to_camera());
-        found.conclusion(compared.sentence(card, self.from));
-        let caption = format!("{} on the {card}", self.view.caption());
-        compared.report(&self.view.camera, caption, self.from, &mut found)?;
-        found.field("exposure", json!(exposure));
-        Ok(found)
+        log: &[Event],
+        host: Result<HostModel, HostError>,
+    ) -> Result<Option<FrameTime>, FrameTimeError> {
+        match frame_time(&self.profile, log, &host?) {
+            Ok(time) => Ok(Some(time)),
+            Err(FrameTimeError::Timing(_)) => Ok(None),
+            Err(error) => Err(error),
+        }
     }
 
     /// Adds the time of a frame, with its log as a timeline.
     pub(super) fn report_time(
         &self,
         times: Table,
-        explained: &'static str,
-        log: &[Event],
-        frame: &str,
+        explained: &str,
+        (log, frame): (&[Event], &str),
         found: &mut Findings,
     ) -> Result<(), StudyError> {
         found.heading("Modelled time");
         found.explained_table(FoundTable::from(times).field("time"), explained);
-        if let Some(bytes) = timeline_trace::file(&self.card.profile, log, frame)? {
+        if let Some(bytes) = timeline_trace::file(&self.profile, log, frame)? {
             found.keep_file("timeline.json", bytes);
         }
         Ok(())
     }
+
+    /// Adds the frame rate, its bottleneck and the parts of a frame, if the device's rates are known.
+    pub(super) fn report_frame(
+        &self,
+        host: Result<HostModel, HostError>,
+        explained: &str,
+        (log, frame): (&[Event], &str),
+        found: &mut Findings,
+    ) -> Result<(), StudyError> {
+        let Some(time) = self.modelled(log, host)? else { return Ok(()) };
+        let rate = shown(time.per_second(), Quantity::Measured);
+        let waits = time.bottleneck.map_or_else(String::new, |what| format!(", whose draws wait for {what}"));
+        found.conclusion(format!(
+            "{}: modelled {rate} frames per second{waits}; {} vertices are run and {} triangles set up in {} draws.",
+            self.profile.title, time.vertices_run, time.triangles, time.calls
+        ));
+        let times = [
+            ("frame to frame", time.frame),
+            ("host at work", time.host),
+            ("products on the host", time.products),
+            ("upload of vertices", time.uploads),
+            ("state and constants", time.state),
+            ("draws", time.draws),
+        ];
+        let times = times.map(|(part, time)| [part.into(), Cell::measured(1e3 * time.seconds())]);
+        self.report_time(Table::new("A frame", &["part", "ms"]).with(times), explained, (log, frame), found)
+    }
 }
 
-/// Adds a table of sizes and counts.
+/// The host's picture of what a card draws.
+pub(super) struct HostPicture<'a> {
+    card: &'a CardSetting,
+    view: &'a LitView,
+    /// Input that card and host share.
+    from: &'static str,
+    /// The surface in each pixel of the card's raster.
+    pub(super) seen: Vec<Option<SeenPixel>>,
+    /// Factor on radiance.
+    pub(super) exposure: f64,
+    /// Exposed pixels in double precision, neither clamped nor quantised.
+    pub(super) pixels: Vec<[f64; 3]>,
+}
+
+impl<'a> HostPicture<'a> {
+    /// Exposes linear radiance of pixels.
+    pub(super) fn new(
+        (card, view): (&'a CardSetting, &'a LitView),
+        from: &'static str,
+        seen: Vec<Option<SeenPixel>>,
+        linear: Vec<[f64; 3]>,
+    ) -> Self {
+        let exposure = view.exposure_of(&linear);
+        let pixels = linear.into_iter().map(|color| color.map(|value| exposure * value)).collect();
+        Self { card, view, from, seen, exposure, pixels }
+    }
+
+    /// Findings with the card's picture, the host's, their difference and the sentence about it, and a picture of the
+    /// light. If the target or the vertices hold fixed-point fractions, the host's pixels are clamped for the
+    /// comparison.
+    pub(super) fn findings(
+        &self,
+        title: &str,
+        drawn: &[[f64; 3]],
+        is_clamped: bool,
+        light: impl Fn(DVec3) -> [f64; 3] + Sync,
+    ) -> Result<(Findings, PixelErrors), InputError> {
+        let (card, camera, from) = (&self.card.profile.title, &self.view.camera, self.from);
+        let expected = held(&self.pixels, is_clamped);
+        let errors = PixelErrors::of(&self.seen, drawn, &expected);
+        let mut found = Findings::new(title);
+        found.taken_from(camera.world_to_camera());
+        found.conclusion(errors.sentence(card, from));
+        let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
+            let channels = found.iter().zip(expected).map(|(&found, &expected)| value_error(found, expected));
+            channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
+        };
+        let difference: Vec<f64> = drawn.iter().zip(&expected).map(worst).collect();
+        let range = (4.0 * errors.finite_rms / STEPS).max(1.0 / STEPS);
+        let scale = shown(STEPS * range, Quantity::Measured);
+        let caption = format!(
+            "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more{}",
+            false_color::not_finite(&difference)
+        );
+        let picture = self.view.picture(drawn);
+        let [title, host] =
+            [format!("{} on the {card}", self.view.caption()), format!("the host in double precision, from {from}")];
+        found.pictures(vec![
+            NamedPicture::new("card", picture.display(1.0)?, title),
+            NamedPicture::new("host", self.view.picture(&self.pixels).display(1.0)?, host),
+            NamedPicture::new("difference", false_color::signed(camera.width(), &difference, range), caption),
+        ]);
+        found.keep_layers("card", picture);
+        let [rms, largest] = errors.off_255ths.map(|steps| Cell::measured(steps).json());
+        found.fields(json!({
+            "difference": { "rms_255ths": rms, "largest_255ths": largest, "visible_share": errors.visible,
+                            "not_finite": errors.not_finite },
+            "exposure": self.exposure,
+        }));
+        found.pictures(vec![light_picture("light", &self.view.light, light)?]);
+        Ok((found, errors))
+    }
+}
+
 pub(super) fn report_sizes(sizes: impl IntoIterator<Item = (&'static str, Cell)>, found: &mut Findings) {
-    let mut table = Table::new("Sizes and counts", &["what", "number"]);
-    sizes.into_iter().for_each(|(what, number)| table.push([what.into(), number]));
+    let rows = sizes.into_iter().map(|(what, number)| [what.into(), number]);
     found.heading("What is drawn");
-    found.table(FoundTable::from(table).field("sizes"));
+    found.table(FoundTable::from(Table::new("Sizes and counts", &["what", "number"]).with(rows)).field("sizes"));
 }

@@ -1,7 +1,14 @@
-//! The reflectance to be factored, and the errors of choosing it.
+//! The reflectance to be factored, the errors of choosing it, and Figure 3: the same lobe with different roughnesses.
 
-use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductFunction, ProductTable};
+use super::sphere;
+use crate::all_frequency::factor::{
+    DiscSamples, FacetDistribution, FactorSampling, Factorization, Lobe, ProductErrors, ProductFunction, ProductTable,
+};
 use crate::error::{InputError, ensure};
+use crate::picture::metrics::{ScreenPicture, flip};
+use crate::report::{Cell, Table};
+use crate::study::StudyError;
+use crate::study::prt::auto_exposure;
 use crate::transfer::brdf::Brdf;
 
 /// A reflectance to be factored.
@@ -60,7 +67,6 @@ impl FactorSubject {
         }
     }
 
-    /// The table of f.
     pub(super) fn table(
         &self,
         sampling: &FactorSampling,
@@ -71,4 +77,67 @@ impl FactorSubject {
             _ => self.with_product(|product| sampling.table(product, progress)).expect("all others are formulas"),
         }
     }
+}
+
+/// Pixels per degree of the observer: a screen 0.7 m wide with 3,840 pixels seen from 0.7 m, FLIP's usual value.
+const PIXELS_PER_DEGREE: f64 = 67.0;
+
+pub(in crate::study) struct SweptRoughness {
+    pub(in crate::study) roughness: f64,
+    pub(in crate::study) relative_squared_error: f64,
+    pub(in crate::study) errors: ProductErrors,
+    /// Mean FLIP error between spheres shaded by the table and by the terms.
+    pub(in crate::study) flip: f64,
+}
+
+fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, InputError> {
+    let distribution = match lobe.distribution {
+        FacetDistribution::Beckmann { .. } => FacetDistribution::Beckmann { roughness },
+        FacetDistribution::Schlick { isotropy, tangent, .. } => {
+            FacetDistribution::Schlick { roughness, isotropy, tangent }
+        }
+    };
+    let swept = Lobe { distribution, ..*lobe };
+    swept.check().map_err(|error| error.coded("crossbar::factor::brdf"))?;
+    Ok(swept)
+}
+
+impl BrdfFactors {
+    /// The lobe of [`FactorSubject::Lobe`] with each roughness.
+    pub(in crate::study) fn sweep(&self, roughnesses: &[f64]) -> Result<Vec<SweptRoughness>, StudyError> {
+        let FactorSubject::Lobe(lobe) = &self.subject else {
+            let what = format!("expected a model of microfacets whose roughness can be swept, found {}", self.name);
+            let help = "roughness is swept for Cook and Torrance's and for Schlick's model";
+            return Err(StudyError::new("crossbar::factor::sweep", what).with_help(help));
+        };
+        roughnesses.iter().map(|&roughness| self.swept(&with_roughness(lobe, roughness)?, roughness)).collect()
+    }
+
+    fn swept(&self, lobe: &Lobe, roughness: f64) -> Result<SweptRoughness, StudyError> {
+        let table = self.sampling.table(lobe, &mut |_, _| ())?;
+        let found = self.factorization(&table)?;
+        let factors = found.factors(found.terms());
+        let limit = self.sampling.limit;
+        let [original, drawn] = [
+            sphere::radiance(&|view, light| lobe.value(view, light).min(limit)),
+            sphere::radiance(&|view, light| factors.product(view, light)),
+        ];
+        let exposure = auto_exposure(&original);
+        let screen = |radiance: &[[f64; 3]]| ScreenPicture::new(&sphere::picture(radiance), exposure);
+        let seen = flip(&screen(&original)?, &screen(&drawn)?, PIXELS_PER_DEGREE);
+        Ok(SweptRoughness {
+            roughness,
+            relative_squared_error: found.relative_squared_error(found.terms()),
+            errors: DiscSamples::new(&table).errors(&factors),
+            flip: seen.map_or(0.0, |seen| seen.mean),
+        })
+    }
+}
+
+pub(in crate::study) fn roughness_table(rows: &[SweptRoughness], title: &str) -> Table {
+    let row = |row: &SweptRoughness| {
+        let errors = [row.relative_squared_error, row.errors.rms, row.errors.max, row.flip].map(Cell::error);
+        [Cell::from(row.roughness)].into_iter().chain(errors)
+    };
+    Table::of(title, "roughness relative_squared_error rms max flip_of_spheres").with(rows.iter().map(row))
 }

@@ -15,19 +15,8 @@ pub(super) const ORDERS: [usize; 4] = [4, 5, 6, 7];
 /// Interpretation: its name, the reflectance, and its sampling.
 pub(super) type Form = (&'static str, Lobe, FactorSampling);
 
-/// Errors of one form.
-pub(super) struct FormErrors {
-    /// Errors of ten terms.
-    pub(super) terms: ProductErrors,
-    /// Errors of each of [`ORDERS`].
-    pub(super) harmonics: [ProductErrors; 4],
-    /// Number of functions of the first order whose RMS does not exceed the terms' RMS; the number for the highest
-    /// order if there is none.
-    pub(super) functions: usize,
-}
-
 /// Sampling at texel centers, one sample per pair.
-fn centers() -> FactorSampling {
+pub(super) fn centers() -> FactorSampling {
     FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() }
 }
 
@@ -84,42 +73,35 @@ pub(super) fn at_equal_angles(forms: &[Form]) -> Vec<(String, Lobe)> {
     found
 }
 
-impl FormErrors {
-    /// Computes the errors of an interpretation.
-    pub(super) fn new((_, lobe, sampling): &Form) -> Result<Self, StudyError> {
-        let table = sampling.table(lobe, &mut |_, _| ()).on(HOST)?;
-        let found = Factorization::new(&table, TERMS).on(HOST)?;
-        let disc = DiscSamples::new(&table);
-        Self::beside(disc.errors(&found.factors(TERMS)), disc.samples())
-    }
+/// Errors of a form, in the order of the printed table: RMS and maximum of ten terms, then of each of [`ORDERS`]; then
+/// the two RMS comparisons, and the ratio of functions to terms.
+pub(super) fn errors((_, lobe, sampling): &Form) -> Result<Vec<f64>, StudyError> {
+    let table = sampling.table(lobe, &mut |_, _| ()).on(HOST)?;
+    let found = Factorization::new(&table, TERMS).on(HOST)?;
+    let disc = DiscSamples::new(&table);
+    with_harmonics(disc.errors(&found.factors(TERMS)), disc.samples())
+}
 
-    /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are clamped.
-    pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, StudyError> {
-        let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().limit);
-        let terms = samples.term_errors(TERMS).on(HOST)?;
-        Self::beside(terms, &samples)
-    }
+/// Errors of a lobe at directions with equal solid angles, clamped as texels are clamped.
+pub(super) fn errors_at_equal_angles(lobe: &Lobe) -> Result<Vec<f64>, StudyError> {
+    let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().limit);
+    with_harmonics(samples.term_errors(TERMS).on(HOST)?, &samples)
+}
 
-    fn beside(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, StudyError> {
-        let of = |order: usize| harmonic_errors(samples, order).on(HOST);
-        let mut functions = MAX_ORDER * MAX_ORDER;
-        for order in 1..=MAX_ORDER {
-            if of(order)?.rms <= terms.rms {
-                functions = order * order;
-                break;
-            }
+fn with_harmonics(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Vec<f64>, StudyError> {
+    let of = |order: usize| harmonic_errors(samples, order).on(HOST);
+    // The functions of the first order whose RMS does not exceed the terms', or of the highest order.
+    let mut functions = MAX_ORDER * MAX_ORDER;
+    for order in 1..=MAX_ORDER {
+        if of(order)?.rms <= terms.rms {
+            functions = order * order;
+            break;
         }
-        let [four, five, six, seven] = ORDERS;
-        Ok(Self { terms, harmonics: [of(four)?, of(five)?, of(six)?, of(seven)?], functions })
     }
-
-    /// Values in the order of the printed table: RMS and maximum of the terms, then of each order; then the two RMS
-    /// comparisons, and the ratio of functions to terms.
-    pub(super) fn values(&self) -> Vec<f64> {
-        let all = std::iter::once(&self.terms).chain(&self.harmonics);
-        let [.., six, seven] = &self.harmonics;
-        all.flat_map(|errors| [errors.rms, errors.max])
-            .chain([six.rms / self.terms.rms, self.terms.rms / seven.rms, self.functions as f64 / TERMS as f64])
-            .collect()
-    }
+    let [four, five, six, seven] = ORDERS;
+    let harmonics = [of(four)?, of(five)?, of(six)?, of(seven)?];
+    let [.., six, seven] = &harmonics;
+    let ratios = [six.rms / terms.rms, terms.rms / seven.rms, functions as f64 / TERMS as f64];
+    let all = std::iter::once(&terms).chain(&harmonics).flat_map(|errors| [errors.rms, errors.max]);
+    Ok(all.chain(ratios).collect())
 }

@@ -15,14 +15,10 @@ pub use models::bunny_in_pieces;
 use super::error::RunResult;
 use super::shared::Shared;
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, number, paper_row, paragraph, printed,
+    Dependence, EntryFindings, HOST, Method, PaperRow, Setting, StudyError, Sweep, ends, number, paper_row, paragraph,
     printed_value,
 };
 
-/// Name of the host on which solvers run.
-const HOST: &str = "host";
-
-/// Row for a value that is computed in f64 and does not use a printed value.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
-    paper_row(&format!("all-frequency/{id}"), (HOST, Method::Solver), (ours, Dependence::Counted))
+    super::solved(&format!("all-frequency/{id}"), ours)
 }

@@ -14,12 +14,13 @@ use crate::all_frequency::factor::Factorization;
 use crate::all_frequency::transfer::transfer_of;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
+use crate::geom::teapot::teapot;
 use crate::kept::KeptResults;
 use crate::scene::built::ground::{GROUND_SIDE, on_ground};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
-use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
+use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Tangents, Vertices};
@@ -29,7 +30,6 @@ use crate::transfer::{Tangents, Vertices};
 pub(super) const SAMPLED_SEGMENTS: [usize; 3] = [0, 17, 21];
 /// Iterations per number of representatives on reduced models.
 pub(super) const REDUCED_ITERATIONS: usize = 2;
-/// Model of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableModel {
     Bunny,
@@ -38,15 +38,6 @@ pub(super) enum TableModel {
     Buddha,
 }
 
-/// Segments that are compressed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SegmentChoice {
-    /// [`SAMPLED_SEGMENTS`]; the other segments are assumed to have the same size per vertex.
-    Sampled,
-    All,
-}
-
-/// Material of a model in Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableMaterial {
     Diffuse,
@@ -57,16 +48,12 @@ pub(super) enum TableMaterial {
 impl TableModel {
     /// Builds the mesh; a reduced mesh has some hundred vertices, for a run without verdicts.
     fn mesh(self, size: ModelSize) -> Result<Mesh, StudyError> {
-        let built =
-            |model: TransferModel, coarser: u32| model.mesh(if size == ModelSize::Printed { 1 } else { coarser });
+        let built = |model: TransferModel, coarser: u32| model.mesh(size.pick(1, coarser));
         Ok(match self {
             Self::Bunny => built(TransferModel::Bunny, 8),
             Self::Tweety => built(TransferModel::Tweety, 12),
             Self::Buddha => built(TransferModel::Buddha, 12),
-            Self::Teapot => {
-                let rate = if size == ModelSize::Printed { 40 } else { 3 };
-                crate::geom::teapot::teapot(rate).on(HOST)?
-            }
+            Self::Teapot => teapot(size.pick(40, 3)).on(HOST)?,
         })
     }
 }
@@ -86,11 +73,8 @@ impl TableMaterial {
 }
 
 /// Number of vertices along an edge of the ground.
-pub(super) const fn ground_side(size: ModelSize) -> u32 {
-    match size {
-        ModelSize::Printed => GROUND_SIDE,
-        ModelSize::Reduced => 14,
-    }
+pub(super) fn ground_side(size: ModelSize) -> u32 {
+    size.pick(GROUND_SIDE, 14)
 }
 
 /// Visibility at the vertices of a model, or of its ground.
@@ -121,7 +105,6 @@ pub(super) struct CompressedModel {
     pub(super) by_segment: Vec<SegmentShares>,
 }
 
-/// Result of one coding.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct CodedModel {
     /// Bytes of representatives and weights, with every number in 16 bits.
@@ -156,39 +139,29 @@ impl ModelVisibility {
         Ok(Self { maps: maps.on(HOST)?, vertices, hats: LinearBasis::new(BasisWidth::TwoTexels), size })
     }
 
-    /// Counts the segments that hold transfer.
-    pub(super) fn census(&self) -> SegmentCensus {
-        SegmentCensus::new(&self.vertices, &self.maps, &self.hats)
-    }
-
-    /// Compresses and codes the transfer. Each segment is a piece of the work `name`.
+    /// Compresses and codes some segments of the transfer, which represent all: the others are assumed to have the same
+    /// size per vertex. Each segment is a piece of the work `name`.
     pub(super) fn compressed(
         &self,
         reflectance: &Reflectance,
-        choice: SegmentChoice,
+        segments: impl IntoIterator<Item = usize>,
         (shared, name): (&Shared, &str),
     ) -> Result<CompressedModel, StudyError> {
         let transfer = transfer_of(&self.vertices, &self.maps, &self.hats, reflectance);
-        let all: Vec<usize> = (0..Segmentation::Quarters.count()).collect();
-        let wanted = if choice == SegmentChoice::Sampled { &SAMPLED_SEGMENTS[..] } else { &all[..] };
-        let iterations = match self.size {
-            ModelSize::Reduced => REDUCED_ITERATIONS,
-            ModelSize::Printed => SegmentOptions::default().iterations,
-        };
+        let iterations = self.size.pick(SegmentOptions::default().iterations, REDUCED_ITERATIONS);
         let (rows, vertices) = (reflectance.terms(), self.maps.len());
         let of_segment = |segment: usize| {
             let found = transfer.segment(segment).on(HOST)?;
             found.map(|found| SegmentSums::new(found, iterations, (rows, vertices))).transpose()
         };
         let (mut sums, mut by_segment) = (SegmentSums::default(), Vec::new());
-        for &segment in wanted {
-            let of_segment = || of_segment(segment);
-            if let Some(found) = shared.piece(&format!("{name}-segment-{segment:02}"), of_segment)? {
+        for segment in segments {
+            if let Some(found) = shared.piece(&format!("{name}-segment-{segment:02}"), || of_segment(segment))? {
                 sums.add(&found);
                 by_segment.push(found.shares(segment));
             }
         }
-        let census = self.census();
+        let census = SegmentCensus::new(&self.vertices, &self.maps, &self.hats);
         // Exactly 1 if all segments are compressed.
         let all_over_sampled = census.nonempty as f64 / sums.points as f64;
         let coded = sums.coded.map(|code| CodedModel {
@@ -210,44 +183,38 @@ impl ModelVisibility {
     }
 }
 
-/// Visibility of a model with and without the ground, computed on first use: stored pieces do not need it.
+/// Visibility of a model without and with the ground, computed on first use: stored pieces do not need it.
 pub(super) struct SeenModel {
     pub(super) model: TableModel,
     size: ModelSize,
-    alone: OnceCell<ModelVisibility>,
-    on_ground: OnceCell<ModelVisibility>,
+    seen: [OnceCell<ModelVisibility>; 2],
 }
 
 impl SeenModel {
     pub(super) const fn new(model: TableModel, size: ModelSize) -> Self {
-        Self { model, size, alone: OnceCell::new(), on_ground: OnceCell::new() }
+        Self { model, size, seen: [OnceCell::new(), OnceCell::new()] }
     }
 
-    /// For the model without ground.
-    pub(super) fn alone(&self) -> Result<&ModelVisibility, StudyError> {
-        on_first_use(&self.alone, || ModelVisibility::alone(self.model, self.size))
+    pub(super) fn get(&self, on_ground: bool) -> Result<&ModelVisibility, StudyError> {
+        let cell = &self.seen[usize::from(on_ground)];
+        if let Some(found) = cell.get() {
+            return Ok(found);
+        }
+        let found = if on_ground {
+            ModelVisibility::on_ground(self.model, false, self.size)?
+        } else {
+            ModelVisibility::alone(self.model, self.size)?
+        };
+        Ok(cell.get_or_init(|| found))
     }
-
-    /// For the model on a ground.
-    pub(super) fn on_ground(&self) -> Result<&ModelVisibility, StudyError> {
-        on_first_use(&self.on_ground, || ModelVisibility::on_ground(self.model, false, self.size))
-    }
-}
-
-fn on_first_use<T>(cell: &OnceCell<T>, compute: impl FnOnce() -> Result<T, StudyError>) -> Result<&T, StudyError> {
-    if let Some(found) = cell.get() {
-        return Ok(found);
-    }
-    let found = compute()?;
-    Ok(cell.get_or_init(|| found))
 }
 
 /// Compresses the diffuse bunny of Table 1, reduced, in pieces that are stored if requested. Returns the model as text,
 /// and `true` if its visibility was computed. Fails if the model cannot be compressed, or its pieces cannot be stored.
 pub fn bunny_in_pieces(kept: Option<Rc<KeptResults>>) -> Result<(String, bool), StudyError> {
-    let (shared, seen) =
-        (Shared::new(ModelSize::Reduced).keeping(kept), SeenModel::new(TableModel::Bunny, ModelSize::Reduced));
-    let compress = || seen.alone()?.compressed(&Reflectance::Diffuse, SegmentChoice::Sampled, (&shared, "bunny"));
+    let shared = Shared::new(ModelSize::Reduced).keeping(kept);
+    let seen = SeenModel::new(TableModel::Bunny, ModelSize::Reduced);
+    let compress = || seen.get(false)?.compressed(&Reflectance::Diffuse, SAMPLED_SEGMENTS, (&shared, "bunny"));
     let model = shared.piece("bunny", compress)?;
-    Ok((format!("{model:?}"), seen.alone.get().is_some()))
+    Ok((format!("{model:?}"), seen.seen[0].get().is_some()))
 }

@@ -1,17 +1,15 @@
 //! Figure 3: ten terms of Cook and Torrance's model by roughness.
 
-use super::forms::{TERMS, bare};
+use super::forms::{TERMS, bare, centers};
 use super::{HOST, PaperRow, RunResult, StudyError, solved};
-use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
+use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe};
 use crate::report::Table;
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
 
-/// Roughnesses, in ascending order.
 const ROUGHNESSES: [f64; 5] = [0.2, 0.25, 0.3, 0.4, 0.5];
 /// Mean FLIP error of spheres above which their difference counts as visible; we chose it before we computed any error.
 const SEEN: f64 = 0.05;
 
-/// Results of Figure 3's sweep.
 pub(super) struct Figure3 {
     pub(super) row: PaperRow,
     pub(super) tables: Vec<Table>,
@@ -24,8 +22,7 @@ pub(super) fn sweep() -> Result<Figure3, StudyError> {
     let textbook = swept("normalised", lobe)?;
     let bare = swept("distribution alone", bare(lobe))?;
     let row = solved("roughness", threshold(&textbook.1))?;
-    let centers = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
-    let table = centers.table(&lobe, &mut |_, _| ()).on(HOST)?;
+    let table = centers().table(&lobe, &mut |_, _| ()).on(HOST)?;
     let [inside, _] = DiscSamples::new(&table).counts();
     Ok(Figure3 { row, tables: vec![textbook.0, bare.0], inside })
 }

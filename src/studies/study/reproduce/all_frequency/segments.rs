@@ -40,7 +40,6 @@ pub(super) struct SegmentShares {
     pub(super) squared_error: f64,
 }
 
-/// Results of one coding.
 #[derive(Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct CodeSums {
     /// Bytes of representatives and weights.

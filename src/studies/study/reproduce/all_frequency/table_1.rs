@@ -4,16 +4,15 @@ use serde::{Deserialize, Serialize};
 
 use super::codings::{BITS, CODINGS, Coding};
 use super::models::{
-    CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, SegmentChoice, TableMaterial, TableModel,
-    ground_side,
+    CompressedModel, ModelVisibility, SAMPLED_SEGMENTS, SeenModel, TableMaterial, TableModel, ground_side,
 };
-use super::{Dependence, EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paragraph, solved};
+use super::{Dependence, EntryFindings, PaperRow, Shared, StudyError, ends, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
-use crate::transfer::grid::LIGHT_TEXELS;
+use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 
 use TableMaterial::{Cook, Diffuse, Schlick};
 use TableModel::{Buddha, Bunny, Teapot, Tweety};
@@ -46,90 +45,73 @@ const RANGE: &str = "The text does not state the range of its {} bits either. Th
     sizes after coding, the best absolute step meets {} on models by themselves, {} on a ground.";
 const QUESTION: &str = "the models; the range of the quantised numbers, which decides how many of them vanish; whether \
     the printed squared error is from before coding or after it; whether the ground shadows the models of Table 1.";
-/// Columns with or without a ground.
-struct TableRun {
-    name: &'static str,
-    columns: Vec<CompressedModel>,
-}
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
-    let ComputedTable { runs, ground } = ComputedTable::new(shared)?;
+    let (runs, ground) = computed(shared)?;
     let figures = figures();
-    let stated = values(&runs[0].columns, 0, false);
+    let stated = values(&runs[0], 0, false);
     let mut rows: Vec<PaperRow> = Vec::new();
     for (at, name) in &figures {
-        let others = runs.iter().flat_map(|run| readings(&run.columns)).map(|values| values[*at]);
+        let others = runs.iter().flat_map(|run| readings(run)).map(|values| values[*at]);
         let mut row = solved(name, stated[*at])?.with_readings(others);
         if name == SHAPED {
             row.dependence = Dependence::Calibrated { on: "this figure, which determined the Buddha's coat" };
         }
         rows.push(row);
     }
-    let nearest = runs.each_ref().map(|run| most_met(&run.columns, &figures, &rows));
+    let met = runs.each_ref().map(|run| most_met(run, &figures, &rows).to_string());
     rows.extend(ground.rows()?);
-    let found = &runs[0].columns;
+    let [found, on_ground] = &runs;
     let total = |bytes: fn(&CompressedModel) -> f64| found.iter().map(bytes).sum::<f64>();
     rows.push(solved("ratio-haar", total(|model| model.raw) / total(|model| model.haar))?);
-    let [alone, on_ground] = runs.each_ref().map(table);
-    let counts = || found.iter().map(|model| model.vertices as f64);
+    let [least, most] = ends(found.iter().map(|model| model.vertices as f64));
     let options = SegmentOptions::default();
     let side = number(f64::from(ground_side(shared.models)), 0);
     let numbers = [
-        number(counts().fold(f64::INFINITY, f64::min), 0),
-        number(counts().fold(0.0, f64::max), 0),
-        number(options.points_per_cluster as f64, 0),
-        number(options.vectors as f64, 0),
-        number(f64::from(CodeOptions::default().weight_bits), 0),
-        number(SAMPLED_SEGMENTS.len() as f64, 0),
+        least,
+        most,
+        options.points_per_cluster as f64,
+        options.vectors as f64,
+        f64::from(CodeOptions::default().weight_bits),
+        SAMPLED_SEGMENTS.len() as f64,
     ];
-    let met = nearest.map(|met| met.to_string());
+    let how = paragraph(HOW, numbers.map(|value| number(value, 0)));
     let range = [BITS.to_string(), TABLE_1.len().to_string()].into_iter().chain(met);
     Ok(EntryFindings::new(
-        [paragraph(HOW, numbers), paragraph(GROUND, [side.clone(), side]), paragraph(RANGE, range)],
+        [how, paragraph(GROUND, [side.clone(), side]), paragraph(RANGE, range)],
         rows,
         [QUESTION],
-        [alone, on_ground, by_representatives(found), by_segment(found)],
+        [
+            table("models by themselves", found),
+            table("models on a ground", on_ground),
+            by_representatives(found),
+            by_segment(found),
+        ],
     ))
 }
 
 /// The columns without and with a ground, and the ground of the bunny's scene.
-struct ComputedTable {
-    runs: [TableRun; 2],
-    ground: CompressedGround,
-}
-
-impl ComputedTable {
-    fn new(shared: &Shared) -> Result<Self, StudyError> {
-        let (diffuse, cook, schlick) = (Diffuse.reflectance()?, Cook.reflectance()?, Schlick.reflectance()?);
-        let (mut alone, mut grounded, mut ground) = (Vec::new(), Vec::new(), None);
-        let mut seen: Option<SeenModel> = None;
-        for (column, _, model, material) in TABLE_1 {
-            let seen = match seen.take() {
-                Some(last) if last.model == model => seen.insert(last),
-                _ => seen.insert(SeenModel::new(model, shared.models)),
-            };
-            // The first model is the bunny.
-            if ground.is_none() {
-                ground = Some(shared.piece("ground", || CompressedGround::new(model, &diffuse, shared))?);
-            }
-            let reflectance = match material {
-                Diffuse => &diffuse,
-                Cook => &cook,
-                Schlick => &schlick,
-            };
-            let [name, name_on_ground] = ["alone", "on-ground"].map(|run| format!("{column}-{run}"));
-            let compress = |seen: &ModelVisibility, name: &str| {
-                seen.compressed(reflectance, SegmentChoice::Sampled, (shared, name))
-            };
-            alone.push(shared.piece(&name, || compress(seen.alone()?, &name))?);
-            grounded.push(shared.piece(&name_on_ground, || compress(seen.on_ground()?, &name_on_ground))?);
+fn computed(shared: &Shared) -> Result<([Vec<CompressedModel>; 2], CompressedGround), StudyError> {
+    let (diffuse, cook, schlick) = (Diffuse.reflectance()?, Cook.reflectance()?, Schlick.reflectance()?);
+    let mut runs = [Vec::new(), Vec::new()];
+    let ground = shared.piece("ground", || CompressedGround::new(Bunny, &diffuse, shared))?;
+    let mut seen = SeenModel::new(Bunny, shared.models);
+    for (column, _, model, material) in TABLE_1 {
+        if seen.model != model {
+            seen = SeenModel::new(model, shared.models);
         }
-        let run = |name, columns| TableRun { name, columns };
-        Ok(Self {
-            runs: [run("models by themselves", alone), run("models on a ground", grounded)],
-            ground: ground.ok_or("no model has a ground").on(HOST)?,
-        })
+        let reflectance = match material {
+            Diffuse => &diffuse,
+            Cook => &cook,
+            Schlick => &schlick,
+        };
+        for (on_ground, run) in [(false, "alone"), (true, "on-ground")] {
+            let name = format!("{column}-{run}");
+            let compress = || seen.get(on_ground)?.compressed(reflectance, SAMPLED_SEGMENTS, (shared, &name));
+            runs[usize::from(on_ground)].push(shared.piece(&name, compress)?);
+        }
     }
+    Ok((runs, ground))
 }
 
 /// The ground of section 7: "the raw data was about 715MB which compressed down to 23.6MB".
@@ -145,7 +127,7 @@ impl CompressedGround {
     /// The ground below a model.
     fn new(model: TableModel, diffuse: &Reflectance, shared: &Shared) -> Result<Self, StudyError> {
         let ground = ModelVisibility::on_ground(model, true, shared.models)?;
-        let found = ground.compressed(diffuse, SegmentChoice::All, (shared, "ground"))?;
+        let found = ground.compressed(diffuse, 0..Segmentation::Quarters.count(), (shared, "ground"))?;
         Ok(Self { omega: found.omega, left: found.coded.iter().map(|coded| coded.numbers / found.raw).collect() })
     }
 
@@ -189,8 +171,7 @@ fn values(found: &[CompressedModel], coding: usize, headers: bool) -> Vec<f64> {
         let shares = [model.omega, model.clustered / model.raw, bytes / model.clustered, bytes / model.raw];
         shares.into_iter().chain([model.coded[coding].squared_error]).map(|share| 100.0 * share).collect::<Vec<_>>()
     };
-    let ratios = || found.iter().map(|model| model.raw / bytes(model));
-    let extremes = [ratios().fold(f64::INFINITY, f64::min), ratios().fold(0.0, f64::max)];
+    let extremes = ends(found.iter().map(|model| model.raw / bytes(model)));
     found.iter().flat_map(of_model).chain(extremes).collect()
 }
 
@@ -209,12 +190,12 @@ fn figures() -> Vec<(usize, String)> {
     found
 }
 
-fn table(run: &TableRun) -> Table {
+fn table(name: &str, columns: &[CompressedModel]) -> Table {
     let mut table = Table::of(
-        format!("Table 1, by compressing {}", run.name),
+        format!("Table 1, by compressing {name}"),
         "model vertices omega_% clusters raw_MB clustered_MB coded_MB with_headers_MB squared_error_% ratio",
     );
-    for ((column, ..), model) in TABLE_1.iter().zip(&run.columns) {
+    for ((column, ..), model) in TABLE_1.iter().zip(columns) {
         let coded = &model.coded[0];
         let megabytes = |bytes: f64| Cell::measured(1e-6 * bytes);
         table.push([
@@ -246,7 +227,6 @@ fn by_representatives(found: &[CompressedModel]) -> Table {
     table
 }
 
-/// Table of the differences between the compressed segments.
 fn by_segment(found: &[CompressedModel]) -> Table {
     let headings = SAMPLED_SEGMENTS.iter().flat_map(|segment| [format!("coded_{segment}"), format!("error_{segment}")]);
     let headings: Vec<String> = ["model".to_owned()].into_iter().chain(headings).collect();

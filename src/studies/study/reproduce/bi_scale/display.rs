@@ -1,7 +1,6 @@
 //! Frames of the display on the emulated card.
 
 use refsim::device::Profile;
-use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
@@ -16,7 +15,6 @@ use crate::geom::Mesh;
 use crate::scene::Camera;
 use crate::transfer::Vertices;
 
-/// Card of the paper.
 pub(super) const CARD: &str = "gt200";
 /// Number of view directions per side.
 const VIEWS: usize = 12;
@@ -30,15 +28,14 @@ pub(super) struct DisplayRun {
     pub(super) pixels: u64,
 }
 
-/// Width and height of the pictures in which views are timed; small for a run without verdicts.
-pub(super) const fn picture(models: ModelSize) -> [u32; 2] {
-    match models {
-        ModelSize::Printed => [640, 480],
-        ModelSize::Reduced => [64, 48],
-    }
+/// Width and height of the pictures in which views are timed.
+pub(super) const PICTURE: [u32; 2] = [640, 480];
+
+/// The size of pictures, small for a run without verdicts.
+pub(super) fn picture(models: ModelSize) -> [u32; 2] {
+    models.pick(PICTURE, [64, 48])
 }
 
-/// Camera of the bunnies.
 pub(super) fn of_bunny([width, height]: [u32; 2]) -> Result<Camera, StudyError> {
     Camera::new([3.0, -5.5, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.22, width, height).on(CARD)
 }
@@ -63,18 +60,14 @@ pub(super) fn display_textured(
     let coordinates = corner_coordinates(mesh, [1.0; 2]).on(CARD)?;
     let textures = vec![texture; texture_of.iter().max().map_or(0, |&most| most as usize + 1)];
     let textured = TexturedMesh { vertices, coordinates: &coordinates, textures: &textures, texture_of };
-    let profile = Profile::named(CARD).on(CARD)?;
+    let profile = Profile::named(CARD)?;
     let options = DisplayOptions::default();
     let mut card = BiScaleCard::new(profile.clone(), ExecutorKind::Batch, textured, options).on(CARD)?;
     let view = MeshView { camera, exposure: 1.0, format: TexelFormat::Rgba8 };
     let local = vec![[0.0; 3]; vertices.len() * lights];
     let (texels, log) = card.logged_view(&local, &view).on(CARD)?;
     let pixels = texels.texels.iter().filter(|texel| texel[3] != 0.0).count() as u64;
-    Ok(DisplayRun { counts: card.counts(), time: time_of(&profile, &log)?, pixels })
-}
-
-/// Time of a log on the card. The host only submits draws.
-fn time_of(profile: &Profile, log: &[Event]) -> Result<FrameTime, StudyError> {
-    let host = host_of_table_1().on(HOST)?;
-    frame_time(profile, log, &host).on(CARD)
+    // The host only submits draws.
+    let time = frame_time(&profile, &log, &host_of_table_1().on(HOST)?).on(CARD)?;
+    Ok(DisplayRun { counts: card.counts(), time, pixels })
 }

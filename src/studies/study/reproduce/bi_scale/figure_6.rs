@@ -2,9 +2,7 @@
 
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
-use super::{
-    EntryFindings, HOST, ModelSize, PaperRow, RunResult, Shared, StudyError, number, paragraph, printed_value, solved,
-};
+use super::{EntryFindings, HOST, PaperRow, RunResult, Shared, StudyError, number, paragraph, printed_value, solved};
 use crate::bi_scale::bicluster::{SEED, bicluster};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::report::{Cell, Table};
@@ -20,11 +18,8 @@ const QUESTION: &str =
     "the chair, its light and camera; whether clusters had means, and their size, which the scan has lost.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
-    let coarser = match shared.models {
-        ModelSize::Reduced => 4,
-        ModelSize::Printed => 1,
-    };
-    let seen = ModelVisibility::new(&FlatModel::Chair.model(coarser).mesh, Horizon::Normal)?;
+    let chair = FlatModel::Chair.model(shared.models.pick(1, 4)).mesh;
+    let seen = ModelVisibility::new(&chair, Horizon::Normal)?;
     let vertices = [SCENES[2].vertices()?, seen.vertices.len()].map(|count| number(count as f64, 0));
     Ok(EntryFindings::new(
         [paragraph(HOW, vertices), CAPTIONS.into()],
@@ -47,14 +42,6 @@ fn lossless(matrix: &SparseMatrix) -> Result<PaperRow, StudyError> {
 const CLUSTERS: usize = 32;
 const VECTORS: usize = 8;
 const WAVELETS: usize = 12;
-/// Name of the figure with the wavelets' megabytes.
-const PRINTED_WAVELETS: &str = "bi-scale/wavelets-chair";
-/// Bytes per wavelet: two for its index, one for its value.
-const WAVELET_BYTES: usize = 3;
-
-fn wavelets(bytes: usize) -> Result<f64, StudyError> {
-    Ok(1e-6 * (SCENES[2].rows()? * WAVELETS * bytes) as f64)
-}
 
 /// Table of every method and layout, with the printed values; the size of clusters is illegible in the scan.
 fn chair_sizes() -> Result<Table, StudyError> {
@@ -78,7 +65,9 @@ fn chair_sizes() -> Result<Table, StudyError> {
     line("biclusters", "4 bytes per operation", 4.0 * of_print("operations-after")?, Some(of_print("biclusters")?));
     line("clusters of rows", "4 bytes per number, no means", 4e-6 * (weights + vectors), None);
     line("clusters of rows", "4 bytes per number", 4e-6 * (weights + vectors + means), None);
-    line("wavelets", "3 bytes each", wavelets(WAVELET_BYTES)?, Some(printed_value(PRINTED_WAVELETS)?));
-    line("wavelets", "6 bytes each", wavelets(2 * WAVELET_BYTES)?, None);
+    // Two bytes for the index of a wavelet, one for its value.
+    let wavelets = SCENES[2].rows()? * WAVELETS;
+    line("wavelets", "3 bytes each", 1e-6 * (3 * wavelets) as f64, Some(printed_value("bi-scale/wavelets-chair")?));
+    line("wavelets", "6 bytes each", 1e-6 * (6 * wavelets) as f64, None);
     Ok(table)
 }

@@ -3,7 +3,7 @@
 use super::display::{CARD, display, of_bunny};
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
-use super::{Dependence, EntryFindings, Method, ModelSize, Shared, StudyError, number, paper_row, paragraph, solved};
+use super::{EntryFindings, Shared, StudyError, drawn, number, paragraph, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
@@ -18,8 +18,8 @@ const SIDES: [usize; 4] = [8, 12, 16, 32];
 const PICTURE: [u32; 2] = [160, 120];
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
-    let coarser = if shared.models == ModelSize::Reduced { 3 } else { 1 };
-    let model = ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Geometry)?;
+    let bunny = TransferModel::BiScaleBunny.mesh(shared.models.pick(1, 3));
+    let model = ModelVisibility::new(&bunny, Horizon::Geometry)?;
     let (vertices, of_paper) = (model.vertices.len() as f64, SCENES[0].vertices()? as f64);
     let mut table = Table::of(
         "Local directions",
@@ -45,11 +45,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let last = SIDES.len() - 1;
     let power = ln(seconds[last] / seconds[0]) / ln(SIDES[last] as f64 / SIDES[0] as f64);
-    let quadratic = (power, Dependence::Predicted { from: "" });
-    let rows = vec![
-        solved("biclusters-32", megabytes[last])?,
-        paper_row("bi-scale/display-power", (CARD, Method::Pipeline), quadratic)?,
-    ];
+    let rows = [solved("biclusters-32", megabytes[last])?, drawn("bi-scale/display-power", CARD, power)?];
     let values = [vertices, of_paper, f64::from(PICTURE[0]), f64::from(PICTURE[1])].map(|value| number(value, 0));
     Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table]))
 }

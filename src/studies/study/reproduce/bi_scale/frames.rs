@@ -1,13 +1,12 @@
 //! Frame rates of both tables: if only the view changes, and if the light changes too.
 
-use super::display::{CARD, DisplayRun, display, of_bunny, picture};
+use super::display::{CARD, DisplayRun, PICTURE, display, of_bunny};
 use super::models::{BUNNY, ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperRow, RunResult, Shared, StudyError, TimedWork,
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, drawn,
     number, paper_row, paragraph, printed_value, solved,
 };
-use crate::report::{Cell, Table};
 use crate::transfer::{Tangents, Vertices};
 
 const HOW: &str = "The cost of new light is the difference between a scene's two frame times. One constant, {} billion operations per second and \
@@ -15,11 +14,9 @@ const HOW: &str = "The cost of new light is the difference between a scene's two
     card displays our bunny in {} x {} pixels, with {} passes of {} directions, {} texture reads and {} other instructions per pixel of a pass. Its \
     time is modelled by clocks, with texture reads at the units' full speed; the paper names cache misses as decisive.";
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large the models appear in the pictures; how many texture reads missed the caches.";
-const PICTURE: [u32; 2] = picture(ModelSize::Printed);
 
 /// A scene's printed rates in one table.
 struct PrintedFrames {
-    scene: &'static PrintedScene,
     place: &'static str,
     /// Names of the figures: if only the view changes, and if the light changes too.
     ids: [String; 2],
@@ -47,19 +44,14 @@ impl PrintedFrames {
         let frames = |&(scene, place, ending): &(&'static PrintedScene, &'static str, &str)| {
             let ids = ["view", "light"].map(|what| format!("{}{ending}", scene.figure(what)));
             let rates = [printed_value(&ids[0])?, printed_value(&ids[1])?];
-            Ok(Self { scene, place, ids, rates, operations: 1e6 * scene.printed("operations-after")?.value })
+            Ok(Self { place, ids, rates, operations: 1e6 * scene.printed("operations-after")?.value })
         };
         FRAMES.iter().map(frames).collect()
     }
 
-    /// Seconds of a transfer.
     fn transfer(&self) -> f64 {
         let [view, light] = self.rates;
         1.0 / light - 1.0 / view
-    }
-
-    fn name(&self) -> String {
-        format!("{}, {}", self.scene.name, self.place)
     }
 }
 
@@ -79,16 +71,13 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.extend(view_rows(&printed, &run)?);
     rows.extend(sentences(shared, &run, printed[0].operations / constant)?);
     let [reads, others] = run.counts.pixel_slots;
-    let numbers = [f64::from(PICTURE[0]), f64::from(PICTURE[1]), run.counts.passes as f64].into_iter().chain([
-        run.counts.directions_per_pass as f64,
-        f64::from(reads),
-        f64::from(others),
-    ]);
-    let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers.map(|value| number(value, 0)));
-    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], [table(&printed, constant), of_display(&run)]))
+    let [width, height] = PICTURE;
+    let [passes, directions] = [run.counts.passes, run.counts.directions_per_pass].map(|count| count as u32);
+    let numbers = [width, height, passes, directions, reads, others].map(|value| number(f64::from(value), 0));
+    let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers);
+    Ok(EntryFindings::new([paragraph(HOW, values)], rows, [QUESTION], []))
 }
 
-/// Time of a new view of the small bunny.
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     let mesh = BUNNY.mesh(1);
     let vertices = Vertices::new(&mesh, Tangents::Texture).on(CARD)?;
@@ -110,8 +99,7 @@ fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Resu
 fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, StudyError> {
     let [one, two] = [&all[0], &all[IN_TABLE_1]];
     let row = |(frames, other): (&PrintedFrames, &PrintedFrames)| {
-        let ours = (run.time.per_second(), Dependence::Predicted { from: "" });
-        let row = paper_row(&frames.ids[0], (CARD, Method::Pipeline), ours)?;
+        let row = drawn(&frames.ids[0], CARD, run.time.per_second())?;
         let how = format!("the same bunny on the same card in {}", other.place);
         let contradiction = Contradiction::between(&row.target, other.rates[0], &how);
         Ok(row.contradicted(contradiction))
@@ -123,43 +111,9 @@ fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, S
 fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], StudyError> {
     let from = Dependence::Predicted { from: "rates of table I, operations" };
     let comparable = (transfer / run.time.frame.seconds(), from);
-    let biclusters = &shared.get::<ClusteredModel>(BUNNY)?.biclusters;
+    let clustered = shared.get::<ClusteredModel>(BUNNY)?;
+    let biclusters = &clustered.biclusters;
     let gathered = biclusters.row_entries() as f64;
     let share = 100.0 * gathered / (gathered + 2.0 * biclusters.column_entries() as f64);
     Ok([paper_row("bi-scale/comparable", (CARD, Method::Pipeline), comparable)?, solved("gathering", share)?])
-}
-
-fn table(printed: &[PrintedFrames], constant: f64) -> Table {
-    let mut table = Table::of(
-        "Cost of new light, from printed rates",
-        "scene operations_M transfer_ms_printed billion_operations_per_second transfer_ms view_ms transfer_over_view",
-    );
-    for frames in printed {
-        let (transfer, view) = (frames.transfer(), 1.0 / frames.rates[0]);
-        table.push([
-            frames.name().into(),
-            Cell::decimals(1e-6 * frames.operations, 1),
-            Cell::decimals(1e3 * transfer, 1),
-            Cell::measured(1e-9 * frames.operations / transfer),
-            Cell::decimals(1e3 * frames.operations / constant, 1),
-            Cell::decimals(1e3 * view, 1),
-            Cell::measured(transfer / view),
-        ]);
-    }
-    table
-}
-
-fn of_display(run: &DisplayRun) -> Table {
-    let mut table = Table::new("A view of our bunny on the emulated card", &["what", "number"]);
-    let rows = [
-        ("pixels covered", run.pixels),
-        ("passes", run.counts.passes as u64),
-        ("texture reads per pixel", run.counts.passes as u64 * u64::from(run.counts.pixel_slots[0])),
-        ("vertices", run.counts.vertices as u64),
-    ];
-    rows.into_iter().for_each(|(what, count)| table.push([what.into(), count.into()]));
-    table.push(["frame in ms".into(), Cell::measured(1e3 * run.time.frame.seconds())]);
-    let waits = run.time.bottleneck.map_or_else(String::new, |bottleneck| bottleneck.to_string());
-    table.push(["draws wait for".into(), waits.into()]);
-    table
 }

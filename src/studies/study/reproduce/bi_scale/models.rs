@@ -18,7 +18,6 @@ use crate::tracer::HostTracer;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 use crate::transfer::{Tangents, Vertices};
 
-/// Bunny of both tables.
 pub(super) const BUNNY: TransferModel = TransferModel::BiScaleBunny;
 /// Base-2 logarithm of the number of visibility samples per side of a light texel.
 pub(super) const LOG2_SAMPLES: u32 = 1;
@@ -34,7 +33,6 @@ pub(super) struct ModelVisibility {
     maps: VisibilityMaps,
 }
 
-/// Transfer as biclusters.
 #[derive(Debug)]
 pub(super) struct ClusteredModel {
     pub(super) nonzeros: usize,

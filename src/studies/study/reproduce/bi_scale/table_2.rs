@@ -3,9 +3,7 @@
 use super::display::{CARD, display, of_bunny, picture};
 use super::models::{ClusteredModel, LOG2_SAMPLES, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
-use super::{
-    Dependence, EntryFindings, Method, ModelSize, PaperRow, Shared, StudyError, number, paper_row, paragraph, solved,
-};
+use super::{EntryFindings, PaperRow, Shared, StudyError, drawn, number, paragraph, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel::{self, BiScaleBunny, BiScaleBunnyFine, BiScaleBunnyMiddle};
@@ -18,11 +16,9 @@ const QUESTION: &str = "how the paper's bunnies were made from the scan; whether
     normal; how the paper draws start points and breaks ties; how large the models appear in the pictures.";
 /// Scenes by size: index in [`SCENES`], and model.
 const BUNNIES: [(usize, TransferModel); 3] = [(0, BiScaleBunny), (4, BiScaleBunnyMiddle), (5, BiScaleBunnyFine)];
-/// Edge length of reduced models, as a multiple of the full model's.
-const COARSER: u32 = 6;
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
-    let coarser = if shared.models == ModelSize::Reduced { COARSER } else { 1 };
+    let coarser = shared.models.pick(1, 6);
     let mut table = Table::of(
         "Biclusters of the bunnies",
         "scene vertices nonzeros_M_printed nonzeros_M biclusters rows_of_biclusters columns_of_biclusters \
@@ -38,8 +34,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
         } else {
             let run = display((&seen.mesh, &seen.vertices), scene.side, of_bunny(picture(shared.models))?)?;
-            let rate = (run.time.per_second(), Dependence::Predicted { from: "" });
-            rows.push(paper_row(&format!("{}-2", scene.figure("view")), (CARD, Method::Pipeline), rate)?);
+            rows.push(drawn(&format!("{}-2", scene.figure("view")), CARD, run.time.per_second())?);
         }
         rows.extend(scene_rows(scene, &found)?);
         ends.push((vertices as f64, found.biclusters.cost() as f64, found.operations_left()));

@@ -1,11 +1,18 @@
 //! Drawing cost of a mesh in clusters: with neither optimisation of section 5, with each alone, and with both.
 
-use super::mesh_cost::REGISTERS;
-use super::signals::ComputedSignal;
-use super::{HOST, RunResult, StudyError};
+use refsim::device::Profile;
+use refsim::event::vertex_cache_misses;
+
+use super::signals::{ComputedSignal, iterative};
+use super::{HOST, RunResult, Shared, SharedResult, StudyError};
 use crate::clustering::Clustering;
 use crate::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
+use crate::scene::built::transfer_models::TransferModel;
 
+/// The paper's card: "a Radeon 9700".
+pub(super) const CARD: &str = "r300";
+/// Its constant registers: "~256".
+pub(super) const REGISTERS: usize = 256;
 /// "Using a 5% error threshold".
 pub(super) const BUDGET: f64 = 0.05;
 /// Columns of the paper's table.
@@ -21,6 +28,16 @@ pub(super) struct DrawnClusters {
     pub(super) added_error: f64,
     /// Number of superclusters after reclassification.
     pub(super) superclusters: usize,
+}
+
+/// Cost of the iterative clustering of a signal.
+impl SharedResult for DrawnClusters {
+    type Key = usize;
+
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
+        let (signal, clustering) = iterative(shared, at)?;
+        Self::new(&signal, &clustering)
+    }
 }
 
 impl DrawnClusters {
@@ -46,5 +63,24 @@ impl DrawnClusters {
             added_error: if whole > 0.0 { moved.added_error / whole } else { 0.0 },
             superclusters: count,
         })
+    }
+}
+
+/// Cost of our model's triangles at the printed size, independent of their clusters.
+#[derive(Clone, Copy)]
+pub(super) struct MeshCost {
+    pub(super) triangles: u64,
+    /// Vertices processed per triangle, drawn in their order.
+    pub(super) run_per_triangle: f64,
+}
+
+impl SharedResult for MeshCost {
+    type Key = TransferModel;
+
+    fn compute(model: &TransferModel, _: &Shared) -> Result<Self, StudyError> {
+        let mesh = model.mesh(1);
+        let entries = Profile::named(CARD)?.rates.vertex_cache_entries.unwrap_or(0);
+        let run = vertex_cache_misses(mesh.triangles().as_flattened(), mesh.positions().len(), entries);
+        Ok(Self { triangles: mesh.len() as u64, run_per_triangle: run as f64 / mesh.len().max(1) as f64 })
     }
 }

@@ -3,11 +3,9 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
-use super::shared::iterative;
-use super::signals::BIRD;
-use super::{EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
+use super::signals::{BIRD, iterative};
+use super::{CARD, EntryFindings, Shared, StudyError, number, paragraph, printed, solved};
 use crate::card::frame_time::FrameTime;
 use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;
@@ -31,13 +29,13 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let still = CpcaMethod::Static;
     let components = computed.compressed_to(1, ENCODINGS[0].2, still)?;
     let quantised = computed.compressed(ENCODINGS[1].1, 0, still)?;
-    let clusterings = [&components, &quantised, both];
+    let clusterings = [&components, &quantised, &*both];
     let errors = clusterings.map(|clustering| computed.error(clustering));
     let card = Profile::named(CARD)?;
     let mut times = [FrameTime::default(); 3];
     for ((time, clustering), (_, clusters, vectors, _)) in times.iter_mut().zip(clusterings).zip(ENCODINGS) {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
-        let drawn = DrawnClusters::new(computed, clustering)?;
+        let drawn = DrawnClusters::new(&computed, clustering)?;
         *time = modelled_from_clusters(&card, shared, (computed.paper.model, size), &drawn)?;
     }
     let mut table = encodings(&clusterings, errors, times.map(|time| time.per_second()))?;

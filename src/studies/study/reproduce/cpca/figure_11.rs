@@ -3,11 +3,11 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, ratio_row, uncompressed};
-use super::shared::iterative;
-use super::signals::{BIRD, BUDDHA, ComputedSignal};
-use super::{Contradiction, EntryFindings, Method, PaperRow, Shared, StudyError, number, paragraph, printed, solved};
+use super::signals::{BIRD, BUDDHA, ComputedSignal, iterative};
+use super::{
+    CARD, Contradiction, EntryFindings, Method, PaperRow, Shared, StudyError, number, paragraph, printed, solved,
+};
 use crate::clustering::{Clustering, CpcaMethod};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
@@ -35,7 +35,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let energy = computed.energy();
         let mut errors = Vec::new();
         for vectors in VECTORS {
-            let (error, drawn) = with(computed, vectors, eight)?;
+            let (error, drawn) = with(&computed, vectors, &eight)?;
             let sizes = (computed.paper.model, TransferSize { vectors, ..computed.paper.size });
             let time = modelled_from_clusters(&card, shared, sizes, &drawn)?;
             let frames = if vectors == computed.paper.size.vectors {

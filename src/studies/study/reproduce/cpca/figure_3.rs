@@ -27,7 +27,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let clusters = computed.clusters(CLUSTERS);
     let still = computed.static_errors(clusters, VECTORS + MORE)?;
     let iterative = computed.iterative_errors(clusters, VECTORS + MORE)?;
-    let adaptive = adaptive_errors(computed, clusters)?;
+    let adaptive = adaptive_errors(&computed, clusters)?;
     let mut table = Table::of(
         "Squared errors, and the vectors that iteration and redistribution gain",
         "vectors static iterative adaptive iterative_gains adaptive_gains",

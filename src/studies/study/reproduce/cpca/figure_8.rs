@@ -3,11 +3,10 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::mesh_cost::CARD;
-use super::rates::{OWN_INPUTS, modelled_from_clusters, ratio_row, uncompressed};
+use super::rates::{OWN_INPUTS, modelled_from_clusters, ratio_row, time_cells, uncompressed};
 use super::signals::{GLOSSY_BUDDHA, HEAD, SIGNALS};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph, printed,
+    CARD, Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph, printed,
     printed_value,
 };
 use crate::card::frame_time::FrameTime;
@@ -37,17 +36,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (at, name, id, rate) in MODELS {
         let drawn = shared.get::<DrawnClusters>(at)?;
         let (model, size) = (SIGNALS[at].model, SIGNALS[at].size);
-        let on = |card: &Profile| modelled_from_clusters(card, shared, (model, size), drawn);
+        let on = |card: &Profile| modelled_from_clusters(card, shared, (model, size), &drawn);
         let time = on(&Profile::named(CARD)?)?;
-        let cells = [
-            Cell::decimals(drawn.overdraw[3], 3),
-            printed(rate)?.cell(),
-            Cell::measured(time.per_second()),
-            Cell::measured(1e3 * time.host.seconds()),
-            Cell::measured(1e3 * time.state.seconds()),
-            Cell::measured(1e3 * time.draws.seconds()),
-        ];
-        table.push([Cell::from(name)].into_iter().chain(cells));
+        let head = [name.into(), Cell::decimals(drawn.overdraw[3], 3), printed(rate)?.cell()];
+        table.push(head.into_iter().chain(time_cells(&time)));
         rows.extend(without_compression(id, size)?);
         let faster = time.per_second() / uncompressed(of_rows(size, 25))?;
         rows.push(ratio_row(&format!("faster-{id}"), ((&time).into(), faster), OWN_INPUTS)?);
@@ -59,7 +51,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         gains.push(100.0 * (newer.per_second() / time.per_second() - 1.0));
     }
     for (id, gains) in [("newer-card-uncompressed", plain_gains), ("newer-card", gains)] {
-        rows.push(newer_row(id, &gains)?);
+        // Both frames have the same work, so the gain is the ratio of clock rates, or 1 if the host is the bottleneck.
+        let ours = (gains[0], Dependence::Predicted { from: OWN_INPUTS });
+        let row = paper_row(&format!("cpca/{id}"), (NEWER, Method::Equation), ours)?;
+        rows.push(row.with_readings(gains[1..].iter().copied()));
     }
     let size = SIGNALS[HEAD].size;
     let sizes = [size.rows, size.clusters, size.vectors].map(|count| number(count as f64, 0));
@@ -90,12 +85,4 @@ fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, St
         found.push(row);
     }
     Ok(found)
-}
-
-/// Row for the gains of the newer card, on both models. Both frames have the same work, so the gain is the ratio of
-/// clock rates, or 1 if the host is the bottleneck.
-fn newer_row(id: &str, gains: &[f64]) -> Result<PaperRow, StudyError> {
-    let ours = (gains[0], Dependence::Predicted { from: OWN_INPUTS });
-    let row = paper_row(&format!("cpca/{id}"), (NEWER, Method::Equation), ours)?;
-    Ok(row.with_readings(gains[1..].iter().copied()))
 }

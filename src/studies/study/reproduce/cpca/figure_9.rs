@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use super::shared::iterative;
-use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA};
+use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA, iterative};
 use super::views::ModelView;
 use super::{EntryFindings, HOST, RunResult, Shared, StudyError, number, paragraph};
 use crate::report::{Cell, Table};
@@ -28,9 +27,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let sky = SKY.light(5).on(HOST)?;
     let mut table = Table::of("The sum and its parts", "light share_below_the_surface_% error_of_picture_%");
     for (name, light) in [("red and blue", HarmonicLight::red_and_blue(5)), ("sky", sky)] {
-        let sum = ModelView::new(computed, &light)?;
+        let sum = ModelView::new(&computed, &light)?;
         let below = ModelView::new(&gloss, &light)?.missing(&sum)?;
-        let error = sum.difference(Some(clustering), &sum.colors(None)?, |_| true)?;
+        let error = sum.difference(Some(&*clustering), &sum.colors(None)?, |_| true)?;
         table.push([Cell::from(name), Cell::percent(100.0 * below), Cell::percent(100.0 * error)]);
     }
     let counts = [computed.signal.points(), clustering.subspaces().len(), computed.paper.size.vectors];

@@ -15,10 +15,7 @@ pub(super) mod figure_6;
 pub(super) mod figure_7;
 pub(super) mod figure_8;
 pub(super) mod figure_9;
-mod mesh_cost;
 mod rates;
-pub(super) mod section_6;
-mod shared;
 mod signals;
 pub(super) mod table_1;
 mod views;
@@ -27,22 +24,29 @@ pub use figure_2::crossings;
 pub use figure_3::reaching;
 pub(super) use rates::timed;
 
-use mesh_cost::REGISTERS;
-use signals::HOST;
+use drawn::{CARD, REGISTERS};
 
 use super::error::RunResult;
-use super::shared::Shared;
+use super::shared::{Shared, SharedResult};
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, ModelSize, PaperRow, StudyError, TimedWork, number, paper_row,
-    paragraph, printed, printed_value,
+    Contradiction, Dependence, EntryFindings, HOST, Method, ModelSize, PaperRow, StudyError, TimedWork, ends, number,
+    paper_row, paragraph, printed, printed_value,
 };
+
+const SECTION_6: &str = "Nothing is run: sizes follow from printed ones by the formulas of sections 4.1 and 6.2. A \
+    register holds 4 numbers, and each vector takes whole registers, while the paper divides. Per frame, the host \
+    multiplies every mean and vector by the light of three channels; without compression, every vertex's matrix.";
+
+/// Sections 4.1, 6 and 6.2: numbers, registers and host work. The rows are expressions in `src/studies/papers`.
+pub(super) fn section_6(_: &Shared) -> Result<EntryFindings, StudyError> {
+    Ok(EntryFindings { text: vec![SECTION_6.into()], ..EntryFindings::default() })
+}
 
 /// Row for a value that follows from the paper's equations alone.
 fn equation(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (HOST, Method::Equation), (ours, Dependence::Counted))
 }
 
-/// Row for a value that is computed in f64 and does not use a printed value.
 fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
-    paper_row(&format!("cpca/{id}"), (HOST, Method::Solver), (ours, Dependence::Counted))
+    super::solved(&format!("cpca/{id}"), ours)
 }

@@ -3,17 +3,15 @@
 use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
 
-use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters};
-use super::mesh_cost::{CARD, MeshCost};
+use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters, MeshCost};
 use super::signals::{BIRD, PaperSignal, SIGNALS};
 use super::{
-    Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, RunResult, Shared, StudyError, TimedWork, paper_row,
-    printed, printed_value,
+    CARD, Contradiction, Dependence, HOST, Method, PaperRow, REGISTERS, RunResult, Shared, SharedResult, StudyError,
+    TimedWork, paper_row, printed, printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
 use crate::cpca::on_card::model::TransferSize;
-use crate::cpca::on_card::time::FrameCounts;
-use crate::cpca::on_card::time::host_of_section_7;
+use crate::cpca::on_card::time::{FrameCounts, host_of_section_7};
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 
@@ -26,7 +24,7 @@ pub(super) const INPUTS: &str =
 pub(super) const OWN_INPUTS: &str = "2.9 Hz of the uncompressed head, which determined the host's rate";
 
 /// Time of a frame with a printed size and `groups` groups, which are drawn one after the other.
-pub(super) fn modelled(
+fn modelled(
     card: &Profile,
     mesh: MeshCost,
     size: TransferSize,
@@ -51,7 +49,7 @@ pub(super) fn modelled_from_clusters(
     drawn: &DrawnClusters,
 ) -> Result<FrameTime, StudyError> {
     let groups = size.clusters.div_ceil(size.clusters_per_batch(REGISTERS).max(1));
-    modelled(card, *shared.get(model)?, size, (drawn.overdraw[BOTH], groups))
+    modelled(card, *shared.get::<MeshCost>(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
 /// Frames per second without compression, for which the host multiplies every matrix by the light: by equation, from
@@ -61,7 +59,6 @@ pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 
-/// Row for a modelled frame rate.
 pub(super) fn rate_row(id: &str, time: &FrameTime, from: &'static str) -> Result<PaperRow, StudyError> {
     ratio_row(id, (time.into(), time.per_second()), from)
 }
@@ -103,7 +100,9 @@ pub(super) fn rates(
             let (overdraw, time) = of_print(&card, mesh, paper.size, (id, column))?;
             let id = format!("rate-{id}-{}", COLUMN_IDS[column]);
             let row = rate_row(&id, &time, INPUTS)?;
-            table.push(line(name, how, (overdraw, row.target.value), &time, mesh.run_per_triangle));
+            let head = [name.into(), how.into(), Cell::decimals(overdraw, 3), Cell::decimals(row.target.value, 1)];
+            let run = [time.vertices_run.into(), Cell::ratio(mesh.run_per_triangle)];
+            table.push(head.into_iter().chain(time_cells(&time)).chain(run));
             rows.push(if id == CONTRADICTORY[1] { row.contradicted(same_signal(&id)?) } else { row });
         }
     }
@@ -122,24 +121,16 @@ fn of_print(
     Ok((overdraw, modelled(card, mesh, size, (overdraw, size.clusters.div_ceil(fit)))?))
 }
 
-/// Time of a frame of the bird with both optimisations.
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     let PaperSignal { model, size, .. } = SIGNALS[BIRD];
-    let (_, time) = of_print(&Profile::named(CARD)?, MeshCost::new(&model.mesh(1))?, size, ("bird", BOTH))?;
+    let (_, time) =
+        of_print(&Profile::named(CARD)?, MeshCost::compute(&model, &Shared::default())?, size, ("bird", BOTH))?;
     TimedWork::new("cpca/rate-bird-both", CARD, time.frame)
 }
 
-fn line(name: &str, how: &str, (overdraw, printed): (f64, f64), time: &FrameTime, run: f64) -> [Cell; 10] {
-    [
-        name.into(),
-        how.into(),
-        Cell::decimals(overdraw, 3),
-        Cell::decimals(printed, 1),
-        Cell::measured(time.per_second()),
-        Cell::measured(1e3 * time.host.seconds()),
-        Cell::measured(1e3 * time.state.seconds()),
-        Cell::measured(1e3 * time.draws.seconds()),
-        time.vertices_run.into(),
-        Cell::ratio(run),
-    ]
+/// Frames per second, and milliseconds of the host, of constants and of draws.
+pub(super) fn time_cells(time: &FrameTime) -> [Cell; 4] {
+    let ms = [time.host, time.state, time.draws].map(|part| Cell::measured(1e3 * part.seconds()));
+    let [host, constants, draws] = ms;
+    [Cell::measured(time.per_second()), host, constants, draws]
 }

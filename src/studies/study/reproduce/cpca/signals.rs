@@ -1,7 +1,9 @@
 //! The signals of Table 1 and of Figures 2 to 4, on our own models.
 
-use super::{ModelSize, RunResult, StudyError};
-use crate::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, Signal, compress};
+use std::rc::Rc;
+
+use super::{HOST, ModelSize, RunResult, Shared, SharedResult, StudyError};
+use crate::clustering::{Clustering, Compression, CpcaForm, CpcaMethod, CpcaOptions, Signal, compress};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::transfer::{Incident, ScatteringOptions};
 use crate::geom::Mesh;
@@ -12,8 +14,6 @@ use crate::transfer::brdf::{Brdf, ExitBasis};
 use crate::transfer::file::PrtMeaning;
 use crate::transfer::{Tangents, Vertices};
 
-/// Name of the host on which our values are computed.
-pub(super) const HOST: &str = "host";
 /// Edge lengths of reduced models, as multiples of the full models': for diffuse and for glossy transfer.
 const DIFFUSE_COARSER: u32 = 4;
 const GLOSSY_COARSER: u32 = 6;
@@ -34,7 +34,6 @@ const MEDIUM: &str = "marble";
 const MM_PER_UNIT: f64 = 4.0;
 const SOLID_ANGLE: f64 = 0.1;
 
-/// Reflection model of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SignalMaterial {
     Diffuse,
@@ -97,20 +96,12 @@ impl PaperSignal {
     /// Degree of the direction rule over a vertex's hemisphere: it has 2,016 directions; for reduced models 496, or 276
     /// for glossy transfer.
     fn degree(&self, models: ModelSize) -> usize {
-        match self.coarser(models) {
-            1 => 62,
-            DIFFUSE_COARSER => 30,
-            _ => 22,
-        }
+        models.pick(62, if self.material == Diffuse { 30 } else { 22 })
     }
 
     /// Edge length of our model, as a multiple of the full model's.
     fn coarser(&self, models: ModelSize) -> u32 {
-        match (models, self.material) {
-            (ModelSize::Printed, _) => 1,
-            (ModelSize::Reduced, Diffuse) => DIFFUSE_COARSER,
-            (ModelSize::Reduced, _) => GLOSSY_COARSER,
-        }
+        models.pick(1, if self.material == Diffuse { DIFFUSE_COARSER } else { GLOSSY_COARSER })
     }
 }
 
@@ -121,6 +112,32 @@ pub(super) struct ComputedSignal {
     pub(super) meaning: PrtMeaning,
     pub(super) signal: Signal,
     pub(super) models: ModelSize,
+}
+
+/// A signal of [`SIGNALS`], by its index.
+impl SharedResult for ComputedSignal {
+    type Key = usize;
+
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
+        Self::new(&SIGNALS[at], shared.models)
+    }
+}
+
+/// Iterative clustering of a signal with the printed numbers of clusters and vectors; reduced models have a fraction of
+/// the clusters.
+impl SharedResult for Clustering {
+    type Key = usize;
+
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
+        let size = SIGNALS[at].size;
+        let signal = shared.get::<ComputedSignal>(at)?;
+        signal.compressed(size.clusters, size.vectors, CpcaMethod::Iterative)
+    }
+}
+
+/// Returns a signal with its iterative clustering.
+pub(super) fn iterative(shared: &Shared, at: usize) -> Result<(Rc<ComputedSignal>, Rc<Clustering>), StudyError> {
+    Ok((shared.get(at)?, shared.get(at)?))
 }
 
 impl ComputedSignal {
@@ -161,6 +178,17 @@ impl ComputedSignal {
         if self.paper.coarser(self.models) < GLOSSY_COARSER { ITERATIONS } else { REDUCED_ITERATIONS }
     }
 
+    fn compression(
+        &self,
+        [clusters, vectors]: [usize; 2],
+        method: CpcaMethod,
+        iterations: usize,
+    ) -> Result<Compression, StudyError> {
+        let (vq_iterations, form) = (iterations, CpcaForm::Affine);
+        let options = CpcaOptions { clusters, vectors, vq_iterations, iterations, method, form, seed: 1 };
+        compress(&self.signal, &options, |_| ()).on(HOST)
+    }
+
     /// Compresses the signal to the paper's number of clusters, scaled to our model.
     pub(super) fn compressed(
         &self,
@@ -171,23 +199,20 @@ impl ComputedSignal {
         self.compressed_to(self.clusters(clusters), vectors, method)
     }
 
-    /// Compresses the signal to `clusters` clusters.
     pub(super) fn compressed_to(
         &self,
         clusters: usize,
         vectors: usize,
         method: CpcaMethod,
     ) -> Result<Clustering, StudyError> {
-        let options = options(clusters, vectors, (method, self.iterations()));
-        Ok(compress(&self.signal, &options, |_| ()).on(HOST)?.clustering)
+        Ok(self.compression([clusters, vectors], method, self.iterations())?.clustering)
     }
 
     /// Squared error with 0 to `most` vectors; static clusters do not depend on the number of vectors.
     ///
     /// By the formula of section 4.1: dropping vector i adds D_i^2.
     pub(super) fn static_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, StudyError> {
-        let options = options(clusters, most, (CpcaMethod::Static, VQ_ITERATIONS));
-        let clustering = compress(&self.signal, &options, |_| ()).on(HOST)?.clustering;
+        let clustering = self.compression([clusters, most], CpcaMethod::Static, VQ_ITERATIONS)?.clustering;
         let gained = |vector: usize| -> f64 {
             clustering.subspaces().iter().filter_map(|subspace| subspace.eigenvalues.get(vector)).sum()
         };
@@ -201,13 +226,11 @@ impl ComputedSignal {
 
     /// Squared error with 0 to `most` vectors, added one by one (section 4.2).
     pub(super) fn iterative_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, StudyError> {
-        let options = options(clusters, most, (CpcaMethod::Iterative, self.iterations()));
-        let compression = compress(&self.signal, &options, |_| ()).on(HOST)?;
+        let compression = self.compression([clusters, most], CpcaMethod::Iterative, self.iterations())?;
         let last = |vectors: usize| compression.steps.iter().rev().find(|step| step.vectors == vectors);
         Ok((0..=most).filter_map(last).map(|step| step.squared_error).collect())
     }
 
-    /// Sum of all squares.
     pub(super) fn energy(&self) -> f64 {
         self.signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum()
     }
@@ -216,10 +239,6 @@ impl ComputedSignal {
     pub(super) fn error(&self, clustering: &Clustering) -> f64 {
         clustering.squared_error(&self.signal)
     }
-}
-
-fn options(clusters: usize, vectors: usize, (method, iterations): (CpcaMethod, usize)) -> CpcaOptions {
-    CpcaOptions { clusters, vectors, vq_iterations: iterations, iterations, method, form: CpcaForm::Affine, seed: 1 }
 }
 
 impl SignalMaterial {

@@ -3,11 +3,9 @@
 use refsim::device::Profile;
 
 use super::drawn::DrawnClusters;
-use super::mesh_cost::CARD;
-use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal};
-use super::shared::iterative;
-use super::signals::SIGNALS;
-use super::{EntryFindings, PaperRow, Shared, StudyError, number, paragraph, printed, solved};
+use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal, time_cells};
+use super::signals::{SIGNALS, iterative};
+use super::{CARD, EntryFindings, PaperRow, Shared, StudyError, ends, number, paragraph, printed, solved};
 use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
@@ -53,7 +51,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let (computed, iterative) = iterative(shared, at)?;
         let size = SIGNALS[at].size;
         let still = computed.compressed(size.clusters, size.vectors, CpcaMethod::Static)?;
-        let [still, iterative] = [&still, iterative].map(|clustering| computed.error(clustering));
+        let [still, iterative] = [&still, &*iterative].map(|clustering| computed.error(clustering));
         let energy = computed.energy();
         table.push([
             computed.paper.name.into(),
@@ -74,17 +72,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let (timed, times) = rates(shared)?;
     rows.extend(timed);
-    let [least, most] =
-        [counts.iter().copied().fold(f64::INFINITY, f64::min), counts.iter().copied().fold(0.0, f64::max)];
     Ok(EntryFindings::new(
-        [paragraph(HOW, [number(least, 0), number(most, 0)]), paragraph(TIMES, [CARD.to_owned()])],
+        [paragraph(HOW, ends(counts.into_iter()).map(|count| number(count, 0))), paragraph(TIMES, [CARD.to_owned()])],
         rows,
         [QUESTION],
         [table, times],
     ))
 }
 
-/// Rows for frame rates.
 fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let mut table = Table::of(
         "Frames per second, modelled from our overdraw",
@@ -93,20 +88,12 @@ fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let (mut rows, card) = (Vec::new(), Profile::named(CARD)?);
     for (at, id) in IDS.into_iter().enumerate() {
         let (paper, drawn) = (&SIGNALS[at], shared.get::<DrawnClusters>(at)?);
-        let time = modelled_from_clusters(&card, shared, (paper.model, paper.size), drawn)?;
+        let time = modelled_from_clusters(&card, shared, (paper.model, paper.size), &drawn)?;
         let id = format!("rate-{id}");
         let row = rate_row(&id, &time, OWN_INPUTS)?;
-        table.push([
-            paper.name.into(),
-            Cell::decimals(drawn.overdraw[0], 3),
-            Cell::decimals(drawn.overdraw[3], 3),
-            row.target.cell(),
-            Cell::measured(time.per_second()),
-            Cell::measured(1e3 * time.host.seconds()),
-            Cell::measured(1e3 * time.state.seconds()),
-            Cell::measured(1e3 * time.draws.seconds()),
-            time.vertices_run.into(),
-        ]);
+        let [original, .., both] = drawn.overdraw.map(|overdraw| Cell::decimals(overdraw, 3));
+        let head = [paper.name.into(), original, both, row.target.cell()];
+        table.push(head.into_iter().chain(time_cells(&time)).chain([time.vertices_run.into()]));
         rows.push(if id == CONTRADICTORY[0] { row.contradicted(same_signal(&id)?) } else { row });
     }
     Ok((rows, table))

@@ -28,7 +28,6 @@ pub(super) struct ModelView<'a> {
 }
 
 impl<'a> ModelView<'a> {
-    /// Creates a view with the camera aimed at the center of the model.
     pub(super) fn new(computed: &'a ComputedSignal, light: &'a HarmonicLight) -> Result<Self, StudyError> {
         let (eye, tan_half_height) = EYE;
         let camera = Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], tan_half_height, SIDE, SIDE);
@@ -37,7 +36,6 @@ impl<'a> ModelView<'a> {
         Ok(Self { computed, light, camera, seen })
     }
 
-    /// Position of the eye.
     pub(super) fn eye(&self) -> DVec3 {
         wide(self.camera.eye())
     }

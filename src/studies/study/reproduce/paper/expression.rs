@@ -9,47 +9,40 @@ pub(super) fn evaluate(text: &str, figure: &dyn Fn(&str) -> Result<f64, String>)
     // Names may contain hyphens, so an operator must be a word of its own.
     let spaced = text.replace('(', " ( ").replace(')', " ) ");
     let mut words = spaced.split_whitespace().peekable();
-    let value = sum(&mut words, figure)?;
+    let value = terms(&mut words, figure, 0)?;
     words.next().map_or(Ok(value), |word| Err(format!("expected an operator in `{text}`, found `{word}`")))
 }
 
-fn sum<'a>(
-    words: &mut Peekable<impl Iterator<Item = &'a str>>,
-    figure: &dyn Fn(&str) -> Result<f64, String>,
-) -> Result<f64, String> {
-    let mut value = product(words, figure)?;
-    while let Some(operator) = words.next_if(|word| matches!(*word, "+" | "-")) {
-        let term = product(words, figure)?;
-        value = if operator == "+" { value + term } else { value - term };
-    }
-    Ok(value)
+/// Precedence of an operator; `None` for another word.
+fn precedence(word: &str) -> Option<usize> {
+    ["+-", "*/"].iter().position(|operators| word.len() == 1 && operators.contains(word))
 }
 
-fn product<'a>(
+/// Value of operands that are joined by operators of at least this precedence.
+fn terms<'a>(
     words: &mut Peekable<impl Iterator<Item = &'a str>>,
     figure: &dyn Fn(&str) -> Result<f64, String>,
+    least: usize,
 ) -> Result<f64, String> {
-    let mut value = factor(words, figure)?;
-    while let Some(operator) = words.next_if(|word| matches!(*word, "*" | "/")) {
-        let factor = factor(words, figure)?;
-        value = if operator == "*" { value * factor } else { value / factor };
-    }
-    Ok(value)
-}
-
-fn factor<'a>(
-    words: &mut Peekable<impl Iterator<Item = &'a str>>,
-    figure: &dyn Fn(&str) -> Result<f64, String>,
-) -> Result<f64, String> {
-    match words.next() {
-        None => Err("expected a number at the end of an expression".to_owned()),
+    let mut value = match words.next() {
+        None => return Err("expected a number at the end of an expression".to_owned()),
         Some("(") => {
-            let value = sum(words, figure)?;
-            words.next_if_eq(&")").map(|_| value).ok_or_else(|| "expected `)`".to_owned())
+            let value = terms(words, figure, 0)?;
+            words.next_if_eq(&")").map(|_| value).ok_or_else(|| "expected `)`".to_owned())?
         }
         Some(word) if word.starts_with(|first: char| first.is_ascii_digit()) => {
-            word.parse().map_err(|_| format!("expected a number, found `{word}`"))
+            word.parse().map_err(|_| format!("expected a number, found `{word}`"))?
         }
-        Some(name) => figure(name),
+        Some(name) => figure(name)?,
+    };
+    while let Some(operator) = words.next_if(|word| precedence(word).is_some_and(|rank| rank >= least)) {
+        let right = terms(words, figure, precedence(operator).map_or(0, |rank| rank + 1))?;
+        value = match operator {
+            "+" => value + right,
+            "-" => value - right,
+            "*" => value * right,
+            _ => value / right,
+        };
     }
+    Ok(value)
 }

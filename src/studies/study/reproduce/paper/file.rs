@@ -15,7 +15,7 @@ use crate::study::reproduce::row::{Bound, Judgement, MissClass, Origin, PaperEqu
 pub(super) struct PaperFile {
     /// Dates on which bounds were stated, with a digest of the statements.
     pub(super) stated: Vec<Stated>,
-    pub(super) group: Vec<FigureGroup>,
+    group: Vec<FigureGroup>,
 }
 
 /// Bounds that were stated on one day.
@@ -33,16 +33,14 @@ pub(super) struct Stated {
 pub(super) struct FigureGroup {
     pub(super) place: String,
     #[serde(flatten)]
-    pub(super) shared: FigureTerms,
-    #[serde(flatten)]
-    equation: EquationTerms,
+    shared: FigureTerms,
     /// Changes of the statements of all its figures, oldest first.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
-    pub(super) figures: Vec<FileFigure>,
+    figures: Vec<FileFigure>,
 }
 
-/// Terms on which a figure is judged, from its group or its own.
+/// Terms on which a figure is judged, and data of a row with an expression; from its group or its own.
 #[derive(Clone, Debug, Default, Deserialize)]
 pub(super) struct FigureTerms {
     pub(super) unit: Option<String>,
@@ -51,11 +49,6 @@ pub(super) struct FigureTerms {
     pub(super) unjudged: Option<String>,
     /// Reading that our value follows, if the text allows several.
     pub(super) reading: Option<String>,
-}
-
-/// Data of a row with an expression, apart from its value; from its group or its own.
-#[derive(Clone, Debug, Default, Deserialize)]
-struct EquationTerms {
     /// Entry to which the row belongs.
     entry: Option<String>,
     /// Card or host; `host` by default.
@@ -73,20 +66,20 @@ struct EquationTerms {
 #[serde(deny_unknown_fields)]
 pub(super) struct FileFigure {
     pub(super) id: String,
-    pub(super) what: String,
+    what: String,
     /// Value with its printed digits.
     pub(super) value: Option<String>,
     /// Two figures above this one: the value is their ratio, multiplied by `scale`.
     pub(super) ratio: Option<[String; 2]>,
     pub(super) scale: Option<f64>,
     /// Number of decimals of a ratio; two by default.
-    pub(super) decimals: Option<u8>,
+    decimals: Option<u8>,
     /// Formula of a value that follows from printed values.
-    pub(super) implied: Option<String>,
+    implied: Option<String>,
     /// Reason for a value that is not in the paper.
-    pub(super) inferred: Option<String>,
+    inferred: Option<String>,
     /// Reason why its row is missed. It is added after the result, so it is not part of the statement.
-    pub(super) missed: Option<MissClass>,
+    missed: Option<String>,
     /// Date on which its bound was stated; by default the file's first date.
     pub(super) stated: Option<String>,
     /// Changes of the statement, oldest first; the group's changes precede them.
@@ -98,9 +91,7 @@ pub(super) struct FileFigure {
     #[serde(default)]
     readings: Vec<String>,
     #[serde(flatten)]
-    pub(super) own: FigureTerms,
-    #[serde(flatten)]
-    equation: EquationTerms,
+    own: FigureTerms,
 }
 
 /// Change of a figure after its statement, with the earlier value; an empty reading if there was none.
@@ -112,6 +103,13 @@ pub(super) struct Change {
     pub(super) value: Option<String>,
     #[serde(flatten)]
     pub(super) before: FigureTerms,
+}
+
+impl PaperFile {
+    /// All figures, each with its group.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (&FigureGroup, &FileFigure)> {
+        self.group.iter().flat_map(|group| group.figures.iter().map(move |figure| (group, figure)))
+    }
 }
 
 impl FileFigure {
@@ -126,6 +124,11 @@ impl FileFigure {
             bound: judged.0,
             unjudged: judged.1,
             reading: own.reading.or(shared.reading),
+            entry: own.entry.or(shared.entry),
+            device: own.device.or(shared.device),
+            uses: own.uses.or(shared.uses),
+            chose: own.chose.or(shared.chose),
+            contradicts: own.contradicts.or(shared.contradicts),
         }
     }
 
@@ -135,18 +138,16 @@ impl FileFigure {
     }
 }
 
-/// Parses a file into its figures; errors are sentences.
-pub(super) fn parse(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
-    let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
+/// Converts a file to its figures; errors are sentences.
+pub(super) fn figures(paper: Paper, file: &PaperFile) -> Result<Vec<PaperFigure>, String> {
     let mut figures: Vec<PaperFigure> = Vec::new();
     let first = file.stated.first().map_or("", |stated| &stated.date);
-    let entries = || file.group.iter().flat_map(|group| group.figures.iter().map(move |entry| (group, entry)));
     let in_figure = |entry: &FileFigure, reason: String| format!("figure `{}/{}`: {reason}", paper.id(), entry.id);
-    for (group, entry) in entries() {
+    for (group, entry) in file.entries() {
         let figure = figure((paper, first), group, entry, &figures).map_err(|reason| in_figure(entry, reason))?;
         figures.push(figure);
     }
-    for (at, (group, entry)) in entries().enumerate() {
+    for (at, (group, entry)) in file.entries().enumerate() {
         let equation = equation(paper, group, entry, &figures).map_err(|reason| in_figure(entry, reason))?;
         figures[at].equation = equation;
     }
@@ -155,9 +156,8 @@ pub(super) fn parse(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String
 
 /// Value of a figure by its name within the paper.
 fn named(paper: Paper, figures: &[PaperFigure], id: &str) -> Option<f64> {
-    let is_it =
-        |figure: &&PaperFigure| figure.id.strip_prefix(paper.id()).and_then(|id| id.strip_prefix('/')) == Some(id);
-    figures.iter().find(is_it).map(|figure| figure.value)
+    let id = format!("{}/{id}", paper.id());
+    figures.iter().find(|figure| figure.id == id).map(|figure| figure.value)
 }
 
 /// Equation of a figure that has an expression.
@@ -171,15 +171,15 @@ fn equation(
     let value = |text: &String| {
         evaluate(text, &|id| named(paper, figures, id).ok_or_else(|| format!("no figure is named `{id}`")))
     };
-    let (own, shared) = (entry.equation.clone(), group.equation.clone());
+    let terms = entry.terms(group);
     Ok(Some(PaperEquation {
-        entry: own.entry.or(shared.entry).ok_or("an expression needs the `entry` of its row")?,
-        device: own.device.or(shared.device).unwrap_or_else(|| "host".to_owned()),
+        entry: terms.entry.ok_or("an expression needs the `entry` of its row")?,
+        device: terms.device.unwrap_or_else(|| "host".to_owned()),
         ours: value(expression)?,
         readings: entry.readings.iter().map(value).collect::<Result<_, _>>()?,
-        uses: own.uses.or(shared.uses),
-        chose: own.chose.or(shared.chose),
-        contradicts: own.contradicts.or(shared.contradicts),
+        uses: terms.uses,
+        chose: terms.chose,
+        contradicts: terms.contradicts,
     }))
 }
 
@@ -214,6 +214,9 @@ fn figure(
         (None, Some(reason)) => Judgement::Not(reason),
         _ => return Err("expected one of `bound` and `unjudged`".to_owned()),
     };
+    let class =
+        |text: &String| text.parse::<MissClass>().map_err(|_| format!("expected a class of misses, found `{text}`"));
+    let missed = entry.missed.as_ref().map(class).transpose()?;
     let changed = entry.changes(group).next_back().map(|change| change.date.as_str());
     let stated = changed.or(entry.stated.as_deref()).unwrap_or(first).to_owned();
     Ok(PaperFigure {
@@ -227,7 +230,7 @@ fn figure(
         origin,
         judgement,
         stated,
-        missed: entry.missed,
+        missed,
         equation: None,
     })
 }

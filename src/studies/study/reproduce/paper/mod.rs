@@ -29,8 +29,9 @@ static FIGURES: LazyLock<Result<Vec<PaperFigure>, String>> = LazyLock::new(|| {
 /// Checks a paper's file against its statement digests, and parses its figures; errors are sentences. Fails if the file
 /// is malformed, or its bounds differ from their statements.
 pub fn parse_figures(paper: Paper, text: &str) -> Result<Vec<PaperFigure>, String> {
-    statement::verify(text)?;
-    file::parse(paper, text)
+    let file: file::PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    statement::verify(&file)?;
+    file::figures(paper, &file)
 }
 
 /// Returns the printed, implied and inferred figures of all papers, in the order of their files. Fails if a file is
@@ -57,6 +58,19 @@ pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Dependence))
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }
 
+/// Name of the host on which our values are computed.
+pub(super) const HOST: &str = "host";
+
+/// Returns the row for a value that is computed in f64 and uses no printed value. Fails as [`row`] does.
+pub(super) fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
+    row(id, (HOST, Method::Solver), (ours, Dependence::Counted))
+}
+
+/// Returns the row for a value that is drawn on a card, from no printed value. Fails as [`row`] does.
+pub(super) fn drawn(id: &str, card: &'static str, ours: f64) -> Result<PaperRow, StudyError> {
+    row(id, (card, Method::Pipeline), (ours, Dependence::Predicted { from: "" }))
+}
+
 /// Returns the rows of an entry whose values are expressions of printed values, in the order of the file. Fails as
 /// [`row`] does.
 pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
@@ -64,7 +78,8 @@ pub(super) fn equations(entry: &str) -> Result<Vec<PaperRow>, StudyError> {
     for figure in figures()? {
         let Some(equation) = figure.equation.as_ref().filter(|equation| equation.entry == entry) else { continue };
         let by = (equation.device.as_str(), Method::Equation);
-        let row = row(&figure.id, by, (equation.ours, equation.dependence()))?;
+        let dependence = Dependence::new(equation.chose.as_deref(), equation.uses.as_deref());
+        let row = row(&figure.id, by, (equation.ours, dependence))?;
         let contradiction =
             equation.contradicts.as_ref().and_then(|how| Contradiction::between(figure, equation.ours, how));
         rows.push(row.with_readings(equation.readings.iter().copied()).contradicted(contradiction));

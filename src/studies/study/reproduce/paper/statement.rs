@@ -9,11 +9,10 @@ use sha2::{Digest, Sha256};
 use super::file::{FigureGroup, FileFigure, PaperFile};
 
 /// Compares a file with its digests; the error includes advice.
-pub(super) fn verify(text: &str) -> Result<(), String> {
-    let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
+pub(super) fn verify(file: &PaperFile) -> Result<(), String> {
     let first = file.stated.first().ok_or("expected at least one date in `stated`")?.date.as_str();
     for stated in &file.stated {
-        let found = digest(&file, first, &stated.date);
+        let found = digest(file, first, &stated.date);
         if found != stated.digest {
             return Err(format!(
                 "the statements of {} have digest {}, and the file now has {found}: a figure's value, bound or reading was changed. List the old one \
@@ -22,30 +21,24 @@ pub(super) fn verify(text: &str) -> Result<(), String> {
             ));
         }
     }
-    let figures = || file.group.iter().flat_map(|group| &group.figures);
-    let dated = |date: &str| file.stated.iter().any(|stated| stated.date == date);
-    if let Some(figure) = figures().find(|figure| figure.stated.as_ref().is_some_and(|date| !dated(date))) {
-        return Err(format!("`{}` is stated on a date that is not listed", figure.id));
+    let dated = |date: &String| file.stated.iter().any(|stated| stated.date == *date);
+    for (group, figure) in file.entries() {
+        if !figure.stated.iter().all(dated) {
+            return Err(format!("`{}` is stated on a date that is not listed", figure.id));
+        }
+        let has_reasons = figure.changes(group).all(|change| !change.why.is_empty());
+        if !has_reasons || !figure.changes(group).map(|change| &change.date).is_sorted() {
+            return Err(format!("the changes of `{}` need reasons, the oldest first", figure.id));
+        }
     }
-    let of_groups = || file.group.iter().flat_map(|group| group.figures.iter().map(move |figure| (group, figure)));
-    let reasoned = |&(group, figure): &(&FigureGroup, &FileFigure)| {
-        figure.changes(group).all(|change| !change.why.is_empty())
-            && figure.changes(group).map(|change| &change.date).is_sorted()
-    };
-    match of_groups().find(|figure| !reasoned(figure)) {
-        Some((_, figure)) => Err(format!("the changes of `{}` need reasons, the oldest first", figure.id)),
-        None => Ok(()),
-    }
+    Ok(())
 }
 
 /// Digest of the figures stated on a date, in their original form: 16 hexadecimal digits.
 fn digest(file: &PaperFile, first: &str, date: &str) -> String {
     let mut hash = Sha256::new();
-    for group in &file.group {
-        for figure in group.figures.iter().filter(|figure| figure.stated.as_deref().unwrap_or(first) == date) {
-            hash.update(as_stated(group, figure));
-        }
-    }
+    let stated = |(_, figure): &(&FigureGroup, &FileFigure)| figure.stated.as_deref().unwrap_or(first) == date;
+    file.entries().filter(stated).for_each(|(group, figure)| hash.update(as_stated(group, figure)));
     hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -3,8 +3,8 @@
 use super::{CARD, EntryFindings, PATCHES, PrintedRates, Shared, Storage, StudyError, host, iteration, printed_value};
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
-use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
-use crate::study::reproduce::{Dependence, Method, PaperRow, number, paper_row, paragraph};
+use crate::report::{Chart, NamedChart, Scale, Series};
+use crate::study::reproduce::{Dependence, Method, number, paper_row, paragraph};
 
 /// Numbers of patches; the card of the paper had textures of at most 2048 texels per side.
 const SIZES: [u32; 7] = [128, 256, 384, 512, 1024, 1540, 2048];
@@ -31,21 +31,20 @@ impl Point {
     fn elements(&self) -> f64 {
         f64::from(self.patches) * f64::from(self.patches)
     }
-
-    /// Nanoseconds per element of the matrix.
-    fn each(&self, ms: f64) -> f64 {
-        ms * 1e6 / self.elements()
-    }
 }
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let points = SIZES.into_iter().map(Point::at).collect::<Result<Vec<_>, _>>()?;
+    // "We believe the GPU curve overtakes the CPU curve for matrices larger than 2000 elements".
+    let largest = &points[points.len() - 1];
+    let ours = (largest.host / largest.rgb, Dependence::Predicted { from: "40 iterations/s of the host" });
+    let row = paper_row("radiosity/host-over-card", (CARD, Method::Pipeline), ours)?;
     let line = |label: &str, of: fn(&Point) -> f64| Series {
         label: label.to_owned(),
         points: std::iter::once((0.0, 0.0)).chain(points.iter().map(|p| (p.elements() / 1e6, of(p)))).collect(),
     };
     let size = f64::from(PATCHES) * f64::from(PATCHES) / 1e6;
-    let printed = [PrintedRates::card()?, PrintedRates::host()?];
+    let printed = PrintedRates::both()?;
     let stated = |(label, rates): (&str, &PrintedRates)| Series {
         label: label.to_owned(),
         points: vec![(size, 1e3 / rates.per_s)],
@@ -67,11 +66,10 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     };
     Ok(EntryFindings {
         text: text(&points, &printed)?,
-        rows: overtakes(&points)?.into_iter().collect(),
+        rows: vec![row],
         questions: vec![
             "why the host's time would grow faster than the bytes that it reads, as the authors' estimate requires.",
         ],
-        tables: vec![table(&points)],
         charts: vec![NamedChart {
             name: "radiosity-figure-4".into(),
             chart,
@@ -81,33 +79,6 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         }],
         ..EntryFindings::default()
     })
-}
-
-/// "We believe the GPU curve overtakes the CPU curve for matrices larger than 2000 elements".
-fn overtakes(points: &[Point]) -> Result<Option<PaperRow>, StudyError> {
-    let Some(largest) = points.last() else { return Ok(None) };
-    let ours = (largest.host / largest.rgb, Dependence::Predicted { from: "40 iterations/s of the host" });
-    paper_row("radiosity/host-over-card", (CARD, Method::Pipeline), ours).map(Some)
-}
-
-fn table(points: &[Point]) -> Table {
-    let mut table = Table::of(
-        "Milliseconds per iteration, and nanoseconds per element",
-        "patches rgb_ms rgb_ns luminance_ms luminance_ns host_ms host_ns host_over_rgb",
-    );
-    for p in points {
-        table.push([
-            p.patches.into(),
-            Cell::measured(p.rgb),
-            Cell::measured(p.each(p.rgb)),
-            Cell::measured(p.luminance),
-            Cell::measured(p.each(p.luminance)),
-            Cell::measured(p.host),
-            Cell::measured(p.each(p.host)),
-            Cell::ratio(p.host / p.rgb),
-        ]);
-    }
-    table
 }
 
 /// Size from which the host is slower, interpolated linearly between two of the sizes.

@@ -29,7 +29,8 @@ fn cached() -> f64 {
 /// host.
 fn from_memory() -> Result<f64, StudyError> {
     let n = f64::from(PATCHES);
-    Ok((1.0 / (PrintedRates::host()?.per_s * n * n) - cached()) / missed(n))
+    let [_, host] = PrintedRates::both()?;
+    Ok((1.0 / (host.per_s * n * n) - cached()) / missed(n))
 }
 
 /// Seconds of a Gauss-Seidel iteration over `patches` patches.

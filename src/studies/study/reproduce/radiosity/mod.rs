@@ -12,7 +12,6 @@ use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};
 
-/// Card of the paper.
 const CARD: &str = "nv35";
 /// Number of patches of the paper's scene, which is not printed: the smallest number consistent with both pairs of
 /// printed rates (docs/papers/radiosity.md). The table of [`rates`] shows other numbers.
@@ -26,22 +25,16 @@ struct PrintedRates {
 }
 
 impl PrintedRates {
-    /// Rates of Jacobi's iteration on the card.
-    fn card() -> Result<Self, StudyError> {
-        Self::named("radiosity/jacobi-rate", "radiosity/jacobi-operations")
-    }
-
-    /// Rates of Gauss and Seidel's iteration on the host.
-    fn host() -> Result<Self, StudyError> {
-        Self::named("radiosity/gauss-seidel-rate", "radiosity/gauss-seidel-operations")
-    }
-
-    fn named(rate: &str, operations: &str) -> Result<Self, StudyError> {
-        Ok(Self { per_s: printed_value(rate)?, mflops: printed_value(operations)? })
+    /// Rates of Jacobi's iteration on the card, and of Gauss and Seidel's iteration on the host.
+    fn both() -> Result<[Self; 2], StudyError> {
+        let of = |name: &str| {
+            let value = |what: &str| printed_value(&format!("radiosity/{name}-{what}"));
+            Ok::<_, StudyError>(Self { per_s: value("rate")?, mflops: value("operations")? })
+        };
+        Ok([of("jacobi")?, of("gauss-seidel")?])
     }
 }
 
-/// Time of Jacobi's iteration.
 pub(super) fn timed() -> Result<TimedWork, StudyError> {
     TimedWork::new("radiosity/jacobi-rate", CARD, iteration(PATCHES, Packing::Rgb, Storage::Fp32)?.time)
 }

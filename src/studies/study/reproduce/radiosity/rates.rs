@@ -1,6 +1,8 @@
 //! The printed rates, 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host, and their
 //! dependence on the number of patches.
 
+use refsim::device::Profile;
+
 use super::{CARD, EntryFindings, PATCHES, PrintedRates, Shared, Storage, StudyError, host, iteration};
 use crate::card::KernelText;
 use crate::radiosity::packing::Packing;
@@ -29,42 +31,25 @@ const WHERE: &str = "Texture reads and partly filled quads take the time: each o
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;
-    let printed = [PrintedRates::card()?, PrintedRates::host()?];
+    let printed = PrintedRates::both()?;
     let fits: Vec<u32> = (1..=2 * PATCHES).filter(|n| fits(*n, &printed)).collect();
-    let ends = [fits.first(), fits.last()].map(|n| n.map_or_else(String::new, u32::to_string));
-    let [least, most] = ends;
-    let (sizes, texel) = (sizes(&printed)?, 16.0);
-    let width = profile_width()?;
+    let [least, most] = [fits.first(), fits.last()].map(|n| n.map_or_else(String::new, u32::to_string));
+    let operations = number(printed[0].mflops / printed[0].per_s, 2);
+    let profile = Profile::named(CARD)?;
+    let (texel, width) = (16.0, figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)?);
+    let clocks = [texel, width, texel / width, 100.0 * paper.filled].map(|value| number(value, 0));
     Ok(EntryFindings::new(
         [
-            paragraph(
-                HOW,
-                [
-                    number(printed[0].mflops / printed[0].per_s, 2),
-                    least,
-                    most,
-                    paper.passes.to_string(),
-                    CARD.to_owned(),
-                ],
-            ),
-            paragraph(
-                WHERE,
-                [number(texel, 0), number(width, 0), number(texel / width, 0), number(100.0 * paper.filled, 0)],
-            ),
+            paragraph(HOW, [operations, least, most, paper.passes.to_string(), CARD.to_owned()]),
+            paragraph(WHERE, clocks),
         ],
         rows(&paper, &printed)?,
         [
             "the number of patches in the authors' scene.",
             "the share of its bandwidth that the card used: the text guesses it, and the card's texture cache is undocumented.",
         ],
-        [sizes, costs()?],
+        [sizes(&printed)?, costs()?],
     ))
-}
-
-/// Bytes per texel that a texture unit of the card fetches per clock.
-fn profile_width() -> Result<f64, StudyError> {
-    let profile = refsim::device::Profile::named(CARD)?;
-    figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
 }
 
 fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<PaperRow>, StudyError> {
@@ -107,7 +92,6 @@ fn fits(patches: u32, printed: &[PrintedRates; 2]) -> bool {
     printed.iter().all(|rates| model::mflops(patches, rates.per_s).round() == rates.mflops)
 }
 
-/// Table of the dependence on the number of patches.
 fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
     let mut table = Table::of(
         "Rates by number of patches",
@@ -131,7 +115,6 @@ fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Table of the cost of an iteration for each packing and precision.
 fn costs() -> Result<Table, StudyError> {
     let mut table = Table::of(
         format!("An iteration of {PATCHES} patches; four elements per texel: one channel, otherwise three"),

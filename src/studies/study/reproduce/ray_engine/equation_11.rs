@@ -17,7 +17,6 @@ pub(super) const TEN: f64 = 10.0;
 pub(super) const CARDS: [&str; 2] = ["nv20", "nv25"];
 /// Printed millions of tests per second with ten triangles, in the text under Figure 7, by card.
 pub(super) const TEN_TRIANGLES: [&str; 2] = ["ray-engine/ten-triangles-geforce3", "ray-engine/ten-triangles-geforce4"];
-/// One million.
 pub(super) const MEGA: f64 = 1e6;
 
 /// Rates of equation 11 on a card, with the fill rate that the paper measured or implies.
@@ -43,7 +42,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         let drawn = pipeline::dual_textured(device)?.pixels_per_s() / MEGA;
         worked.push(line(id, device, [rates(device)?.fill_pixels_per_s / MEGA, drawn])?);
         if device == "nv20" {
-            rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Dependence::Predicted { from: "" }))?);
+            rows.push(super::drawn(id, device, drawn)?);
         }
     }
     for (device, id) in CARDS.into_iter().zip(TEN_TRIANGLES) {
@@ -69,7 +68,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         ],
         rows,
         [],
-        [worked, pipeline::cost_table(&CARDS)?],
+        [worked],
     ))
 }
 

@@ -18,7 +18,6 @@ use crate::tracer::offset::unit_roundoff;
 const DRAWS: &str = "r200";
 /// Cards of the engine. The card that draws is not among them, because its fixed-point arithmetic leaks.
 const ENGINES: [&str; 2] = ["r300", "ideal-fp32"];
-/// Size of the pictures.
 const SIZE: [u32; 2] = [160, 120];
 /// Smallest difference that an 8-bit display shows.
 const STEP: f64 = 1.0 / 255.0;

@@ -6,15 +6,11 @@ use super::{EntryFindings, Shared, StudyError, pipeline, printed_value};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Chart, NamedChart, Series, Table};
 
-/// Names of the cards in the figure.
 const NAMES: [&str; 2] = ["GeForce3", "GeForce4 Ti4600"];
-/// Numbers of triangles in the table.
-const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
 /// Maximum number of triangles in the plot.
 const PLOTTED: u32 = 50;
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let mut tests = Table::of("Millions of ray-triangle tests per second", "device gamma_B triangles rates pipeline");
     let mut limits = Table::of(
         "Break-even number of triangles T_min, by the host's tests per second",
         "device gamma_B half_rate_T T_min_20M T_min_40M T_min_80M T_min_200M",
@@ -28,10 +24,6 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         for (device, title) in CARDS.into_iter().zip(NAMES) {
             let card = rates(device)?;
             let pipeline = pipeline_rates(device)?;
-            for triangles in TRIANGLES {
-                let of = |rates: &CostRates| Cell::measured(rates.tests_per_s(f64::from(triangles), gamma) / MEGA);
-                tests.push([device.into(), gamma.into(), triangles.into(), of(&card), of(&pipeline)]);
-            }
             let least = hosts.map(|host| card.least_triangles(host, gamma).into());
             limits.push(
                 [device.into(), gamma.into(), Cell::measured(card.half_rate_triangles(gamma))].into_iter().chain(least),
@@ -48,7 +40,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
              not slower than a host with the given tests per second; at half_rate_T, drawing and read-back take equally long."
                 .into(),
         ],
-        tables: vec![tests, limits],
+        tables: vec![limits],
         charts,
         ..EntryFindings::default()
     })

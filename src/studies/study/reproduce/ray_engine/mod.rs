@@ -4,8 +4,8 @@
 //! second of Table 3's first row; it calibrates the scale of the host model, with our counts for our teapot room.
 //! Everything else is predicted: the engine's work is run and counted, and the card's time follows from equation 11 and
 //! its commands. Scenes, pictures and octree are ours, since the paper prints none. Such choices are swept to show
-//! their influence: the octree of the host alone ([`sweeps::host_leaf`]), the costs of commands ([`sweeps::commands`]),
-//! and the definition of a ray on the card ([`shares`]).
+//! their influence: the octree of the host alone and the costs of commands ([`speed_ups`]), and the definition of a ray
+//! on the card ([`shares`]).
 
 pub(super) mod block_shapes;
 mod engine_run;
@@ -16,8 +16,6 @@ mod pipeline;
 pub(super) mod radeon_8500;
 mod shares;
 mod speed_ups;
-mod stated;
-mod sweeps;
 pub(super) mod table_1;
 pub(super) mod table_3;
 pub(super) mod table_4;
@@ -26,11 +24,9 @@ mod teapot;
 pub(super) mod vertex_variant;
 mod workload;
 
-use stated::{QUESTION, RATE, commands, how, speed_up};
-
 use super::error::{RunResult, figure, no_time};
 use super::shared::{Shared, SharedResult};
 use super::{
-    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, number, paper_row, paragraph,
-    printed, printed_value,
+    Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn, number, paper_row,
+    paragraph, printed, printed_value,
 };

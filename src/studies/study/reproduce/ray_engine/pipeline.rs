@@ -12,7 +12,6 @@ use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{DrawCost, Level, Model};
 
 use super::{RunResult, no_time};
-use crate::report::{Cell, Table};
 use crate::study::StudyError;
 
 /// Side of the screen and of its textures, in pixels. The paper does not state it; the rate hardly depends on it.
@@ -23,20 +22,17 @@ const QUADS: usize = 64;
 /// execute in one clock.
 const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
-/// Draw with its cost.
 pub(super) struct TimedDraw {
     pub(super) record: DrawRecord,
     pub(super) cost: DrawCost,
 }
 
 impl TimedDraw {
-    /// Fragments per second.
     pub(super) fn pixels_per_s(&self) -> f64 {
         self.record.counts.fragments.generated as f64 / self.cost.total.seconds()
     }
 }
 
-/// Pipeline model of a card.
 pub(super) fn model(device: &str) -> Result<Model, StudyError> {
     Model::new(Level::Pipeline, &Profile::named(device)?).map_err(no_time)
 }
@@ -69,32 +65,6 @@ pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f6
     let rays = f64::from(SIDE * SIDE);
     let back = model(device)?.read_back((rays * gamma) as u64);
     Ok(triangles * rays / (drawn.cost.total + back).seconds())
-}
-
-/// Table of the cost of a dual-textured pixel in each unit of some cards.
-pub(super) fn cost_table(devices: &[&str]) -> Result<Table, StudyError> {
-    let mut table = Table::of(
-        "A dual-textured pixel in the pipeline model",
-        "device texture_B depth_B color_B arithmetic_clocks texture_clocks output_clocks memory_clocks bound_by",
-    );
-    for &device in devices {
-        let drawn = dual_textured(device)?;
-        let clocks = model(device)?.clocks(&drawn.record);
-        let pixels = drawn.record.counts.fragments.generated as f64;
-        let each = |total: u64| Cell::measured(total as f64 / pixels);
-        table.push([
-            device.into(),
-            each(clocks.traffic.textures),
-            each(clocks.traffic.depth),
-            each(clocks.traffic.color),
-            each(clocks.arithmetic.0),
-            each(clocks.textures.0),
-            each(clocks.output.0),
-            each(clocks.memory.0),
-            drawn.cost.bottleneck.to_string().into(),
-        ]);
-    }
-    Ok(table)
 }
 
 /// Records the log of one draw of `quads` quads over the screen.

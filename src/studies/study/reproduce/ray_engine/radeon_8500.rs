@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 
 use super::equation_11::MEGA;
-use super::pipeline::{model, timed};
+use super::pipeline::timed;
 use super::{
     Dependence, EntryFindings, Method, PaperRow, RunResult, Shared, StudyError, TimedWork, figure, number, paper_row,
     paragraph, printed_value,
@@ -26,13 +26,11 @@ const TRIANGLES: usize = 2048;
 /// Printed tests per second, in millions.
 const PRINTED: &str = "ray-engine/radeon-8500";
 
-const PAIRS: &str = "Thousands of triangles are tested against {} x {} rays, so the pixel program determines the rate; read-back and vertices are \
-    negligible. R200 is assumed to issue one pair of a colour and an alpha instruction per clock in each of its {} pipelines, with two texture \
-    instructions beside it. No source states the first rate. It was chosen because with it, and not with two pairs per clock, our program comes near \
-    the printed figure. So this row is a calibration, by a whole number. It uses our program for rays of any origin in the two textures of section \
-    4.1; the program for rays of one origin is another reading. The printed figure is {} pipeline clocks per test. Our engine and studies store rays \
-    in 16 bits, two values per texel: that takes three textures, and two more pairs to join the values. Bytes make rays coarser, but not the holes \
-    between triangles larger: both programs lose about equally many of the same {} rays, rounded to bytes.";
+const PAIRS: &str = "Thousands of triangles are tested against {} x {} rays, so the pixel program determines the rate. R200 is assumed to issue one \
+    pair of a colour and an alpha instruction per clock in each of its {} pipelines. No source states this rate. It was chosen because with it, and \
+    not with two pairs per clock, our program comes near the printed figure, which is {} pipeline clocks per test. The row uses our program for rays \
+    of any origin in the two textures of section 4.1; the program for rays of one origin is another reading. Bytes make rays coarser, but not the \
+    holes between triangles larger: programs for bytes and for 16 bits lose about equally many of the same {} rays, rounded to bytes.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (rows, tables) = kernels()?;
@@ -56,45 +54,21 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     ))
 }
 
-fn kernels() -> Result<([PaperRow; 2], [Table; 2]), StudyError> {
+fn kernels() -> Result<([PaperRow; 2], [Table; 1]), StudyError> {
     let mesh = mesh(TRIANGLES)?;
-    let (eye, moved) = (eye_rays(SIDE)?, moved_rays(SIDE)?);
     let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
-    let in_bytes = card.clone().byte_rays();
-    let mut rates = Vec::new();
-    let mut slots = Table::of(
-        "Slots and clocks per test in one of four pipelines",
-        "program phase pairs texture_slots M_tests_per_s bound_by",
-    );
-    for (card, rays) in [(&in_bytes, &moved), (&card, &eye), (&card, &moved)] {
-        let answer = card.intersect_recorded(&mesh, rays, Sides::Front)?;
-        let (kernel, drawn) = (answer.kernel, timed(DEVICE, answer.log)?);
-        let rate = drawn.pixels_per_s() / MEGA;
-        for (i, phase) in drawn.record.pixel.phases.iter().enumerate() {
-            let pairs: u64 = phase.arithmetic.iter().map(|slot| u64::from(slot.slots) * slot.times).sum();
-            let textures: u64 = phase.textures.iter().map(|slot| slot.times).sum();
-            slots.push([kernel.into(), (i + 1).into(), pairs.into(), textures.into()]);
-        }
-        let clocks = model(DEVICE)?.fragment(&drawn.record.pixel);
-        slots.push([
-            kernel.into(),
-            "clocks".into(),
-            clocks.arithmetic.0.into(),
-            clocks.textures.0.into(),
-            Cell::measured(rate),
-            drawn.cost.bottleneck.to_string().into(),
-        ]);
-        rates.push(rate);
-    }
-    let dependence =
-        Dependence::Calibrated { on: "this figure, which determined one pair per clock for r200, not two" };
-    let [in_bytes, one_origin, _] = rates[..] else { unreachable!("a rate per run") };
+    let rate = |card: &Crossbar, rays: &RayBatch| {
+        let drawn = timed(DEVICE, card.intersect_recorded(&mesh, rays, Sides::Front)?.log)?;
+        Ok::<_, StudyError>(drawn.pixels_per_s() / MEGA)
+    };
+    let (in_bytes, one_origin) = (rate(&card.clone().byte_rays(), &moved_rays(SIDE)?)?, rate(&card, &eye_rays(SIDE)?)?);
+    let on = "this figure, which determined one pair per clock for r200, not two";
     let row = |id, over| {
-        let ours = (in_bytes / over, dependence);
+        let ours = (in_bytes / over, Dependence::Calibrated { on });
         Ok::<_, StudyError>(paper_row(id, (DEVICE, Method::Pipeline), ours)?.with_readings([one_origin / over]))
     };
     let rows = [row(PRINTED, 1.0)?, row("ray-engine/over-doubled-host", 2.0 * printed_value("ray-engine/host-most")?)?];
-    Ok((rows, [slots, leaks(&mesh)?]))
+    Ok((rows, [leaks(&mesh)?]))
 }
 
 /// Table of leaks by the precision of the ray textures and the card's rounding, for rays that bytes hold exactly.

@@ -1,56 +1,54 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two readings.
 
 use super::workload::TIMES;
-use super::{Dependence, Method, PaperRow, Setting, StudyError, Sweep, paper_row, printed};
+use super::{Dependence, Method, PaperRow, Setting, StudyError, Sweep, paper_row, printed_value};
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
 
-/// Reading: computes a fraction in [0, 1].
-type Reading = fn(&EngineCounts) -> f64;
-
-/// Readings with their names.
-const READINGS: [(&str, Reading); 2] = [
+/// Readings with their names; each computes a fraction in [0, 1].
+const READINGS: [(&str, fn(&EngineCounts) -> f64); 2] = [
     // Rays that met the card at least once, relative to all rays.
     ("rays", EngineCounts::share_on_card),
     // Visits to a GPU cell's cache that ended on the card, relative to all visits; the others were forced to the host.
     ("visits", EngineCounts::share_of_visits_on_card),
 ];
 
-/// Name of a printed fraction, with the counts of our run.
+/// Name of a printed fraction after `ray-engine/share-`, with the counts of our run.
 pub(super) type Share<'a> = (&'static str, &'a EngineCounts);
 
 /// Rows by the first reading, explained by the second if that reaches the printed values, and a table of both.
 pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let row = |&(id, counts): &Share<'_>| {
-        paper_row(id, (TIMES, Method::Engine), (100.0 * READINGS[0].1(counts), Dependence::Counted))
+        let ours = (100.0 * READINGS[0].1(counts), Dependence::Counted);
+        paper_row(&format!("ray-engine/share-{id}"), (TIMES, Method::Engine), ours)
     };
     let mut rows: Vec<PaperRow> = shares.iter().map(row).collect::<Result<_, _>>()?;
-    let setting = |(at, of): (&str, Reading)| Setting {
-        at: at.to_owned(),
-        values: shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect(),
-    };
-    let sweep =
-        Sweep { name: "definition of a ray on the card", parameter: "counted", settings: READINGS.map(setting).into() };
+    let settings = READINGS.map(|(at, _)| at).into_iter().zip(percents(shares));
+    let settings = settings.map(|(at, values)| Setting { at: at.to_owned(), values }).collect();
+    let sweep = Sweep { name: "definition of a ray on the card", parameter: "counted", settings };
     sweep.explain(&mut rows);
-    let table =
-        sweep.table(&format!("Share of rays on the card by two readings, {place}"), &rows, (None, |share| share));
+    let title = format!("Share of rays on the card by two readings, {place}");
+    let table = sweep.table(&title, &rows, (None, |share| share));
     Ok((rows, table))
 }
 
-/// Chart of the printed fractions and of both readings.
+fn percents(shares: &[Share<'_>]) -> [Vec<f64>; 2] {
+    READINGS.map(|(_, of)| shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect())
+}
+
 pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result<Chart, StudyError> {
-    let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value)).collect();
-    let [rays, visits] = READINGS.map(|(_, of)| points(shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect()));
-    let values: Vec<f64> = shares.iter().map(|(id, _)| Ok(printed(id)?.value)).collect::<Result<_, StudyError>>()?;
+    let series = |label: &str, values: Vec<f64>| Series {
+        label: label.to_owned(),
+        points: (1..).zip(values).map(|(x, value)| (f64::from(x), value)).collect(),
+    };
+    let [rays, visits] = percents(shares);
+    let printed = shares.iter().map(|(id, _)| printed_value(&format!("ray-engine/share-{id}")));
     Ok(Chart {
         title: title.to_owned(),
         y: "%".to_owned(),
         ticks: ticks.iter().map(ToString::to_string).collect(),
-        dots: vec![
-            Series { label: "rays that met the card".to_owned(), points: rays },
-            Series { label: "cache visits that ended on the card".to_owned(), points: visits },
-        ],
-        printed: vec![Series { label: "printed".to_owned(), points: points(values) }],
+        dots: vec![series("rays that met the card", rays), series("cache visits that ended on the card", visits)],
+        printed: vec![series("printed", printed.collect::<Result<_, _>>()?)],
         ..Chart::default()
     })
 }

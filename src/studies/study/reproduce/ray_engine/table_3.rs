@@ -2,9 +2,9 @@
 //! the octree of the host alone.
 
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
-use super::teapot::TeapotRoom;
+use super::teapot::{QUESTION, RATE, TeapotRoom, how};
 use super::workload::{OCTREE as OCTREE_OF_ALL, TIMES};
-use super::{EntryFindings, Method, PaperRow, QUESTION, RATE, Shared, StudyError, how, number, paper_row, paragraph};
+use super::{EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph};
 use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 3";
@@ -19,19 +19,19 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.lines_of(PLACE);
     Ok(EntryFindings {
-        text: vec![how(room), passes(&lines), octree(found)],
-        rows: std::iter::once(host_alone(room)?).chain(found.rows(PLACE)).chain([readback(&lines)?]).collect(),
+        text: vec![how(), passes(&lines), octree(&found)],
+        rows: std::iter::once(host_alone(&room)?).chain(found.rows(PLACE)).chain([readback(&lines)?]).collect(),
         questions: vec![
             QUESTION,
             "how full the leaves of the host's octree were when the host was timed alone, and whether the engine used the same octree.",
         ],
         tables: vec![
-            table(room, &lines, PLACE)?,
+            table(&lines, PLACE),
             found.table(&found.host_leaf, "Speed-ups by leaf size of the host-alone octree"),
         ],
         charts: vec![NamedChart {
             name: "ray-engine-host-octree".into(),
-            chart: chart(found, &lines),
+            chart: chart(&found, &lines),
             caption: format!(
                 "Speed-ups of Table 3 by leaf size of the host-alone octree; printed values are drawn at the {} triangles of our rows.",
                 OCTREE_OF_ALL.most_triangles,

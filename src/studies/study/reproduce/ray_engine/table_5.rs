@@ -2,10 +2,8 @@
 
 use super::engine_run::Run;
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
-use super::teapot::{TeapotRoom, Variant};
-use super::{
-    Dependence, EntryFindings, Method, PaperRow, QUESTION, Shared, StudyError, how, number, paper_row, paragraph,
-};
+use super::teapot::{QUESTION, TeapotRoom, how, plus_card};
+use super::{Dependence, EntryFindings, Method, PaperRow, Shared, StudyError, number, paper_row, paragraph};
 use crate::report::{Chart, NamedChart, Series};
 
 const PLACE: &str = "Table 5";
@@ -22,19 +20,16 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.lines_of(PLACE);
     Ok(EntryFindings {
-        text: vec![how(room), size(&lines), FILL.into()],
-        rows: found.rows(PLACE).into_iter().chain(fill(room)?).collect(),
+        text: vec![how(), size(&lines), FILL.into()],
+        rows: found.rows(PLACE).into_iter().chain(fill(&room)?).collect(),
         questions: vec![
             QUESTION,
             "the cost of draws, uploads and read-backs in the authors' driver: a factor on our guesses moves all rows.",
         ],
-        tables: vec![
-            table(room, &lines, PLACE)?,
-            found.table(&found.commands, "Speed-ups by a factor on all command costs"),
-        ],
+        tables: vec![table(&lines, PLACE), found.table(&found.commands, "Speed-ups by a factor on all command costs")],
         charts: vec![NamedChart {
             name: "ray-engine-table-5".into(),
-            chart: chart(found, &lines),
+            chart: chart(&found, &lines),
             caption: "Table 5, with command costs as stated and higher.".into(),
         }],
         ..EntryFindings::default()
@@ -43,7 +38,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 
 /// Rows for the fill of the ray tree's buckets.
 fn fill(room: &TeapotRoom) -> Result<[PaperRow; 2], StudyError> {
-    let means = Run::fill_of(&room.work, Variant::PLUS_CARD.parameters())?;
+    let means = Run::fill_of(&room.work, plus_card())?;
     let filled = 100.0 * means.iter().sum::<f64>() / means.len().max(1) as f64;
     let row = |id: &str, ours: f64| paper_row(id, ("host", Method::Engine), (ours, Dependence::Counted));
     Ok([row("ray-engine/buckets-least", filled)?, row("ray-engine/buckets-free", 100.0 - filled)?])

@@ -1,44 +1,58 @@
 //! The teapot room of Tables 1 and 3 to 5: rendered once; each engine run is made once for all entries.
 
 use std::cell::RefCell;
-use std::ops::RangeInclusive;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use rayon::prelude::*;
-use refsim::timing::host::{HostModel, HostWeights};
+use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostModel, HostWeights};
 
-use super::engine_run::{Commands, Run, rays_per_s};
-use super::workload::{CLASSICAL_TEAPOT, Workload};
-use super::{Shared, SharedResult, StudyError};
+use super::engine_run::Run;
+use super::workload::{CLASSICAL_TEAPOT, OCTREE, Workload};
+use super::{Dependence, Shared, SharedResult, StudyError, number, paragraph};
+use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineParameters, Readback};
 
+pub(super) const RATE: Dependence = Dependence::Predicted {
+    from: "135,812 rays/s of the host alone (the host's scale), 286 M/s at ten triangles (the card's fill rate), 250 MB/s (read-back)",
+};
+
+/// Rays per second of the host alone, as printed.
+const HOST_ALONE: f64 = CPU_ONLY_RAYS_PER_SECOND as f64;
 /// Seed of the rays' random order.
 const SEED: u64 = 2002;
 
-/// Parameters of an engine run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Variant {
-    pub(super) triangles: RangeInclusive<usize>,
-    pub(super) rays: usize,
-    pub(super) readback: Readback,
+pub(super) const QUESTION: &str = "the authors' scene, picture and octree, the cost of their driver's commands, and \
+    how often their rays met the card.";
+
+const HOW: &str = "The teapot room is rendered by Whitted ray tracing at {} x {} pixels, and the renderer's requests are replayed to the engine: \
+    every ray goes through ray tree, octree and caches, and the emulated card draws every pass in fp32. The host's work is counted operation by \
+    operation with the guessed weights of the host model, scaled so that the host alone casts the {} rays/s of Table 3's first row: the only \
+    calibrated figure. Draws run at the GeForce4's fill rate, read-backs at its bus rate, commands at the guessed costs of every timeline.";
+
+pub(super) fn how() -> String {
+    let side = || CLASSICAL_TEAPOT.side.to_string();
+    paragraph(HOW, [side(), side(), number(HOST_ALONE, 0)])
 }
 
-impl Variant {
-    /// "Plus GPU": 5 to 15 triangles, 64 rays (section 6.3).
-    pub(super) const PLUS_CARD: Self = Self { triangles: 5..=15, rays: 64, readback: Readback::Synchronous };
+/// Speed-up over the host alone, in percent.
+pub(super) fn speed_up(rays_per_s: f64) -> f64 {
+    100.0 * (rays_per_s / HOST_ALONE - 1.0)
+}
 
-    /// Parameters of the tables' engine: the vertex program culls triangles outside the bucket, buckets are tested
-    /// against cells, and rays are inserted into the tree in random order (section 5.3).
-    pub(super) fn parameters(&self) -> EngineParameters {
-        EngineParameters {
-            triangles: self.triangles.clone(),
-            rays: self.rays,
-            readback: self.readback,
-            cull: true,
-            beams: true,
-            shuffle: Some(SEED),
-            ..EngineParameters::default()
-        }
+/// "Plus GPU": 5 to 15 triangles, 64 rays (section 6.3). The vertex program culls triangles outside the bucket, buckets
+/// are tested against cells, and rays are inserted into the tree in random order (section 5.3).
+pub(super) fn plus_card() -> EngineParameters {
+    EngineParameters {
+        octree: OCTREE,
+        triangles: 5..=15,
+        rays: 64,
+        readback: Readback::Synchronous,
+        sides: Sides::Both,
+        cull: true,
+        beams: true,
+        shuffle: Some(SEED),
+        record: true,
+        ..EngineParameters::default()
     }
 }
 
@@ -46,49 +60,36 @@ impl Variant {
 pub(crate) struct TeapotRoom {
     pub(super) work: Workload,
     pub(super) host: HostModel,
-    /// Side of the picture, in pixels.
-    pub(super) side: u32,
-    runs: RefCell<Vec<(Variant, Rc<Run>)>>,
+    runs: RefCell<Vec<(EngineParameters, Arc<Run>)>>,
 }
 
 impl SharedResult for TeapotRoom {
     type Key = ();
 
     fn compute((): &(), _: &Shared) -> Result<Self, StudyError> {
-        Self::new()
+        let work = CLASSICAL_TEAPOT.workload()?;
+        Ok(Self { host: work.alone.calibrate(HostWeights::default())?, work, runs: RefCell::default() })
     }
 }
 
 impl TeapotRoom {
-    fn new() -> Result<Self, StudyError> {
-        let work = CLASSICAL_TEAPOT.workload()?;
-        let host = work.alone.calibrate(HostWeights::default())?;
-        let side = CLASSICAL_TEAPOT.side;
-        Ok(Self { work, host, side, runs: RefCell::default() })
-    }
-
-    /// Returns the runs of some variants, in the given order.
-    pub(super) fn runs(&self, wanted: &[Variant]) -> Result<Vec<Rc<Run>>, StudyError> {
-        let mut missing: Vec<Variant> = Vec::new();
-        for variant in wanted {
-            if !missing.contains(variant) && self.known(variant).is_none() {
-                missing.push(variant.clone());
+    /// Returns the runs of some engines, in the given order.
+    pub(super) fn runs(&self, wanted: &[EngineParameters]) -> Result<Vec<Arc<Run>>, StudyError> {
+        let mut missing: Vec<EngineParameters> = Vec::new();
+        for parameters in wanted {
+            if !missing.contains(parameters) && self.known(parameters).is_none() {
+                missing.push(parameters.clone());
             }
         }
         // One thread per engine; the runs are independent.
         let work = &self.work;
-        let run = |variant: Variant| Ok((Run::new(work, variant.parameters())?, variant));
-        let made: Vec<(Run, Variant)> = missing.into_par_iter().map(run).collect::<Result<_, StudyError>>()?;
-        self.runs.borrow_mut().extend(made.into_iter().map(|(run, variant)| (variant, Rc::new(run))));
-        Ok(wanted.iter().filter_map(|variant| self.known(variant)).collect())
+        let run = |parameters: EngineParameters| Ok((parameters.clone(), Arc::new(Run::new(work, parameters)?)));
+        let made: Vec<_> = missing.into_par_iter().map(run).collect::<Result<_, StudyError>>()?;
+        self.runs.borrow_mut().extend(made);
+        Ok(wanted.iter().filter_map(|parameters| self.known(parameters)).collect())
     }
 
-    fn known(&self, variant: &Variant) -> Option<Rc<Run>> {
-        self.runs.borrow().iter().find(|(made, _)| made == variant).map(|(_, run)| Rc::clone(run))
-    }
-
-    /// Rays per second of a run on the calibrated host.
-    pub(super) fn rays_per_s(&self, run: &Run, commands: Commands) -> Result<f64, StudyError> {
-        rays_per_s(run, &self.host, commands)
+    fn known(&self, parameters: &EngineParameters) -> Option<Arc<Run>> {
+        self.runs.borrow().iter().find(|(made, _)| made == parameters).map(|(_, run)| Arc::clone(run))
     }
 }

@@ -5,10 +5,7 @@ use refsim::machine::{ExecutorKind, Machine};
 
 use super::equation_11::MEGA;
 use super::pipeline::{model, timed};
-use super::{
-    Dependence, EntryFindings, Method, RunResult, Shared, StudyError, figure, number, paper_row, paragraph,
-    printed_value,
-};
+use super::{EntryFindings, RunResult, Shared, StudyError, drawn, figure, number, paragraph, printed_value};
 use crate::geom::teapot::teapot;
 use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::{Cell, Table};
@@ -25,50 +22,44 @@ const HOW: &str = "The paper's rejected alternative: constants hold a ray, and a
     on {}, the printed figure would be {} clocks per test.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
-    let (mut rates, mut seen) = (Vec::new(), None);
+    let (mut rates, mut numbers) = (Vec::new(), Vec::new());
     let mut table = Table::of(
         "Tests in the vertex units",
         "device M_tests_per_s instructions_per_vertex vertices_per_test clocks_per_vertex_and_unit vertex_units bound_by",
     );
     for device in DEVICES {
         let profile = Profile::named(device)?;
-        let units = profile.rates.vertex_units;
         let mesh = teapot(4).on(device)?;
-        let camera = Camera::teapot(2, 2).on(device)?;
-        let rays = RayBatch::new(2, 2, camera.rays()).on(device)?;
+        let rays = RayBatch::new(2, 2, Camera::teapot(2, 2).on(device)?.rays()).on(device)?;
         let mut machine = Machine::new(profile.clone(), ExecutorKind::Batch);
         machine.record(true);
         VertexCrossbar::new(profile.clone(), ExecutorKind::Batch).intersect_on(&mut machine, &mesh, &rays)?;
         let drawn = timed(device, machine.take_log())?;
-        let tests = mesh.len() as f64;
         let counts = &drawn.record.counts;
-        let clocks =
-            drawn.record.vertex.as_ref().map(|program| model(device).map(|m| m.vertex(program).0)).transpose()?;
-        let rate = tests / drawn.cost.total.seconds() / MEGA;
+        let instructions = counts.vertex_instructions / counts.vertices.max(1);
+        let vertices = counts.vertices / mesh.len() as u64;
+        let program = drawn.record.vertex.as_ref();
+        let clocks = program.map(|program| model(device).map(|model| model.vertex(program).0)).transpose()?;
+        let rate = mesh.len() as f64 / drawn.cost.total.seconds() / MEGA;
         table.push([
             device.into(),
             Cell::measured(rate),
-            (counts.vertex_instructions / counts.vertices.max(1)).into(),
-            (counts.vertices / mesh.len() as u64).into(),
+            instructions.into(),
+            vertices.into(),
             clocks.into(),
-            units.into(),
+            profile.rates.vertex_units.into(),
             drawn.cost.bottleneck.to_string().into(),
         ]);
-        let printed_clocks =
-            figure(&profile, "rates.core_clock_hz", profile.rates.core_clock_hz)? / (printed_value(PRINTED)? * MEGA);
-        seen.get_or_insert([
-            (counts.vertex_instructions / counts.vertices.max(1)).to_string(),
-            (counts.vertices / mesh.len() as u64).to_string(),
-            device.to_owned(),
-            number(printed_clocks, 0),
-        ]);
+        if numbers.is_empty() {
+            let hz = figure(&profile, "rates.core_clock_hz", profile.rates.core_clock_hz)?;
+            let clocks = number(hz / (printed_value(PRINTED)? * MEGA), 0);
+            numbers = vec![instructions.to_string(), vertices.to_string(), device.to_owned(), clocks];
+        }
         rates.push(rate);
     }
-    let [first, others @ ..] = &rates[..] else { return Ok(EntryFindings::default()) };
-    let ours = (*first, Dependence::Predicted { from: "" });
-    let row = paper_row(PRINTED, (DEVICES[0], Method::Pipeline), ours)?.with_readings(others.iter().copied());
+    let row = drawn(PRINTED, DEVICES[0], rates[0])?.with_readings(rates[1..].iter().copied());
     Ok(EntryFindings::new(
-        [paragraph(HOW, seen.into_iter().flatten())],
+        [paragraph(HOW, numbers)],
         [row],
         ["the card, the length of the program, and whether a test was one vertex (a point) or three (a triangle)."],
         [table],

@@ -3,13 +3,11 @@
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
 
 use super::{RunResult, StudyError};
-use crate::error::InputError;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::io::scenes;
 use crate::renderer::photon::Photons;
-use crate::renderer::{RenderedPicture, Settings, eye, photon, whitted};
-use crate::scene::{Camera, Scene};
+use crate::renderer::{Settings, eye, photon, whitted};
 use crate::tracer::octree::OctreeParameters;
 use crate::tracer::{self, CastError, Caster, HostTracer};
 
@@ -19,7 +17,6 @@ pub(super) const TIMES: &str = "nv25";
 /// was computed.
 pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
 
-/// Renderer that casts the rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum JobRenderer {
     /// Eye rays alone.
@@ -44,7 +41,6 @@ pub(super) struct Job {
 pub(super) const CLASSICAL_TEAPOT: Job =
     Job { scene: "teapot-room", view: None, renderer: JobRenderer::Classical, side: 256 };
 
-/// Bundles of a picture.
 #[derive(Clone, Debug)]
 pub(super) struct Workload {
     pub(super) mesh: Mesh,
@@ -83,37 +79,25 @@ impl Caster for Recording {
 }
 
 impl Job {
-    /// Runs the renderer and records its workload.
     pub(super) fn workload(&self) -> Result<Workload, StudyError> {
-        let (scene, camera) = self.scene_and_camera()?;
-        let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
-        let mut recording = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
-        self.render(&scene, &camera, &mut recording).on(TIMES)?;
-        Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::new(&recording.cost) })
-    }
-
-    fn scene_and_camera(&self) -> Result<(Scene, Camera), StudyError> {
         let scene = scenes::named(self.scene).ok_or_else(|| format!("no scene `{}`", self.scene)).on(TIMES)?;
-        let view = match self.view {
-            Some(name) => scene.view(name),
-            None => scene.views.first(),
-        };
+        let view = self.view.map_or_else(|| scene.views.first(), |name| scene.view(name));
         let view = view.ok_or_else(|| format!("scene `{}` lacks its view", self.scene)).on(TIMES)?;
         let camera = view.camera(self.side, self.side).on(TIMES)?;
-        Ok((scene, camera))
-    }
-
-    fn render(&self, scene: &Scene, camera: &Camera, caster: &mut dyn Caster) -> Result<RenderedPicture, InputError> {
+        let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
+        let mut caster = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
         let settings = Settings { samples: 1, ..Settings::default() };
         let mut watch = |_| {};
-        match self.renderer {
-            JobRenderer::Eyes => eye::render(scene, camera, &settings, caster, &mut watch),
-            JobRenderer::Classical => whitted::render(scene, camera, &settings, caster, &mut watch),
-            JobRenderer::MonteCarlo(per_pixel) => {
-                let settings = Settings { samples: per_pixel, ..settings };
-                photon::render(scene, camera, &settings, &Photons::for_scene(scene), caster, &mut watch)
+        let drawn = match self.renderer {
+            JobRenderer::Eyes => eye::render(&scene, &camera, &settings, &mut caster, &mut watch),
+            JobRenderer::Classical => whitted::render(&scene, &camera, &settings, &mut caster, &mut watch),
+            JobRenderer::MonteCarlo(samples) => {
+                let settings = Settings { samples, ..settings };
+                photon::render(&scene, &camera, &settings, &Photons::for_scene(&scene), &mut caster, &mut watch)
             }
-        }
+        };
+        drawn.on(TIMES)?;
+        Ok(Workload { mesh: scene.mesh().clone(), bundles: caster.bundles, alone: HostOnly::new(&caster.cost) })
     }
 }
 
@@ -125,7 +109,6 @@ pub(super) struct HostOnly {
 }
 
 impl HostOnly {
-    /// Converts the counters of a host tracer.
     pub(super) fn new(cost: &tracer::HostCounts) -> Self {
         let counts = HostCounts::default()
             .with(HostOperation::OctreeCell, cost.traversal.cells)
@@ -138,7 +121,6 @@ impl HostOnly {
         HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND).on(TIMES)
     }
 
-    /// Rays per second on a host.
     pub(super) fn rays_per_s(&self, host: &HostModel) -> f64 {
         self.rays as f64 / host.time_of_all(&self.counts).seconds()
     }

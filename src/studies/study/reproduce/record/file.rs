@@ -15,10 +15,12 @@ const HEAD: &str = "# A run at full size, written by `crossbar reproduce --recor
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EntryRecord {
-    entry: String,
+    /// Name of the entry.
+    pub entry: String,
     text: Vec<String>,
     questions: Vec<String>,
-    made: RecordMade,
+    /// Provenance of the record.
+    pub made: RecordMade,
     #[serde(default)]
     row: Vec<RecordedRow>,
     #[serde(default)]
@@ -68,16 +70,6 @@ impl EntryRecord {
             row: found.rows.iter().filter(|row| row.target.equation.is_none()).map(RecordedRow::new).collect(),
             table: found.tables.iter().map(RecordedTable::new).collect(),
         }
-    }
-
-    /// Name of the entry.
-    pub fn entry(&self) -> &str {
-        &self.entry
-    }
-
-    /// Provenance of the record.
-    pub const fn made(&self) -> &RecordMade {
-        &self.made
     }
 
     /// Values in the row for a figure: ours, then the other readings. `None` if the figure has no row.
@@ -147,11 +139,7 @@ impl RecordedRow {
     }
 
     fn row(&'static self) -> Result<PaperRow, StudyError> {
-        let dependence = match (&self.calibrated_on, &self.predicted_from) {
-            (Some(on), _) => Dependence::Calibrated { on },
-            (None, Some(from)) => Dependence::Predicted { from },
-            (None, None) => Dependence::Counted,
-        };
+        let dependence = Dependence::new(self.calibrated_on.as_deref(), self.predicted_from.as_deref());
         let row = paper_row(&self.figure, (&self.device, self.method), (self.ours, dependence))?;
         let mut row = row.with_readings(self.readings.iter().copied()).contradicted(self.contradiction.clone());
         row.source = RowSource::Recorded;

@@ -25,7 +25,7 @@ static RECORDS: LazyLock<Result<Vec<EntryRecord>, String>> = LazyLock::new(|| {
 /// Returns an entry's record from the program. Fails if a file is malformed.
 pub fn recorded(entry: &ReproduceEntry) -> Result<Option<&'static EntryRecord>, StudyError> {
     let records = RECORDS.as_deref().map_err(|reason| StudyError::new("reproduce::record", reason.as_str()))?;
-    Ok(records.iter().find(|record| record.entry() == entry.id))
+    Ok(records.iter().find(|record| record.entry == entry.id))
 }
 
 /// Returns the findings of an entry's record; computes them if there is no record, or at full size.
@@ -46,7 +46,7 @@ pub fn compared(record: &'static EntryRecord, mut found: EntryFindings) -> Entry
     };
     found.rows.iter_mut().for_each(|row| row.source = source(row));
     let differ = found.rows.iter().filter(|row| row.differs()).count();
-    EntryFindings { record: Some(RecordStatus::Computed { made: record.made(), differ }), ..found }
+    EntryFindings { record: Some(RecordStatus::Computed { made: &record.made, differ }), ..found }
 }
 
 /// Returns `true` if numbers have the same bits; all NaN count as equal.

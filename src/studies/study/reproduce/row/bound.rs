@@ -44,12 +44,9 @@ impl Bound {
         }
     }
 
-    /// Returns `true` if a value lies within the bound only because of the printed value's rounding; always `false` for
-    /// a bound of every printed digit.
-    pub fn needs_rounding(&self, (printed, rounding): (f64, f64), value: f64) -> bool {
-        let within = |[low, high]: [f64; 2]| (low..=high).contains(&value);
-        let held = |rounding: f64| self.interval(printed, rounding).is_some_and(within);
-        !matches!(self, Self::Print) && held(rounding) && !held(0.0)
+    /// Returns `true` if a value lies within the bound around a printed value; always `false` if the text is too vague.
+    pub fn admits(&self, printed: f64, rounding: f64, value: f64) -> bool {
+        self.interval(printed, rounding).is_some_and(|[low, high]| (low..=high).contains(&value))
     }
 
     /// Formats the bound.

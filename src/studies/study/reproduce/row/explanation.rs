@@ -8,22 +8,14 @@ use crate::study::reproduce::prose::number;
 pub struct Explanation {
     pub(super) sweep: &'static str,
     pub(super) parameter: &'static str,
-    pub(super) at: String,
-    pub(super) value: f64,
+    /// Setting at which the row lies within its bound.
+    pub at: String,
+    /// Value of the row at that setting.
+    pub value: f64,
     pub(super) others: [usize; 2],
 }
 
 impl Explanation {
-    /// Setting at which the row lies within its bound.
-    pub fn at(&self) -> &str {
-        &self.at
-    }
-
-    /// Value of the row at that setting.
-    pub const fn value(&self) -> f64 {
-        self.value
-    }
-
     /// Reason as a sentence; the same for all rows that one setting explains.
     pub fn reason(&self) -> String {
         let [held, all] = self.others;

@@ -1,6 +1,6 @@
 //! Printed values of a paper, with their origins.
 
-use super::{Bound, Dependence};
+use super::Bound;
 use crate::report::Cell;
 use crate::study::reproduce::Paper;
 
@@ -36,30 +36,24 @@ pub enum Judgement {
 }
 
 /// Reason why a row is missed, if known. Only missed rows have one; it does not change the verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, strum::Display, strum::VariantArray)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantArray)]
 pub enum MissClass {
     /// The text allows several readings, or leaves a choice in the method open.
-    #[serde(rename = "reading open")]
     #[strum(to_string = "reading open")]
     ReadingOpen,
     /// The paper's model, scene, light or BRDF is not available.
-    #[serde(rename = "model lost")]
     #[strum(to_string = "model lost")]
     ModelLost,
     /// A time depends on hardware or a driver whose properties are not known.
-    #[serde(rename = "hardware timing unknown")]
     #[strum(to_string = "hardware timing unknown")]
     HardwareTiming,
     /// Our method or model deliberately differs from the paper's.
-    #[serde(rename = "ours differs")]
     #[strum(to_string = "ours differs")]
     OursDiffers,
     /// Our result has less error, storage or work than the printed one.
-    #[serde(rename = "ours differs, for the better")]
     #[strum(to_string = "ours differs, for the better")]
     OursBetter,
     /// Another section of the paper contradicts the figure, and our value agrees with neither.
-    #[serde(rename = "paper contradicts")]
     #[strum(to_string = "paper contradicts")]
     PaperContradicts,
 }
@@ -110,17 +104,6 @@ pub struct PaperEquation {
     pub chose: Option<String>,
     /// Description of the computation, if a value that does not round to the printed one contradicts it.
     pub contradicts: Option<String>,
-}
-
-impl PaperEquation {
-    /// Dependence of the value on printed values.
-    pub fn dependence(&'static self) -> Dependence {
-        match (&self.chose, &self.uses) {
-            (Some(on), _) => Dependence::Calibrated { on },
-            (None, Some(from)) => Dependence::Predicted { from },
-            (None, None) => Dependence::Counted,
-        }
-    }
 }
 
 impl PaperFigure {

@@ -51,6 +51,15 @@ pub enum Dependence {
 }
 
 impl Dependence {
+    /// Dependence from the printed values that determined a constant, or else predicted the value.
+    pub(in crate::study::reproduce) fn new(on: Option<&'static str>, from: Option<&'static str>) -> Self {
+        match (on, from) {
+            (Some(on), _) => Self::Calibrated { on },
+            (None, Some(from)) => Self::Predicted { from },
+            (None, None) => Self::Counted,
+        }
+    }
+
     /// Printed values on which our value depends.
     pub const fn inputs(self) -> &'static str {
         match self {

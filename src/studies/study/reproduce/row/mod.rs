@@ -9,7 +9,6 @@ mod contradiction;
 mod explanation;
 mod figure;
 mod method;
-mod source;
 mod sweep;
 mod verdict;
 
@@ -18,9 +17,10 @@ pub use contradiction::Contradiction;
 pub use explanation::Explanation;
 pub use figure::{Judgement, MissClass, Origin, PaperEquation, PaperFigure};
 pub use method::{Dependence, Method};
-pub use source::RowSource;
 pub use sweep::{Setting, Sweep};
 pub use verdict::RowVerdict;
+
+use super::prose::ends;
 
 /// Row: a value of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +46,25 @@ pub struct PaperRow {
     /// Set only by [`Sweep::explain`].
     explanation: Option<Explanation>,
     contradiction: Option<Contradiction>,
+}
+
+/// Source of a row's value.
+#[derive(Clone, Copy, Debug, PartialEq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum RowSource {
+    /// Computed in this run.
+    Computed,
+    /// Read from a recorded run at full size.
+    Recorded,
+    /// Computed in this run at full size; the recorded value has the same bits.
+    #[strum(to_string = "recorded and computed")]
+    Confirmed,
+    /// Computed in this run at full size; the recorded value has other bits.
+    #[strum(to_string = "computed, not as recorded")]
+    Differs {
+        /// Recorded value.
+        recorded: f64,
+    },
 }
 
 impl PaperRow {
@@ -103,7 +122,7 @@ impl PaperRow {
 
     /// Returns `true` if our value could be `value` within the bound; always `false` if the text is too vague.
     pub fn admits(&self, value: f64) -> bool {
-        self.interval().is_some_and(|[low, high]| (low..=high).contains(&value))
+        self.bound.admits(self.target.value, self.target.rounding(), value)
     }
 
     /// Returns `true` if our value lies within the bound for every reading.
@@ -113,14 +132,13 @@ impl PaperRow {
 
     /// Returns `true` if the row holds only because the printed value was rounded.
     pub fn holds_by_rounding(&self) -> bool {
-        let printed = (self.target.value, self.target.rounding());
-        self.holds() && self.values().any(|value| self.bound.needs_rounding(printed, value))
+        let unrounded = |value: f64| self.bound.admits(self.target.value, 0.0, value);
+        self.holds() && self.bound != Bound::Print && !self.values().all(unrounded)
     }
 
     /// Smallest and largest value over all readings; `None` if there is only one reading.
     pub fn range(&self) -> Option<[f64; 2]> {
-        let range = [self.values().fold(f64::INFINITY, f64::min), self.values().fold(f64::NEG_INFINITY, f64::max)];
-        (!self.readings.is_empty()).then_some(range)
+        (!self.readings.is_empty()).then(|| ends(self.values()))
     }
 
     /// All our values: the main value, then the other readings.
@@ -169,11 +187,8 @@ impl PaperRow {
     /// Returns `true` if the paper contradicts itself and our value agrees with one of its values: no verdict can tell
     /// which of them is right. A value that agrees with neither is missed in any case.
     pub(super) fn is_contradictory(&self) -> bool {
-        let rounding = self.target.rounding();
-        let agrees = |printed: f64| {
-            let interval = self.bound.interval(printed, rounding);
-            interval.is_some_and(|[low, high]| self.values().all(|value| (low..=high).contains(&value)))
-        };
+        let agrees =
+            |printed: f64| self.values().all(|value| self.bound.admits(printed, self.target.rounding(), value));
         let found = self.contradiction.as_ref();
         found.is_some_and(|found| agrees(self.target.value) || found.value().is_some_and(agrees))
     }

@@ -2,19 +2,17 @@
 
 use super::gather::{EIGHT, GatherCost, VARIANTS, Variant};
 use super::{
-    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, RunResult, Setting, Shared, StudyError, Sweep, number,
-    paper_row, paragraph,
+    CARD, Dependence, EntryFindings, LINKS, Method, RunResult, Setting, Shared, StudyError, Sweep, number, paper_row,
+    paragraph, solved,
 };
 use crate::atlas::Atlas;
 use crate::geom::Mesh;
-use crate::report::{Cell, Table};
+use crate::report::Table;
 use crate::scene::built::meshes;
 
-/// Models of Table 1: names, faces, and our stand-ins.
-pub(super) const MODELS: [(&str, u32, &str); 3] =
-    [("head", 7232, "stand-in-head"), ("dolphin", 21_952, "stand-in-dolphin"), ("bunny", 69_451, "stanford-bunny")];
-/// Bytes per texel of links: four half floats.
-const LINK_BYTES: f64 = 8.0;
+/// Models of Table 1, and our stand-ins with as many faces.
+pub(super) const MODELS: [(&str, &str); 3] =
+    [("head", "stand-in-head"), ("dolphin", "stand-in-dolphin"), ("bunny", "stanford-bunny")];
 
 const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} fixed links take {}, adaptive links {}. Adaptive links need one \
     sampler more than the card has, so a second pass reads the sum of the first; with link textures as tiles of a larger texture they take {} in a \
@@ -23,9 +21,10 @@ const HOW: &str = "Lookups are counted per texel, as our programs are drawn: {} 
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
-    let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
-    let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
-    let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
+    let [fixed, adaptive] = [true, false].map(|is_fixed| {
+        let found = VARIANTS.iter().zip(costs.iter()).find(|(variant, _)| variant.fixed == is_fixed);
+        found.map_or(f64::NAN, |(_, cost)| cost.lookups)
+    });
     let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Dependence::Counted));
     // A texel of fixed links holds the factors of four links.
     let layout = [LINKS as f64 * 1.25; 2];
@@ -33,7 +32,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         lookups("subsurface/lookups-fixed", fixed)?.confined(layout, "the program uses the paper's layout of links");
     let mut rows = vec![of_fixed, lookups("subsurface/lookups-adaptive", adaptive)?];
     // The same links on the same map, in their own textures and as tiles.
-    let same = VARIANTS.iter().zip(costs).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
+    let same = VARIANTS.iter().zip(costs.iter()).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
     let setting = |(variant, cost): (&Variant, &GatherCost)| {
         let at = if variant.tiles.is_some() { "tiles" } else { "separate" };
         Setting { at: at.to_owned(), values: vec![cost.lookups] }
@@ -43,50 +42,23 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     held.explain(&mut rows[1..]);
     let tiled = held.settings.last().map_or(f64::NAN, |setting| setting.values[0]);
     let held = held.table("Lookups by storage of adaptive links", &rows[1..], (None, |value| value));
-    for (model, _, stand_in) in MODELS {
-        rows.push(nodes(model, stand_in)?);
+    for (model, stand_in) in MODELS {
+        let mesh = mesh(stand_in)?;
+        let atlas = Atlas::new(&mesh, 512).on(CARD)?;
+        let row = solved(&format!("subsurface/nodes-{model}"), atlas.tree().nodes().len() as f64)?;
+        let nodes = (2 * mesh.len() - 1) as f64;
+        rows.push(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"));
     }
     Ok(EntryFindings::new(
         [paragraph(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
         ["the authors' clustering of faces, and which of the two choices of links was timed."],
-        [storage(), programs(costs), held],
+        [programs(&costs), held],
     ))
 }
 
-/// Stand-in for a model.
 pub(super) fn mesh(stand_in: &'static str) -> Result<Mesh, StudyError> {
     meshes::build(stand_in).ok_or_else(|| format!("no stand-in `{stand_in}`")).on(CARD)
-}
-
-/// Row for the number of nodes of the clustering: 2 T - 1.
-fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
-    let mesh = mesh(stand_in)?;
-    let atlas = Atlas::new(&mesh, 512).on(CARD)?;
-    let ours = (atlas.tree().nodes().len() as f64, Dependence::Counted);
-    let row = paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)?;
-    let nodes = (2 * mesh.len() - 1) as f64;
-    Ok(row.confined([nodes; 2], "every binary tree of T leaves has 2 T - 1 nodes"))
-}
-
-/// Table of all pairs and link textures by the size of the atlas.
-fn storage() -> Table {
-    let mut table = Table::of(
-        "Interactions and link textures in half precision, 16 links",
-        "atlas all_pairs links adaptive_MiB fixed_MiB",
-    );
-    for side in [512.0_f64, 1024.0] {
-        let texels = side * side;
-        let mebibytes = |textures: f64| Cell::measured(textures * texels * LINK_BYTES / f64::from(1 << 20));
-        table.push([
-            format!("{side} x {side}").into(),
-            Cell::measured(texels * texels),
-            Cell::measured(LINKS as f64 * texels),
-            mebibytes(LINKS as f64),
-            mebibytes(LINKS as f64 / 4.0),
-        ]);
-    }
-    table
 }
 
 /// Table of instructions and samplers of each variant, compared with the card's limits of 1024 and 16.

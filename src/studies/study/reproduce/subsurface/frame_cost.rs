@@ -2,19 +2,16 @@
 //! models. [`super::gather`] times pass 2.
 
 use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
-use super::gather::{EIGHT, LINKS};
+use super::gather::{VARIANTS, loaded};
 use super::{RunResult, StudyError, no_time};
 use crate::atlas::Atlas;
-use crate::card::{MeshView, Texels};
+use crate::card::MeshView;
 use crate::geom::Mesh;
 use crate::scene::Camera;
 use crate::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
-use crate::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LightStage, LinkTextures, SubsurfaceCard, SubsurfaceCardOptions, View, pass_times,
-};
+use crate::subsurface::on_card::{CardModel, Light, View, pass_times};
 
 /// Size of the window in pixels. The paper does not state it.
 pub(super) const WINDOW: [u32; 2] = [512, 512];
@@ -43,30 +40,13 @@ pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCo
     let shown = View { kernel, diffuse: [0.1; 3], ..View::scattered(shown) };
     let sun = Light::Directional { towards: [1.0, -2.0, 3.0], irradiance: [1.0; 3] };
     // Pass 3 begins with the state that pass 2 leaves.
-    let mut machine = model_on(profile.clone(), CardModel::new(&atlas)).on(card)?;
+    let mut machine = loaded(profile.clone(), CardModel::new(&atlas), VARIANTS[0]).on(card)?;
     machine.record(true);
     machine.light(&[sun]).on(card)?;
     machine.view_texels(&shown).on(card)?;
     let [light, levels, _, view] =
         pass_times(&profile, &machine.take_log()).map_err(no_time)?.map(|pass| pass.time.seconds());
     Ok(FrameCost { light, levels, view })
-}
-
-/// Loads a model whose links are all identical: time does not depend on values.
-fn model_on(profile: Profile, model: CardModel) -> Result<SubsurfaceCard, Box<dyn std::error::Error + Send + Sync>> {
-    let side = model.side();
-    let textures = vec![Texels::from_fn([side as usize; 2], |_, _| [1.0 / 16.0; 4]); LINKS / 4];
-    let level = Some(side.ilog2() - LINKS.ilog2() / 2);
-    let links = LinkTextures::from_textures(side, level, false, LINKS, textures)?;
-    let options = SubsurfaceCardOptions {
-        light: LightStage::Vertices,
-        map: EIGHT,
-        links: FloatTexels::Fp16,
-        scattered: FloatTexels::Fp16,
-        half: false,
-        tiles: None,
-    };
-    Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, model, &links, 1.3, options)?)
 }
 
 /// Camera whose window is filled by the bounding sphere of a mesh.

@@ -12,7 +12,7 @@ use super::frame_cost::{FrameCost, WINDOW, cost};
 use super::gather::{self, GatherCost, VARIANTS};
 use super::table_1::{DISPLAY, PrintedFrame, SIDES, display_lock};
 use super::{
-    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, TimedWork, number, paper_row,
+    CARD, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, TimedWork, drawn, number, paper_row,
     paragraph,
 };
 use crate::report::{Cell, Table};
@@ -35,6 +35,9 @@ const LOCK: &str = "A display of {} Hz shows a finished frame at its next refres
 const HOST: &str = "Link time is one evaluation of R_d per link on the host of section three of the paper; the paper \
     does not name the host that computed links. The cost of an evaluation is our guess.";
 
+const QUESTION: &str =
+    "the size of the window, the model of Figure 7, the host that computed links, and what it evaluated per link.";
+
 /// Index in [`VARIANTS`] of the rows' variant: fixed links and an 8-bit map.
 const OURS: usize = 0;
 
@@ -47,7 +50,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let printed = PrintedFrame::all()?;
     let (mut rows, mut frames) = (Vec::new(), Vec::new());
-    for (model, _, stand_in) in MODELS {
+    for (model, stand_in) in MODELS {
         let mesh = mesh(stand_in)?;
         for frame in printed.iter().filter(|frame| frame.model == model) {
             let cost = cost(CARD, &mesh, frame.side as u32)?;
@@ -61,11 +64,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.extend(rates);
     rows.push(dominance(&frames, &costs[OURS])?);
     rows.push(figure_7()?);
-    rows.push(paper_row(
-        "subsurface/link-time",
-        ("Athlon 2800+", Method::Host),
-        (LINKS as f64 * SIDES[1] * SIDES[1] * EVALUATION_CLOCKS / HOST_HZ, PREDICTED),
-    )?);
+    let seconds = LINKS as f64 * SIDES[1] * SIDES[1] * EVALUATION_CLOCKS / HOST_HZ;
+    let predicted = (seconds, Dependence::Predicted { from: "" });
+    rows.push(paper_row("subsurface/link-time", ("Athlon 2800+", Method::Host), predicted)?);
     let dolphin = |at: usize| number(printed[2 + at].milliseconds(1), 1);
     let [width, height] = WINDOW.map(|pixels| pixels.to_string());
     Ok(EntryFindings::new(
@@ -75,24 +76,17 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             HOST.into(),
         ],
         rows,
-        [
-            "the size of the window, the model of Figure 7, the host that computed links, and what it evaluated per link.",
-        ],
+        [QUESTION],
         [table(&frames, &costs[OURS])],
     ))
 }
-
-/// Dependence of values that use no printed value.
-const PREDICTED: Dependence = Dependence::Predicted { from: "" };
 
 /// Rows for the times of the passes of one frame: 1 and 3 always; 2 unless Table 1's own entry judges it.
 fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<Vec<PaperRow>, StudyError> {
     let gather = (printed.side == SIDES[0]).then_some(gather);
     let ours = [Some(cost.light + cost.levels), gather, Some(cost.view)];
     let judged = (1..).zip(ours).filter_map(|(pass, seconds)| Some((pass, seconds?)));
-    judged
-        .map(|(pass, seconds)| paper_row(&printed.pass_id(pass), (CARD, Method::Pipeline), (1e3 * seconds, PREDICTED)))
-        .collect()
+    judged.map(|(pass, seconds)| drawn(&printed.pass_id(pass), CARD, 1e3 * seconds)).collect()
 }
 
 /// Printed values that determined the refresh rate.
@@ -105,7 +99,7 @@ fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Res
 
 /// Times of the three passes of the head at the smaller size.
 pub(in crate::study::reproduce) fn timed() -> Result<[TimedWork; 3], StudyError> {
-    let cost = cost(CARD, &mesh(MODELS[0].2)?, SIDES[0] as u32)?;
+    let cost = cost(CARD, &mesh(MODELS[0].1)?, SIDES[0] as u32)?;
     let gather = gather::cost(CARD, VARIANTS[OURS])?.seconds(SIDES[0]);
     let pass = |id, seconds: f64| TimedWork::new(id, CARD, Picoseconds((1e12 * seconds).round() as u64));
     Ok([
@@ -119,20 +113,18 @@ pub(in crate::study::reproduce) fn timed() -> Result<[TimedWork; 3], StudyError>
 fn dominance(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Result<PaperRow, StudyError> {
     let large = frames.iter().filter(|(printed, _)| printed.side == SIDES[1]);
     let mut ratios = large.map(|(printed, cost)| gather.seconds(printed.side) / cost.frame(0.0));
-    let ours = (ratios.next().unwrap_or(f64::NAN), PREDICTED);
-    Ok(paper_row("subsurface/pass-2-dominates", (CARD, Method::Pipeline), ours)?.with_readings(ratios))
+    let ours = ratios.next().unwrap_or(f64::NAN);
+    Ok(drawn("subsurface/pass-2-dominates", CARD, ours)?.with_readings(ratios))
 }
 
 /// Row for Figure 7: 40 frames per second are not an integer fraction of the display's rate, so the row is for a frame
 /// without synchronisation, of the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, StudyError> {
     let gather = gather::cost(OTHER_CARD, VARIANTS[OURS])?;
-    let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;
-    let ours = (1.0 / cost.frame(gather.seconds(SIDES[0])), PREDICTED);
-    paper_row("subsurface/figure-7", (OTHER_CARD, Method::Pipeline), ours)
+    let cost = cost(OTHER_CARD, &mesh(MODELS[2].1)?, SIDES[0] as u32)?;
+    drawn("subsurface/figure-7", OTHER_CARD, 1.0 / cost.frame(gather.seconds(SIDES[0])))
 }
 
-/// Table of modelled and printed passes.
 fn table(frames: &[(PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
     let mut table = Table::of(
         "Frame times on the emulated card in ms, with display periods, ours and printed",

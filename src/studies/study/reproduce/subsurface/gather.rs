@@ -61,10 +61,8 @@ pub(super) const VARIANTS: [Variant; 9] = [
     Variant { tiles: Some(4), ..Variant::new("adaptive, 8-bit map, tiled links", false, EIGHT, false) },
 ];
 
-/// Cost of a variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::study::reproduce) struct GatherCost {
-    /// Number of passes.
     pub(super) programs: usize,
     /// Total number of instructions of all passes.
     pub(super) instructions: usize,
@@ -86,25 +84,21 @@ impl GatherCost {
     }
 }
 
-/// Costs of all variants on the card of this name.
+/// Costs of all variants on the card of this name, in the order of [`VARIANTS`].
 impl SharedResult for Vec<GatherCost> {
     type Key = &'static str;
 
     fn compute(&card: &&'static str, _: &Shared) -> Result<Self, StudyError> {
-        all_costs(card)
+        VARIANTS.iter().map(|variant| cost(card, *variant)).collect()
     }
-}
-
-/// Cost of all variants on a card, in the order of [`VARIANTS`].
-pub(super) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, StudyError> {
-    VARIANTS.iter().map(|variant| cost(card, *variant)).collect()
 }
 
 pub(super) fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, StudyError> {
     let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
         let profile = Profile::named(card)?;
-        let mut machine = square(profile.clone(), side, variant).on(card)?;
+        let square = square(side).on(card)?;
+        let mut machine = loaded(profile.clone(), square, variant).on(card)?;
         machine.record(true);
         machine.light(&[Light::Sky { radiance: [1.0; 3] }]).on(card)?;
         let log = machine.take_log();
@@ -126,21 +120,25 @@ fn lookups(log: &[PassEvent]) -> f64 {
     draws.map(|fragments| fragments.fetches.iter().sum::<u64>() as f64 / fragments.shaded as f64).sum()
 }
 
-/// Loads a square of the medium whose links all lead to its middle: time does not depend on values.
-fn square(
+/// A square of the medium.
+fn square(side: u32) -> Result<CardModel, Box<dyn std::error::Error + Send + Sync>> {
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    Ok(CardModel::new(&Atlas::new(&Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?, side)?))
+}
+
+/// Loads a model whose links are all identical and lead to its middle: time does not depend on values.
+pub(super) fn loaded(
     profile: Profile,
-    side: u32,
+    model: CardModel,
     variant: Variant,
 ) -> Result<SubsurfaceCard, Box<dyn std::error::Error + Send + Sync>> {
-    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-    let atlas = Atlas::new(&Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]])?, side)?;
-    let width = side as usize;
+    let side = model.side();
     let (level, textures, texel) = if variant.fixed {
         (Some(side.ilog2() - LINKS.ilog2() / 2), LINKS / 4, [1.0 / 16.0; 4])
     } else {
         (None, LINKS, [0.5, 0.5, 1.0 / 16.0, 0.0])
     };
-    let textures = vec![Texels::from_fn([width; 2], |_, _| texel); textures];
+    let textures = vec![Texels::from_fn([side as usize; 2], |_, _| texel); textures];
     let links = LinkTextures::from_textures(side, level, false, LINKS, textures)?;
     let options = SubsurfaceCardOptions {
         light: LightStage::Vertices,
@@ -150,5 +148,5 @@ fn square(
         half: variant.half,
         tiles: variant.tiles,
     };
-    Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), &links, 1.3, options)?)
+    Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, model, &links, 1.3, options)?)
 }

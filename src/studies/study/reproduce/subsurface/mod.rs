@@ -6,12 +6,11 @@ pub(super) mod frames;
 mod gather;
 pub(super) mod table_1;
 
-use gather::CARD;
-use gather::LINKS;
+use gather::{CARD, LINKS};
 
 use super::error::{RunResult, no_time};
 use super::shared::Shared;
 use super::{
-    Contradiction, Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, number,
-    paper_row, paragraph, printed_value,
+    Contradiction, Dependence, EntryFindings, Method, PaperRow, Setting, StudyError, Sweep, TimedWork, drawn, ends,
+    number, paper_row, paragraph, printed_value, solved,
 };

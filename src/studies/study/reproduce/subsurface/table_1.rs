@@ -4,10 +4,10 @@
 //! contain waits. Only pass 2 at 1024 x 1024 is longer than the possible wait, and it is the same for all three models.
 
 use super::counts::MODELS;
-use super::gather::{GatherCost, VARIANTS, all_costs};
+use super::gather::{GatherCost, VARIANTS};
 use super::{
-    CARD, Contradiction, Dependence, EntryFindings, LINKS, Method, PaperRow, Shared, StudyError, number, paper_row,
-    paragraph, printed_value,
+    CARD, Contradiction, EntryFindings, LINKS, PaperRow, Shared, StudyError, drawn, ends, number, paragraph,
+    printed_value,
 };
 use crate::report::{Cell, Table};
 
@@ -26,7 +26,7 @@ pub(super) struct PrintedFrame {
 impl PrintedFrame {
     /// All rows, model by model.
     pub(super) fn all() -> Result<Vec<Self>, StudyError> {
-        let all = MODELS.iter().flat_map(|(model, ..)| SIDES.map(|side| (*model, side)));
+        let all = MODELS.iter().flat_map(|(model, _)| SIDES.map(|side| (*model, side)));
         all.map(|(model, side)| Self::named(model, side)).collect()
     }
 
@@ -73,34 +73,18 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let printed = PrintedFrame::all()?;
     let mut rows: Vec<PaperRow> = Vec::new();
     for frame in printed.iter().filter(|frame| frame.side == SIDES[1]) {
-        let ours = (ms(&costs[0]), Dependence::Predicted { from: "" });
-        rows.push(paper_row(&frame.pass_id(2), (CARD, Method::Pipeline), ours)?);
+        rows.push(drawn(&frame.pass_id(2), CARD, ms(&costs[0]))?);
     }
-    let times: Vec<f64> = costs.iter().map(ms).collect();
-    let spread = times.iter().copied().fold(0.0, f64::max) / times.iter().copied().fold(f64::INFINITY, f64::min);
-    let target = |row: &PaperRow| row.target.value;
-    let apart =
-        rows.iter().map(target).fold(0.0, f64::max) / rows.iter().map(target).fold(f64::INFINITY, f64::min) - 1.0;
-    let [factors, least, most] = locked(&printed);
+    let [quickest, slowest] = ends(costs.iter().map(ms));
+    let [low, high] = ends(rows.iter().map(|row| row.target.value));
+    let [display, side, apart] =
+        [(DISPLAY, 0), (SIDES[1], 0), (100.0 * (high / low - 1.0), 1)].map(|(n, d)| number(n, d));
+    let locked = locked(&printed).into_iter().chain([display, side.clone(), side, apart]);
     Ok(EntryFindings::new(
-        [
-            paragraph(
-                LOCKED,
-                [
-                    factors,
-                    least,
-                    most,
-                    number(DISPLAY, 0),
-                    number(SIDES[1], 0),
-                    number(SIDES[1], 0),
-                    number(100.0 * apart, 1),
-                ],
-            ),
-            paragraph(OPEN, [number(spread, 1)]),
-        ],
+        [paragraph(LOCKED, locked), paragraph(OPEN, [number(slowest / quickest, 1)])],
         rows,
         ["the format of the radiosity map, the choice of links, and whether waits for the display are in the times."],
-        [variants(costs)?, frames(&printed)],
+        [variants(shared, &costs)?],
     ))
 }
 
@@ -108,8 +92,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 /// frame, so the times contain waits. The computation uses only the paper's values.
 pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
     let on_periods = printed.iter().all(|frame| (frame.periods() * frame.rate / DISPLAY - 1.0).abs() < LOCKED_WITHIN);
-    let sums: Vec<f64> = printed.iter().map(|frame| frame.shares.iter().sum()).collect();
-    let least = sums.iter().copied().fold(f64::INFINITY, f64::min);
+    let [least, _] = ends(printed.iter().map(|frame| frame.shares.iter().sum()));
     let without_waits = |frame: &&PrintedFrame| frame.side == SIDES[0];
     // The first pass draws the same vertices at both sizes, and at the larger size one level more.
     let shorter = printed.iter().filter(without_waits).find(|small| {
@@ -131,21 +114,19 @@ pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
 
 /// Numbers of periods as text, and the smallest and the largest product with the rates.
 fn locked(printed: &[PrintedFrame]) -> [String; 3] {
-    let products: Vec<(f64, f64)> = printed.iter().map(|frame| (frame.periods(), frame.rate)).collect();
-    let factors: Vec<String> = products.iter().map(|(factor, _)| number(*factor, 0)).collect();
-    let product = |&(factor, rate): &(f64, f64)| factor * rate;
-    let least = products.iter().map(product).fold(f64::INFINITY, f64::min);
-    let most = products.iter().map(product).fold(0.0, f64::max);
+    let factors: Vec<String> = printed.iter().map(|frame| number(frame.periods(), 0)).collect();
+    let [least, most] = ends(printed.iter().map(|frame| frame.periods() * frame.rate));
     [factors.join(", "), number(least, 1), number(most, 1)]
 }
 
 /// Table of pass 2 at 1024 x 1024 for each variant on each card.
-fn variants(costs: &[GatherCost]) -> Result<Table, StudyError> {
+fn variants(shared: &Shared, costs: &[GatherCost]) -> Result<Table, StudyError> {
     let mut table = Table::of(
         "Pass 2 with 16 links at 1024 x 1024 in ms, by the pipeline model; the paper has 55.2 to 56.4",
         "variant fx5900 nv35 fx5800 nv30 ns_per_link",
     );
-    let others = OTHER_CARDS.map(all_costs).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let others = OTHER_CARDS.map(|card| shared.get::<Vec<GatherCost>>(card));
+    let others = others.into_iter().collect::<Result<Vec<_>, _>>()?;
     for (at, (variant, cost)) in VARIANTS.iter().zip(costs).enumerate() {
         let seconds = |cost: &GatherCost| cost.seconds(SIDES[1]);
         let per_link = seconds(cost) * 1e9 / (LINKS as f64 * SIDES[1] * SIDES[1]);
@@ -154,25 +135,4 @@ fn variants(costs: &[GatherCost]) -> Result<Table, StudyError> {
         table.push(std::iter::once(Cell::from(variant.name)).chain(times).chain([Cell::measured(per_link)]));
     }
     Ok(table)
-}
-
-/// Table 1 as printed, with derived values.
-fn frames(printed: &[PrintedFrame]) -> Table {
-    let mut table = Table::of(
-        "Table 1 as printed: frames, and pass 2 from shares in whole per cent",
-        "model faces atlas frames_per_s display_periods pass_2_% pass_2_ms",
-    );
-    for frame in printed {
-        let faces = MODELS.iter().find(|(model, ..)| *model == frame.model).map(|(_, faces, _)| *faces);
-        table.push([
-            frame.model.into(),
-            faces.into(),
-            format!("{0} x {0}", frame.side).into(),
-            Cell::decimals(frame.rate, 2),
-            (frame.periods() as u32).into(),
-            Cell::decimals(frame.shares[1], 0),
-            Cell::decimals(frame.milliseconds(2), 2),
-        ]);
-    }
-    table
 }

@@ -63,7 +63,7 @@ fn a_line_counts_the_rows_of_its_paper_alone() {
         line.tally.iter().find(|counted| counted.what == verdict.to_string()).map(|counted| counted.count)
     };
     assert_eq!([RowVerdict::Predicted, RowVerdict::Missed].map(|of| count(engine, of)), [Some(2), Some(2)]);
-    assert_eq!(engine.text, "No row is missed in 1 of 2 entries; missed in ray-engine-figure-7 (2 of 3).");
+    assert_eq!(engine.text, "Rows are missed in ray-engine-figure-7 (2 of 3).");
     assert_eq!(engine.heading, found[0].0.title);
     assert_eq!((count(cpca, RowVerdict::Missed), cpca.text.as_str()), (Some(0), "No row is missed."));
 }

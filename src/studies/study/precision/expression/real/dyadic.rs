@@ -179,13 +179,7 @@ impl End {
         let outward = x.is_negative() != up;
         match x.top() {
             top if top > LIMIT && !outward => Self::At(Dyadic::new(one, LIMIT)),
-            top if top > LIMIT => {
-                if up {
-                    Self::Above
-                } else {
-                    Self::Below
-                }
-            }
+            top if top > LIMIT => Self::infinity(!up),
             top if !x.is_zero() && top < -LIMIT => {
                 Self::At(Dyadic::new(if outward { one } else { BigInt::ZERO }, -LIMIT))
             }
@@ -211,6 +205,11 @@ impl End {
             Self::At(x) => Self::At(x.negated()),
             Self::Above => Self::Below,
         }
+    }
+
+    /// A function of the number; an infinite end stays.
+    pub(super) fn map(&self, of: impl FnOnce(&Dyadic) -> Self) -> Self {
+        if let Self::At(x) = self { of(x) } else { self.clone() }
     }
 
     fn infinity(negative: bool) -> Self {

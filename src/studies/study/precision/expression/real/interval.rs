@@ -101,18 +101,18 @@ impl RealInterval {
 
     /// `x 2^places`.
     pub(super) fn scaled(&self, places: i64) -> Self {
-        let at = |end: &End, up| match end {
-            End::At(x) => End::safe(x.scaled(places), up),
-            infinite => infinite.clone(),
-        };
+        let at = |end: &End, up| end.map(|x| End::safe(x.scaled(places), up));
         Self { low: at(&self.low, false), high: at(&self.high, true) }
     }
 
+    /// The pairs of an end of this interval and an end of another.
+    fn ends<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (&'a End, &'a End)> {
+        [&self.low, &self.high].into_iter().flat_map(move |a| [(a, &other.low), (a, &other.high)])
+    }
+
     pub(super) fn times(&self, other: &Self, bits: u64) -> Self {
-        let ends = || [&self.low, &self.high].into_iter().flat_map(|a| [(a, &other.low), (a, &other.high)]);
-        let low = ends().map(|(a, b)| a.times(b, bits, false)).min();
-        let high = ends().map(|(a, b)| a.times(b, bits, true)).max();
-        Self { low: low.unwrap_or(End::Below), high: high.unwrap_or(End::Above) }
+        let all = |up| self.ends(other).map(move |(a, b)| a.times(b, bits, up));
+        Self { low: all(false).min().unwrap_or(End::Below), high: all(true).max().unwrap_or(End::Above) }
     }
 
     /// `x^2`, which is not negative.
@@ -126,19 +126,18 @@ impl RealInterval {
         if other.has_zero() {
             return None;
         }
-        let ends = || [&self.low, &self.high].into_iter().flat_map(|a| [(a, &other.low), (a, &other.high)]);
-        let all = |up| ends().map(|(a, b)| a.over(b, bits, up)).collect::<Option<Vec<End>>>();
+        let all = |up| self.ends(other).map(|(a, b)| a.over(b, bits, up)).collect::<Option<Vec<End>>>();
         Some(Self { low: all(false)?.into_iter().min()?, high: all(true)?.into_iter().max()? })
     }
 
     /// The square root of a nonnegative interval, or the cube root of an interval on one side of zero.
     pub(super) fn root(&self, degree: u32, bits: u64) -> Self {
-        let at = |end: &End, up: bool| match end {
-            End::At(x) if x.is_negative() => End::At(x.abs().root(degree, bits, !up).0.negated()),
-            End::At(x) if x.is_zero() => end.clone(),
-            End::At(x) => End::At(x.root(degree, bits, up).0),
-            infinite => infinite.clone(),
+        let of = |x: &Dyadic, up: bool| match x {
+            x if x.is_negative() => x.abs().root(degree, bits, !up).0.negated(),
+            x if x.is_zero() => x.clone(),
+            x => x.root(degree, bits, up).0,
         };
+        let at = |end: &End, up| end.map(|x| End::At(of(x, up)));
         Self { low: at(&self.low, false), high: at(&self.high, true) }
     }
 }

@@ -6,7 +6,7 @@ use super::interval::{Real, RealInterval};
 use super::{power, series};
 
 macro_rules! functions {
-    ($($name:literal $variant:ident $operands:literal;)*) => {
+    ($($name:literal $variant:ident $operands:literal $special:expr;)*) => {
         /// A function of numbers, by its name in FPCore.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub(crate) enum Function { $($variant,)* }
@@ -21,59 +21,88 @@ macro_rules! functions {
             pub(crate) fn operands(name: &str) -> Vec<usize> {
                 [$(($name, $operands),)*].iter().filter(|known| known.0 == name).map(|known| known.1).collect()
             }
-        }
-    };
-}
 
-functions! {
-    "+" Add 2; "-" Subtract 2; "*" Multiply 2; "/" Divide 2; "-" Negate 1; "fma" Fma 3; "sqrt" Sqrt 1; "cbrt" Cbrt 1;
-    "fabs" Abs 1; "exp" Exp 1; "exp2" Exp2 1; "expm1" ExpM1 1; "log" Log 1; "log2" Log2 1; "log10" Log10 1;
-    "log1p" Log1P 1; "pow" Pow 2; "hypot" Hypot 2; "sin" Sin 1; "cos" Cos 1; "tan" Tan 1; "asin" Asin 1; "acos" Acos 1;
-    "atan" Atan 1; "atan2" Atan2 2; "sinh" Sinh 1; "cosh" Cosh 1; "tanh" Tanh 1; "asinh" Asinh 1; "acosh" Acosh 1;
-    "atanh" Atanh 1; "fmin" Min 2; "fmax" Max 2; "cast" Cast 1;
-}
-
-macro_rules! constants {
-    ($($name:literal $variant:ident;)*) => {
-        /// A constant that FPCore names.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub(crate) enum Constant { $($variant,)* }
-
-        impl Constant {
-            pub(crate) fn named(name: &str) -> Option<Self> {
-                match name { $($name => Some(Self::$variant),)* _ => None }
+            /// The function of doubles, as in C's library, which is exact for NaN, infinities and zeros and at poles,
+            /// except for multiples of pi. Used only there, and for operations that are exact in doubles.
+            pub(crate) fn special(self, operands: &[f64]) -> f64 {
+                let special: fn(f64, f64, f64) -> f64 = match self { $(Self::$variant => $special,)* };
+                let operand = |index: usize| operands.get(index).copied().unwrap_or_default();
+                special(operand(0), operand(1), operand(2))
             }
         }
     };
 }
 
-constants! {
-    "E" E; "LOG2E" Log2E; "LOG10E" Log10E; "LN2" Ln2; "LN10" Ln10; "PI" Pi; "PI_2" Pi2; "PI_4" Pi4; "M_1_PI" OverPi;
-    "M_2_PI" TwoOverPi; "M_2_SQRTPI" TwoOverRootPi; "SQRT2" Sqrt2; "SQRT1_2" SqrtHalf;
+functions! {
+    "+" Add 2 |x, y, _| x + y;
+    "-" Subtract 2 |x, y, _| x - y;
+    "*" Multiply 2 |x, y, _| x * y;
+    "/" Divide 2 |x, y, _| x / y;
+    "-" Negate 1 |x, _, _| -x;
+    "fma" Fma 3 libm::fma;
+    "sqrt" Sqrt 1 |x, _, _| libm::sqrt(x);
+    "cbrt" Cbrt 1 |x, _, _| libm::cbrt(x);
+    "fabs" Abs 1 |x, _, _| x.abs();
+    "exp" Exp 1 |x, _, _| libm::exp(x);
+    "exp2" Exp2 1 |x, _, _| libm::exp2(x);
+    "expm1" ExpM1 1 |x, _, _| libm::expm1(x);
+    "log" Log 1 |x, _, _| libm::log(x);
+    "log2" Log2 1 |x, _, _| libm::log2(x);
+    "log10" Log10 1 |x, _, _| libm::log10(x);
+    "log1p" Log1P 1 |x, _, _| libm::log1p(x);
+    "pow" Pow 2 |x, y, _| libm::pow(x, y);
+    "hypot" Hypot 2 |x, y, _| libm::hypot(x, y);
+    "sin" Sin 1 |x, _, _| libm::sin(x);
+    "cos" Cos 1 |x, _, _| libm::cos(x);
+    "tan" Tan 1 |x, _, _| libm::tan(x);
+    "asin" Asin 1 |x, _, _| libm::asin(x);
+    "acos" Acos 1 |x, _, _| libm::acos(x);
+    "atan" Atan 1 |x, _, _| libm::atan(x);
+    "atan2" Atan2 2 |x, y, _| libm::atan2(x, y);
+    "sinh" Sinh 1 |x, _, _| libm::sinh(x);
+    "cosh" Cosh 1 |x, _, _| libm::cosh(x);
+    "tanh" Tanh 1 |x, _, _| libm::tanh(x);
+    "asinh" Asinh 1 |x, _, _| libm::asinh(x);
+    "acosh" Acosh 1 |x, _, _| libm::acosh(x);
+    "atanh" Atanh 1 |x, _, _| libm::atanh(x);
+    "fmin" Min 2 |x, y, _| libm::fmin(x, y);
+    "fmax" Max 2 |x, y, _| libm::fmax(x, y);
+    "cast" Cast 1 |x, _, _| x;
 }
 
+/// Names of FPCore's constants.
+const CONSTANTS: [&str; 13] =
+    ["E", "LOG2E", "LOG10E", "LN2", "LN10", "PI", "PI_2", "PI_4", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "SQRT2", "SQRT1_2"];
+
+/// A constant, one of [`CONSTANTS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Constant(&'static str);
+
 impl Constant {
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        CONSTANTS.into_iter().find(|known| *known == name).map(Self)
+    }
+
     /// The constant, to about `bits` bits.
     pub(crate) fn value(self, bits: u64) -> RealInterval {
         let [one, ten] = [1, 10].map(RealInterval::integer);
-        let pi = || series::pi(bits);
-        let log = |x: &RealInterval| made::log(x, bits);
+        let (pi, ln_2) = (series::pi(bits), series::ln_2(bits));
         // No divisor is zero.
-        let over = |x: &RealInterval, y: RealInterval| x.over(&y, bits).unwrap_or_else(|| x.clone());
-        match self {
-            Self::E => made::exp(&one, bits),
-            Self::Log2E => over(&one, series::ln_2(bits)),
-            Self::Log10E => over(&one, log(&ten)),
-            Self::Ln2 => series::ln_2(bits),
-            Self::Ln10 => log(&ten),
-            Self::Pi => pi(),
-            Self::Pi2 => pi().scaled(-1),
-            Self::Pi4 => pi().scaled(-2),
-            Self::OverPi => over(&one, pi()),
-            Self::TwoOverPi => over(&one, pi().scaled(-1)),
-            Self::TwoOverRootPi => over(&one, pi().root(2, bits).scaled(-1)),
-            Self::Sqrt2 => RealInterval::integer(2).root(2, bits),
-            Self::SqrtHalf => RealInterval::integer(2).scaled(-2).root(2, bits),
+        let over = |x: &RealInterval, y: &RealInterval| x.over(y, bits).unwrap_or_else(|| x.clone());
+        match self.0 {
+            "E" => made::exp(&one, bits),
+            "LOG2E" => over(&one, &ln_2),
+            "LOG10E" => over(&one, &made::log(&ten, bits)),
+            "LN2" => ln_2,
+            "LN10" => made::log(&ten, bits),
+            "PI" => pi,
+            "PI_2" => pi.scaled(-1),
+            "PI_4" => pi.scaled(-2),
+            "M_1_PI" => over(&one, &pi),
+            "M_2_PI" => over(&one, &pi.scaled(-1)),
+            "M_2_SQRTPI" => over(&one, &pi.root(2, bits).scaled(-1)),
+            "SQRT2" => RealInterval::integer(2).root(2, bits),
+            _ => RealInterval::integer(2).scaled(-2).root(2, bits),
         }
     }
 }

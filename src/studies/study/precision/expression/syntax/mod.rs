@@ -21,17 +21,14 @@ use crate::report::SourceText;
 /// # Errors
 /// If brackets are unbalanced, or something is outside of `(FPCore ...)`.
 pub(super) fn cores(source: &Arc<SourceText>) -> Result<Vec<Result<Expression, ExpressionError>>, ExpressionError> {
+    let error = |message: &str, place| ExpressionError::new(source, message, place);
     let trees = text::parse(source)?;
     if trees.is_empty() {
-        return Err(ExpressionError::new(
-            source,
-            "expected `(FPCore ...)`, found no expression",
-            0..source.text().len(),
-        ));
+        return Err(error("expected `(FPCore ...)`, found no expression", 0..source.text().len()));
     }
     let expect = |tree: &Tree| match tree.head() {
         Some("FPCore") => Ok(core(tree, source)),
-        _ => Err(ExpressionError::new(source, "expected `(FPCore (ARGUMENTS) ... BODY)`", tree.place())),
+        _ => Err(error("expected `(FPCore (ARGUMENTS) ... BODY)`", tree.place())),
     };
     trees.iter().map(expect).collect()
 }

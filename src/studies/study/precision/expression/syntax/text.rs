@@ -44,6 +44,7 @@ impl Tree {
 /// At an unmatched bracket, an unterminated string, or nesting beyond [`MAX_DEPTH`].
 pub(super) fn parse(source: &Arc<SourceText>) -> Result<Vec<Tree>, ExpressionError> {
     let (text, mut at) = (source.text(), 0);
+    let fail = |message: String, place| Err(ExpressionError::new(source, message, place));
     let mut open: Vec<(char, usize, Vec<Tree>)> = Vec::new();
     let mut done = Vec::new();
     while let Some(next) = text[at..].chars().next() {
@@ -56,8 +57,7 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Vec<Tree>, ExpressionErr
             }
             _ if next.is_whitespace() => continue,
             '(' | '[' if open.len() == MAX_DEPTH => {
-                let message = format!("expected at most {MAX_DEPTH} nested lists");
-                return Err(ExpressionError::new(source, message, from..at));
+                return fail(format!("expected at most {MAX_DEPTH} nested lists"), from..at);
             }
             '(' | '[' => {
                 open.push((if next == '(' { ')' } else { ']' }, from, Vec::new()));
@@ -65,10 +65,8 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Vec<Tree>, ExpressionErr
             }
             ')' | ']' => match open.pop() {
                 Some((close, start, items)) if close == next => Tree::List(items, start..at),
-                Some((close, ..)) => {
-                    return Err(ExpressionError::new(source, format!("expected `{close}`, found `{next}`"), from..at));
-                }
-                None => return Err(ExpressionError::new(source, format!("`{next}` closes nothing"), from..at)),
+                Some((close, ..)) => return fail(format!("expected `{close}`, found `{next}`"), from..at),
+                None => return fail(format!("`{next}` closes nothing"), from..at),
             },
             '"' => {
                 let mut escaped = false;
@@ -78,7 +76,7 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Vec<Tree>, ExpressionErr
                     ends
                 });
                 let Some((end, _)) = end else {
-                    return Err(ExpressionError::new(source, "expected a `\"` at the end of the text", from..at));
+                    return fail("expected a `\"` at the end of the text".to_owned(), from..at);
                 };
                 at += end + 1;
                 Tree::Atom(text[from..at - 1].to_owned(), from..at)
@@ -92,9 +90,7 @@ pub(super) fn parse(source: &Arc<SourceText>) -> Result<Vec<Tree>, ExpressionErr
         open.last_mut().map_or(&mut done, |(.., items)| items).push(tree);
     }
     match open.pop() {
-        Some((close, start, _)) => {
-            Err(ExpressionError::new(source, format!("expected a `{close}` for this one"), start..start + 1))
-        }
+        Some((close, start, _)) => fail(format!("expected a `{close}` for this one"), start..start + 1),
         None => Ok(done),
     }
 }

@@ -46,17 +46,14 @@ pub(super) fn core(tree: &Tree, source: &Arc<SourceText>) -> Result<Expression, 
     }
     let (mut preconditions, mut spec) = (Vec::new(), None);
     for pair in properties.chunks(2) {
-        match pair {
-            [Tree::Atom(key, _), value] if key == ":name" => {
-                name = value.atom().map(|name| name.trim_start_matches('"').to_owned());
-            }
-            [Tree::Atom(key, _), value] if key == ":pre" => {
-                preconditions.push(GraphBuilder::graph(source, &variables, value, true)?);
-            }
-            [Tree::Atom(key, _), value] if key == ":spec" => {
-                spec = Some(GraphBuilder::graph(source, &variables, value, false)?);
-            }
-            [Tree::Atom(key, _), _] if key.starts_with(':') => {}
+        let (Tree::Atom(key, _), Some(value)) = (&pair[0], pair.get(1)) else {
+            return Err(fail("expected `:NAME VALUE`", pair[0].place()));
+        };
+        match key.as_str() {
+            ":name" => name = value.atom().map(|name| name.trim_start_matches('"').to_owned()),
+            ":pre" => preconditions.push(GraphBuilder::graph(source, &variables, value, true)?),
+            ":spec" => spec = Some(GraphBuilder::graph(source, &variables, value, false)?),
+            _ if key.starts_with(':') => {}
             _ => return Err(fail("expected `:NAME VALUE`", pair[0].place())),
         }
     }

@@ -11,7 +11,6 @@ use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::ProductFunction;
 use crate::clustering::CpcaMethod;
 use crate::report::{Cell, Table};
-use crate::study::reproduce::ModelSize;
 use crate::transfer::brdf::Brdf;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::{CubeLight, HaarLight};
@@ -33,24 +32,22 @@ const HOW: &str = "Figure 1 shows a bird with {} vertices on a ground with {} un
 /// Colors of vertices by method: exact, ours, harmonics.
 type MethodColors = Vec<Vec<[f64; 3]>>;
 
-/// Compression options. The number of representatives is doubled, as the command does by default; otherwise two models
-/// would take seven hours of processor time at full size.
-fn options(size: ModelSize) -> SegmentOptions {
-    SegmentOptions { method: CpcaMethod::Doubling, ..models::options(size, VECTORS) }
-}
-
 pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let size = shared.models;
     let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3))?;
-    let methods = Methods { scene: &scene, light: stand_in()?, options: options(size), shared };
+    // The number of representatives is doubled, as the command does by default; otherwise two models would take seven
+    // hours of processor time at full size.
+    let options = SegmentOptions { method: CpcaMethod::Doubling, ..models::options(size, VECTORS) };
+    let methods = Methods { scene: &scene, light: stand_in()?, options, shared };
     let lambert = Brdf::Lambert { albedo: 1.0 };
     let ground = methods.colors((&scene.of_ground, &lambert, &Reflectance::Diffuse), COLORS[1], "figure-1-ground")?;
     let mut table = Table::of("Figure 1: errors against the exact picture", "form method rms_%");
     let mut ratios = Vec::new();
     for (form, lobe) in models::schlick() {
         let glossy = Reflectance::Factored(models::factorization(&lobe, TERMS)?.factors(TERMS));
-        let name = format!("figure-1-model{}", models::ending(form));
-        let model = methods.colors((&scene.of_model, &lobe, &glossy), COLORS[0], &name)?;
+        // Names of pieces.
+        let name = if form == "textbook" { "figure-1-model" } else { "figure-1-model-quarter-of-half-vector" };
+        let model = methods.colors((&scene.of_model, &lobe, &glossy), COLORS[0], name)?;
         let [exact, ours, harmonics] = [0, 1, 2].map(|at| scene.joined(&model[at], &ground[at]));
         let [ours, harmonics] = [ours, harmonics].map(|colors| scene.rms(&colors, &exact));
         for (method, rms) in [("ours".to_owned(), ours), (format!("spherical harmonics of order {ORDER}"), harmonics)] {
@@ -58,7 +55,8 @@ pub(super) fn figure(shared: &Shared) -> Result<EntryFindings, StudyError> {
         }
         ratios.push(harmonics / ours);
     }
-    let sizes = [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, models::points_per_cluster(size), ORDER];
+    let sizes =
+        [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, methods.options.points_per_cluster, ORDER];
     Ok(EntryFindings::new(
         [paragraph(HOW, sizes.map(|size| number(size as f64, 0)))],
         [solved("harmonics-over-ours", ratios[0])?.with_readings(ratios[1..].iter().copied())],
@@ -79,30 +77,23 @@ impl Methods<'_> {
     /// Colors of the model or the ground. Like segments, they are stored as a piece of the work.
     fn colors(
         &self,
-        subject: (&VisibilityMaps, &dyn ProductFunction, &Reflectance),
-        color: [f64; 3],
-        name: &str,
-    ) -> Result<MethodColors, StudyError> {
-        self.shared.piece(name, || self.computed(subject, color, name))
-    }
-
-    fn computed(
-        &self,
         (maps, product, reflectance): (&VisibilityMaps, &dyn ProductFunction, &Reflectance),
         color: [f64; 3],
         name: &str,
     ) -> Result<MethodColors, StudyError> {
-        let scene = self.scene;
-        let subject = BaselineSubject { vertices: &scene.vertices, maps, hats: &scene.hats, product };
-        let exact = FixedView(subject).radiance(scene.eye(), &[self.light.texels()]).remove(0);
-        let harmonics = HarmonicTransfer::new(subject, ORDER);
-        let harmonics = harmonics.radiance(scene.eye(), &harmonics.light(self.light.texels()));
-        let colored = |colors: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
-            colors.into_iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * color[channel])).collect()
-        };
-        let surface = Surface { scene, maps, reflectance, color, pieces: (self.shared, name) };
-        let quarters = HaarLight::new(&self.light, Segmentation::Quarters);
-        let ours = surface.of_code(&surface.coded(self.options)?.0, &quarters)?;
-        Ok(vec![colored(exact), ours, colored(harmonics)])
+        self.shared.piece(name, || {
+            let scene = self.scene;
+            let subject = BaselineSubject { vertices: &scene.vertices, maps, hats: &scene.hats, product };
+            let exact = FixedView(subject).radiance(scene.eye(), &[self.light.texels()]).remove(0);
+            let harmonics = HarmonicTransfer::new(subject, ORDER);
+            let harmonics = harmonics.radiance(scene.eye(), &harmonics.light(self.light.texels()));
+            let colored = |colors: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
+                colors.into_iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * color[channel])).collect()
+            };
+            let surface = Surface { scene, maps, reflectance, color, pieces: (self.shared, name) };
+            let quarters = HaarLight::new(&self.light, Segmentation::Quarters);
+            let ours = surface.of_code(&surface.coded(self.options)?.0, &quarters)?;
+            Ok(vec![colored(exact), ours, colored(harmonics)])
+        })
     }
 }

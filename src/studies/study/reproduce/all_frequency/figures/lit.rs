@@ -6,7 +6,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::shade::{Shader, exit_radiance};
-use crate::study::prt::{CompressionTally, SegmentedCompression};
+use crate::study::prt::{SegmentTally, SegmentedCompression};
 use crate::transfer::light::HaarLight;
 use crate::transfer::visibility::VisibilityMaps;
 
@@ -23,7 +23,7 @@ pub(super) struct Surface<'a> {
 
 impl Surface<'_> {
     /// Compresses and encodes the transfer.
-    pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, CompressionTally), StudyError> {
+    pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, Vec<SegmentTally>), StudyError> {
         let (shared, name) = self.pieces;
         let name = format!("{name}-{}-", options.vectors);
         let compression = SegmentedCompression {
@@ -42,14 +42,10 @@ impl Surface<'_> {
     pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
         let shader = Shader::new(coded);
         let transferred = shader.transferred(&light.singles()).on(HOST)?;
-        Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
-    }
-
-    /// Step 4 with T_p for the mesh's vertices.
-    fn exit(&self, transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync)) -> Vec<[f64; 3]> {
+        let transferred = |vertex, row: usize| transferred.of(vertex)[row].map(f64::from);
         let color = self.color;
         let color = |_: usize| color;
-        let all = exit_radiance(&self.scene.vertices, self.reflectance, &color, transferred, self.scene.eye());
-        self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect()
+        let all = exit_radiance(&self.scene.vertices, self.reflectance, &color, &transferred, self.scene.eye());
+        Ok(self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect())
     }
 }

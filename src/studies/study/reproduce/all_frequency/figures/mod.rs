@@ -1,12 +1,11 @@
 //! Figures 1, 2 and 5 to 7: errors and derived counts. Figure 3 is in the module `factors`.
 
 mod baselines;
-mod clusters;
 mod lit;
 mod models;
+mod numbers;
 mod rates;
 mod scene;
-mod terms;
 mod truncation;
 
 use super::{
@@ -23,8 +22,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let mut found = EntryFindings { questions: vec![QUESTION], ..EntryFindings::default() };
     for figure in [
         baselines::figure(shared)?,
-        terms::figure()?,
-        clusters::figure(shared)?,
+        numbers::figure_2()?,
+        numbers::figure_5(shared)?,
         truncation::figure(shared.models)?,
         rates::figure(shared.models)?,
     ] {

@@ -1,40 +1,28 @@
 //! Models of the figures, at the printed or a reduced size.
 
-use super::{ModelSize, RunResult, StudyError};
+use super::{HOST, ModelSize, RunResult, StudyError};
 use crate::all_frequency::compressed::SegmentOptions;
-use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
+use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe};
 use crate::geom::Mesh;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::all_frequency::forms::{bare, quarter_of_half_vector};
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
 pub(super) use crate::study::reproduce::all_frequency::models::ground_side as ground;
 
-/// Builds the stand-in for the paper's tweety.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
-    TransferModel::Tweety.mesh(if models == ModelSize::Printed { 1 } else { 9 })
+    TransferModel::Tweety.mesh(models.pick(1, 9))
 }
 
-/// Builds the stand-in for the paper's Buddha.
 pub(super) fn buddha(models: ModelSize) -> Mesh {
-    TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 12 })
+    TransferModel::Buddha.mesh(models.pick(1, 12))
 }
 
-/// Number of vertices per cluster: smaller for models with few vertices, so that there are several clusters.
-pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
-    match models {
-        ModelSize::Printed => 200,
-        ModelSize::Reduced => 60,
-    }
-}
-
-/// Compression options with `vectors` representatives per cluster.
+/// Compression options with `vectors` representatives per cluster. Clusters have fewer points in models with few
+/// vertices, so that there are several.
 pub(super) fn options(models: ModelSize, vectors: usize) -> SegmentOptions {
-    let points_per_cluster = points_per_cluster(models);
-    let default = SegmentOptions { points_per_cluster, vectors, ..SegmentOptions::default() };
-    match models {
-        ModelSize::Printed => default,
-        ModelSize::Reduced => SegmentOptions { iterations: REDUCED_ITERATIONS, ..default },
-    }
+    let default = SegmentOptions::default();
+    let iterations = models.pick(default.iterations, REDUCED_ITERATIONS);
+    SegmentOptions { points_per_cluster: models.pick(200, 60), vectors, iterations, ..default }
 }
 
 /// Reflectance of a figure: the name of its form, and the lobe.
@@ -52,13 +40,8 @@ pub(super) fn cook_torrance() -> [NamedLobe; 2] {
     [("textbook", lobe), ("distribution alone", bare(lobe))]
 }
 
-/// Suffix of file names per form: empty for the textbook form.
-pub(super) fn ending(form: &str) -> String {
-    if form == "textbook" { String::new() } else { format!("-{}", form.replace(' ', "-")) }
-}
-
 /// Factors a reflectance by its singular vectors into `terms` terms.
 pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, StudyError> {
-    let table: ProductTable = FactorSampling::default().table(lobe, &mut |_, _| ()).on(super::HOST)?;
-    Factorization::new(&table, terms).on(super::HOST)
+    let table = FactorSampling::default().table(lobe, &mut |_, _| ()).on(HOST)?;
+    Factorization::new(&table, terms).on(HOST)
 }

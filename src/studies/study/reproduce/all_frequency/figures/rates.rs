@@ -16,22 +16,13 @@ use crate::card::frame_time::{FrameTime, frame_time};
 use crate::geom::teapot::teapot;
 use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
+use crate::study::reproduce::all_frequency::counts::COLUMNS;
 use crate::transfer::visibility::SegmentCensus;
 
 const CARD: &str = "r350";
-/// Indices of teapot, diffuse Buddha and glossy Buddha among the columns of Table 1.
-const TEAPOT: usize = 1;
+/// Printed frame rates, each with the index of its column of Table 1: Buddha, glossy Buddha, teapot.
+const PRINTED: [(&str, usize); 4] = [("diffuse", BUDDHA), ("glossy", 5), ("low", 1), ("all", 1)];
 const BUDDHA: usize = 4;
-const GLOSSY_BUDDHA: usize = 5;
-/// Printed frame rates, each with a column of Table 1.
-const PRINTED: [(&str, usize); 4] = [
-    ("all-frequency/fps-figure-7-diffuse", BUDDHA),
-    ("all-frequency/fps-figure-7-glossy", GLOSSY_BUDDHA),
-    ("all-frequency/fps-figure-7-low", TEAPOT),
-    ("all-frequency/fps-figure-7-all", TEAPOT),
-];
-/// Names of Table 1's columns in the figures of rates with drawing, in the order of [`TABLE_1`].
-const COLUMNS: [&str; 6] = ["bunny", "teapot", "tweety-diffuse", "tweety-glossy", "buddha-diffuse", "buddha-glossy"];
 /// Representatives per cluster, coefficients and number of segments, vertices per cluster, channels.
 const VECTORS: u64 = 16;
 const COEFFICIENTS: u64 = 256;
@@ -96,7 +87,6 @@ fn time_of(model: &PrintedModel, ground: Option<f64>) -> Result<FrameTime, Study
     frame_time(&profile, &log, &host).on(CARD)
 }
 
-/// Time of a frame of the bunny without a ground.
 pub(in crate::study::reproduce) fn timed() -> Result<TimedWork, StudyError> {
     TimedWork::new("all-frequency/fps-bunny", CARD, time_of(&TABLE_1[0], None)?.frame)
 }
@@ -106,7 +96,7 @@ fn rate_row(id: &str, time: &FrameTime) -> Result<PaperRow, StudyError> {
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
-    let teapot = teapot(if size == ModelSize::Printed { 40 } else { 4 }).on(super::HOST)?;
+    let teapot = teapot(size.pick(40, 4)).on(super::HOST)?;
     let scene = FigureScene::new(&teapot, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
     let census = SegmentCensus::new(&scene.vertices, &scene.of_ground, &scene.hats);
     let omega = census.omega();
@@ -114,7 +104,7 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     let mut rows = Vec::new();
     for (id, at) in PRINTED {
         let time = time_of(&TABLE_1[at], Some(omega))?;
-        let row = rate_row(id, &time)?;
+        let row = rate_row(&format!("all-frequency/fps-figure-7-{id}"), &time)?;
         let [open, none] = [Some(OPEN_GROUND), None].map(|omega| time_of(&TABLE_1[at], omega));
         table.push([
             row.target.what.as_str().into(),
@@ -125,13 +115,10 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
         ]);
         rows.push(row);
     }
-    let without = COLUMNS
-        .iter()
-        .zip(&TABLE_1)
-        .map(|(id, model)| rate_row(&format!("all-frequency/fps-{id}"), &time_of(model, None)?));
-    rows.extend(without.collect::<Result<Vec<_>, StudyError>>()?);
+    for ((_, id, _), model) in COLUMNS.iter().zip(&TABLE_1) {
+        rows.push(rate_row(&format!("all-frequency/fps-{id}"), &time_of(model, None)?)?);
+    }
     let figures =
         [number(f64::from(GROUND_SIDE * GROUND_SIDE), 0), number(100.0 * omega, 0), number(RUN_PER_TRIANGLE, 1)];
-    let text = vec![paragraph(HOW, figures)];
-    Ok(EntryFindings::new(text, rows, [], [table]))
+    Ok(EntryFindings::new([paragraph(HOW, figures)], rows, [], [table]))
 }

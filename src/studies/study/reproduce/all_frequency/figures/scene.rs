@@ -8,7 +8,7 @@ use crate::geom::exact::Sides;
 use crate::scene::Camera;
 use crate::scene::built::ground::on_ground;
 use crate::study::prt::SeenSurface;
-use crate::study::reproduce::sky::HARD_SUN;
+use crate::study::reproduce::stand_ins::HARD_SUN;
 use crate::tracer::HostTracer;
 use crate::transfer::light::{CubeLight, DistantLight};
 use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
@@ -21,9 +21,7 @@ const SIDE: u32 = 160;
 /// Model on a ground: vertices of the model first.
 pub(super) struct FigureScene {
     pub(super) vertices: Vertices,
-    /// Visibility at the vertices of the model.
     pub(super) of_model: VisibilityMaps,
-    /// Visibility at the vertices of the ground.
     pub(super) of_ground: VisibilityMaps,
     pub(super) hats: LinearBasis,
     camera: Camera,

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::rates::{buddha_without_drawing, seconds_of};
 use super::scene::FigureScene;
-use super::{EntryFindings, HOST, ModelSize, PaperRow, RunResult, StudyError, models, number, paragraph, solved};
+use super::{EntryFindings, HOST, ModelSize, RunResult, StudyError, models, number, paragraph, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
@@ -13,7 +13,6 @@ use crate::report::{Cell, Table};
 use crate::sphere::turn_around_z;
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 use crate::transfer::light::{CubeLight, DiskSource, HaarLight, TruncationPriority};
-use crate::transfer::linear_basis::LinearBasis;
 
 const SOURCES: u64 = 40;
 /// Angular radius of sources in degrees.
@@ -73,48 +72,32 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-/// Radiance of every vertex per frame, and the error of truncation by number of coefficients.
-struct FlickerFrames {
-    whole: Vec<Vec<[f64; 3]>>,
-    lost: Vec<Vec<Vec<[f64; 3]>>>,
-}
-
-impl FlickerFrames {
-    fn new(segments: &[TransferSegment], vertices: usize) -> Result<Self, StudyError> {
-        let mut found = Self { whole: Vec::new(), lost: vec![Vec::new(); KEPT.len()] };
-        for frame in 0..FRAMES {
-            let faces = on_faces(&turn_around_z(f64::from(frame) / 720.0))?;
-            let whole = radiance(segments, vertices, &faces.reprojected(Segmentation::Quarters));
-            for (keep, lost) in KEPT.into_iter().zip(&mut found.lost) {
-                let few = radiance(segments, vertices, &cut(&faces, keep)?);
-                let pairs = whole.iter().zip(&few);
-                lost.push(pairs.map(|(whole, few)| [0, 1, 2].map(|c| whole[c] - few[c])).collect());
-            }
-            found.whole.push(whole);
+/// Flicker by number of coefficients: the RMS change, between frames, of the radiance that truncation removes at
+/// vertices, relative to the RMS of their radiance.
+fn flicker(segments: &[TransferSegment], vertices: usize) -> Result<Vec<f64>, StudyError> {
+    let mut lost: Vec<Vec<Vec<[f64; 3]>>> = vec![Vec::new(); KEPT.len()];
+    let mut squares = 0.0;
+    for frame in 0..FRAMES {
+        let faces = on_faces(&turn_around_z(f64::from(frame) / 720.0))?;
+        let whole = radiance(segments, vertices, &faces.reprojected(Segmentation::Quarters));
+        for (keep, lost) in KEPT.into_iter().zip(&mut lost) {
+            let few = radiance(segments, vertices, &cut(&faces, keep)?);
+            let pairs = whole.iter().zip(&few);
+            lost.push(pairs.map(|(whole, few)| [0, 1, 2].map(|c| whole[c] - few[c])).collect());
         }
-        Ok(found)
+        if frame > 0 {
+            squares += apart(&whole, &vec![[0.0; 3]; vertices]);
+        }
     }
-
-    /// RMS change of the error between frames, per number of coefficients.
-    fn flicker(&self) -> Vec<f64> {
-        let none = vec![[0.0; 3]; self.whole[0].len()];
-        let steps = self.whole.len() - 1;
-        let squares: f64 = self.whole[1..].iter().map(|frame| apart(frame, &none)).sum();
-        let of = |lost: &Vec<Vec<[f64; 3]>>| {
-            let changes: f64 = (0..steps).map(|frame| apart(&lost[frame], &lost[frame + 1])).sum();
-            (changes / squares).sqrt()
-        };
-        self.lost.iter().map(of).collect()
-    }
+    let changes = |lost: &Vec<Vec<[f64; 3]>>| lost.windows(2).map(|two| apart(&two[0], &two[1])).sum::<f64>();
+    Ok(lost.iter().map(|lost| (changes(lost) / squares).sqrt()).collect())
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
     let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
-    let hats: &LinearBasis = &scene.hats;
-    let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
+    let transfer = transfer_of(&scene.vertices, &scene.of_model, &scene.hats, &Reflectance::Diffuse);
     let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().on(HOST)?;
-    let frames = FlickerFrames::new(&segments, scene.vertices.len())?;
-    let flicker = frames.flicker();
+    let flicker = flicker(&segments, scene.vertices.len())?;
     let faces = on_faces(&DMat3::IDENTITY)?;
     let (nonzero, energy) = (faces.nonzero(), faces.energy());
     let mut table = Table::of("Figure 6: light coefficients", "kept of_nonzero_% energy_% flicker_% modelled_fps");
@@ -129,20 +112,11 @@ pub(super) fn figure(size: ModelSize) -> Result<EntryFindings, StudyError> {
             Cell::measured(1.0 / seconds_of(steps)?),
         ]);
     }
-    let rows = rows(nonzero, &flicker)?;
-    let figures = [
-        number(scene.of_model.len() as f64, 0),
-        number(SOURCES as f64, 0),
-        number(RADIUS, 0),
-        number(f64::from(FRAMES - 1), 0),
-    ];
-    let text = vec![paragraph(HOW, figures)];
-    Ok(EntryFindings::new(text, rows, [], [table]))
-}
-
-fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, StudyError> {
-    let needed =
-        KEPT.iter().zip(flicker).find(|(_, flicker)| **flicker < SEEN).map_or(f64::NAN, |(&keep, _)| keep as f64);
-    let share = solved("without-flicker", 100.0 * needed.min(nonzero as f64) / nonzero as f64)?;
-    Ok(vec![solved("coefficients-of-faces", nonzero as f64)?, share])
+    let needed = KEPT.iter().zip(&flicker).find(|(_, flicker)| **flicker < SEEN);
+    let needed = needed.map_or(f64::NAN, |(&keep, _)| keep as f64);
+    let share = 100.0 * needed.min(nonzero as f64) / nonzero as f64;
+    let rows = [solved("coefficients-of-faces", nonzero as f64)?, solved("without-flicker", share)?];
+    let figures = [scene.of_model.len() as f64, SOURCES as f64, RADIUS, f64::from(FRAMES - 1)];
+    let text = paragraph(HOW, figures.map(|figure| number(figure, 0)));
+    Ok(EntryFindings::new([text], rows, [], [table]))
 }

@@ -1,17 +1,15 @@
 //! Figures 1 and 5: pictures by transfer and by low-frequency light compared with pictures by rays; errors by cause.
 
 mod drawn;
-mod scene;
 
 use super::models::{ModelVisibility, filled};
 use super::{EntryFindings, HOST, ModelSize, PaperRow, RunResult, Shared, StudyError, number, paragraph, solved};
 use crate::bi_scale::texture::PatchKind;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
-use crate::study::reproduce::sky::HARD_SUN;
+use crate::study::reproduce::stand_ins::HARD_SUN;
 use crate::transfer::visibility::Horizon;
-use drawn::{DrawnFigure, ORDER};
-use scene::{FigureSize, TexturedModel};
+use drawn::{DrawnFigure, FigureSize, ORDER, TexturedModel};
 
 const HOW: &str = "The paper's models, materials, light and cameras are not available. Stand-ins are drawn in {} x {} pixels under a clear sky with \
     a small sun: by biclusters of transfer, with textures of {} x {} texels and {} x {} views; and by ray casting every pixel, with patches of \

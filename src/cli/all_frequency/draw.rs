@@ -1,0 +1,199 @@
+//! `crossbar all-frequency render` and `card`: pictures of a model from its transfer, on the host and on an emulated
+//! card.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use refsim::device::Profile;
+use refsim::texture::TexelFormat;
+
+use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
+use crate::all_frequency::on_card::{ProductOptions, ProductPlace, VertexColors};
+use crate::cli::Problem;
+use crate::cli::study::{StudyArgs, StudyFiles};
+use crate::cli::transfer::model::model_of;
+use crate::cli::transfer::picture::{OnCardArgs, PictureArgs};
+use crate::options::number;
+use crate::scene::{Material, Surface};
+use crate::study::prt::{AllFrequencyOnCard, LitModel, LitPart};
+use crate::transfer::file::MeshDigest;
+
+/// Model, light and camera.
+#[derive(Debug, clap::Args)]
+struct LitArgs {
+    /// Visibility or coded transfer; coded transfer is drawn if there are both
+    #[arg(value_name = "FILE.npz")]
+    file: PathBuf,
+
+    /// A file with visibility of the same model, to measure the loss of compression
+    #[arg(long, value_name = "X.npz")]
+    original: Option<PathBuf>,
+
+    /// Number of light coefficients kept, largest area times magnitude first [default: all]
+    #[arg(long, value_name = "N", value_parser = number::whole::<u32>(1..=6144))]
+    keep: Option<u32>,
+
+    #[command(flatten)]
+    picture: PictureArgs,
+
+    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not; it is found with its model
+    #[arg(long, value_name = "G.npz")]
+    ground: Option<PathBuf>,
+}
+
+impl LitArgs {
+    fn files<'a>(&'a self, out: &'a Path) -> StudyFiles<'a> {
+        let files = [&self.file].into_iter().chain(&self.original).chain(&self.ground);
+        StudyFiles::new(Some(out), self.picture.inputs(files))
+    }
+
+    fn load(&self) -> miette::Result<LitModel> {
+        let file = load_all_frequency(&self.file, None)?;
+        let (model, mesh) = part(file, &self.file, &self.picture.model)?;
+        let original = self.original.as_deref().map(|path| original_of(&model.file, &mesh, path)).transpose()?;
+        Ok(LitModel {
+            view: self.picture.view(&model.mesh)?,
+            model,
+            original,
+            ground: self.ground.as_deref().map(ground).transpose()?,
+            light: self.picture.light.distant()?,
+            keep: self.keep.map(|keep| keep as usize),
+        })
+    }
+}
+
+/// A file with the model from which it was made.
+fn part(file: AllFrequencyFile, path: &Path, model: &Path) -> miette::Result<(LitPart, MeshDigest)> {
+    let (model, vertices, digest) = model_of(path, Some(file.mesh), model, None)?;
+    // Factor of a surface's radiance: its albedo, or 1 if it has none.
+    let color = |material: &Material| match &material.surface {
+        Surface::Diffuse { albedo } | Surface::Glossy { albedo, .. } => albedo.map(f64::from),
+        _ => [1.0; 3],
+    };
+    let colors = model.materials.iter().map(color).collect();
+    Ok((LitPart { mesh: model.mesh, vertices, colors, file }, digest))
+}
+
+/// A file with visibility, for the same mesh and reflectance as another file.
+fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miette::Result<AllFrequencyFile> {
+    let original = load_all_frequency(path, Some(mesh))?;
+    if original.visibility.is_none() || original.reflectance != file.reflectance || original.hats != file.hats {
+        let what = format!("{}: expected visibility with the same reflectance, found other", path.display());
+        return Err(Problem::usage(what, "name the file that was compressed").into());
+    }
+    Ok(original)
+}
+
+/// A ground, with the model that its file names.
+fn ground(path: &Path) -> miette::Result<LitPart> {
+    let file = load_all_frequency(path, None)?;
+    let Some(model) = file.model.as_ref().map(|name| path.with_file_name(name)) else {
+        let what = format!("{}: expected a ground, whose file names its model, found none named", path.display());
+        let help = "name the ground that `crossbar all-frequency precompute --ground` wrote, or its compressed form";
+        return Err(Problem::usage(what, help).into());
+    };
+    Ok(part(file, path, &model)?.0)
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --size 64x48
+      under a clear sky with a sun: picture, a page
+  crossbar all-frequency render docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --keep 200 --size 64x48
+      beside the uncompressed transfer, with 200 coefficients of the light
+  crossbar all-frequency render docs/examples/step_all.npz --model docs/examples/step.obj --light red-and-blue --size 64x48
+      uncompressed, under a red and a blue light
+
+Written to --out: index.html (self-contained), pictures, picture.exr. Every pixel takes its own view, on the host.";
+
+/// Draw a model under distant light from its transfer, compressed or not
+#[derive(Debug, clap::Args)]
+#[command(after_help = RENDER_EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Render {
+    #[command(flatten)]
+    lit: LitArgs,
+
+    /// Where to write pictures and the page
+    #[arg(long, value_name = "DIR", default_value = "out/all-frequency")]
+    out: PathBuf,
+}
+
+impl StudyArgs for Render {
+    type Study = LitModel;
+    const QUICKER: &'static str = "a smaller `--size`";
+
+    fn files(&self) -> StudyFiles<'_> {
+        self.lit.files(&self.out)
+    }
+
+    fn study(&self) -> miette::Result<LitModel> {
+        self.lit.load()
+    }
+}
+
+const CARD_EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --way colors --size 64x48
+      on the Radeon 9800, colors of vertices interpolated as its authors did
+  crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --original docs/examples/step_all.npz --sweep --size 64x48
+      the error of fewer bits in representatives, weights, maps and arithmetic, and of compression
+  crossbar all-frequency card docs/examples/step_all_small.npz --model docs/examples/step.obj --ground docs/examples/step_all_small.ground.npz --size 64x48
+      with the ground below the model, and its shadow
+
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
+docs/papers/all_frequency.md explains all of it.";
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WayArg {
+    /// None: the host computes vertex colors, which are interpolated
+    Colors,
+    /// The product with the view factors, from textures, per pixel
+    Products,
+}
+
+/// Draw a model under distant light on an emulated card, from coded transfer
+#[derive(Debug, clap::Args)]
+#[command(after_help = CARD_EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Card {
+    #[command(flatten)]
+    lit: LitArgs,
+
+    /// The part of the work that the card does
+    #[arg(long, value_enum, value_name = "WAY", default_value = "products")]
+    way: WayArg,
+
+    #[command(flatten)]
+    card: OnCardArgs,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/all-frequency-card")]
+    out: PathBuf,
+}
+
+impl Card {
+    /// Where products are computed: with signed 16-bit maps if the card has them, otherwise with 8-bit maps.
+    fn place(&self, profile: &Profile) -> ProductPlace {
+        if self.way == WayArg::Colors {
+            return ProductPlace::Vertices(VertexColors::Bytes);
+        }
+        let has = |format: &TexelFormat| profile.limits.texture_formats.contains(format);
+        let fractions = [TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm].into_iter().find(has);
+        let map_format = fractions.unwrap_or(TexelFormat::Rgba8Snorm);
+        ProductPlace::Pixels(ProductOptions { map_format, ..ProductOptions::default() })
+    }
+}
+
+impl StudyArgs for Card {
+    type Study = AllFrequencyOnCard;
+    const QUICKER: &'static str = "a smaller `--size`";
+
+    fn files(&self) -> StudyFiles<'_> {
+        self.lit.files(&self.out)
+    }
+
+    fn study(&self) -> miette::Result<AllFrequencyOnCard> {
+        let card = self.card.setting("r350")?;
+        let place = self.place(&card.profile);
+        Ok(AllFrequencyOnCard { lit: self.lit.load()?, place, card })
+    }
+}
