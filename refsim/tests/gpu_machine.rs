@@ -14,13 +14,15 @@ mod sums;
 
 use environment::by_form;
 use random::Random;
+use refsim::device::Profile;
 use refsim::exec::Constants;
 use refsim::exec::gpu::{BINDINGS, Gpu};
 use refsim::exec::wgsl::follow::{ENTRY, FRAGMENT, HEAD, STEP_WORDS, UNFINISHED, module};
 use refsim::exec::wgsl::kernel::RESUMES;
 use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{Primitive, Vertex};
-use refsim::texture::{Image, SamplerState, TexelFormat};
+use refsim::texture::{Filter, Image, SamplerState, TexelFormat};
 use running::{bits, checked, ideal, image};
 use std::fmt::Debug;
 use std::process::ExitCode;
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
     adapter::run(adapter::trials![on_adapter:
         memory_follows,
         products_and_sums_agree,
+        short_programs_agree_on_any_driver,
         buffers_of_a_trace_run_elsewhere,
     ])
 }
@@ -69,13 +72,51 @@ fn both<T: PartialEq + Debug>(machines: &mut [Machine; 2], ask: impl Fn(&mut Mac
     expected
 }
 
+/// A scalar reference machine and a GPU machine.
+fn pair(profile: &Profile, gpu: &Arc<Gpu>) -> [Machine; 2] {
+    let device = Machine::with_gpu(profile.clone(), Arc::clone(gpu)).unwrap();
+    [Machine::new(profile.clone(), ExecutorKind::Scalar), device]
+}
+
+/// Compares short programs, for drivers that compile slowly.
+fn short_programs_agree_on_any_driver(gpu: &Arc<Gpu>) {
+    for (device, text) in [
+        ("ideal-fp32", "ps_2_0\ndcl t0\nmad r0, t0, c0, c1\nmov oC0, r0"),
+        ("r200", "ps_1_4\ntexld r0, t0\nmad r0, r0, c0, r0"),
+    ] {
+        let profile = Profile::named(device).unwrap();
+        let (program, host) = (checked(text, &profile), running::constants(&[[0.5, -0.25, 0.125, 1.0]; 4]));
+        let (machines, mut random) = (&mut pair(&profile, gpu), Random::new(77));
+        let target = both(machines, |machine| machine.create_target(TexelFormat::Bgra8, 24, 24).unwrap());
+        let depth = both(machines, |machine| {
+            let depth = machine.create_depth(DepthFormat::Unorm24, 24, 24).unwrap();
+            machine.clear_depth(depth, 0x3f80_0000).unwrap();
+            depth
+        });
+        let texels: Vec<_> = (0..64).map(|_| bits([0; 4].map(|_| random.between(0.0, 1.0)))).collect();
+        let texture = image(TexelFormat::Rgba8, [8, 8], &texels);
+        let texture = both(machines, |machine| machine.create_texture(texture.clone()).unwrap());
+        for filter in [Filter::Nearest, Filter::Linear] {
+            let corners = vertices(&mut random, 9);
+            let source = VertexSource::Transformed(&corners);
+            let state = SamplerState { min: filter, mag: filter, ..SamplerState::NEAREST_CLAMP };
+            let mut call =
+                DrawCall::new(source, Primitive::TriangleList, &program, &host, target).with_texture(0, texture, state);
+            call.depth_buffer = Some(depth);
+            call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
+            both(machines, |machine| machine.draw(&call).unwrap());
+            both(machines, |machine| machine.read_back(target).unwrap().clone());
+            both(machines, |machine| machine.read_depth(depth).unwrap().data().to_vec());
+        }
+    }
+}
+
 /// Tests handles, clears, releases and read-back between draws.
 fn memory_follows(gpu: &Arc<Gpu>) {
     let profile = ideal("fp32");
     let program = checked("ps_2_0\ndcl t0\nmov oC0, t0", &profile);
     let (host, corners) = (Constants::default(), vertices(&mut Random::new(5), 6));
-    let reference = Machine::new(profile.clone(), ExecutorKind::Scalar);
-    let machines = &mut [reference, Machine::with_gpu(profile.clone(), Arc::clone(gpu)).unwrap()];
+    let machines = &mut pair(&profile, gpu);
     let create = |machines: &mut [Machine; 2], format, grey: f32| {
         both(machines, |machine| {
             let target = machine.create_target(format, 33, 17).unwrap();

@@ -1,6 +1,6 @@
 //! Compares passes 1 and 2 on a card with the formulas of section 4, in f64.
 
-use crate::support::{cuboid, flat, profile};
+use crate::support::profile;
 use crossbar::atlas::Atlas;
 use crossbar::card::Texels;
 use crossbar::geom::Mesh;
@@ -28,7 +28,24 @@ pub(super) fn nv35() -> Profile {
 
 /// A cube around 0 with edges of `size`: 12 faces with flat normals.
 pub(super) fn cube(size: f32) -> Mesh {
-    flat(cuboid([-size / 2.0; 3], [size / 2.0; 3]).iter_corners().flatten().collect())
+    let (mut positions, mut normals, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+    for axis in 0..3 {
+        for sign in [-1.0_f32, 1.0] {
+            let first = positions.len() as u32;
+            for [u, v] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+                let mut position = [0.0; 3];
+                position[axis] = sign * size / 2.0;
+                position[(axis + 1) % 3] = sign * u * size / 2.0;
+                position[(axis + 2) % 3] = v * size / 2.0;
+                let mut normal = [0.0; 3];
+                normal[axis] = sign;
+                positions.push(position);
+                normals.push(normal);
+            }
+            faces.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+    }
+    Mesh::new(positions, faces).and_then(|mesh| mesh.with_normals(normals)).expect("a cube")
 }
 
 pub(super) fn atlas(size: f32) -> Atlas {
