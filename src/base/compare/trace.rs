@@ -59,8 +59,8 @@ pub enum TraceStage {
     Mask { index: usize, left: Mask, right: Mask },
     /// A branch: the index of the next instruction, `None` at the end of the program.
     Flow { left: Option<usize>, right: Option<usize> },
-    /// Output of the program that is in no register: kill, depth, clamped color. `instruction` is the only possible
-    /// cause, if there is just one.
+    /// Output of the program that is in no register: kill, depth, clamped color. `instruction` is the cause, if only
+    /// one instruction is possible.
     Output { instruction: Option<usize> },
     /// Result of the alpha test or the depth test.
     Test { left: FragmentFate, right: FragmentFate },
@@ -259,7 +259,7 @@ impl Pair<'_> {
         (!values.is_empty()).then_some((TraceStage::Output { instruction: None }, values))
     }
 
-    /// Returns the only executed instruction with one of these opcodes; `None` if there are none or several.
+    /// Returns the executed instruction with one of these opcodes; `None` unless there is exactly one.
     fn only(&self, opcodes: &[Opcode]) -> Option<usize> {
         let instructions = &self.left.program.instructions;
         let mut ran = self.a.shading.steps.iter().map(|step| step.instruction);

@@ -1,5 +1,5 @@
-//! Atomic writes: a file is written beside its place, then renamed into it. A killed process leaves `.crossbar-XXXXXX`
-//! behind at most.
+//! Atomic writes: a file is written beside its place, then renamed into it. A killed process leaves at most
+//! `.crossbar-XXXXXX` behind.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};

@@ -57,7 +57,7 @@ pub fn parse_npy<T: TableNumber>(bytes: &[u8], name: &Path) -> Result<NumberTabl
 pub(super) struct NpyView<'a> {
     /// Byte order, kind and size, such as `<f4`.
     pub(super) descr: String,
-    /// Bytes of a number.
+    /// Bytes per number.
     pub(super) size: usize,
     pub(super) shape: Vec<usize>,
     /// The numbers' bytes; their count matches shape and type.
