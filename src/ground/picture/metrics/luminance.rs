@@ -7,7 +7,7 @@ use crate::error::InputError;
 /// Rec. 709 luma weights of red, green and blue.
 pub(super) const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Computes second minus first, pixel by pixel, of the luminance times `exposure`, without clipping.
+/// Computes the differences of luminance times `exposure`, second minus first, pixel by pixel, without clipping.
 pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -> Result<Vec<f64>, InputError> {
     let pairs = luminance(first)?.into_iter().zip(luminance(second)?);
     Ok(pairs.map(|(a, b)| exposure * value_error(b, a)).collect())

@@ -25,7 +25,7 @@ fn turned(body: &RoundedBody, vertices: usize) -> ClosedSurface {
     surface
 }
 
-/// A standing Buddha in folds, with both arms above his head, on a pedestal of petals.
+/// A standing Buddha in a folded coat, with both arms above his head, on a pedestal of petals.
 pub(super) fn buddha(vertices: usize) -> ClosedSurface {
     let mut body = RoundedBody::default();
     // A folded coat that is open in front, and the legs in it.

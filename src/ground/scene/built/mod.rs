@@ -1,6 +1,6 @@
 //! Models built by the project: exact numbers of vertices or faces, the same bits on every platform.
 //!
-//! Fronts face outwards (of a room: inwards). Coordinates are computed in f64 by additions, products, square roots and
+//! Fronts face outwards (inwards in a room). Coordinates are computed in f64 by additions, products, square roots and
 //! [`crate::elementary`], and rounded to f32 once.
 //!
 //! - [`rooms`]: closed rooms of few walls;

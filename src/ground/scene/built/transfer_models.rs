@@ -23,7 +23,7 @@ use crate::geom::vector::{narrow, unit};
 pub enum TransferModel {
     /// A bird with 48,688 vertices, as in the paper on clustered principal components.
     Bird,
-    /// A Buddha in many folds with 49,990 vertices, as in the paper on clustered principal components.
+    /// A Buddha in a folded coat with 49,990 vertices, as in the paper on clustered principal components.
     FoldedBuddha,
     /// A head with 50,060 vertices, as in the paper on clustered principal components.
     Head,
