@@ -68,7 +68,7 @@ impl CompressedSegment {
 /// Compressed transfer of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CompressedTransfer {
-    /// The rows m of a transfer matrix.
+    /// The number m of rows of a transfer matrix.
     pub rows: usize,
     /// Number of vertices of the mesh.
     pub vertices: usize,

@@ -40,7 +40,7 @@ pub struct BeamCells {
 }
 
 impl Beam {
-    /// Builds the beam of some rays; `None` if they share no face of the cube, or there are none.
+    /// Builds the beam of some rays; `None` if there are no rays, or they share no face of the cube.
     pub fn of(rays: &[Ray]) -> Option<Self> {
         let axis = common_axis(rays)?;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

@@ -13,7 +13,7 @@ pub enum ProductPlace {
     /// The host multiplies at each vertex, and the card interpolates colors: the authors' implementation.
     Vertices(VertexColors),
     /// The card multiplies at each pixel: the authors' proposal. A diffuse surface has one term that does not depend on
-    /// the view, so vertex colors are drawn instead, with an identical picture.
+    /// the view, so vertex colors are drawn instead; the picture is identical.
     Pixels(ProductOptions),
 }
 
