@@ -41,8 +41,8 @@ pub struct CompressedSegment {
 }
 
 impl CompressedSegment {
-    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` sees each step. Panics if
-    /// the number of vertices per cluster is 0, or the signal does not have one point per vertex.
+    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` is called after each step.
+    /// Panics if the number of vertices per cluster is 0, or the signal does not have one point per vertex.
     pub fn new(
         segment: usize,
         vertices: Vec<u32>,

@@ -1,5 +1,5 @@
 //! Low-frequency bi-scale transfer, with which Figures 1 and 5 compare biclusters: a matrix per vertex from harmonics
-//! of the distant light to harmonics of the light around the vertex, both of one order (the paper's reference 3).
+//! of the distant light to harmonics of the light around the vertex, both of the same order (the paper's reference 3).
 
 use rayon::prelude::*;
 
