@@ -82,7 +82,7 @@ impl LowFrequencyTransfer {
     }
 }
 
-/// The visible fraction of each light texel at the vertex of some rows. A column has at most one entry per vertex.
+/// The visible fraction of each light texel at the vertex of these rows. A column has at most one entry per vertex.
 fn visibility(matrix: &SparseMatrix, rows: std::ops::Range<usize>) -> Vec<f64> {
     let mut shares = vec![0.0; LIGHT_TEXELS];
     for entry in rows.flat_map(|row| matrix.row(row)) {

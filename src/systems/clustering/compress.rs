@@ -214,7 +214,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     }
 }
 
-/// Distributes the budget to clusters; returns the number of vectors of each. Vectors are taken by decreasing reduction
+/// Distributes the budget to clusters; returns the number of vectors of each. Vectors are added by decreasing reduction
 /// of the squared error per point, D_i^2 / m_k; ties go to the lower cluster. A vector costs one weight per point of
 /// its cluster; vectors beyond the budget are skipped.
 pub(super) fn distribute(eigenvalues: &[Vec<f64>], sizes: &[usize], budget: usize) -> Vec<usize> {
