@@ -9,7 +9,7 @@ use crate::linalg::Matrix;
 use crate::radiosity::Patches;
 use crate::tracer::Caster;
 
-/// Exchanges without occlusion: area times form factor, which is symmetric. The row is the pair's first patch.
+/// Exchanges without occlusion: area times form factor, which is symmetric. Each pair is in its first patch's row.
 fn exchanges(patches: &Patches) -> Result<Matrix, InputError> {
     let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
     let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();

@@ -24,7 +24,7 @@ use crate::card::{KernelError, checked, instructions};
 /// The kind of links, as far as it affects the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LinkLayout {
-    /// All links of a texel lead to one level; constants contain their places.
+    /// All links of a texel lead to the same level; constants contain their places.
     Fixed,
     /// Each link has its own place and level.
     Adaptive,
