@@ -21,7 +21,7 @@ pub enum Aim {
     Axis,
     /// In the plane of a triangle, up to the rounding of f32: it misses that triangle and hits the others.
     Plane,
-    /// From a point of a surface (a vertex, or inside up to rounding) into any direction.
+    /// From a point of a surface (a vertex, or a point inside a triangle up to rounding), in any direction.
     Surface,
     /// From far away (a thousand to a million times the mesh's size), at a point of an edge.
     Far,
@@ -143,7 +143,7 @@ pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     rays
 }
 
-/// Number of eyes that the rays of one aim are distributed over.
+/// Number of eyes over which the rays of an aim are distributed.
 const EYES: usize = 8;
 
 /// Distributes at most `each` rays over several eyes, as evenly as possible.
