@@ -131,7 +131,7 @@ impl MeshDisplay {
         &self.positions
     }
 
-    /// Returns the target after `draw`, and if `is_logged` the log of the draws without the read-back. The target is 0
+    /// Returns the target after `draw` and, if `is_logged`, the log of the draws without the read-back. The target is 0
     /// where nothing is drawn.
     pub fn show(
         &mut self,

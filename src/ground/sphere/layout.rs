@@ -26,7 +26,7 @@ pub enum EnvironmentLayout {
     /// square (3 x 4). Other squares are ignored.
     #[strum(to_string = "cube cross")]
     CubeCross,
-    /// Six squares one below the other: the faces of a cube map, in order and orientation of
+    /// Six squares one below the other: the faces of a cube map, in the order and orientation of
     /// [`CUBE_FACES`](super::CUBE_FACES).
     #[strum(to_string = "cube strip")]
     CubeStrip,

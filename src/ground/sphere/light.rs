@@ -69,8 +69,8 @@ impl HarmonicLight {
         Self::colored(&function, radiance)
     }
 
-    /// Creates a light from a red disk at +x and a blue disk at -x, both somewhat behind an object seen along +y,
-    /// in a dim white surrounding: similar to the light of Figure 7, which was not published.
+    /// Creates a light from a red disk at +x and a blue disk at -x, both somewhat behind an object seen along +y, in
+    /// dim white surroundings: similar to the light of Figure 7, which was not published.
     pub fn red_and_blue(order: usize) -> Self {
         let [red, blue] = Self::RED_AND_BLUE_DISKS
             .map(|(towards, color)| Self::disk(order, towards, Self::RED_AND_BLUE_RADIUS, color));

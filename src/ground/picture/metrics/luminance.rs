@@ -13,8 +13,8 @@ pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -
     Ok(pairs.map(|(a, b)| exposure * value_error(b, a)).collect())
 }
 
-/// Computes the differences of luminance relative to the first picture: -0.1 is a tenth darker. If the first is black,
-/// the result is 0 if the second is black too, otherwise not finite. Fails as [`luminance_differences`] does.
+/// Computes the differences of luminance relative to the first picture: -0.1 means a tenth darker. If the first is
+/// black, the result is 0 if the second is black too, otherwise not finite. Fails as [`luminance_differences`] does.
 pub fn relative_luminance_differences(first: &Picture, second: &Picture) -> Result<Vec<f64>, InputError> {
     let pairs = luminance(first)?.into_iter().zip(luminance(second)?);
     Ok(pairs.map(|(a, b)| if a == b { 0.0 } else { (b - a) / a }).collect())

@@ -1,6 +1,6 @@
 //! Models with the vertex counts of the models in the papers on compressed transfer (Table 1 of each): the Stanford
-//! bunny, two polygons of which one shadows the other, and stand-ins for unavailable models, a Buddha, a bird, a head
-//! and an armor.
+//! bunny, two polygons of which one shadows the other, and stand-ins for unavailable models (a Buddha, a bird, a head
+//! and an armor).
 //!
 //! All have normals and texture coordinates. All but the polygons are closed; at the texture's seam the mesh repeats
 //! vertices, which have the same position, normal and tangent and are counted once.

@@ -2,7 +2,7 @@
 //! Akenine-Möller, Oskarsson, Åström and Fairchild, 2020, "FLIP: a difference evaluator for alternating images").
 //!
 //! Colors are filtered by contrast sensitivity and compared by a distance for large differences; where edges or points
-//! appear or vanish, the difference is amplified. Tests compare it with values of the authors' own program.
+//! appear or vanish, the difference is amplified. Tests compare it with values from the authors' program.
 
 mod color;
 mod features;
