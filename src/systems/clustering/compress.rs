@@ -262,8 +262,8 @@ impl Members {
     }
 }
 
-/// Each empty cluster, lowest first, takes the point of largest error (on ties, the lowest) from a cluster with other
-/// points; the point's error becomes 0. If no such point has an error, the remaining clusters stay empty.
+/// Each empty cluster, lowest first, gets the point with the largest error (on ties, the lowest) from a cluster with
+/// other points; the point's error becomes 0. If no such point has an error, the remaining clusters stay empty.
 pub(super) fn fill_empty(of_point: &mut [u32], errors: &mut [f64], clusters: usize) {
     let mut sizes = vec![0usize; clusters];
     of_point.iter().for_each(|&cluster| sizes[cluster as usize] += 1);

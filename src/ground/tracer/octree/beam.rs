@@ -79,7 +79,7 @@ impl Beam {
 }
 
 impl Octree {
-    /// Returns the first cell with triangles that a ray of the beam may meet, or all of them; GPU cells are not
+    /// Returns the first cell with triangles that a ray of the beam may meet, or all such cells; GPU cells are not
     /// subdivided. Never omits a cell that [`Octree::traverse`] would visit for a ray of the beam.
     pub fn reached(&self, beam: &Beam, gpu: Option<&GpuCells>, all: bool) -> BeamCells {
         let middle = self.corner + self.size / 2.0;

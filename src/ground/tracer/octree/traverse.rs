@@ -86,7 +86,7 @@ impl Octree {
     }
 
     /// Like [`Self::traverse`], for a ray that has left a cell at `from`, in multiples of its direction: skips cells
-    /// that it leaves no later.
+    /// that it has left by then.
     pub fn traverse_from<'a>(
         &'a self,
         ray: &Ray,

@@ -63,8 +63,8 @@ pub struct ProductOptions {
     pub map_format: TexelFormat,
     /// The interpolation between texels of G.
     pub filter: MapFilter,
-    /// The number of bits (2 to 24) of signed fractions to which G is rounded before it is stored; `None`: rounding
-    /// only by its format.
+    /// The number of bits (2 to 24) of signed fractions to which G is rounded before it is stored; `None`: G is rounded
+    /// only to its format.
     pub map_bits: Option<u32>,
     /// The format of T_p in vertices.
     pub radiance: RadianceFormat,

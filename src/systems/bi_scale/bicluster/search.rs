@@ -16,7 +16,7 @@ use crate::error::{InputError, ensure, input_error};
 /// `seed` chooses the non-zeros at which biclusters start. `found` is called after each bicluster with the number of
 /// remaining non-zeros.
 ///
-/// Besides the biclusters, the search needs 16 bytes per non-zero and about 80 per row and column. Fails with
+/// Besides the biclusters, the search needs 16 bytes per non-zero and about 80 bytes per row and column. Fails with
 /// [`InputError`] for more than 2^32 non-zeros, or if a residual does not fit into 32 bits.
 pub fn bicluster(matrix: &SparseMatrix, seed: u64, found: &mut dyn FnMut(u64)) -> Result<Biclustering, InputError> {
     let nonzeros = matrix.nonzeros() as u64;
