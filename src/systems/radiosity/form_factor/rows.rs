@@ -52,7 +52,7 @@ impl FormFactors {
     }
 }
 
-/// Turns exchanges in the upper triangle into form factors: copies it to the lower one, and divides rows by areas.
+/// Turns exchanges in the upper triangle into form factors: mirrors them into the lower, and divides rows by areas.
 pub(super) fn divide(matrix: &mut Matrix, areas: &[f64]) {
     for i in 1..matrix.row_count() {
         for j in 0..i {

@@ -172,8 +172,8 @@ impl CardSolver {
         self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
     }
 
-    /// The textures that hold the radiosities, one row of texels each: one of three channels, or one per channel with
-    /// four patches per texel. An iteration changes which textures these are.
+    /// The textures that hold the radiosities, one row of texels each: one texture of three channels, or one per
+    /// channel with four patches per texel. An iteration changes which textures these are.
     pub fn radiosity_textures(&self) -> Vec<TextureId> {
         self.layers.iter().map(|layer| layer.radiosity).collect()
     }
