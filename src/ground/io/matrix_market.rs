@@ -1,8 +1,8 @@
 //! Sparse matrices as Matrix Market files: `%%MatrixMarket matrix coordinate real general`, comments, a line with the
 //! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
 //!
-//! The reader also accepts the field `integer`. Numbers are rounded to the nearest f64. It rejects numbers that round
-//! to 0 or infinity, other fields, dense arrays and symmetries.
+//! The reader also accepts the field `integer`. Numbers are rounded to the nearest f64. The reader rejects numbers that
+//! round to 0 or infinity, other fields, dense arrays and symmetries.
 
 use std::io::{self, Write};
 use std::path::Path;
